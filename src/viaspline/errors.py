@@ -1,0 +1,107 @@
+"""The one error tree of the package.
+
+::
+
+    ViasplineError
+    ├── MissionError        the mission is wrong: every fault at once          (exit code 2)
+    ├── GeometryError       a curve, a world or an argument makes no sense     (exit code 2)
+    ├── OutputError         a result can't be written                          (exit code 2)
+    └── NoPathError         there is no such path: where, why, what would help (exit code 3)
+
+Every error carries its data as attributes; its message names the thing and the remedy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+class ViasplineError(Exception):
+    """Base of every error that viaspline raises on purpose."""
+
+
+class MissionWarning(UserWarning):
+    """Something in a mission file is legal but can't be represented; it is named, not dropped."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing that is wrong in a mission, and what would be right.
+
+    Attributes:
+        key: Where in the mission, e.g. ``route.via[2].at``.
+        problem: What is wrong.
+        remedy: What would be right.
+        source: The file, or ``<mission>`` when it came from Python.
+        line: Line in the file, from 1; ``None`` when there is no file.
+        column: Column in the file, from 1.
+    """
+
+    key: str
+    problem: str
+    remedy: str
+    source: str = "<mission>"
+    line: int | None = None
+    column: int | None = None
+
+    def __str__(self) -> str:
+        place = self.source if self.line is None else f"{self.source}:{self.line}:{self.column}"
+        key = f" {self.key}:" if self.key else ""
+        return f"{place}:{key} {self.problem}; {self.remedy}"
+
+
+class MissionError(ViasplineError):
+    """The mission is wrong.
+
+    Attributes:
+        faults: Every fault that was found, in the order of the file.
+    """
+
+    def __init__(self, faults: Sequence[Fault]) -> None:
+        self.faults = tuple(faults)
+        super().__init__("\n".join(str(fault) for fault in self.faults))
+
+
+class GeometryError(ViasplineError, ValueError):
+    """A curve, a world or an argument makes no geometric sense."""
+
+
+class OutputError(ViasplineError):
+    """A result can't be written.
+
+    Attributes:
+        path: The file or folder.
+    """
+
+    def __init__(self, path: object, problem: str) -> None:
+        self.path = str(path)
+        super().__init__(f"{self.path}: {problem}")
+
+
+class NoPathError(ViasplineError):
+    """There is no path that serves every via point with the clearance that was asked for.
+
+    Attributes:
+        reason: What is in the way.
+        where: The place [m], shape (d,).
+        remedy: The least change that would serve.
+        via: The via point that can't be served, if it is one.
+        obstacles: The names of the obstacles in the way.
+    """
+
+    def __init__(
+        self,
+        reason: str,
+        *,
+        where: Sequence[float],
+        remedy: str,
+        via: str | None = None,
+        obstacles: Sequence[str] = (),
+    ) -> None:
+        self.reason = reason
+        self.where = tuple(float(x) for x in where)
+        self.remedy = remedy
+        self.via = via
+        self.obstacles = tuple(obstacles)
+        super().__init__(f"{reason}: {remedy}")

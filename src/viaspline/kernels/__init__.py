@@ -1,0 +1,1 @@
+"""Compiled array functions: arrays in, arrays out; no objects, no units, no files."""

@@ -1,0 +1,108 @@
+"""The one decorator of all kernels, and where their compiled form is kept.
+
+numba's own cache does not notice an edit of a helper in another file, and refuses to import a
+cached kernel when its folder can't be written. So the folder's name is a hash of every kernel
+source, of numba's version and of the processor, and without a writable folder there is no cache.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numba
+from llvmlite import binding
+from numba.core import config, event
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def _fingerprint() -> str:
+    digest = hashlib.sha256()
+    for source in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(source.name.encode())
+        digest.update(source.read_bytes())
+    parts = (numba.__version__, sys.version, binding.get_host_cpu_name())
+    digest.update("|".join(parts).encode())
+    return digest.hexdigest()[:16]
+
+
+def _is_writable(folder: Path) -> bool:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
+
+
+def _candidates() -> Iterator[Path]:
+    if chosen := os.environ.get("VIASPLINE_CACHE_DIR"):
+        yield Path(chosen)
+    if xdg := os.environ.get("XDG_CACHE_HOME"):
+        yield Path(xdg) / "viaspline"
+    try:
+        yield Path.home() / ".cache" / "viaspline"
+    except RuntimeError:
+        pass  # no home folder
+    user = os.getuid() if hasattr(os, "getuid") else "user"
+    yield Path(tempfile.gettempdir()) / f"viaspline-{user}"
+
+
+def cache_folder() -> Path | None:
+    """The folder of the compiled kernels, or None where nothing can be written.
+
+    ``VIASPLINE_CACHE_DIR`` is tried first, then the user's cache folder, then the temporary one.
+    """
+    name = _fingerprint()
+    for root in _candidates():
+        if _is_writable(root / name):
+            return root / name
+    return None
+
+
+CACHE_FOLDER = cache_folder()
+
+
+def kernel(function: _Function) -> _Function:
+    """Compile an array function with numba; cached on disk where that is possible.
+
+    The cache folder is set only while numba looks at it, so the caller's own numba functions keep
+    theirs.
+    """
+    kept = config.CACHE_DIR
+    if CACHE_FOLDER is not None:
+        config.CACHE_DIR = str(CACHE_FOLDER)
+    try:
+        jit = numba.njit(cache=CACHE_FOLDER is not None, error_model="numpy", nogil=True)
+        compiled: _Function = jit(function)
+    finally:
+        config.CACHE_DIR = kept
+    return compiled
+
+
+class _CompileListener(event.Listener):  # type: ignore[misc]
+    def __init__(self, tell: Callable[[str], None]) -> None:
+        self._tell = tell
+
+    def on_start(self, event: Any) -> None:
+        function = event.data["dispatcher"].py_func
+        if function.__module__.startswith("viaspline."):
+            self._tell(f"{function.__module__.rsplit('.', 1)[-1]}.{function.__name__}")
+
+    def on_end(self, event: Any) -> None:
+        pass
+
+
+@contextmanager
+def compile_progress(tell: Callable[[str], None]) -> Iterator[None]:
+    """Within the block, ``tell`` hears the name of every kernel that has to be compiled."""
+    listener = _CompileListener(tell)
+    with event.install_listener("numba:compile", listener):
+        yield
