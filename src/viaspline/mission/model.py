@@ -8,10 +8,10 @@ from x.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0)]
@@ -77,12 +77,13 @@ class WorldSpec(Value):
 
     Attributes:
         bounds: ``x_min, y_min, x_max, y_max`` [m]; the robot stays inside. None: no bounds.
+        fences: Polygons that the robot stays inside of, every one (inclusion fences).
         known: Obstacles on the map.
         unseen: Obstacles that only the sensor finds.
     """
 
     bounds: Annotated[tuple[Number, Number, Number, Number], BeforeValidator(_plain)] | None = None
-    inclusion: Ring | None = None
+    fences: tuple[Ring, ...] = ()
     known: tuple[Obstacle, ...] = ()
     unseen: tuple[Obstacle, ...] = ()
 
@@ -169,9 +170,3 @@ class Mission(Value):
     robot: RobotSpec = RobotSpec()
     route: Route
     spline: SplineSpec = SplineSpec()
-
-    @model_validator(mode="wrap")
-    @classmethod
-    def _report_every_fault(cls, data: Any, handler: Any) -> Self:
-        mission: Self = handler(data)
-        return mission
