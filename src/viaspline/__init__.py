@@ -1,0 +1,2 @@
+"""viaspline."""
+__version__ = "0.1.0"
