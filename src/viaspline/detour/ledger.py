@@ -1,0 +1,55 @@
+"""The ledger: for each group of obstacles that was met, every side that was tried and its price."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One way past a group.
+
+    Attributes:
+        side: The side of the group on which the robot would go, seen along the leg.
+        vias: The detour via points of the leg [m], shape (k, d).
+        spans: The curve of the whole leg as Bézier control polygons [m], shape (m, 4, d); empty
+            when the side is impossible.
+        length: Length of the leg's curve [m].
+        clearance: Proven distance between the body and every known obstacle on this leg [m].
+        max_curvature: Largest curvature of the leg's curve [1/m].
+        chosen: Whether the plan takes it.
+        impossible: Why it can't be taken; None when it can.
+    """
+
+    side: Literal["left", "right"]
+    vias: NDArray[np.float64]
+    spans: NDArray[np.float64]
+    length: float | None = None
+    clearance: float | None = None
+    max_curvature: float | None = None
+    chosen: bool = False
+    impossible: str | None = None
+
+
+@dataclass(frozen=True)
+class LedgerEntry:
+    """A group of obstacles that stood in the way of a leg, and the ways past it.
+
+    Attributes:
+        members: The names of the group's obstacles.
+        leg: The names of the via points before and after.
+        candidates: Every side that was tried.
+    """
+
+    members: tuple[str, ...]
+    leg: tuple[str, str]
+    candidates: tuple[Candidate, ...]
+
+    @property
+    def chosen(self) -> Candidate | None:
+        """The candidate that the plan takes."""
+        return next((c for c in self.candidates if c.chosen), None)

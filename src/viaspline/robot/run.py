@@ -1,0 +1,127 @@
+"""What was driven: the result of a simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.certificate import Certificate
+from viaspline.curve.path import Path
+from viaspline.planner import Plan
+from viaspline.world.world import World
+
+EventKind = Literal[
+    "started", "detected", "replanned", "via", "arrived", "dwell", "skipped", "braked", "stopped",
+    "reached", "contact",
+]  # fmt: skip
+Mode = Literal["reflex", "planned", "from_rest"]
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened: what, when [s], where [m], and a sentence about it."""
+
+    kind: EventKind
+    time: float
+    at: tuple[float, ...]
+    message: str
+    data: Mapping[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Visit:
+    """How a via point of the route was served.
+
+    Attributes:
+        name: The via point.
+        at: Its place [m].
+        status: ``served``, ``skipped`` (it could not be reached any more) or ``failed``.
+        time: When the robot was there [s]; None if it never was.
+        miss: How near the driven path came when it was served [m]; None if it was not.
+        reason: Why it was skipped or failed.
+    """
+
+    name: str
+    at: tuple[float, ...]
+    status: Literal["served", "skipped", "failed"]
+    time: float | None
+    miss: float | None
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
+class Replan:
+    """A path that took the place of another under way.
+
+    Attributes:
+        time: When [s].
+        at: Where the new path leaves the old one [m].
+        distance: The same along the path [m].
+        mode: How it was found.
+        changed_from: Distance [m] along the path from which it differs.
+        rejoins_at: Distance along the new path from which it is the old one again; None if never.
+        obstacles: What was seen that made it necessary.
+        position_jump: Between old and new at the joint [m].
+        heading_jump: [rad].
+        curvature_jump: [1/m].
+        path: The path from then on; it contains all that was driven before.
+        old_path: The path that it replaces.
+    """
+
+    time: float
+    at: tuple[float, ...]
+    distance: float
+    mode: Mode
+    changed_from: float
+    rejoins_at: float | None
+    obstacles: tuple[str, ...]
+    position_jump: float
+    heading_jump: float
+    curvature_jump: float
+    path: Path
+    old_path: Path
+
+
+@dataclass(frozen=True)
+class Run:
+    """A driven mission.
+
+    Attributes:
+        plan: The plan before the robot set off.
+        world: Everything that was there, unseen obstacles too.
+        reached: Whether the robot came to its goal.
+        reason: Why it did not; None if it did.
+        duration: [s].
+        path: The exact curve that was driven.
+        certificate: The proven clearance of the driven path against everything that was there.
+        times: [s], shape (n,).
+        positions: [m], shape (n, d).
+        headings: [rad], shape (n,).
+        speeds: [m/s], shape (n,).
+        curvatures: [1/m], shape (n,).
+        visits: How each point of the route was served, in order.
+        events: Everything that happened, in order.
+        replans: Every new path, in order.
+        compute_times: Wall-clock time of every re-plan [s]; it differs from run to run.
+    """
+
+    plan: Plan
+    world: World
+    reached: bool
+    reason: str | None
+    duration: float
+    path: Path
+    certificate: Certificate
+    times: NDArray[np.float64]
+    positions: NDArray[np.float64]
+    headings: NDArray[np.float64]
+    speeds: NDArray[np.float64]
+    curvatures: NDArray[np.float64]
+    visits: tuple[Visit, ...]
+    events: tuple[Event, ...]
+    replans: tuple[Replan, ...]
+    compute_times: tuple[float, ...] = ()
