@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import GeometryError
+from viaspline.kernels import clearance as kernels
+from viaspline.world.world import World
+
+TOLERANCE = 1e-3  # between the proven bound and the true clearance [m]
 
 
 @dataclass(frozen=True)
@@ -31,3 +41,54 @@ class Certificate:
     def holds(self) -> bool:
         """Whether the proven clearance is at least the one that was asked for."""
         return self.clearance >= self.required
+
+
+def certify(
+    curve: PiecewiseCubic, world: World, clearance: float, *, radius: float = 0.0
+) -> Certificate:
+    """Prove how far the whole continuous curve stays from everything in the world.
+
+    Pieces of the curve are bounded by their control polygons and halved until the bound is within
+    a millimetre of a distance that is really attained: conservative advancement, with a
+    second-order step beside obstacles.
+
+    Args:
+        curve: Any piecewise cubic; of a curve in space, its ground track counts.
+        world: The obstacles and bounds.
+        clearance: What is to be kept free between the body and everything [m].
+        radius: The robot's body, a disc [m].
+
+    Returns:
+        A certificate, whether it holds or not: see ``Certificate.holds``.
+
+    Raises:
+        GeometryError: When the curve is not in the plane or in space, or clearance or radius is
+            not a finite number.
+
+    Example:
+        >>> from viaspline.curve.cardinal import CardinalSpline
+        >>> from viaspline.mission.model import Obstacle
+        >>> world = World([Obstacle(circle={"center": (5, 3), "radius": 1})])
+        >>> certificate = certify(CardinalSpline([(0, 0), (5, 0), (10, 0)]), world, 1.0, radius=0.5)
+        >>> round(certificate.clearance, 3), certificate.tightest_at, certificate.holds
+        (1.5, (5.0, 0.0), True)
+    """
+    if curve.dimension not in (2, 3):
+        raise GeometryError(f"a curve of dimension {curve.dimension} can't be certified; 2 or 3 can")
+    required = float(clearance) + float(radius)
+    if not math.isfinite(required):
+        raise GeometryError(f"clearance {clearance} and radius {radius} have to be finite")
+    spans = curve.spans
+    lower, upper, span, w, index = kernels.tightest(world.packed, spans, TOLERANCE)
+    if lower < required <= upper:
+        lower, upper, span, w, index = kernels.tightest(world.packed, spans, TOLERANCE / 100)
+    u = float(span + w)
+    at = np.asarray(curve.evaluate(u))
+    return Certificate(
+        clearance=float(lower) - float(radius),
+        required=float(clearance),
+        tightest_at=tuple(at.tolist()),
+        tightest_u=u,
+        tightest_distance=float(curve.distance(u)),
+        obstacle=None if index == -1 else world.name(int(index)),
+    )

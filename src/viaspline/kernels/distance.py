@@ -1,0 +1,286 @@
+"""Signed distance of a point, and distance of a segment, to what is in a packed world.
+
+The signed distance is negative inside an obstacle and outside a frame; it is 1-Lipschitz. Every
+query takes a ``limit``: what is farther away than that need not be looked at, and the answer is
+then the limit itself with the index -1. Frames answer with the index ``-2 - frame``.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viaspline.kernels.jit import kernel
+
+
+@kernel
+def point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+    """Distance from (x, y) to the segment a-b [m]."""
+    dx = bx - ax
+    dy = by - ay
+    squared = dx * dx + dy * dy
+    w = 0.0
+    if squared > 0.0:
+        w = ((x - ax) * dx + (y - ay) * dy) / squared
+        w = min(1.0, max(0.0, w))
+    return math.hypot(x - ax - w * dx, y - ay - w * dy)
+
+
+@kernel
+def _orientation(ax, ay, bx, by, cx, cy):  # type: ignore[no-untyped-def]
+    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+
+
+@kernel
+def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):  # type: ignore[no-untyped-def]
+    """Distance between the segments a-b and c-d [m]; 0 where they cross."""
+    if _orientation(ax, ay, bx, by, cx, cy) * _orientation(ax, ay, bx, by, dx, dy) < 0.0 and (
+        _orientation(cx, cy, dx, dy, ax, ay) * _orientation(cx, cy, dx, dy, bx, by) < 0.0
+    ):
+        return 0.0
+    return min(
+        min(point_segment(ax, ay, cx, cy, dx, dy), point_segment(bx, by, cx, cy, dx, dy)),
+        min(point_segment(cx, cy, ax, ay, bx, by), point_segment(dx, dy, ax, ay, bx, by)),
+    )
+
+
+@kernel
+def box_signed(boxes, b, x, y):  # type: ignore[no-untyped-def]
+    """Signed distance from (x, y) to box b: a lower bound for all that lies in the box."""
+    left = max(boxes[b, 0] - x, x - boxes[b, 2])
+    down = max(boxes[b, 1] - y, y - boxes[b, 3])
+    if left <= 0.0 or down <= 0.0:
+        return max(left, down)
+    return math.sqrt(left * left + down * down)
+
+
+@kernel
+def box_gap(boxes, b, x0, y0, x1, y1):  # type: ignore[no-untyped-def]
+    """Distance between box b and the box (x0, y0)-(x1, y1); 0 where they overlap."""
+    gap_x = max(max(boxes[b, 0] - x1, x0 - boxes[b, 2]), 0.0)
+    gap_y = max(max(boxes[b, 1] - y1, y0 - boxes[b, 3]), 0.0)
+    return math.sqrt(gap_x * gap_x + gap_y * gap_y)
+
+
+@kernel
+def _crosses(edges, e, x, y):  # type: ignore[no-untyped-def]
+    """Whether the ray from (x, y) to the east crosses edge e."""
+    y0 = edges[e, 1]
+    y1 = edges[e, 3]
+    if (y0 > y) == (y1 > y):
+        return False
+    return x < edges[e, 0] + (y - y0) / (y1 - y0) * (edges[e, 2] - edges[e, 0])
+
+
+@kernel
+def polygon_signed(world, p, x, y, limit):  # type: ignore[no-untyped-def]
+    """Signed distance from (x, y) to polygon p [m]; negative inside."""
+    boxes = world.block_boxes
+    inside = False
+    best = np.inf
+    for b in range(world.polygon_blocks[p], world.polygon_blocks[p + 1]):
+        near = box_signed(boxes, b, x, y) < best
+        ray = boxes[b, 1] <= y <= boxes[b, 3] and x <= boxes[b, 2]
+        if not (near or ray):
+            continue
+        for e in range(world.block_edges[b], world.block_edges[b + 1]):
+            edge = world.edges[e]
+            if near:
+                best = min(best, point_segment(x, y, edge[0], edge[1], edge[2], edge[3]))
+            if ray and _crosses(world.edges, e, x, y):
+                inside = not inside
+    return -best if inside else min(best, limit)
+
+
+@kernel
+def frame_signed(world, f, x, y):  # type: ignore[no-untyped-def]
+    """Signed distance from (x, y) to the outside of frame f [m]; positive inside the frame."""
+    inside = False
+    best = np.inf
+    for e in range(world.frame_edges[f], world.frame_edges[f + 1]):
+        edge = world.frames[e]
+        best = min(best, point_segment(x, y, edge[0], edge[1], edge[2], edge[3]))
+        if _crosses(world.frames, e, x, y):
+            inside = not inside
+    return best if inside else -best
+
+
+@kernel
+def obstacle_signed(world, i, x, y, limit):  # type: ignore[no-untyped-def]
+    """Signed distance from (x, y) to obstacle i [m]."""
+    slot = world.slot[i]
+    if world.kind[i] == 0:
+        circle = world.circles[slot]
+        dx = x - circle[0]
+        dy = y - circle[1]
+        return math.sqrt(dx * dx + dy * dy) - circle[2]
+    return polygon_signed(world, slot, x, y, limit)
+
+
+@kernel
+def _descend(world, x, y):  # type: ignore[no-untyped-def]
+    """The obstacle that is found by going to the nearest box on every level of the tree."""
+    node = 0
+    while world.leaf[node] < 0:
+        end = world.skip[node]
+        child = node + 1
+        closest = child
+        gap = np.inf
+        while child < end:
+            other = box_signed(world.boxes, child, x, y)
+            if other < gap:
+                gap = other
+                closest = child
+            child = world.skip[child]
+        node = closest
+    return world.leaf[node]
+
+
+@kernel
+def nearest(world, x, y, limit):  # type: ignore[no-untyped-def]
+    """Signed distance from (x, y) to the world, and what is nearest.
+
+    The tree's nodes stand in depth-first order, so that a walk needs no stack: to the next node,
+    or past all that lies below.
+
+    Returns:
+        (distance [m], index): the obstacle's index, -2 - f for frame f, or -1 with the limit.
+    """
+    best = limit
+    index = -1
+    for f in range(world.frame_edges.size - 1):
+        distance = frame_signed(world, f, x, y)
+        if distance < best:
+            best = distance
+            index = -2 - f
+    nodes = world.leaf.size
+    if nodes > 64 and best == np.inf:
+        index = _descend(world, x, y)
+        best = obstacle_signed(world, index, x, y, np.inf)
+    node = 0
+    while node < nodes:
+        if box_signed(world.boxes, node, x, y) >= best:
+            node = world.skip[node]
+            continue
+        obstacle = world.leaf[node]
+        if obstacle >= 0:
+            distance = obstacle_signed(world, obstacle, x, y, np.inf)
+            if distance < best:
+                best = distance
+                index = obstacle
+        node += 1
+    return best, index
+
+
+@kernel
+def obstacle_segment(world, i, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
+    """Distance between obstacle i and the segment a-b [m].
+
+    Signed for circles; for polygons 0 where the segment touches one, or lies inside it.
+    """
+    slot = world.slot[i]
+    if world.kind[i] == 0:
+        circle = world.circles[slot]
+        return point_segment(circle[0], circle[1], ax, ay, bx, by) - circle[2]
+    x0 = min(ax, bx)
+    x1 = max(ax, bx)
+    y0 = min(ay, by)
+    y1 = max(ay, by)
+    best = limit
+    for b in range(world.polygon_blocks[slot], world.polygon_blocks[slot + 1]):
+        if box_gap(world.block_boxes, b, x0, y0, x1, y1) >= best:
+            continue
+        for e in range(world.block_edges[b], world.block_edges[b + 1]):
+            edge = world.edges[e]
+            gap = segment_segment(ax, ay, bx, by, edge[0], edge[1], edge[2], edge[3])
+            best = min(best, gap)
+    if best > 0.0 and polygon_signed(world, slot, ax, ay, np.inf) < 0.0:
+        return 0.0
+    return best
+
+
+@kernel
+def frame_segment(world, f, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+    """Distance between the segment a-b and the outside of frame f [m]; 0 where it leaves it."""
+    if frame_signed(world, f, ax, ay) <= 0.0:
+        return 0.0
+    best = np.inf
+    for e in range(world.frame_edges[f], world.frame_edges[f + 1]):
+        edge = world.frames[e]
+        best = min(best, segment_segment(ax, ay, bx, by, edge[0], edge[1], edge[2], edge[3]))
+    return best
+
+
+@kernel
+def nearest_to_segment(world, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
+    """Distance of the segment a-b to the world [m] and what is nearest (see ``nearest``)."""
+    best = limit
+    index = -1
+    for f in range(world.frame_edges.size - 1):
+        distance = frame_segment(world, f, ax, ay, bx, by)
+        if distance < best:
+            best = distance
+            index = -2 - f
+    x0 = min(ax, bx)
+    x1 = max(ax, bx)
+    y0 = min(ay, by)
+    y1 = max(ay, by)
+    node = 0
+    while node < world.leaf.size:
+        if box_gap(world.boxes, node, x0, y0, x1, y1) >= best:
+            node = world.skip[node]
+            continue
+        obstacle = world.leaf[node]
+        if obstacle >= 0:
+            distance = obstacle_segment(world, obstacle, ax, ay, bx, by, best)
+            if distance < best:
+                best = distance
+                index = obstacle
+        node += 1
+    return best, index
+
+
+@kernel
+def mark_near_segment(world, ax, ay, bx, by, width, found):  # type: ignore[no-untyped-def]
+    """Mark every obstacle nearer than ``width`` to the segment a-b in ``found``, (n,) of bool.
+
+    Returns:
+        How many were newly marked.
+    """
+    x0 = min(ax, bx)
+    x1 = max(ax, bx)
+    y0 = min(ay, by)
+    y1 = max(ay, by)
+    count = 0
+    node = 0
+    while node < world.leaf.size:
+        if box_gap(world.boxes, node, x0, y0, x1, y1) >= width:
+            node = world.skip[node]
+            continue
+        i = world.leaf[node]
+        if i >= 0 and not found[i] and obstacle_segment(world, i, ax, ay, bx, by, width) < width:
+            found[i] = True
+            count += 1
+        node += 1
+    return count
+
+
+@kernel
+def distances(world, points):  # type: ignore[no-untyped-def]
+    """Signed distance and index of what is nearest, for points (n, 2)."""
+    count = points.shape[0]
+    distance = np.empty(count)
+    index = np.empty(count, np.int64)
+    for k in range(count):
+        distance[k], index[k] = nearest(world, points[k, 0], points[k, 1], np.inf)
+    return distance, index
+
+
+@kernel
+def obstacle_distances(world, i, points):  # type: ignore[no-untyped-def]
+    """Signed distance of points (n, 2) to obstacle i."""
+    distance = np.empty(points.shape[0])
+    for k in range(points.shape[0]):
+        distance[k] = obstacle_signed(world, i, points[k, 0], points[k, 1], np.inf)
+    return distance

@@ -1,0 +1,70 @@
+"""Which obstacles stand so close together that nothing passes between them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.kernels.distance import box_gap, obstacle_segment, polygon_signed
+from viaspline.kernels.jit import kernel
+
+
+@kernel
+def obstacle_gap(world, i, j, limit):  # type: ignore[no-untyped-def]
+    """Distance between the obstacles i and j [m]; not above 0 where they overlap."""
+    if world.kind[i] == 0 or world.kind[j] == 0:
+        disc = i if world.kind[i] == 0 else j
+        other = j if disc == i else i
+        circle = world.circles[world.slot[disc]]
+        if world.kind[other] == 0:
+            second = world.circles[world.slot[other]]
+            return np.hypot(circle[0] - second[0], circle[1] - second[1]) - circle[2] - second[2]
+        return polygon_signed(world, world.slot[other], circle[0], circle[1], np.inf) - circle[2]
+    best = limit
+    for p, other in ((i, j), (j, i)):
+        slot = world.slot[p]
+        first = world.block_edges[world.polygon_blocks[slot]]
+        last = world.block_edges[world.polygon_blocks[slot + 1]]
+        for e in range(first, last):
+            edge = world.edges[e]
+            gap = obstacle_segment(world, other, edge[0], edge[1], edge[2], edge[3], best)
+            best = min(best, gap)
+    return best
+
+
+@kernel
+def _root(parent, i):  # type: ignore[no-untyped-def]
+    while parent[i] != i:
+        parent[i] = parent[parent[i]]
+        i = parent[i]
+    return i
+
+
+@kernel
+def group_labels(world, width):  # type: ignore[no-untyped-def]
+    """Label of every obstacle's group, (n,): the smallest index of its members.
+
+    Two obstacles are of one group when a gap narrower than ``width`` [m] is between them.
+    """
+    count = world.kind.size
+    parent = np.arange(count)
+    for leaf in range(world.leaf.size):
+        i = world.leaf[leaf]
+        if i < 0:
+            continue
+        box = world.boxes[leaf]
+        node = 0
+        while node < world.leaf.size:
+            if box_gap(world.boxes, node, box[0], box[1], box[2], box[3]) >= width:
+                node = world.skip[node]
+                continue
+            j = world.leaf[node]
+            node += 1
+            if j <= i:
+                continue
+            first = _root(parent, i)
+            second = _root(parent, j)
+            if first != second and obstacle_gap(world, i, j, width) < width:
+                parent[max(first, second)] = min(first, second)
+    for i in range(count):
+        parent[i] = _root(parent, i)
+    return parent

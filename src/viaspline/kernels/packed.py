@@ -1,0 +1,50 @@
+"""The world as kernels see it: one NamedTuple of arrays, the same argument for every kernel.
+
+A new kind of obstacle is one more field here and one more file beside ``distance.py``; a world
+without that kind has an empty array.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+class PackedWorld(NamedTuple):
+    """A static planar world.
+
+    Obstacle ``i`` is a circle or a polygon: ``kind[i]`` is 0 or 1 and ``slot[i]`` its place among
+    its like. Frames are polygons that the robot stays inside of (bounds and fences).
+
+    Attributes:
+        kind: (n,).
+        slot: (n,).
+        circles: Centre and radius [m], (c, 3).
+        polygon_blocks: Blocks of polygon p are ``polygon_blocks[p]:polygon_blocks[p + 1]``, (p + 1,).
+        block_edges: Edges of block b are ``block_edges[b]:block_edges[b + 1]``, (b + 1,).
+        block_boxes: x_min, y_min, x_max, y_max [m], (b, 4).
+        edges: x0, y0, x1, y1 [m]; outer rings run anticlockwise, holes clockwise, (e, 4).
+        frame_edges: Edges of frame f are ``frame_edges[f]:frame_edges[f + 1]`` of ``frames``.
+        frames: x0, y0, x1, y1 [m], (g, 4).
+        boxes: Boxes of the tree's nodes in depth-first order [m], (t, 4).
+        skip: The node that comes after a node and all below it, (t,).
+        leaf: The obstacle in a leaf, -1 in an inner node, (t,).
+    """
+
+    kind: Ints
+    slot: Ints
+    circles: Floats
+    polygon_blocks: Ints
+    block_edges: Ints
+    block_boxes: Floats
+    edges: Floats
+    frame_edges: Ints
+    frames: Floats
+    boxes: Floats
+    skip: Ints
+    leaf: Ints

@@ -1,0 +1,154 @@
+"""What the robot keeps clear of: an immutable set of obstacles inside bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viaspline.errors import GeometryError
+from viaspline.kernels import distance as kernels
+from viaspline.kernels.groups import group_labels
+from viaspline.kernels.packed import PackedWorld
+from viaspline.mission.model import Mission, Obstacle
+from viaspline.world.pack import join, pack
+
+Bounds = tuple[float, float, float, float]
+FRAME = -2  # index of the first frame in answers that name what is nearest
+
+
+class World:
+    """Circles, polygons with holes, and the frames that the robot stays inside of.
+
+    The distance to the world is the smallest of the signed distances to its obstacles and frames:
+    exact outside of all of them, and inside the depth in the obstacle that is entered deepest.
+
+    Args:
+        obstacles: What is known.
+        bounds: ``x_min, y_min, x_max, y_max`` [m], or None.
+        fences: Rings that the robot stays inside of [m].
+
+    Example:
+        >>> world = World([Obstacle(circle={"center": (0, 0), "radius": 2})], bounds=(-9, -9, 9, 9))
+        >>> world.distance([(5, 0), (1, 0), (8, 8)])
+        array([ 3., -1.,  1.])
+    """
+
+    def __init__(
+        self,
+        obstacles: Iterable[Obstacle] = (),
+        *,
+        bounds: Sequence[float] | None = None,
+        fences: Iterable[Sequence[tuple[float, float]]] = (),
+    ) -> None:
+        self.obstacles = tuple(obstacles)
+        self.bounds: Bounds | None = None
+        self.fences = tuple(tuple(ring) for ring in fences)
+        frames = list(self.fences)
+        if bounds is not None:
+            x0, y0, x1, y1 = self.bounds = _checked(bounds)
+            frames.insert(0, ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))
+        self.packed: PackedWorld = pack(self.obstacles, frames)
+
+    @classmethod
+    def known(cls, mission: Mission) -> World:
+        """What the mission has on its map."""
+        spec = mission.world
+        return cls(spec.known, bounds=spec.bounds, fences=spec.fences)
+
+    @classmethod
+    def everything(cls, mission: Mission) -> World:
+        """What is there, on the map or not."""
+        return cls.known(mission).with_obstacles(mission.world.unseen)
+
+    def with_obstacles(self, obstacles: Iterable[Obstacle]) -> World:
+        """A world that has these obstacles too; they come after those that it has."""
+        new = tuple(obstacles)
+        world = object.__new__(World)
+        world.obstacles = self.obstacles + new
+        world.bounds = self.bounds
+        world.fences = self.fences
+        world.packed = join(self.packed, pack(new, ()))
+        return world
+
+    def __len__(self) -> int:
+        return len(self.obstacles)
+
+    def __repr__(self) -> str:
+        return f"World({len(self)} obstacles, bounds={self.bounds}, {len(self.fences)} fences)"
+
+    def name(self, index: int) -> str:
+        """What an index of ``nearest`` is called."""
+        if index <= FRAME:
+            frame = FRAME - index
+            if self.bounds is not None:
+                return "bounds" if frame == 0 else f"fence {frame}"
+            return f"fence {frame + 1}"
+        return self.obstacles[index].name or f"obstacle {index + 1}"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of all obstacles."""
+        return tuple(self.name(i) for i in range(len(self)))
+
+    def distance(self, points: ArrayLike) -> NDArray[np.float64]:
+        """Signed distance to the world [m], negative inside an obstacle or outside the bounds.
+
+        Args:
+            points: Shape (n, 2) or (2,); a third coordinate is allowed and plays no part.
+
+        Returns:
+            Shape (n,), or a scalar array for one point; infinite in an empty world.
+
+        Raises:
+            GeometryError: For other shapes, and for points that are not finite.
+        """
+        return self.nearest(points)[0]
+
+    def nearest(self, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Signed distance [m] and what is nearest.
+
+        Returns:
+            (distance, index): the obstacle's index; -2 and below for the frames (see ``name``);
+            -1 in an empty world.
+        """
+        flat, shape = _as_points(points)
+        distance, index = kernels.distances(self.packed, flat)
+        return distance.reshape(shape), index.reshape(shape)
+
+    def distances_to(self, index: int, points: ArrayLike) -> NDArray[np.float64]:
+        """Signed distance of points to one obstacle [m], shape (n,)."""
+        flat, shape = _as_points(points)
+        distance: NDArray[np.float64] = kernels.obstacle_distances(self.packed, index, flat)
+        return distance.reshape(shape)
+
+    def groups(self, width: float) -> tuple[tuple[int, ...], ...]:
+        """Obstacles too close together for a body of this width [m] to pass between.
+
+        Example:
+            >>> discs = [Obstacle(circle={"center": (x, 0), "radius": 1}) for x in (0, 3, 9)]
+            >>> World(discs).groups(2.0)
+            ((0, 1), (2,))
+        """
+        members: dict[int, list[int]] = {}
+        for i, label in enumerate(group_labels(self.packed, float(width)).tolist()):
+            members.setdefault(label, []).append(i)
+        return tuple(tuple(group) for group in members.values())
+
+
+def _checked(bounds: Sequence[float]) -> Bounds:
+    x0, y0, x1, y1 = (float(value) for value in bounds)
+    if not (x0 < x1 and y0 < y1):
+        raise GeometryError(f"bounds {tuple(bounds)} are empty; give x_min, y_min, x_max, y_max")
+    return x0, y0, x1, y1
+
+
+def _as_points(points: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+    array = np.asarray(points, np.float64)
+    if array.ndim == 0 or array.shape[-1] not in (2, 3):
+        raise GeometryError(f"points have shape {array.shape}; give (n, 2) or (2,)")
+    if not np.isfinite(array).all():
+        raise GeometryError("points contain NaN or infinity; give finite numbers")
+    flat = np.ascontiguousarray(array[..., :2]).reshape(-1, 2)
+    return flat, array.shape[:-1]
