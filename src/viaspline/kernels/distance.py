@@ -1,8 +1,9 @@
 """Signed distance of a point, and distance of a segment, to what is in a packed world.
 
-The signed distance is negative inside an obstacle and outside a frame; it is 1-Lipschitz. Every
-query takes a ``limit``: what is farther away than that need not be looked at, and the answer is
-then the limit itself with the index -1. Frames answer with the index ``-2 - frame``.
+The signed distance is negative inside an obstacle and outside the bounds or a fence; it is
+1-Lipschitz. Every query takes a ``limit``: what is farther away than that need not be looked at,
+and the answer is then the limit itself with the index -1. The bounds answer with the index -2,
+fence f with ``-3 - f``.
 """
 
 from __future__ import annotations
@@ -15,8 +16,8 @@ from viaspline.kernels.jit import kernel
 
 
 @kernel
-def point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
-    """Distance from (x, y) to the segment a-b [m]."""
+def squared_point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+    """Squared distance from (x, y) to the segment a-b [m²]."""
     dx = bx - ax
     dy = by - ay
     squared = dx * dx + dy * dy
@@ -24,7 +25,15 @@ def point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     if squared > 0.0:
         w = ((x - ax) * dx + (y - ay) * dy) / squared
         w = min(1.0, max(0.0, w))
-    return math.hypot(x - ax - w * dx, y - ay - w * dy)
+    across = x - ax - w * dx
+    along = y - ay - w * dy
+    return across * across + along * along
+
+
+@kernel
+def point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+    """Distance from (x, y) to the segment a-b [m]."""
+    return math.sqrt(squared_point_segment(x, y, ax, ay, bx, by))
 
 
 @kernel
@@ -79,6 +88,7 @@ def polygon_signed(world, p, x, y, limit):  # type: ignore[no-untyped-def]
     boxes = world.block_boxes
     inside = False
     best = np.inf
+    squared = np.inf
     for b in range(world.polygon_blocks[p], world.polygon_blocks[p + 1]):
         near = box_signed(boxes, b, x, y) < best
         ray = boxes[b, 1] <= y <= boxes[b, 3] and x <= boxes[b, 2]
@@ -87,23 +97,43 @@ def polygon_signed(world, p, x, y, limit):  # type: ignore[no-untyped-def]
         for e in range(world.block_edges[b], world.block_edges[b + 1]):
             edge = world.edges[e]
             if near:
-                best = min(best, point_segment(x, y, edge[0], edge[1], edge[2], edge[3]))
+                other = squared_point_segment(x, y, edge[0], edge[1], edge[2], edge[3])
+                squared = min(squared, other)
             if ray and _crosses(world.edges, e, x, y):
                 inside = not inside
+        best = math.sqrt(squared)
     return -best if inside else min(best, limit)
 
 
 @kernel
-def frame_signed(world, f, x, y):  # type: ignore[no-untyped-def]
-    """Signed distance from (x, y) to the outside of frame f [m]; positive inside the frame."""
+def fence_signed(world, f, x, y):  # type: ignore[no-untyped-def]
+    """Signed distance from (x, y) to the outside of fence f [m]; positive inside the fence."""
     inside = False
-    best = np.inf
-    for e in range(world.frame_edges[f], world.frame_edges[f + 1]):
-        edge = world.frames[e]
-        best = min(best, point_segment(x, y, edge[0], edge[1], edge[2], edge[3]))
-        if _crosses(world.frames, e, x, y):
+    squared = np.inf
+    for e in range(world.fence_edges[f], world.fence_edges[f + 1]):
+        edge = world.fences[e]
+        squared = min(squared, squared_point_segment(x, y, edge[0], edge[1], edge[2], edge[3]))
+        if _crosses(world.fences, e, x, y):
             inside = not inside
-    return best if inside else -best
+    return math.sqrt(squared) if inside else -math.sqrt(squared)
+
+
+@kernel
+def inner_signed(world, x, y, limit):  # type: ignore[no-untyped-def]
+    """Distance from (x, y) to what the robot stays inside of [m], and which (see ``nearest``)."""
+    best = limit
+    index = -1
+    if world.bounds.shape[0] > 0:
+        distance = -box_signed(world.bounds, 0, x, y)
+        if distance < best:
+            best = distance
+            index = -2
+    for f in range(world.fence_edges.size - 1):
+        distance = fence_signed(world, f, x, y)
+        if distance < best:
+            best = distance
+            index = -3 - f
+    return best, index
 
 
 @kernel
@@ -145,15 +175,10 @@ def nearest(world, x, y, limit):  # type: ignore[no-untyped-def]
     or past all that lies below.
 
     Returns:
-        (distance [m], index): the obstacle's index, -2 - f for frame f, or -1 with the limit.
+        (distance [m], index): the obstacle's index, -2 for the bounds, -3 - f for fence f, or -1
+        with the limit.
     """
-    best = limit
-    index = -1
-    for f in range(world.frame_edges.size - 1):
-        distance = frame_signed(world, f, x, y)
-        if distance < best:
-            best = distance
-            index = -2 - f
+    best, index = inner_signed(world, x, y, limit)
     nodes = world.leaf.size
     if nodes > 64 and best == np.inf:
         index = _descend(world, x, y)
@@ -201,27 +226,39 @@ def obstacle_segment(world, i, ax, ay, bx, by, limit):  # type: ignore[no-untype
 
 
 @kernel
-def frame_segment(world, f, ax, ay, bx, by):  # type: ignore[no-untyped-def]
-    """Distance between the segment a-b and the outside of frame f [m]; 0 where it leaves it."""
-    if frame_signed(world, f, ax, ay) <= 0.0:
+def fence_segment(world, f, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+    """Distance between the segment a-b and the outside of fence f [m]; 0 where it leaves it."""
+    if fence_signed(world, f, ax, ay) <= 0.0:
         return 0.0
     best = np.inf
-    for e in range(world.frame_edges[f], world.frame_edges[f + 1]):
-        edge = world.frames[e]
+    for e in range(world.fence_edges[f], world.fence_edges[f + 1]):
+        edge = world.fences[e]
         best = min(best, segment_segment(ax, ay, bx, by, edge[0], edge[1], edge[2], edge[3]))
     return best
 
 
 @kernel
-def nearest_to_segment(world, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
-    """Distance of the segment a-b to the world [m] and what is nearest (see ``nearest``)."""
+def inner_segment(world, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
+    """Distance of the segment a-b to what the robot stays inside of [m], and which."""
     best = limit
     index = -1
-    for f in range(world.frame_edges.size - 1):
-        distance = frame_segment(world, f, ax, ay, bx, by)
+    if world.bounds.shape[0] > 0:
+        distance = -max(box_signed(world.bounds, 0, ax, ay), box_signed(world.bounds, 0, bx, by))
         if distance < best:
             best = distance
-            index = -2 - f
+            index = -2
+    for f in range(world.fence_edges.size - 1):
+        distance = fence_segment(world, f, ax, ay, bx, by)
+        if distance < best:
+            best = distance
+            index = -3 - f
+    return best, index
+
+
+@kernel
+def nearest_to_segment(world, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
+    """Distance of the segment a-b to the world [m] and what is nearest (see ``nearest``)."""
+    best, index = inner_segment(world, ax, ay, bx, by, limit)
     x0 = min(ax, bx)
     x1 = max(ax, bx)
     y0 = min(ay, by)

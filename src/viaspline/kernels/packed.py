@@ -19,7 +19,7 @@ class PackedWorld(NamedTuple):
     """A static planar world.
 
     Obstacle ``i`` is a circle or a polygon: ``kind[i]`` is 0 or 1 and ``slot[i]`` its place among
-    its like. Frames are polygons that the robot stays inside of (bounds and fences).
+    its like. The robot stays inside the bounds and inside every fence.
 
     Attributes:
         kind: (n,).
@@ -29,8 +29,9 @@ class PackedWorld(NamedTuple):
         block_edges: Edges of block b are ``block_edges[b]:block_edges[b + 1]``, (b + 1,).
         block_boxes: x_min, y_min, x_max, y_max [m], (b, 4).
         edges: x0, y0, x1, y1 [m]; outer rings run anticlockwise, holes clockwise, (e, 4).
-        frame_edges: Edges of frame f are ``frame_edges[f]:frame_edges[f + 1]`` of ``frames``.
-        frames: x0, y0, x1, y1 [m], (g, 4).
+        bounds: x_min, y_min, x_max, y_max [m], (1, 4), or (0, 4) where there are none.
+        fence_edges: Edges of fence f are ``fence_edges[f]:fence_edges[f + 1]`` of ``fences``.
+        fences: x0, y0, x1, y1 [m], (g, 4).
         boxes: Boxes of the tree's nodes in depth-first order [m], (t, 4).
         skip: The node that comes after a node and all below it, (t,).
         leaf: The obstacle in a leaf, -1 in an inner node, (t,).
@@ -43,8 +44,9 @@ class PackedWorld(NamedTuple):
     block_edges: Ints
     block_boxes: Floats
     edges: Floats
-    frame_edges: Ints
-    frames: Floats
+    bounds: Floats
+    fence_edges: Ints
+    fences: Floats
     boxes: Floats
     skip: Ints
     leaf: Ints

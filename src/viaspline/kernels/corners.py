@@ -1,0 +1,105 @@
+"""Corners: where a shortest route round inflated obstacles can turn.
+
+Inflated by ``rho`` an obstacle is bounded by arcs: the circle itself made larger, or an arc about
+every convex vertex of a polygon, the straight pieces between them being tangents. Each arc is
+wrapped in a few circumscribed corners. A corner knows its arc, so that a route of corners can be
+pulled taut onto the true arcs afterwards.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viaspline.kernels.jit import kernel
+
+# columns of a corner
+X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, HALF = range(8)
+COLUMNS = 8
+
+
+@kernel
+def _fan(corners, count, x, y, radius, first, turn, step):  # type: ignore[no-untyped-def]
+    """Write the corners of one arc: ``turn`` [rad] from the direction ``first`` about (x, y)."""
+    parts = max(1, int(math.ceil(turn / step - 1e-9)))
+    half = 0.5 * turn / parts
+    reach = radius / math.cos(half)
+    for k in range(parts):
+        angle = first + (2 * k + 1) * half
+        nx = math.cos(angle)
+        ny = math.sin(angle)
+        if count < corners.shape[0]:
+            corners[count, X] = x + reach * nx
+            corners[count, Y] = y + reach * ny
+            corners[count, CENTER_X] = x
+            corners[count, CENTER_Y] = y
+            corners[count, RADIUS] = radius
+            corners[count, NORMAL_X] = nx
+            corners[count, NORMAL_Y] = ny
+            corners[count, HALF] = half
+        count += 1
+    return count
+
+
+@kernel
+def _polygon_corners(world, p, rho, step, corners, count):  # type: ignore[no-untyped-def]
+    """Corners of polygon p: its rings follow each other, each starting where the last closed."""
+    first = world.block_edges[world.polygon_blocks[p]]
+    last = world.block_edges[world.polygon_blocks[p + 1]]
+    ring = first
+    for e in range(first, last):
+        edge = world.edges[e]
+        if edge[2] == world.edges[ring, 0] and edge[3] == world.edges[ring, 1]:
+            following = ring  # the ring is closed
+            ring = e + 1
+        else:
+            following = e + 1
+        after = world.edges[following]
+        ux = edge[2] - edge[0]
+        uy = edge[3] - edge[1]
+        vx = after[2] - after[0]
+        vy = after[3] - after[1]
+        turn = math.atan2(ux * vy - uy * vx, ux * vx + uy * vy)
+        if turn > 1e-12:  # free space lies to the right of every edge: convex corners turn left
+            outward = math.atan2(-ux, uy)
+            count = _fan(corners, count, edge[2], edge[3], rho, outward, turn, step)
+    return count
+
+
+@kernel
+def obstacle_corners(world, i, rho, step, corners, count):  # type: ignore[no-untyped-def]
+    """Append the corners of obstacle i to ``corners`` from row ``count`` on.
+
+    Args:
+        world: PackedWorld.
+        i: The obstacle.
+        rho: Distance that the route keeps from it [m].
+        step: Largest turn at one corner [rad].
+        corners: Room for them, (size, 8).
+        count: Rows that are taken.
+
+    Returns:
+        The new count; where it is more than the room there is, call again with more.
+    """
+    if world.kind[i] == 0:
+        circle = world.circles[world.slot[i]]
+        radius = circle[2] + rho
+        return _fan(corners, count, circle[0], circle[1], radius, 0.0, 2 * np.pi, 0.5 * step)
+    return _polygon_corners(world, world.slot[i], rho, step, corners, count)
+
+
+@kernel
+def supports(corners, k, dx, dy):  # type: ignore[no-untyped-def]
+    """Whether a line through corner k along (dx, dy) leaves its obstacle on one side.
+
+    Only there can a taut route come in or go out.
+    """
+    nx = corners[k, NORMAL_X]
+    ny = corners[k, NORMAL_Y]
+    along = dx * nx + dy * ny
+    across = dx * ny - dy * nx
+    # the corner's edges run at 90 degrees + half from its normal, to either side
+    return abs(along) * math.cos(corners[k, HALF]) <= (
+        abs(across) * math.sin(corners[k, HALF]) + 1e-9 * (abs(dx) + abs(dy))
+    )

@@ -1,0 +1,184 @@
+"""A route of corners pulled taut: straight pieces and true arcs, and via points beside them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viaspline.kernels.corners import CENTER_X, CENTER_Y, RADIUS, X, Y
+from viaspline.kernels.jit import kernel
+
+# columns of a bend: the arc's centre, radius and side (+1: it turns left), the headings with which
+# the route comes to it and leaves it
+BEND_X, BEND_Y, BEND_RADIUS, SIDE, HEADING_IN, TURN = range(6)
+
+
+@kernel
+def _nearest_turn(angle, about):  # type: ignore[no-untyped-def]
+    """The angle plus whole turns that is nearest to ``about``: a route may wrap far round."""
+    return angle - 2 * math.pi * math.floor((angle - about + math.pi) / (2 * math.pi))
+
+
+@kernel
+def _tangent(bends, i, j):  # type: ignore[no-untyped-def]
+    """Heading of the line that leaves bend i and comes to bend j; NaN where there is none."""
+    dx = bends[j, BEND_X] - bends[i, BEND_X]
+    dy = bends[j, BEND_Y] - bends[i, BEND_Y]
+    gap = math.hypot(dx, dy)
+    offset = bends[j, SIDE] * bends[j, BEND_RADIUS] - bends[i, SIDE] * bends[i, BEND_RADIUS]
+    if gap <= abs(offset) or gap == 0.0:
+        return np.nan
+    return math.atan2(dy, dx) - math.asin(offset / gap)
+
+
+@kernel
+def _merge(route):  # type: ignore[no-untyped-def]
+    """One row for every arc that the route wraps round; start and goal are arcs of radius 0."""
+    bends = np.zeros((route.shape[0], 6))
+    count = 0
+    for k in range(route.shape[0]):
+        side = 0.0
+        turn = 0.0
+        if 0 < k < route.shape[0] - 1:
+            ux = route[k, X] - route[k - 1, X]
+            uy = route[k, Y] - route[k - 1, Y]
+            vx = route[k + 1, X] - route[k, X]
+            vy = route[k + 1, Y] - route[k, Y]
+            turn = math.atan2(ux * vy - uy * vx, ux * vx + uy * vy)
+            side = 1.0 if turn > 0.0 else -1.0
+        if (
+            0 < k < route.shape[0] - 1
+            and bends[count - 1, BEND_X] == route[k, CENTER_X]
+            and bends[count - 1, BEND_Y] == route[k, CENTER_Y]
+            and bends[count - 1, SIDE] == side
+        ):
+            bends[count - 1, TURN] += abs(turn)
+            continue
+        bends[count, TURN] = abs(turn)
+        bends[count, SIDE] = side
+        bends[count, BEND_RADIUS] = 0.0 if side == 0.0 else route[k, RADIUS]
+        bends[count, BEND_X] = route[k, X] if side == 0.0 else route[k, CENTER_X]
+        bends[count, BEND_Y] = route[k, Y] if side == 0.0 else route[k, CENTER_Y]
+        count += 1
+    return bends, count
+
+
+@kernel
+def bends_of(route):  # type: ignore[no-untyped-def]
+    """The arcs of a route of corners, with the headings of the tangents between them.
+
+    Args:
+        route: Corners from start to goal, (k, 8).
+
+    Returns:
+        Bends (m, 6), the first and last of radius 0 (start and goal). TURN is the angle that the
+        route turns at a bend [rad], never negative. No rows where the arcs have no common
+        tangents; the corners themselves are then the best that there is.
+    """
+    bends, count = _merge(route)
+    while True:
+        dropped = False
+        for k in range(1, count):
+            bends[k, HEADING_IN] = _tangent(bends, k - 1, k)
+            if math.isnan(bends[k, HEADING_IN]):
+                return bends[:0]
+        for k in range(1, count - 1):
+            turn = bends[k, SIDE] * (bends[k + 1, HEADING_IN] - bends[k, HEADING_IN])
+            turn = _nearest_turn(turn, bends[k, TURN])
+            if turn < 0.0:
+                for row in range(k, count - 1):
+                    for column in range(6):
+                        bends[row, column] = bends[row + 1, column]
+                count -= 1
+                dropped = True
+                break
+            bends[k, TURN] = turn
+        if not dropped:
+            return bends[:count]
+
+
+@kernel
+def _touch(bends, k, heading):  # type: ignore[no-untyped-def]
+    """Where a tangent of this heading touches bend k."""
+    reach = bends[k, SIDE] * bends[k, BEND_RADIUS]
+    return (
+        bends[k, BEND_X] + reach * math.sin(heading),
+        bends[k, BEND_Y] - reach * math.cos(heading),
+    )
+
+
+@kernel
+def _append(points, count, x, y):  # type: ignore[no-untyped-def]
+    points[count, 0] = x
+    points[count, 1] = y
+    return count + 1
+
+
+@kernel
+def _straight(points, count, bends, k, before, after):  # type: ignore[no-untyped-def]
+    """Helper via points near the ends of the straight piece from bend k to bend k + 1."""
+    heading = bends[k + 1, HEADING_IN]
+    ax, ay = _touch(bends, k, heading)
+    bx, by = _touch(bends, k + 1, heading)
+    length = math.hypot(bx - ax, by - ay)
+    need = before + after
+    if length <= 0.0 or need <= 0.0:
+        return count
+    if need >= 0.6 * length:  # one helper serves both ends
+        if before > 0.0 and after > 0.0 and length > 0.25 * need:
+            w = before / need
+            count = _append(points, count, ax + w * (bx - ax), ay + w * (by - ay))
+        return count
+    if before > 0.0:
+        w = before / length
+        count = _append(points, count, ax + w * (bx - ax), ay + w * (by - ay))
+    if after > 0.0:
+        w = 1.0 - after / length
+        count = _append(points, count, ax + w * (bx - ax), ay + w * (by - ay))
+    return count
+
+
+@kernel
+def detour_points(bends, step, excess, stretch):  # type: ignore[no-untyped-def]
+    """Via points along taut bends, through which a cardinal spline follows them closely.
+
+    On each arc, equal turns of at most ``step``; a helper on the straight piece before and after
+    each arc, without which the spline would swing out along the whole piece.
+
+    Args:
+        bends: (m, 6), from ``bends_of``.
+        step: Largest turn from via point to via point [rad].
+        excess: 1 puts the points so far out that their chords clear the arc, 0 on the arc.
+        stretch: How much farther than one step along the arc the helpers stand: larger is
+            rounder and longer.
+
+    Returns:
+        (n, 2) [m], without start and goal.
+    """
+    count = bends.shape[0]
+    helper = np.zeros(count)
+    room = 2 * count
+    for k in range(1, count - 1):
+        parts = max(1, int(math.ceil(bends[k, TURN] / step)))
+        half = 0.5 * bends[k, TURN] / parts
+        helper[k] = stretch * bends[k, BEND_RADIUS] * math.tan(half)
+        room += parts
+    points = np.empty((room, 2))
+    size = np.int64(0)
+    for k in range(count - 1):
+        size = _straight(points, size, bends, k, helper[k], helper[k + 1])
+        bend = k + 1
+        if bend == count - 1:
+            break
+        parts = max(1, int(math.ceil(bends[bend, TURN] / step)))
+        half = 0.5 * bends[bend, TURN] / parts
+        reach = bends[bend, BEND_RADIUS] * (1.0 + excess * (1.0 / math.cos(half) - 1.0))
+        for part in range(parts):
+            heading = bends[bend, HEADING_IN] + bends[bend, SIDE] * (2 * part + 1) * half
+            size = _append(
+                points, size,
+                bends[bend, BEND_X] + bends[bend, SIDE] * reach * math.sin(heading),
+                bends[bend, BEND_Y] - bends[bend, SIDE] * reach * math.cos(heading),
+            )  # fmt: skip
+    return points[:size]
