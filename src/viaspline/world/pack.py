@@ -15,8 +15,10 @@ from viaspline.mission.model import Obstacle
 Rings = Sequence[Sequence[tuple[float, float]]]
 
 
-def pack(obstacles: Sequence[Obstacle], frames: Rings) -> PackedWorld:
-    """Pack obstacles, and the rings that the robot stays inside of."""
+def pack(
+    obstacles: Sequence[Obstacle], bounds: Sequence[float] | None, fences: Rings
+) -> PackedWorld:
+    """Pack obstacles, and what the robot stays inside of."""
     count = len(obstacles)
     kind = np.zeros(count, np.int64)
     slot = np.zeros(count, np.int64)
@@ -35,8 +37,8 @@ def pack(obstacles: Sequence[Obstacle], frames: Rings) -> PackedWorld:
             raise GeometryError(f"obstacle {i} has no shape: give it a circle or a polygon")
     discs = np.array(circles, np.float64).reshape(-1, 3)
     edges, polygon_blocks, block_edges = _edges(polygons)
-    frame_edges, _, _ = _edges([(ring,) for ring in frames])
-    frame_starts = np.cumsum([0, *(len(ring) for ring in frames)], dtype=np.int64)
+    fence_edges, _, _ = _edges([(ring,) for ring in fences])
+    fence_starts = np.cumsum([0, *(len(ring) for ring in fences)], dtype=np.int64)
     block_boxes = ring_boxes(edges, block_edges)
     boxes = np.empty((count, 4))
     boxes[kind == 0, :2] = discs[:, :2] - discs[:, 2:]
@@ -46,7 +48,8 @@ def pack(obstacles: Sequence[Obstacle], frames: Rings) -> PackedWorld:
     tree = box_tree(boxes, np.argsort(hilbert_keys(boxes), kind="stable"))
     return PackedWorld(
         kind, slot, discs, polygon_blocks, block_edges, block_boxes, edges,
-        frame_starts, frame_edges, *tree,
+        np.array([] if bounds is None else bounds, np.float64).reshape(-1, 4),
+        fence_starts, fence_edges, *tree,
     )  # fmt: skip
 
 
@@ -68,14 +71,16 @@ def _edges(polygons: Sequence[Rings]) -> tuple[Floats, Ints, Ints]:
 
 
 def join(first: PackedWorld, second: PackedWorld) -> PackedWorld:
-    """The obstacles of both worlds and the frames of the first, without sorting anything again.
+    """The obstacles of both worlds inside the bounds of the first, without sorting anything again.
 
     The second's obstacles come after the first's; a new root stands above both trees.
     """
     if not second.leaf.size:
         return first
     if not first.leaf.size:
-        return second._replace(frame_edges=first.frame_edges, frames=first.frames)
+        return second._replace(
+            bounds=first.bounds, fence_edges=first.fence_edges, fences=first.fences
+        )
     obstacles = first.kind.size
     left = first.leaf.size
     root = np.empty((1, 4))
@@ -94,8 +99,9 @@ def join(first: PackedWorld, second: PackedWorld) -> PackedWorld:
         block_edges=_chain(first.block_edges, second.block_edges),
         block_boxes=np.concatenate((first.block_boxes, second.block_boxes)),
         edges=np.concatenate((first.edges, second.edges)),
-        frame_edges=first.frame_edges,
-        frames=first.frames,
+        bounds=first.bounds,
+        fence_edges=first.fence_edges,
+        fences=first.fences,
         boxes=np.concatenate((root, first.boxes, second.boxes)),
         skip=np.concatenate(([1 + left + second.leaf.size], first.skip + 1, second.skip + 1 + left)),
         leaf=np.concatenate(([-1], first.leaf, leaf)),

@@ -15,13 +15,13 @@ from viaspline.mission.model import Mission, Obstacle
 from viaspline.world.pack import join, pack
 
 Bounds = tuple[float, float, float, float]
-FRAME = -2  # index of the first frame in answers that name what is nearest
+BOUNDS = -2  # what stands for the bounds where an index names what is nearest; fences follow
 
 
 class World:
-    """Circles, polygons with holes, and the frames that the robot stays inside of.
+    """Circles, polygons with holes, and the bounds and fences that the robot stays inside of.
 
-    The distance to the world is the smallest of the signed distances to its obstacles and frames:
+    The distance to the world is the smallest of the signed distances to all of them:
     exact outside of all of them, and inside the depth in the obstacle that is entered deepest.
 
     Args:
@@ -45,11 +45,9 @@ class World:
         self.obstacles = tuple(obstacles)
         self.bounds: Bounds | None = None
         self.fences = tuple(tuple(ring) for ring in fences)
-        frames = list(self.fences)
         if bounds is not None:
-            x0, y0, x1, y1 = self.bounds = _checked(bounds)
-            frames.insert(0, ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))
-        self.packed: PackedWorld = pack(self.obstacles, frames)
+            self.bounds = _checked(bounds)
+        self.packed: PackedWorld = pack(self.obstacles, self.bounds, self.fences)
 
     @classmethod
     def known(cls, mission: Mission) -> World:
@@ -69,7 +67,7 @@ class World:
         world.obstacles = self.obstacles + new
         world.bounds = self.bounds
         world.fences = self.fences
-        world.packed = join(self.packed, pack(new, ()))
+        world.packed = join(self.packed, pack(new, None, ()))
         return world
 
     def __len__(self) -> int:
@@ -80,11 +78,8 @@ class World:
 
     def name(self, index: int) -> str:
         """What an index of ``nearest`` is called."""
-        if index <= FRAME:
-            frame = FRAME - index
-            if self.bounds is not None:
-                return "bounds" if frame == 0 else f"fence {frame}"
-            return f"fence {frame + 1}"
+        if index <= BOUNDS:
+            return "bounds" if index == BOUNDS else f"fence {BOUNDS - index}"
         return self.obstacles[index].name or f"obstacle {index + 1}"
 
     @property
@@ -110,7 +105,7 @@ class World:
         """Signed distance [m] and what is nearest.
 
         Returns:
-            (distance, index): the obstacle's index; -2 and below for the frames (see ``name``);
+            (distance, index): the obstacle's index; -2 for the bounds, -3 - f for fence f (see ``name``);
             -1 in an empty world.
         """
         flat, shape = _as_points(points)
