@@ -8,12 +8,24 @@ from x.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Final, Literal
 
-import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ModelWrapValidatorHandler,
+    ValidationInfo,
+    model_validator,
+)
+
+FAR: Final = 1e9
+"""The farthest coordinate and the greatest length [m]; beyond it a double loses the micrometre."""
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Coordinate = Annotated[Number, Field(ge=-FAR, le=FAR)]
 Positive = Annotated[Number, Field(gt=0)]
 NotNegative = Annotated[Number, Field(ge=0)]
 Name = Annotated[str, Field(strict=True, min_length=1)]
@@ -21,12 +33,22 @@ Side = Literal["left", "right"]
 
 
 def _plain(value: Any) -> Any:
-    return value.tolist() if isinstance(value, np.ndarray) else value
+    """Arrays as lists; duck-typed, so that a mission can be read without loading numpy."""
+    return value.tolist() if hasattr(value, "tolist") else value
 
 
-Point2 = Annotated[tuple[Number, Number], BeforeValidator(_plain)]
-Point = Annotated[tuple[Number, Number] | tuple[Number, Number, Number], BeforeValidator(_plain)]
-Ring = Annotated[tuple[Point2, ...], BeforeValidator(_plain), Field(min_length=3)]
+def _open(ring: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+    """Drop a last point that repeats the first, as other formats write rings."""
+    return ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring
+
+
+Point2 = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_plain)]
+Point = Annotated[
+    tuple[Coordinate, ...], BeforeValidator(_plain), Field(min_length=2, max_length=3)
+]
+Ring = Annotated[
+    tuple[Point2, ...], BeforeValidator(_plain), Field(min_length=3), AfterValidator(_open)
+]
 
 
 class Value(BaseModel):
@@ -36,10 +58,15 @@ class Value(BaseModel):
 
 
 class Circle(Value):
-    """A disc: ``center`` [m] and ``radius`` [m]."""
+    """A disc.
+
+    Attributes:
+        center: Its middle, ``[x, y]`` [m].
+        radius: Its radius [m].
+    """
 
     center: Point2
-    radius: Positive
+    radius: Annotated[Positive, Field(le=FAR)]
 
 
 class Obstacle(Value):
@@ -47,8 +74,9 @@ class Obstacle(Value):
 
     Attributes:
         circle: The disc, if it is one.
-        polygon: The outer ring, in either direction, not closed by repeating its first point.
-        holes: Free areas inside the polygon.
+        polygon: The outer ring ``[[x, y], ...]`` [m], in either direction. A last point that
+            repeats the first is dropped.
+        holes: Free areas inside the polygon, each a ring of its own.
         name: What it is called in reports and errors.
         pass_on: Go past it on this side only, as seen by the robot along the leg: ``left`` leaves
             the obstacle on the robot's right. It counts wherever the obstacle is in the way.
@@ -82,23 +110,40 @@ class WorldSpec(Value):
         unseen: Obstacles that only the sensor finds.
     """
 
-    bounds: Annotated[tuple[Number, Number, Number, Number], BeforeValidator(_plain)] | None = None
+    bounds: (
+        Annotated[tuple[Coordinate, Coordinate, Coordinate, Coordinate], BeforeValidator(_plain)]
+        | None
+    ) = None
     fences: tuple[Ring, ...] = ()
     known: tuple[Obstacle, ...] = ()
     unseen: tuple[Obstacle, ...] = ()
 
 
 class Sensor(Value):
-    """A range sensor that sees every obstacle of which a part is within ``range_m``."""
+    """A range sensor.
 
-    range_m: Positive
+    Attributes:
+        range_m: It sees every obstacle of which a part is within this distance [m].
+    """
+
+    range_m: Annotated[Positive, Field(le=FAR)]
 
 
 class RobotSpec(Value):
-    """A disc robot, its limits and its sensor."""
+    """A disc robot, its limits and its sensor.
 
-    radius_m: NotNegative = 0.5
-    clearance_m: NotNegative = 0.5
+    Attributes:
+        radius_m: The radius of the body [m]; 0 is a point.
+        clearance_m: Free space kept between the body and every obstacle [m].
+        max_speed_mps: The greatest speed [m/s].
+        max_accel_mps2: The greatest acceleration and braking along the path [m/s²].
+        max_lateral_accel_mps2: The greatest acceleration across the path, v² times curvature
+            [m/s²]. None: no limit.
+        sensor: What finds the obstacles that are not on the map.
+    """
+
+    radius_m: Annotated[NotNegative, Field(le=FAR)] = 0.5
+    clearance_m: Annotated[NotNegative, Field(le=FAR)] = 0.5
     max_speed_mps: Positive = 2.0
     max_accel_mps2: Positive = 1.0
     max_lateral_accel_mps2: Positive | None = None
@@ -106,12 +151,19 @@ class RobotSpec(Value):
 
 
 def _as_mapping(value: Any) -> Any:
+    """The short form ``[x, y]`` of ``{at: [x, y]}``."""
     value = _plain(value)
     return {"at": value} if isinstance(value, list | tuple) else value
 
 
 class ViaPoint(Value):
-    """A place that the path runs through, exactly; a station if it has a dwell."""
+    """A place that the path runs through, exactly; a station if it has a dwell.
+
+    Attributes:
+        at: The place, ``[x, y]`` or ``[x, y, z]`` [m].
+        name: What it is called in reports and errors.
+        dwell_s: How long the robot stands there [s].
+    """
 
     at: Point
     name: Name | None = None
@@ -119,17 +171,28 @@ class ViaPoint(Value):
 
 
 class EndPoint(ViaPoint):
-    """The start or the goal; the path can be given a heading there [deg, anticlockwise from x]."""
+    """The start or the goal.
+
+    Attributes:
+        heading_deg: The heading of the path there [deg, anticlockwise from x]. None: free.
+    """
 
     heading_deg: Number | None = None
 
 
-Via = Annotated[ViaPoint, BeforeValidator(_as_mapping)]
-End = Annotated[EndPoint, BeforeValidator(_as_mapping)]
+Via = Annotated[ViaPoint, BeforeValidator(_as_mapping, json_schema_input_type=Point | ViaPoint)]
+End = Annotated[EndPoint, BeforeValidator(_as_mapping, json_schema_input_type=Point | EndPoint)]
 
 
 class Route(Value):
-    """Start, via points in order, goal. A closed route comes back to its start (no goal)."""
+    """Start, via points in order, goal.
+
+    Attributes:
+        start: Where the robot stands at first.
+        via: The places that the path runs through, in this order.
+        goal: Where it ends. None: at the last via point, or at the start if the route is closed.
+        closed: Whether the path comes back to its start; then there is no goal.
+    """
 
     start: End
     via: tuple[Via, ...] = ()
@@ -164,9 +227,32 @@ class SplineSpec(Value):
 
 
 class Mission(Value):
-    """A world, a robot, a route and how smooth its curve is."""
+    """A world, a robot, a route and how smooth its curve is.
+
+    Every way to make one raises `viaspline.errors.MissionError` with every fault at once.
+
+    Attributes:
+        world: The known map, and what is there but not on the map.
+        robot: The robot's body, limits and sensor.
+        route: The points that the path runs through.
+        spline: The curve's shape.
+
+    >>> mission = Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}})
+    >>> mission.route.goal.at
+    (9.0, 0.0)
+    """
 
     world: WorldSpec = WorldSpec()
     robot: RobotSpec = RobotSpec()
     route: Route
     spline: SplineSpec = SplineSpec()
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _sound(
+        cls, data: Any, handler: ModelWrapValidatorHandler[Mission], info: ValidationInfo
+    ) -> Mission:
+        # Imported late: the checks need these types.
+        from viaspline.mission.soundness import sound_mission
+
+        return sound_mission(data, handler, info.context)

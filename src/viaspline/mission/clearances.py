@@ -1,0 +1,106 @@
+"""Can the robot stand at every point of the route, and where is the nearest place if not?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from typing import NamedTuple
+
+from viaspline.mission.checks import obstacle_label
+from viaspline.mission.draft import Corners, Draft
+from viaspline.mission.flaws import Flaw, Path, number, spell
+from viaspline.mission.freespace import FreeSpace
+from viaspline.mission.model import Obstacle, RobotSpec, ViaPoint
+
+TOLERANCE = 1e-9
+"""A point may be this much too near [m]: round-off, not a fault."""
+
+
+def clearance_flaws(draft: Draft, misshapen: Collection[Path]) -> list[Flaw]:
+    """Points of the route too near to an obstacle, to the bounds or to a fence.
+
+    Args:
+        draft: The parts of the mission that are sound.
+        misshapen: Paths of obstacles and fences that have no usable shape.
+    """
+    points = [(path, point) for path, point in draft.points if point is not None]
+    # A robot that makes no sense itself: ask only whether points are inside of something.
+    robot = draft.robot if draft.robot is not None else RobotSpec(radius_m=0, clearance_m=0)
+    known = [(path, obstacle) for path, obstacle in draft.known if path not in misshapen]
+    fences = [(path, ring) for path, ring in draft.fences if path not in misshapen]
+    bounds = draft.bounds
+    if bounds is not None and (bounds[0] >= bounds[2] or bounds[1] >= bounds[3]):
+        bounds = None
+    if not points or not (known or fences or bounds):
+        return []
+    margin = robot.radius_m + robot.clearance_m
+    space = FreeSpace(bounds, [ring for _, ring in fences], [item for _, item in known], margin)
+    return [
+        Flaw((*points[i][0], "at"), _problem(points[i], near, margin), remedy)
+        for i, nears in _too_near(space, points, known, fences).items()
+        for remedy in [_remedy(points[i][1], min(near.distance for near in nears), robot, space)]
+        for near in nears
+    ]
+
+
+class _Near(NamedTuple):
+    """Something that a point is too near to, its signed distance [m], and its wrong side."""
+
+    thing: str
+    distance: float
+    wrong_side: str
+
+
+def _too_near(
+    space: FreeSpace,
+    points: list[tuple[Path, ViaPoint]],
+    known: list[tuple[Path, Obstacle]],
+    fences: list[tuple[Path, Corners]],
+) -> dict[int, list[_Near]]:
+    """For each point in trouble, what it is too near to."""
+    places = [point.at[:2] for _, point in points]
+    found: dict[int, list[_Near]] = {}
+
+    def note(i: int, thing: str, distance: float, wrong_side: str) -> None:
+        if distance < space.margin - TOLERANCE:
+            found.setdefault(i, []).append(_Near(thing, distance, wrong_side))
+
+    for i, distance in space.near_bounds(places):
+        note(i, "the bounds", distance, "outside")
+    for i, j, distance in space.near_fences(places):
+        note(i, f"fence {spell(fences[j][0])}", distance, "outside")
+    for i, j, distance in space.near_obstacles(places):
+        note(i, obstacle_label(*known[j]), distance, "inside")
+    return found
+
+
+def _problem(where: tuple[Path, ViaPoint], near: _Near, margin: float) -> str:
+    name = _label(*where)
+    if near.distance < 0:
+        return f"{name} lies {_metres(-near.distance)} {near.wrong_side} {near.thing}"
+    return f"{name} lies {_metres(margin - near.distance)} inside the clearance of {near.thing}"
+
+
+def _metres(length: float) -> str:
+    return f"{number(length)} m" if length >= 5e-4 else "less than 1 mm"
+
+
+def _remedy(point: ViaPoint, tightest: float, robot: RobotSpec, space: FreeSpace) -> str:
+    remedies = []
+    place = space.nearest(point.at[:2])
+    if place is not None:
+        remedies.append(f"move it to ({', '.join(number(x, 6) for x in place)})")
+    # Rounded down, so that what is said is enough.
+    clearance = math.floor((tightest - robot.radius_m - 1e-6) * 1e3) / 1e3
+    if clearance >= 0:
+        remedies.append(f"set robot.clearance_m to at most {number(clearance)}")
+    if not remedies:
+        return "there is no room for the robot near it: move it, or make the robot smaller"
+    return " or ".join(remedies)
+
+
+def _label(path: Path, point: ViaPoint) -> str:
+    kind = str(path[1])
+    if point.name is not None:
+        return f"{kind} '{point.name}'"
+    return "the via point" if kind == "via" else kind

@@ -1,0 +1,145 @@
+"""A flaw is a fault before it has a place: a path into the mission's data, and what is wrong."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple, Protocol, TypeAlias
+
+from pydantic import BaseModel
+
+from viaspline.errors import Fault
+
+Path: TypeAlias = tuple[str | int, ...]
+"""Keys and indices from the mission down, e.g. ``("route", "via", 2, "at")``."""
+
+
+class Mark(NamedTuple):
+    """A place in a file, both from 1."""
+
+    line: int
+    column: int
+
+
+class Flaw(NamedTuple):
+    """Something wrong.
+
+    Attributes:
+        path: Where in the data.
+        problem: What is wrong.
+        remedy: What would be right.
+        at_key: Whether the key itself is wrong, rather than its value.
+        mark: Where in the file, if ``path`` doesn't tell it.
+    """
+
+    path: Path
+    problem: str
+    remedy: str
+    at_key: bool = False
+    mark: Mark | None = None
+
+
+class Origin(Protocol):
+    """Where data came from: turns paths into places."""
+
+    @property
+    def source(self) -> str:
+        """The file."""
+        ...
+
+    @property
+    def flaws(self) -> tuple[Flaw, ...]:
+        """What was found wrong before there was data."""
+        ...
+
+    def mark(self, path: Path, *, at_key: bool) -> Mark:
+        """The place of the value (or its key) at ``path``, or of the nearest thing around it."""
+        ...
+
+
+def spell(path: Path) -> str:
+    """A path as people write it.
+
+    >>> spell(("route", "via", 2, "at"))
+    'route.via[2].at'
+    """
+    text = ""
+    for part in path:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        else:
+            text += f".{part}" if text else part
+    return text
+
+
+def located(flaws: list[Flaw], data: Any, origin: Origin | None) -> list[Fault]:
+    """The flaws as faults, in the order of the file (or of the data, where there is no file)."""
+    if origin is None:
+        ordered = sorted(flaws, key=lambda flaw: _rank(data, flaw.path))
+        return [Fault(spell(flaw.path), flaw.problem, flaw.remedy) for flaw in ordered]
+    placed = [(flaw.mark or origin.mark(flaw.path, at_key=flaw.at_key), flaw) for flaw in flaws]
+    placed.sort(key=lambda pair: pair[0])
+    return [
+        Fault(spell(flaw.path), flaw.problem, flaw.remedy, origin.source, mark.line, mark.column)
+        for mark, flaw in placed
+    ]
+
+
+def children(value: Any) -> Mapping[Any, Any] | None:
+    """The keys and values of a mapping or a model; None for anything else."""
+    if isinstance(value, BaseModel):
+        return dict(value)
+    return value if isinstance(value, Mapping) else None
+
+
+def _rank(data: Any, path: Path) -> tuple[int, ...]:
+    """The position of a path in a walk through the data; absent keys come last."""
+    rank: list[int] = []
+    for part in path:
+        mapping = children(data)
+        if mapping is not None:
+            keys = list(mapping)
+            rank.append(keys.index(part) if part in keys else len(keys))
+            data = mapping.get(part)
+        elif isinstance(part, int):
+            rank.append(part)
+            is_sound = isinstance(data, list | tuple) and part < len(data)
+            data = data[part] if is_sound else None
+    return tuple(rank)
+
+
+def number(value: float, decimals: int = 3) -> str:
+    """A number for people: no more decimals than asked for, no needless zeros.
+
+    >>> number(12.0), number(0.58049), number(-0.0001)
+    ('12', '0.58', '0')
+    """
+    rounded = round(value, decimals) + 0.0
+    if rounded == 0:
+        return "0"
+    return repr(int(rounded)) if rounded == int(rounded) else repr(rounded)
+
+
+def describe(value: Any) -> str:
+    """What was found, in a few words.
+
+    >>> describe(True), describe("0.5"), describe([1, 2]), describe(None)
+    ('true', 'the text "0.5"', 'a list of 2', 'nothing')
+    """
+    if value is None:
+        return "nothing"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float) and not math.isfinite(value):
+        return "NaN" if math.isnan(value) else "infinity"
+    if isinstance(value, int | float):
+        text = f"{value:g}" if abs(value) < 1e300 else "a huge number"
+        return text
+    if isinstance(value, str):
+        shown = value if len(value) <= 40 else value[:37] + "..."
+        return 'the text "' + shown.encode("unicode_escape").decode("ascii", "replace") + '"'
+    if isinstance(value, Mapping):
+        return "a mapping"
+    if isinstance(value, list | tuple):
+        return f"a list of {len(value)}" if value else "an empty list"
+    return f"a value of type {type(value).__name__}"

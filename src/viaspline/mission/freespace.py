@@ -1,0 +1,183 @@
+"""Where the middle of a disc robot may be: inside bounds and fences, clear of what is known.
+
+Distances are signed [m]: negative on the wrong side. Asked with arrays and trees, so that a
+million obstacles are no problem.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from viaspline.mission.draft import Corners
+from viaspline.mission.model import Obstacle
+from viaspline.mission.shapes import Geometries, polygons_of
+
+Floats: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
+Indices: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
+
+_CROWD = 2000  # Obstacles round a point beyond which no nearest free place is looked for.
+_QUARTER = 64  # Corners of a quarter circle where outlines are moved outwards.
+
+
+class FreeSpace:
+    """Bounds, fences and obstacles, moved inwards or outwards by the robot's margin.
+
+    Args:
+        bounds: ``x_min, y_min, x_max, y_max`` [m].
+        fences: Inclusion polygons.
+        obstacles: Obstacles of one sound shape each.
+        margin: Body radius plus clearance [m].
+    """
+
+    def __init__(
+        self,
+        bounds: tuple[float, float, float, float] | None,
+        fences: Sequence[Corners],
+        obstacles: Sequence[Obstacle],
+        margin: float,
+    ) -> None:
+        self.bounds = bounds
+        self.fences = polygons_of([(ring, ()) for ring in fences])
+        self.margin = margin
+        self._pack(obstacles)
+
+    def _pack(self, obstacles: Sequence[Obstacle]) -> None:
+        """Centres and radii of the circles, polygons, and the boxes round all of them."""
+        import shapely
+
+        self.is_circle = np.array([item.circle is not None for item in obstacles], dtype=bool)
+        discs = [item.circle for item in obstacles if item.circle is not None]
+        shapes = [(item.polygon, item.holes) for item in obstacles if item.polygon is not None]
+        self.geometries: Geometries = np.empty(len(obstacles), dtype=object)
+        self.radii: Floats = np.zeros(len(obstacles))
+        centers = np.array([disc.center for disc in discs], dtype=float).reshape(-1, 2)
+        self.geometries[self.is_circle] = shapely.points(centers)
+        self.radii[self.is_circle] = [disc.radius for disc in discs]
+        self.geometries[~self.is_circle] = polygons_of(shapes)
+        boxes = shapely.bounds(self.geometries) if obstacles else np.empty((0, 4))
+        self.boxes: Floats = boxes + self.radii[:, None] * np.array([-1.0, -1.0, 1.0, 1.0])
+
+    def near_bounds(self, places: Sequence[Sequence[float]]) -> Iterator[tuple[int, float]]:
+        """Points nearer to the bounds than the margin, with their distance."""
+        if self.bounds is None:
+            return
+        xy = np.array(places, dtype=float)
+        low, high = np.array(self.bounds[:2]), np.array(self.bounds[2:])
+        inside = np.minimum(xy - low, high - xy).min(axis=1)
+        outside = np.hypot(*np.maximum(np.maximum(low - xy, xy - high), 0.0).T)
+        distances = np.where(inside < 0, -outside, inside)
+        for i in np.flatnonzero(distances < self.margin):
+            yield int(i), float(distances[i])
+
+    def near_fences(self, places: Sequence[Sequence[float]]) -> Iterator[tuple[int, int, float]]:
+        """Points nearer to a fence than the margin: point, fence, distance."""
+        import shapely
+
+        points = _points(places)
+        for j, fence in enumerate(self.fences):
+            distances = shapely.distance(shapely.boundary(fence), points)
+            distances = np.where(shapely.covers(fence, points), distances, -distances)
+            for i in np.flatnonzero(distances < self.margin):
+                yield int(i), j, float(distances[i])
+
+    def near_obstacles(self, places: Sequence[Sequence[float]]) -> Iterator[tuple[int, int, float]]:
+        """Points nearer to an obstacle than the margin: point, nearest obstacle, distance."""
+        import shapely
+
+        if not len(self.geometries):
+            return
+        points = _points(places)
+        grown = self.boxes + self.margin * np.array([-1.0, -1.0, 1.0, 1.0])
+        # The tree holds the points: they are few, the obstacles may be a million.
+        which, point = shapely.STRtree(points).query(shapely.box(*grown.T))
+        distances = self._distances(points[point], which)
+        order = np.lexsort((distances, point))
+        _, first = np.unique(point[order], return_index=True)
+        for k in order[first]:
+            if distances[k] < self.margin:
+                yield int(point[k]), int(which[k]), float(distances[k])
+
+    def _distances(self, points: Geometries, which: Indices) -> Floats:
+        """Signed distances of points to obstacles, pair by pair."""
+        import shapely
+
+        shapes = self.geometries[which]
+        distances = np.asarray(shapely.distance(shapes, points), dtype=float) - self.radii[which]
+        inside = np.flatnonzero((distances <= 0) & ~self.is_circle[which])
+        if len(inside):
+            edges = shapely.boundary(shapes[inside])
+            distances[inside] = -shapely.distance(edges, points[inside])
+        return distances
+
+    @cached_property
+    def _tree(self) -> Any:
+        import shapely
+
+        return shapely.STRtree(list(np.atleast_1d(np.asarray(shapely.box(*self.boxes.T)))))
+
+    def nearest(self, place: Sequence[float]) -> tuple[float, float] | None:
+        """A place where the robot may be, as near as can be found, in round numbers.
+
+        None if there is none near by, or too much stands around to say.
+        """
+        import shapely
+
+        here = shapely.points(place)
+        reach = 4 * self.margin + 1e-3
+        while reach < 1e10:
+            window = shapely.box(*(np.array([-1, -1, 1, 1]) * reach + np.array([*place, *place])))
+            around = self._tree.query(window.buffer(self.margin)) if len(self.boxes) else []
+            if len(around) > _CROWD:
+                return None
+            free = self._free(window, np.asarray(around, dtype=np.intp))
+            if not free.is_empty:
+                found = shapely.shortest_line(free, here).coords[0]
+                if math.dist(found, place) <= reach:
+                    return self._rounded(found)
+            reach *= 4
+        return None
+
+    def _free(self, window: Any, around: Indices) -> Any:
+        """The part of a window where the robot may be, a little smaller than it is."""
+        import shapely
+
+        slack = self._step * 2
+        margin = self.margin + slack
+        if self.bounds is not None:
+            x_min, y_min, x_max, y_max = self.bounds
+            if x_max - x_min < 2 * margin or y_max - y_min < 2 * margin:
+                return shapely.Polygon()
+            inner = shapely.box(x_min + margin, y_min + margin, x_max - margin, y_max - margin)
+            window = shapely.intersection(window, inner)
+        # Chords cut corners: circles of this radius have theirs outside.
+        outward = 1 / math.cos(math.pi / (4 * _QUARTER))
+        for fence in self.fences:
+            inner = shapely.buffer(fence, -margin * outward, quad_segs=_QUARTER)
+            window = shapely.intersection(window, inner)
+        grown = shapely.buffer(
+            self.geometries[around], (self.radii[around] + margin) * outward, quad_segs=_QUARTER
+        )
+        return shapely.difference(window, shapely.union_all(grown))
+
+    @property
+    def _step(self) -> float:
+        """The decimals of a place that is good enough to print, as a step [m]."""
+        return 1e-3 if self.margin >= 0.05 else 1e-5
+
+    def _rounded(self, place: Sequence[float]) -> tuple[float, float] | None:
+        """The place in round numbers, if the robot may really be there."""
+        decimals = round(-math.log10(self._step))
+        xy = (round(place[0], decimals), round(place[1], decimals))
+        taken = (*self.near_bounds([xy]), *self.near_fences([xy]), *self.near_obstacles([xy]))
+        return None if taken else xy
+
+
+def _points(places: Sequence[Sequence[float]]) -> Geometries:
+    import shapely
+
+    return np.asarray(shapely.points(np.array(places, dtype=float)), dtype=object)

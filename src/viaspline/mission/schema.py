@@ -1,0 +1,69 @@
+"""The JSON Schema of a mission file, for editors that check and complete while one types."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from typing import Any, Final
+
+from viaspline.mission.model import (
+    Circle,
+    EndPoint,
+    Mission,
+    Obstacle,
+    RobotSpec,
+    Route,
+    Sensor,
+    SplineSpec,
+    ViaPoint,
+    WorldSpec,
+)
+
+_DOCUMENTED: Final = (
+    Mission, WorldSpec, Obstacle, Circle, RobotSpec, Sensor, Route, ViaPoint, EndPoint, SplineSpec,
+)  # fmt: skip
+
+_ATTRIBUTE: Final = re.compile(r"^    (\w+): (.*(?:\n        .*)*)", re.MULTILINE)
+
+
+def json_schema() -> dict[str, Any]:
+    """The schema of a mission file: JSON Schema, draft 2020-12.
+
+    It says what one key can say; what takes several (a via point inside an obstacle) is left to
+    the reader.
+
+    >>> json_schema()["required"]
+    ['route']
+    """
+    schema = Mission.model_json_schema(mode="validation")
+    for model in _DOCUMENTED:
+        target = schema if model is Mission else schema["$defs"].get(model.__name__)
+        if target is not None:
+            _describe(target, model)
+    obstacle = schema["$defs"]["Obstacle"]
+    obstacle["oneOf"] = [{"required": ["circle"]}, {"required": ["polygon"]}]
+    obstacle["dependentRequired"] = {"holes": ["polygon"]}
+    schema["$defs"]["SplineSpec"]["not"] = {"required": ["tension", "slack"]}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        **schema,
+        "title": "A mission of viaspline",
+    }
+
+
+def _describe(schema: dict[str, Any], model: type) -> None:
+    """Put what a class's docstring says of its attributes beside the properties."""
+    documented: dict[str, str] = {}
+    for base in reversed(model.__mro__):
+        text = inspect.cleandoc(base.__dict__.get("__doc__") or "")
+        attributes = text.partition("Attributes:\n")[2].partition("\n\n")[0]
+        documented |= {name: _plain(words) for name, words in _ATTRIBUTE.findall(attributes)}
+    schema["description"] = _plain(inspect.getdoc(model) or "").partition(". ")[0].rstrip(".") + "."
+    for name, prop in schema["properties"].items():
+        if name in documented:
+            prop["description"] = documented[name]
+
+
+def _plain(text: str) -> str:
+    """Docstring text on one line, without the marks of literals."""
+    return " ".join(text.partition("\n\n")[0].replace("``", "").split())

@@ -1,0 +1,76 @@
+"""From data to a mission, or to every fault that the data has."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+from pydantic import ModelWrapValidatorHandler, ValidationError
+
+from viaspline.errors import MissionError
+from viaspline.mission.checks import semantic_flaws
+from viaspline.mission.draft import Draft
+from viaspline.mission.flaws import Flaw, Origin, located
+from viaspline.mission.model import Mission
+from viaspline.mission.structure import structural_flaws
+
+
+class Context:
+    """What the validator is told of data that came from a file."""
+
+    def __init__(self, origin: Origin) -> None:
+        self.origin = origin
+
+
+def sound_mission(
+    data: Any, handler: ModelWrapValidatorHandler[Mission], context: Any = None
+) -> Mission:
+    """The mission that ``data`` describes.
+
+    Args:
+        data: A mapping with what a mission file holds, or a mission.
+        handler: Pydantic's own validation.
+        context: A `Context` if the data came from a file.
+
+    Raises:
+        MissionError: The data has faults; all of them.
+    """
+    if isinstance(data, Mission):
+        return data
+    origin = context.origin if isinstance(context, Context) else None
+    flaws: list[Flaw] = list(origin.flaws) if origin is not None else []
+    mission: Mission | None = None
+    try:
+        mission = _validated(data, handler)
+        draft = Draft.of(mission)
+    except ValidationError as error:
+        flaws += structural_flaws(error)
+        draft = Draft.salvage(data)
+    flaws += semantic_flaws(draft)
+    if flaws or mission is None:
+        raise MissionError(located(flaws, data, origin)) from None
+    return mission
+
+
+def _validated(data: Any, handler: ModelWrapValidatorHandler[Mission]) -> Mission:
+    """Validate; if that fails because of numpy's numbers, once more with Python's."""
+    try:
+        return handler(data)
+    except ValidationError as error:
+        if not any(_is_scalar(detail["input"]) for detail in error.errors(include_url=False)):
+            raise
+    return handler(_plain(data))
+
+
+def _is_scalar(value: Any) -> bool:
+    """Whether this is a number of numpy's that is none of Python's."""
+    return hasattr(value, "tolist") and getattr(value, "shape", None) == ()
+
+
+def _plain(value: Any) -> Any:
+    if hasattr(value, "tolist"):
+        return cast(Any, value.tolist())
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value

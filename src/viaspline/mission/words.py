@@ -1,0 +1,148 @@
+"""What each key of a mission expects, and which key a mistyped one was meant to be."""
+
+from __future__ import annotations
+
+import difflib
+from typing import Final
+
+from pydantic import BaseModel
+
+from viaspline.mission.flaws import Path
+from viaspline.mission.model import (
+    Circle,
+    EndPoint,
+    Mission,
+    Obstacle,
+    RobotSpec,
+    Route,
+    Sensor,
+    SplineSpec,
+    ViaPoint,
+    WorldSpec,
+)
+
+_POINT = "[x, y] or [x, y, z] in metres"
+_STATION = "[x, y] or {at: [x, y], name: ..., dwell_s: ...}"
+_RING = "at least three points [[x, y], [x, y], [x, y]] in metres"
+_OBSTACLES = "a list of obstacles such as - circle: {center: [x, y], radius: 5}"
+_TENSION = "one number up to 1, or a list with one for each span"
+
+EXPECTED: Final[dict[str, str]] = {
+    "": "a mapping with the keys world, robot, route and spline",
+    "world": "a mapping with the keys bounds, fences, known and unseen",
+    "bounds": "[x_min, y_min, x_max, y_max] in metres",
+    "fences": "a list of polygons, each " + _RING,
+    "known": _OBSTACLES,
+    "unseen": _OBSTACLES,
+    "circle": "{center: [x, y], radius: 5}",
+    "center": "[x, y] in metres",
+    "radius": "a number of metres greater than 0",
+    "polygon": _RING,
+    "holes": "a list of polygons, each " + _RING,
+    "name": "a text of at least one letter",
+    "pass_on": "left or right",
+    "never_pass_on": "left or right",
+    "robot": "a mapping such as {radius_m: 0.5, clearance_m: 0.5, max_speed_mps: 2}",
+    "radius_m": "a number of metres, 0 or more",
+    "clearance_m": "a number of metres, 0 or more",
+    "max_speed_mps": "a number of metres per second greater than 0",
+    "max_accel_mps2": "a number of m/s² greater than 0",
+    "max_lateral_accel_mps2": "a number of m/s² greater than 0",
+    "sensor": "{range_m: 40}",
+    "range_m": "a number of metres greater than 0",
+    "route": "a mapping with the keys start, via, goal and closed",
+    "start": _STATION,
+    "goal": _STATION,
+    "via": "a list of points such as [[10, 20], {at: [30, 40], dwell_s: 5}]",
+    "at": _POINT,
+    "dwell_s": "a number of seconds, 0 or more",
+    "heading_deg": "a number of degrees, anticlockwise from x",
+    "closed": "true or false",
+    "spline": "a mapping such as {tension: 0.1}",
+    "tension": _TENSION,
+    "slack": "one number, 0 or more, or a list with one for each span",
+    "knots": "uniform, centripetal or chordal",
+    "tangents": "cardinal or continuous",
+}
+
+_XY = "[x, y] in metres"
+_OBSTACLE = "an obstacle such as {circle: {center: [x, y], radius: 5}}"
+
+_ITEMS: Final[dict[tuple[str, int], str]] = {
+    ("via", 1): _STATION,
+    ("known", 1): _OBSTACLE,
+    ("unseen", 1): _OBSTACLE,
+    ("fences", 1): _RING,
+    ("fences", 2): _XY,
+    ("polygon", 1): _XY,
+    ("holes", 1): _RING,
+    ("holes", 2): _XY,
+    ("tension", 1): "a number up to 1",
+    ("slack", 1): "a number, 0 or more",
+}
+"""What the items of a list, and the items of those, expect."""
+
+_MODELS: Final[dict[str, type[BaseModel]]] = {
+    "": Mission,
+    "world": WorldSpec,
+    "known": Obstacle,
+    "unseen": Obstacle,
+    "circle": Circle,
+    "robot": RobotSpec,
+    "sensor": Sensor,
+    "route": Route,
+    "start": EndPoint,
+    "goal": EndPoint,
+    "via": ViaPoint,
+    "spline": SplineSpec,
+}
+
+LATER: Final[dict[tuple[str, str], str]] = {
+    ("known", "map"): "describe it by circle or polygon",
+    ("unseen", "map"): "describe it by circle or polygon",
+    ("sensor", "lidar"): "give sensor: {range_m: ...}",
+}
+"""Keys that a later version will know, and what to write until then."""
+
+
+def field_of(path: Path) -> str:
+    """The last key of a path, without indices; empty for the mission itself."""
+    return next((part for part in reversed(path) if isinstance(part, str)), "")
+
+
+def expectation(path: Path) -> str:
+    """What would be right at a path.
+
+    >>> expectation(("robot", "radius_m"))
+    'a number of metres, 0 or more'
+    """
+    field = field_of(path)
+    depth = len(path) - 1 - path.index(field) if field in path else 0
+    if depth == 0:
+        return EXPECTED.get(field, "something else")
+    return _ITEMS.get((field, depth), "a number of metres")
+
+
+def keys_at(path: Path) -> tuple[str, ...]:
+    """The keys that the mapping at a path may have."""
+    model = _MODELS.get(field_of(path))
+    return tuple(model.model_fields) if model is not None else ()
+
+
+def suggestion(key: str, path: Path) -> tuple[str, str | None]:
+    """What to do about an unknown key in the mapping at ``path``, and the key that was meant.
+
+    >>> suggestion("raduis", ("world", "known", 0, "circle"))
+    ("did you mean 'radius'?", 'radius')
+    """
+    known = keys_at(path)
+    folded = key.strip().lower().replace("-", "_").replace(" ", "_")
+    near = difflib.get_close_matches(folded, known, n=1, cutoff=0.6)
+    if not near:
+        near = [name for name in known if folded and name.startswith(folded)]
+    if near:
+        return f"did you mean '{near[0]}'?", near[0]
+    home = [name for name, model in _MODELS.items() if name and folded in model.model_fields]
+    if home and folded not in known:
+        return f"'{folded}' belongs under {home[0]}", None
+    return "the keys here are " + ", ".join(known), None
