@@ -1,0 +1,154 @@
+"""A time law along a path: where the robot is at every time, and when it is everywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viaspline.trajectory.limits import Station
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Speed and time along a path, exact between its points: the acceleration is constant there.
+
+    A station appears twice: when the robot arrives and when it leaves. All arrays are read-only.
+
+    Attributes:
+        distances: Along the path [m], not decreasing, shape (n,).
+        speeds: [m/s], shape (n,).
+        times: [s], not decreasing, shape (n,).
+        accelerations: Along the path, from each point to the next [m/s²], shape (n - 1,).
+        stations: The stops on the way, in order.
+        over_limit_until: Distance up to which the robot is faster than its limits allow, because
+            it was when the time law began [m]; it brakes as hard as it can there. None if never.
+    """
+
+    distances: Floats
+    speeds: Floats
+    times: Floats
+    accelerations: Floats
+    stations: tuple[Station, ...] = ()
+    over_limit_until: float | None = None
+
+    def __post_init__(self) -> None:
+        for values in (self.distances, self.speeds, self.times, self.accelerations):
+            values.flags.writeable = False
+
+    @classmethod
+    def through(
+        cls,
+        distances: Floats,
+        squares: Floats,
+        *,
+        max_accel: float,
+        stations: Sequence[Station] = (),
+        start_time: float = 0.0,
+        over_limit_until: float | None = None,
+    ) -> Trajectory:
+        """The time law with these squares of the speed, linear between the points.
+
+        Args:
+            distances: Increasing [m], shape (n,), with all stations among them.
+            squares: v² there [m²/s²], shape (n,), 0 at stations.
+            max_accel: For stretches so short that v² is 0 at both of their ends [m/s²].
+            stations: In order of distance.
+            start_time: Time at the first point [s].
+            over_limit_until: Passed on.
+        """
+        speeds = np.sqrt(squares)
+        steps = np.diff(distances)
+        sums = speeds[:-1] + speeds[1:]
+        crawl = sums <= 0.0
+        durations = 2.0 * steps / np.where(crawl, 1.0, sums)
+        if crawl.any():
+            durations[crawl] = 2.0 * np.sqrt(steps[crawl] / max_accel)
+        if stations:
+            stops = np.searchsorted(distances, [station.distance for station in stations])
+            distances = np.insert(distances, stops, distances[stops])
+            speeds = np.insert(speeds, stops, speeds[stops])
+            durations = np.insert(durations, stops, [station.dwell for station in stations])
+        times = np.empty(distances.shape[0])
+        times[0] = start_time
+        np.cumsum(durations, out=times[1:])
+        times[1:] += start_time
+        rises = np.diff(speeds)
+        accelerations = np.divide(rises, durations, out=np.zeros_like(rises), where=durations > 0)
+        return cls(distances, speeds, times, accelerations, tuple(stations), over_limit_until)
+
+    @property
+    def start_time(self) -> float:
+        """Time at its first point [s]."""
+        return float(self.times[0])
+
+    @property
+    def end_time(self) -> float:
+        """Time at its last point [s]."""
+        return float(self.times[-1])
+
+    @property
+    def duration(self) -> float:
+        """From its first point to its last [s]."""
+        return self.end_time - self.start_time
+
+    def delayed(self, seconds: float) -> Trajectory:
+        """The same, so much later [s]."""
+        return replace(self, times=self.times + seconds)
+
+    def state_at(self, time: ArrayLike) -> tuple[Floats, Floats, Floats]:
+        """Distance [m], speed [m/s] and acceleration [m/s²] at any time [s].
+
+        Before its start and after its end the robot stands there (with the speed that the time
+        law has at that end, if it isn't 0). Scalar or array in, the same shape out.
+        """
+        t = np.clip(np.asarray(time, dtype=float), self.times[0], self.times[-1])
+        last = self.accelerations.shape[0] - 1
+        i = np.clip(np.searchsorted(self.times, t, side="right") - 1, 0, last)
+        late = t - self.times[i]
+        acceleration = self.accelerations[i]
+        speed = self.speeds[i] + acceleration * late
+        distance = self.distances[i] + (self.speeds[i] + 0.5 * acceleration * late) * late
+        low = np.minimum(self.speeds[i], self.speeds[i + 1])
+        high = np.maximum(self.speeds[i], self.speeds[i + 1])
+        return (
+            np.clip(distance, self.distances[i], self.distances[i + 1])[()],
+            np.clip(speed, low, high)[()],
+            acceleration[()],
+        )
+
+    def distance_at(self, time: ArrayLike) -> Floats:
+        """Distance along the path at any time [s], in [m]."""
+        return self.state_at(time)[0]
+
+    def _before(self, distance: ArrayLike) -> tuple[Floats, NDArray[np.intp], Floats, Floats]:
+        """The clipped distance, its stretch, how far it is into it and the speed there."""
+        s = np.clip(np.asarray(distance, dtype=float), self.distances[0], self.distances[-1])
+        last = self.accelerations.shape[0] - 1
+        i = np.clip(np.searchsorted(self.distances, s, side="left") - 1, 0, last)
+        into = s - self.distances[i]
+        width = self.distances[i + 1] - self.distances[i]
+        part = np.divide(into, width, out=np.zeros_like(into), where=width > 0)
+        first, last_square = self.speeds[i] ** 2, self.speeds[i + 1] ** 2
+        speed = np.sqrt(first + part * (last_square - first))
+        return s, i, into, speed
+
+    def speed_at(self, distance: ArrayLike) -> Floats:
+        """Speed at a distance along the path [m], in [m/s]; 0 at stations."""
+        return self._before(distance)[3][()]
+
+    def time_at(self, distance: ArrayLike) -> Floats:
+        """Time of arrival at a distance along the path [m], in [s]."""
+        _, i, into, speed = self._before(distance)
+        sums = self.speeds[i] + speed
+        late = np.divide(2.0 * into, sums, out=np.zeros_like(into), where=sums > 0)
+        return np.minimum(self.times[i] + late, self.times[i + 1])[()]
+
+    def next_rest(self, distance: float) -> float:
+        """The first distance from here on where the robot comes to rest, or the end [m]."""
+        rests = self.distances[(self.speeds == 0.0) & (self.distances >= distance)]
+        return float(rests[0]) if rests.size else float(self.distances[-1])
