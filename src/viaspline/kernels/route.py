@@ -177,3 +177,13 @@ def shortest_route(world, start, goal, rho, floor, step, barriers, active):  # t
             k = before[k]
         if new == 0:
             return route
+
+
+@kernel
+def route_crosses(route, barriers):  # type: ignore[no-untyped-def]
+    """Whether a route of corners crosses a barrier an odd number of times."""
+    odd = False
+    for k in range(route.shape[0] - 1):
+        if _crosses_barrier(barriers, route[k, X], route[k, Y], route[k + 1, X], route[k + 1, Y]):
+            odd = not odd
+    return odd

@@ -116,12 +116,28 @@ def _append(points, count, x, y):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _straight(points, count, bends, k, before, after):  # type: ignore[no-untyped-def]
+def _helper_distance(bends, k, half, length, stretch, ease):  # type: ignore[no-untyped-def]
+    """How far from bend k its helper stands on a straight piece of this length [m].
+
+    A span of length h whose end turns by a is longer than its chord by about h a²/15 (two
+    fifteenths of a parabola's slope squared, halved), so ease * length may be spent on roundness.
+    """
+    if bends[k, SIDE] == 0.0:
+        return 0.0
+    needed = stretch * bends[k, BEND_RADIUS] * math.tan(half)
+    rounder = min(15.0 * ease * length / (half * half + 1e-12), 0.29 * length)
+    return max(needed, rounder)
+
+
+@kernel
+def _straight(points, count, bends, k, halves, stretch, ease):  # type: ignore[no-untyped-def]
     """Helper via points near the ends of the straight piece from bend k to bend k + 1."""
     heading = bends[k + 1, HEADING_IN]
     ax, ay = _touch(bends, k, heading)
     bx, by = _touch(bends, k + 1, heading)
     length = math.hypot(bx - ax, by - ay)
+    before = _helper_distance(bends, k, halves[k], length, stretch, ease)
+    after = _helper_distance(bends, k + 1, halves[k + 1], length, stretch, ease)
     need = before + after
     if length <= 0.0 or need <= 0.0:
         return count
@@ -140,7 +156,7 @@ def _straight(points, count, bends, k, before, after):  # type: ignore[no-untype
 
 
 @kernel
-def detour_points(bends, step, excess, stretch):  # type: ignore[no-untyped-def]
+def detour_points(bends, step, excess, stretch, ease):  # type: ignore[no-untyped-def]
     """Via points along taut bends, through which a cardinal spline follows them closely.
 
     On each arc, equal turns of at most ``step``; a helper on the straight piece before and after
@@ -150,29 +166,29 @@ def detour_points(bends, step, excess, stretch):  # type: ignore[no-untyped-def]
         bends: (m, 6), from ``bends_of``.
         step: Largest turn from via point to via point [rad].
         excess: 1 puts the points so far out that their chords clear the arc, 0 on the arc.
-        stretch: How much farther than one step along the arc the helpers stand: larger is
-            rounder and longer.
+        stretch: At least how many steps along the arc the helpers stand from it.
+        ease: Part of a straight piece's length that may be spent on standing farther away, which
+            makes the turn rounder.
 
     Returns:
         (n, 2) [m], without start and goal.
     """
     count = bends.shape[0]
-    helper = np.zeros(count)
+    halves = np.zeros(count)
     room = 2 * count
     for k in range(1, count - 1):
         parts = max(1, int(math.ceil(bends[k, TURN] / step)))
-        half = 0.5 * bends[k, TURN] / parts
-        helper[k] = stretch * bends[k, BEND_RADIUS] * math.tan(half)
+        halves[k] = 0.5 * bends[k, TURN] / parts
         room += parts
     points = np.empty((room, 2))
     size = np.int64(0)
     for k in range(count - 1):
-        size = _straight(points, size, bends, k, helper[k], helper[k + 1])
+        size = _straight(points, size, bends, k, halves, stretch, ease)
         bend = k + 1
         if bend == count - 1:
             break
         parts = max(1, int(math.ceil(bends[bend, TURN] / step)))
-        half = 0.5 * bends[bend, TURN] / parts
+        half = halves[bend]
         reach = bends[bend, BEND_RADIUS] * (1.0 + excess * (1.0 / math.cos(half) - 1.0))
         for part in range(parts):
             heading = bends[bend, HEADING_IN] + bends[bend, SIDE] * (2 * part + 1) * half
@@ -182,3 +198,18 @@ def detour_points(bends, step, excess, stretch):  # type: ignore[no-untyped-def]
                 bends[bend, BEND_Y] - bends[bend, SIDE] * reach * math.cos(heading),
             )  # fmt: skip
     return points[:size]
+
+
+@kernel
+def taut_length(route, bends):  # type: ignore[no-untyped-def]
+    """Length of the taut bends [m], or of the corners where there are no bends."""
+    length = 0.0
+    for k in range(bends.shape[0] - 1):
+        heading = bends[k + 1, HEADING_IN]
+        ax, ay = _touch(bends, k, heading)
+        bx, by = _touch(bends, k + 1, heading)
+        length += math.hypot(bx - ax, by - ay) + bends[k, TURN] * bends[k, BEND_RADIUS]
+    if bends.shape[0] == 0:
+        for k in range(route.shape[0] - 1):
+            length += math.hypot(route[k + 1, X] - route[k, X], route[k + 1, Y] - route[k, Y])
+    return length

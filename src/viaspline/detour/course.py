@@ -1,0 +1,174 @@
+"""A course: the points that the spline runs through, leg by leg from user via to user via."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.errors import GeometryError
+from viaspline.kernels.tangents import cardinal_spans
+from viaspline.mission.model import Mission, SplineSpec
+
+Floats = NDArray[np.float64]
+ALPHA = {"uniform": 0.0, "centripetal": 0.5, "chordal": 1.0}
+NO_POINTS = 0
+
+
+@dataclass(frozen=True)
+class RouteVia:
+    """A point of the mission's route as the planner sees it.
+
+    Attributes:
+        name: What it is called.
+        at: [m], shape (d,).
+        index: Its place in the route, 0 for the start; None for a place under way.
+        dwell: [s].
+    """
+
+    name: str
+    at: Floats
+    index: int | None
+    dwell: float = 0.0
+
+
+@dataclass(frozen=True)
+class Leg:
+    """What lies between two user via points.
+
+    Attributes:
+        points: Detour via points [m], shape (k, d).
+        slack: One for each of the k + 1 spans.
+    """
+
+    points: Floats
+    slack: Floats
+
+    @classmethod
+    def straight(cls, slack: float, dimension: int) -> Leg:
+        """A leg without detours."""
+        return cls(np.empty((NO_POINTS, dimension)), np.array([slack]))
+
+
+@dataclass(frozen=True)
+class Course:
+    """User via points and the legs between them.
+
+    Attributes:
+        vias: (n,) of them, n >= 2.
+        legs: n - 1 of them, or n when it is closed.
+        spline: Knots and tangents; tensions stand in the legs as slack.
+        start_tangent: Direction in which the curve leaves, shape (d,), or None.
+        end_tangent: Direction in which it arrives, shape (d,), or None.
+        closed: Whether it comes back to the first via point.
+    """
+
+    vias: tuple[RouteVia, ...]
+    legs: tuple[Leg, ...]
+    spline: SplineSpec
+    start_tangent: Floats | None = None
+    end_tangent: Floats | None = None
+    closed: bool = False
+
+    def ends(self, leg: int) -> tuple[RouteVia, RouteVia]:
+        """The via points before and after a leg."""
+        return self.vias[leg], self.vias[(leg + 1) % len(self.vias)]
+
+    def with_leg(self, index: int, leg: Leg) -> Course:
+        """The same with another leg."""
+        return replace(self, legs=(*self.legs[:index], leg, *self.legs[index + 1 :]))
+
+    def first_spans(self) -> Floats:
+        """Index of every leg's first span, and the number of all spans at the end."""
+        return np.cumsum([0, *(len(leg.slack) for leg in self.legs)])
+
+
+def lay(course: Course) -> Floats:
+    """The cardinal spline through a course: Bézier control polygons [m], shape (m, 4, d)."""
+    rows: list[Floats] = []
+    for k, leg in enumerate(course.legs):
+        rows.append(course.vias[k].at[None, :])
+        if len(leg.points):
+            rows.append(leg.points)
+    if not course.closed:
+        rows.append(course.vias[-1].at[None, :])
+    points = np.concatenate(rows)
+    slack = np.concatenate([leg.slack for leg in course.legs])
+    return spline_spans(points, slack, course)
+
+
+def spline_spans(points: Floats, slack: Floats, course: Course) -> Floats:
+    """Spans through points with the course's knots, tangents and end directions."""
+    start, end = course.start_tangent, course.end_tangent
+    if course.spline.tangents == "continuous":
+        from viaspline.curve.cardinal import CardinalSpline
+
+        curve = CardinalSpline(
+            points, slack=slack, knots=course.spline.knots, closed=course.closed,
+            start_heading=start, end_heading=end, tangents="continuous",
+        )  # fmt: skip
+        return np.asarray(curve.spans)
+    none = np.zeros(points.shape[1])
+    spans: Floats = cardinal_spans(
+        points, ALPHA[course.spline.knots], slack,
+        none if start is None else start, none if end is None else end,
+        start is not None, end is not None, course.closed,
+    )  # fmt: skip
+    return spans
+
+
+def course_of(mission: Mission) -> Course:
+    """The course of a mission before any detour."""
+    route = mission.route
+    named = list(route.points())
+    vias = tuple(
+        RouteVia(via.name or _default_name(key), np.array(via.at, np.float64), i, via.dwell_s)
+        for i, (key, via) in enumerate(named)
+    )
+    dimension = len(vias[0].at)
+    count = len(vias) if route.closed else len(vias) - 1
+    slack = span_slack(mission.spline, count)
+    goal = route.goal
+    return Course(
+        vias=vias,
+        legs=tuple(Leg.straight(value, dimension) for value in slack),
+        spline=mission.spline,
+        start_tangent=_direction(route.start.heading_deg, dimension),
+        end_tangent=None if goal is None else _direction(goal.heading_deg, dimension),
+        closed=route.closed,
+    )
+
+
+def span_slack(spline: SplineSpec, count: int) -> tuple[float, ...]:
+    """The slack s of every span, from tension or slack, one number or one for each.
+
+    Raises:
+        GeometryError: When there are more or fewer than the spans.
+    """
+    given: float | Sequence[float]
+    if spline.slack is not None:
+        given = spline.slack
+        values = [given] * count if isinstance(given, float | int) else list(given)
+    else:
+        given = 0.0 if spline.tension is None else spline.tension
+        tensions = [given] * count if isinstance(given, float | int) else list(given)
+        values = [(1 - t) / 2 for t in tensions]
+    if len(values) != count:
+        raise GeometryError(f"spline: {len(values)} tensions for {count} spans; give one for each")
+    return tuple(values)
+
+
+def _default_name(key: str) -> str:
+    tail = key.removeprefix("route.")
+    return f"via {int(tail[4:-1]) + 1}" if tail.startswith("via[") else tail
+
+
+def _direction(heading_deg: float | None, dimension: int) -> Floats | None:
+    if heading_deg is None:
+        return None
+    angle = np.radians(heading_deg)
+    direction = np.zeros(dimension)
+    direction[:2] = np.cos(angle), np.sin(angle)
+    return direction

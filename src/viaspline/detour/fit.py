@@ -1,0 +1,107 @@
+"""Fitting the spline of one leg to a way until it is proven clear.
+
+As the slack goes to 0 a cardinal spline tends to its polyline. The via points of a way stand so
+that their polyline is clear; so there is always a slack at which the spline is clear as well. It
+is lowered only on the spans that need it, and only as far as they need it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.detour.course import Course, Leg, lay
+from viaspline.detour.route import SPARE, Way
+from viaspline.kernels.clearance import conflicts
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+
+# Largest turn from via point to via point [rad], how far out they stand, how far off the helpers,
+# and what part of the length may be spent on roundness. Rounder first, closer where it is tight.
+EFFORTS = ((0.2, 1.0, 1.0, 5e-5), (0.2, 1.0, 1.0, 0.0), (0.1, 1.0, 1.0, 0.0))
+HALVINGS = 24
+CLEAR = -1
+HELPER = 0.1  # of a straight leg's length, where the spline would swing out into something
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A course in which one leg is clear, and that leg's curve.
+
+    Attributes:
+        course: With the leg in it.
+        spans: The leg's curve [m], shape (m, 4, d).
+    """
+
+    course: Course
+    spans: Floats
+
+
+def too_close(world: World, spans: Floats, required: float) -> NDArray[np.int64]:
+    """What each span comes nearer to than ``required``: indices as in ``World.nearest``, or -1."""
+    found: NDArray[np.int64] = conflicts(world.packed, spans, required - SPARE)[0]
+    return found
+
+
+def fit(course: Course, index: int, way: Way, world: World, required: float) -> Fitted | None:
+    """Lay the leg's spline along a way.
+
+    Returns:
+        The fitted leg, or None if no slack makes it clear (the two via points themselves have
+        then less room than the proof needs).
+    """
+    base = _base_slack(course, index)
+    for leg in _attempts(course, index, way, base):
+        candidate = course.with_leg(index, leg)
+        spans = leg_spans(candidate, index)
+        if (too_close(world, spans, required) == CLEAR).all():
+            return Fitted(candidate, spans)
+    return tighten(candidate, index, world, required)
+
+
+def tighten(course: Course, index: int, world: World, required: float) -> Fitted | None:
+    """Halve the slack of a leg's spans that come too close, until none does."""
+    for _ in range(HALVINGS):
+        spans = leg_spans(course, index)
+        close = too_close(world, spans, required) != CLEAR
+        if not close.any():
+            return Fitted(course, spans)
+        leg = course.legs[index]
+        course = course.with_leg(index, Leg(leg.points, np.where(close, leg.slack / 2, leg.slack)))
+    return None
+
+
+def leg_spans(course: Course, index: int) -> Floats:
+    """The curve of one leg, laid with all others around it."""
+    first = course.first_spans()
+    return lay(course)[first[index] : first[index + 1]]
+
+
+def _base_slack(course: Course, index: int) -> float:
+    return float(course.legs[index].slack.max())
+
+
+def _attempts(course: Course, index: int, way: Way, slack: float) -> list[Leg]:
+    start, goal = (via.at for via in course.ends(index))
+    if way.is_direct:
+        helpers = np.array([start + w * (goal - start) for w in (HELPER, 1 - HELPER)])
+        lower = [Leg(np.empty((0, len(start))), np.array([slack * f])) for f in (0.7, 0.5)]
+        return [*lower, Leg(helpers, np.full(3, slack))]
+    legs = []
+    for effort in EFFORTS:
+        points = lifted(way.points(*effort), start, goal)
+        legs.append(Leg(points, np.full(len(points) + 1, slack)))
+    return legs
+
+
+def lifted(points: Floats, start: Floats, goal: Floats) -> Floats:
+    """Planar points between start and goal with their other coordinates in proportion."""
+    if len(start) == 2:
+        return points
+    track = np.vstack((start[:2], points, goal[:2]))
+    run = np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))
+    share = (run[:-1] / run[-1])[:, None] if run[-1] > 0 else np.zeros((len(points), 1))
+    return np.hstack((points, start[None, 2:] + share * (goal[2:] - start[2:])[None, :]))

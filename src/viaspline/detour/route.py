@@ -1,0 +1,118 @@
+"""The exact shortest route between two places, on a side of a group if that is asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.corners import X, Y
+from viaspline.kernels.route import route_crosses, shortest_route
+from viaspline.kernels.taut import bends_of, detour_points, taut_length
+from viaspline.mission.model import Side
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+SPARE = 1e-6  # what a proof may lack of the required distance [m]
+# How far off an obstacle a route turns, and how finely it wraps arcs: coarse first, and finer for
+# gaps that are hardly wider than the robot.
+RESOLUTIONS = ((1e-3, np.pi / 8), (1e-4, np.pi / 32), (2e-6, np.pi / 200))
+NO_BARRIERS = np.empty((0, 4))
+
+
+@dataclass(frozen=True)
+class Way:
+    """A route between two places.
+
+    Attributes:
+        corners: Corner rows, see ``kernels.corners``, shape (k, 8), start and goal among them.
+        bends: The same pulled taut, see ``kernels.taut``, shape (m, 6); empty where the arcs have
+            no common tangents.
+        length: [m].
+    """
+
+    corners: Floats
+    bends: Floats
+    length: float
+
+    @property
+    def is_direct(self) -> bool:
+        """Whether nothing stands between the two places."""
+        return len(self.corners) == 2
+
+    def points(self, step: float, excess: float, stretch: float, ease: float) -> Floats:
+        """Detour via points along it [m], shape (n, 2); see ``kernels.taut.detour_points``."""
+        if len(self.bends) == 0:
+            return np.ascontiguousarray(self.corners[1:-1, X : Y + 1])
+        points: Floats = detour_points(self.bends, step, excess, stretch, ease)
+        return points
+
+    def crosses(self, barrier: Floats) -> bool:
+        """Whether it crosses a barrier, shape (1, 4)."""
+        return bool(route_crosses(self.corners, barrier))
+
+
+def find_way(
+    world: World, start: Floats, goal: Floats, required: float, barriers: Floats, active: Flags
+) -> Way | None:
+    """The shortest way that keeps ``required`` from everything and crosses no barrier.
+
+    Args:
+        world: What to keep clear of.
+        start: [m], at least (2,).
+        goal: [m], at least (2,).
+        required: Distance to keep [m].
+        barriers: Segments not to cross, (b, 4).
+        active: (n,): obstacles to begin with; those met are added in place.
+
+    Returns:
+        The way, or None where there is none.
+    """
+    floor = required - 0.5 * SPARE
+    a, b = np.ascontiguousarray(start[:2]), np.ascontiguousarray(goal[:2])
+    for margin, step in RESOLUTIONS:
+        corners = shortest_route(
+            world.packed, a, b, required + margin, floor, step, barriers, active
+        )
+        if len(corners):
+            bends = bends_of(corners)
+            return Way(corners, bends, float(taut_length(corners, bends)))
+    return None
+
+
+def barrier(world: World, index: int, side: Side, start: Floats, goal: Floats) -> Floats:
+    """A segment from an obstacle outwards that closes one side of it, seen from start to goal.
+
+    Shape (1, 4). It reaches beyond everything that there is.
+    """
+    inside = _place_in(world, index)
+    along = goal[:2] - start[:2]
+    length = float(np.hypot(*along))
+    along = along / length if length > 0 else np.array([1.0, 0.0])
+    normal = np.array([-along[1], along[0]])
+    if side == "right":
+        normal = -normal
+    return np.array([[*inside, *(inside + _extent(world, start, goal) * normal)]])
+
+
+def _place_in(world: World, index: int) -> Floats:
+    circle = world.obstacles[index].circle
+    if circle is not None:
+        return np.array(circle.center)
+    polygon = world.obstacles[index].polygon
+    assert polygon is not None  # an obstacle without a shape is refused when a world is made
+    return np.array(polygon[0])
+
+
+def _extent(world: World, start: Floats, goal: Floats) -> float:
+    """A length beyond everything [m]."""
+    corners = [start[:2], goal[:2]]
+    if len(world.packed.boxes):
+        corners += [world.packed.boxes[0, :2], world.packed.boxes[0, 2:]]
+    if world.bounds is not None:
+        corners += [np.array(world.bounds[:2]), np.array(world.bounds[2:])]
+    stack = np.array(corners)
+    return 4.0 * float(np.linalg.norm(stack.max(axis=0) - stack.min(axis=0))) + 1.0
