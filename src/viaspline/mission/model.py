@@ -44,10 +44,10 @@ def _open(ring: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], .
 
 Point2 = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_plain)]
 Point = Annotated[
-    tuple[Coordinate, ...], BeforeValidator(_plain), Field(min_length=2, max_length=3)
+    tuple[Coordinate, ...], Field(min_length=2, max_length=3), BeforeValidator(_plain)
 ]
 Ring = Annotated[
-    tuple[Point2, ...], BeforeValidator(_plain), Field(min_length=3), AfterValidator(_open)
+    tuple[Point2, ...], Field(min_length=3), BeforeValidator(_plain), AfterValidator(_open)
 ]
 
 

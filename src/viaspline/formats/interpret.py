@@ -1,0 +1,184 @@
+"""From an itinerary in degrees to a mission in metres."""
+
+from __future__ import annotations
+
+import math
+import re
+import warnings
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, Final
+
+import numpy as np
+
+from viaspline.errors import Fault, MissionError, MissionWarning
+from viaspline.formats.faults import fault_at, refusal
+from viaspline.formats.fences import fence_areas
+from viaspline.formats.frame import REACH, Floats, LocalFrame
+from viaspline.formats.items import FenceArea, Itinerary, Place
+from viaspline.formats.legs import Stop, stops_of
+from viaspline.mission.model import Mission
+
+_SAME: Final = 0.02
+"""Stops nearer than this are one [m]: the files resolve 1e-7 degree, about a centimetre."""
+
+_ROUTE_KEY: Final = re.compile(r"route\.(start|goal|via\[(\d+)\])")
+_WORLD_KEY: Final = re.compile(r"world\.(known|fences)\[(\d+)\]")
+
+
+def mission_of(itinerary: Itinerary) -> Mission:
+    """The mission of an itinerary.
+
+    The frame's origin and the start are the home position, or the first item with a position if
+    there is no plausible one. Heights are kept as they are given. Climbs and descents on the
+    spot become one point at the height of the way.
+
+    Raises:
+        MissionError: Nothing can be driven, or the mission is not sound.
+
+    Warns:
+        MissionWarning: One for each kind of thing that a mission can't represent.
+    """
+    stops, notes = stops_of(itinerary)
+    areas, loose = fence_areas(itinerary)
+    if not stops:
+        _warn(itinerary.source, (*itinerary.notes, *notes, *loose))
+        place = Place("mission")
+        problem = "no item has a position to go to" + _aside(itinerary.notes)
+        raise refusal(itinerary.source, place, problem, "give two way points or more")
+    frame = LocalFrame(stops[0].latitude, stops[0].longitude)
+    _check_coordinates(frame, itinerary.source, stops, areas)
+    stops, climbs = _merged(stops, _local(frame, stops))
+    _warn(itinerary.source, (*itinerary.notes, *notes, *loose, *climbs))
+    if len(stops) < 2:
+        problem = "all items are at one place: a way needs two distinct points"
+        problem += _aside(itinerary.notes)
+        raise refusal(itinerary.source, stops[0].place, problem, "give another way point")
+    fences = [area for area in areas if area.inclusion]
+    obstacles = [area for area in areas if not area.inclusion]
+    data = {
+        "world": {
+            "fences": [_ring(frame, area) for area in fences],
+            "known": [_obstacle(frame, area, i) for i, area in enumerate(obstacles, start=1)],
+        },
+        "robot": {} if itinerary.speed is None else {"max_speed_mps": itinerary.speed},
+        "route": _route(stops, _local(frame, stops)),
+    }
+    try:
+        return Mission.model_validate(data)
+    except MissionError as error:
+        places = (stops, tuple(fences), tuple(obstacles))
+        raise MissionError(
+            [_in_file(itinerary, fault, *places) for fault in error.faults]
+        ) from None
+
+
+def _warn(source: str, notes: Sequence[tuple[str, str]]) -> None:
+    for kind, where in notes:
+        message = f"{source}: {where}: {kind}" if where else f"{source}: {kind}"
+        warnings.warn(f"{message} (can't be represented in a mission)", MissionWarning, 4)
+
+
+def _aside(notes: Sequence[tuple[str, str]]) -> str:
+    """What else is in the file, where too little of it is left."""
+    return "".join(f" ({where} is a {kind})" for kind, where in notes)
+
+
+def _check_coordinates(
+    frame: LocalFrame, source: str, stops: Sequence[Stop], areas: Sequence[FenceArea]
+) -> None:
+    """Refuse what is not on the globe, or too far from the origin for a flat frame."""
+    named = [(stop.latitude, stop.longitude, stop.place) for stop in stops]
+    for area in areas:
+        corners = area.corners if area.center is None else (area.center,)
+        named += [(latitude, longitude, area.place) for latitude, longitude in corners]
+    faults = []
+    for latitude, longitude, place in named:
+        if not (abs(latitude) <= 90 and abs(longitude) <= 360):
+            problem = f"{latitude:g}, {longitude:g} is no latitude and longitude"
+            remedy = "latitudes are -90 to 90, longitudes -180 to 180 degrees"
+            faults.append(fault_at(source, place, problem, remedy))
+        # The plane folds back on the far side of the globe: ask the angle, not the metres.
+        elif abs(frame.latitude) <= 90 and frame.arc(latitude, longitude) > REACH:
+            problem = f"is more than {REACH / 1e3:g} km away from the start"
+            remedy = "a mission has one flat frame: split it, or correct the home position"
+            faults.append(fault_at(source, place, problem, remedy))
+    if faults:
+        raise MissionError(list(dict.fromkeys(faults)))
+
+
+def _local(frame: LocalFrame, stops: Sequence[Stop]) -> Floats:
+    """The stops in metres, shape (n, 2)."""
+    return frame.to_local([s.latitude for s in stops], [s.longitude for s in stops])
+
+
+def _merged(
+    stops: Sequence[Stop], local: Floats
+) -> tuple[tuple[Stop, ...], tuple[tuple[str, str], ...]]:
+    """Stops at one place as one, with the sum of their dwells and the height of the way."""
+    merged = [stops[0]]
+    corner = local[0]
+    climbs: list[str] = []
+    for stop, xy in zip(stops[1:], local[1:], strict=True):
+        last = merged[-1]
+        if np.hypot(*(xy - corner)) >= _SAME:
+            merged.append(stop)
+            corner = xy
+            continue
+        # A climb comes before the way that it leads to, a landing after the way that leads to it.
+        keeps = stop.is_landing or math.isnan(stop.height)
+        height = last.height if keeps else stop.height
+        if abs(stop.height - last.height) > 1e-6:
+            climbs.append(stop.place.key)
+        merged[-1] = replace(last, height=height, dwell=last.dwell + stop.dwell)
+    notes = (("climb or descent on the spot", ", ".join(climbs)),) if climbs else ()
+    return tuple(merged), notes
+
+
+def _route(stops: Sequence[Stop], local: Floats) -> dict[str, Any]:
+    is_3d = all(math.isfinite(stop.height) for stop in stops)
+    points: list[dict[str, Any]] = []
+    for stop, (x, y) in zip(stops, local.tolist(), strict=True):
+        # Adding zero turns -0.0 into 0.0: one place, one spelling.
+        at = [x + 0.0, y + 0.0, stop.height + 0.0] if is_3d else [x + 0.0, y + 0.0]
+        points.append({"at": at, "dwell_s": stop.dwell} if stop.dwell else {"at": at})
+    return {"start": points[0], "via": points[1:-1], "goal": points[-1]}
+
+
+def _ring(frame: LocalFrame, area: FenceArea) -> list[list[float]]:
+    """The polygon of a fence; a circle becomes the polygon inside of it."""
+    if area.center is None:
+        latitudes, longitudes = zip(*area.corners, strict=True)
+        corners: list[list[float]] = frame.to_local(latitudes, longitudes).tolist()
+        return corners
+    angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)
+    center = frame.to_local(*area.center)
+    ring = center + area.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    inscribed: list[list[float]] = ring.tolist()
+    return inscribed
+
+
+def _obstacle(frame: LocalFrame, area: FenceArea, number: int) -> dict[str, Any]:
+    name = f"exclusion {number}"
+    if area.center is None:
+        return {"name": name, "polygon": _ring(frame, area)}
+    center = frame.to_local(*area.center).tolist()
+    return {"name": name, "circle": {"center": center, "radius": area.radius}}
+
+
+def _in_file(
+    itinerary: Itinerary,
+    fault: Fault,
+    stops: Sequence[Stop],
+    fences: Sequence[FenceArea],
+    obstacles: Sequence[FenceArea],
+) -> Fault:
+    """A fault of the mission as a fault of the file that it came from."""
+    place = Place(fault.key)
+    if found := _ROUTE_KEY.match(fault.key):
+        index = {"start": 0, "goal": len(stops) - 1}.get(found[1])
+        place = stops[int(found[2]) + 1 if index is None else index].place
+    elif found := _WORLD_KEY.match(fault.key):
+        place = (obstacles if found[1] == "known" else fences)[int(found[2])].place
+    problem = f"({fault.key}) {fault.problem}"
+    return fault_at(itinerary.source, place, problem, fault.remedy)

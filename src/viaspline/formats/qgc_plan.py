@@ -1,0 +1,193 @@
+"""QGroundControl's ``.plan`` files, version 1, and the ``.mission`` files that came before.
+
+Format: https://docs.qgroundcontrol.com/master/en/qgc-dev-guide/file_formats/plan.html
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Final
+
+from viaspline.errors import MissionError
+from viaspline.formats.interpret import mission_of
+from viaspline.formats.items import FenceArea, Home, Item, Itinerary, Place
+from viaspline.formats.json_tree import Tree, json_tree
+from viaspline.mission.document import read_text
+from viaspline.mission.flaws import describe
+from viaspline.mission.model import Mission
+
+_ROTORCRAFT: Final = frozenset({2, 3, 4, 13, 14, 15, 29, 35})
+"""MAV_TYPEs that fly at hoverSpeed; all others go at cruiseSpeed."""
+
+
+def read_qgc_plan(path: str | Path) -> Mission:
+    """Read a plan of QGroundControl's.
+
+    The robot's greatest speed is ``hoverSpeed`` for rotorcraft and ``cruiseSpeed`` for all other
+    vehicles. Surveys and corridor scans are the way points that they were resolved to.
+
+    Args:
+        path: The file.
+
+    Raises:
+        MissionError: The file can't be read or its mission has faults, each with its key.
+
+    Warns:
+        MissionWarning: One for each kind of thing that a mission can't represent.
+    """
+    return mission_of(parse_qgc_plan(read_text(path), str(path)))
+
+
+def parse_qgc_plan(text: str, source: str) -> Itinerary:
+    """The items, home and fences of a plan.
+
+    Raises:
+        MissionError: It isn't JSON, no plan, or a plan with faults: all of them.
+    """
+    root = json_tree(text, source)
+    # Before there were plans, the file was what is now its mission.
+    is_plan = "fileType" in root or "mission" in root
+    mission = root["mission"] if is_plan else root
+    if is_plan:
+        _check_versions(root, mission)
+    elif "items" not in root:
+        root.fault(
+            "is no plan of QGroundControl: it has neither mission nor items",
+            'it should have "fileType": "Plan" and a mission',
+        )
+    notes: dict[str, list[str]] = {}
+    items = tuple(_items(mission["items"], notes))
+    fences = tuple(_fences(root["geoFence"], notes))
+    for point in root["rallyPoints"]["points"].items():
+        notes.setdefault("rally point", []).append(point.key)
+    itinerary = Itinerary(
+        source=source,
+        items=items,
+        home=_home(mission["plannedHomePosition"]),
+        fences=fences,
+        speed=_speed(mission),
+        notes=tuple((kind, ", ".join(where)) for kind, where in notes.items()),
+    )
+    if root.faults.found:
+        raise MissionError(root.faults.found)
+    return itinerary
+
+
+def _check_versions(root: Tree, mission: Tree) -> None:
+    if "fileType" in root and root["fileType"].value != "Plan":
+        root["fileType"].fault(f"found {describe(root['fileType'].value)}", 'it should be "Plan"')
+    if root["version"].value != 1:
+        found = describe(root["version"].value)
+        root["version"].fault(f"version {found} of the format isn't known", "it should be 1")
+    if not isinstance(mission.value, dict):
+        mission.fault(
+            "is missing" if mission.value is None else f"found {describe(mission.value)}",
+            "a plan needs a mission with items",
+        )
+    elif mission["version"].value not in (1, 2):
+        found = describe(mission["version"].value)
+        mission["version"].fault(f"version {found} of the format isn't known", "it should be 2")
+
+
+def _items(tree: Tree, notes: dict[str, list[str]]) -> Iterator[Item]:
+    """The items in order, complex ones resolved; numbers count the simple items, from 1."""
+    number = 0
+    for entry in tree.items():
+        for simple in _resolved(entry, notes):
+            number += 1
+            item = _item(simple, number)
+            if item is not None:
+                yield item
+
+
+def _resolved(entry: Tree, notes: dict[str, list[str]]) -> Iterator[Tree]:
+    """The simple items that an item stands for."""
+    if not isinstance(entry.value, dict):
+        entry.fault(f"found {describe(entry.value)}", "it should be a mission item")
+        return
+    if entry["type"].value != "ComplexItem":
+        yield entry
+        return
+    kind = entry["complexItemType"].value
+    transects = entry["TransectStyleComplexItem"]["Items"]
+    if isinstance(transects.value, list) and transects.value:
+        yield from transects.items()
+        return
+    name = kind if isinstance(kind, str) else "complex item"
+    notes.setdefault(f"{name} that isn't resolved to way points", []).append(entry.key)
+
+
+def _item(tree: Tree, number: int) -> Item | None:
+    command = tree["command"].whole()
+    frame = tree["frame"].whole()
+    values = _values(tree)
+    if command is None or frame is None or values is None:
+        return None
+    p1, p2, p3, p4, latitude, longitude, altitude = values
+    return Item(
+        number, command, frame, (p1, p2, p3, p4), latitude, longitude, altitude, Place(tree.key)
+    )
+
+
+def _values(tree: Tree) -> tuple[float, ...] | None:
+    """The seven parameters, from any of the three ways in which they have been written."""
+    if "coordinate" in tree:
+        position = tree["coordinate"].numbers(3, "[latitude, longitude, altitude]")
+        if "params" in tree:
+            params = tree["params"].numbers(4, "a list of four parameters")
+        else:
+            params = tuple(tree[f"param{i}"].number() for i in range(1, 5))
+        return (*params[:4], *position[:3]) if params and position else None
+    params = tree["params"].numbers(7, "a list of seven parameters")
+    return params[:7] if params else None
+
+
+def _home(tree: Tree) -> Home | None:
+    if tree.value is None:
+        return None
+    position = tree["coordinate"] if isinstance(tree.value, dict) else tree
+    numbers = position.numbers(2, "[latitude, longitude, altitude]")
+    if not numbers:
+        return None
+    altitude = numbers[2] if len(numbers) > 2 else math.nan
+    return Home(numbers[0], numbers[1], altitude, Place(tree.key))
+
+
+def _speed(mission: Tree) -> float | None:
+    """The speed that goes with the vehicle [m/s]; None if none is given that can be meant."""
+    hover, cruise = mission["hoverSpeed"].number(), mission["cruiseSpeed"].number()
+    # Plans without a vehicle are for QGroundControl's default, a multirotor.
+    vehicle = mission["vehicleType"].value
+    is_rotorcraft = vehicle is None or (isinstance(vehicle, int) and vehicle in _ROTORCRAFT)
+    speed = hover if is_rotorcraft else cruise
+    return speed if math.isfinite(speed) and speed > 0 else None
+
+
+def _fences(tree: Tree, notes: dict[str, list[str]]) -> Iterator[FenceArea]:
+    if isinstance(tree["polygon"].value, list) and tree["polygon"].value:
+        yield FenceArea(True, _corners(tree["polygon"]), None, 0.0, Place(tree["polygon"].key))
+    for area in tree["polygons"].items():
+        corners = _corners(area["polygon"])
+        yield FenceArea(_is_inclusion(area), corners, None, 0.0, Place(area.key))
+    for area in tree["circles"].items():
+        center = area["circle"]["center"].numbers(2, "[latitude, longitude]")
+        radius = area["circle"]["radius"].number()
+        if center:
+            middle = (center[0], center[1])
+            yield FenceArea(_is_inclusion(area), (), middle, radius, Place(area.key))
+    if "breachReturn" in tree:
+        notes.setdefault("breach return point", []).append(tree["breachReturn"].key)
+
+
+def _is_inclusion(area: Tree) -> bool:
+    inclusion = area["inclusion"]
+    if inclusion.value is not None and not isinstance(inclusion.value, bool):
+        inclusion.fault(f"found {describe(inclusion.value)}", "it should be true or false")
+    return inclusion.value is not False
+
+
+def _corners(tree: Tree) -> tuple[tuple[float, float], ...]:
+    pairs = [corner.numbers(2, "[latitude, longitude]") for corner in tree.items()]
+    return tuple((pair[0], pair[1]) for pair in pairs if pair)
