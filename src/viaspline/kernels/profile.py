@@ -145,6 +145,65 @@ def _grown(distances: Floats, caps: Floats, rests: Flags) -> tuple[Floats, Float
 
 
 @kernel
+def _turns(before: Floats, after: Floats, slip: float) -> bool:
+    """Whether two unit tangents differ."""
+    turn = 0.0
+    for j in range(after.shape[0]):
+        turn += (after[j] - before[j]) ** 2
+    return bool(np.sqrt(turn) > 1e-5 + slip)
+
+
+@kernel
+def _arc_cap(
+    r: Floats, width: float, lateral: float, accel: float, top: float, tolerance: float
+) -> tuple[float, bool]:
+    """The largest v² on an arc, and whether halving it would not be worth while."""
+    bound, least = _curvature_bounds(r, width)
+    cap = min(top, lateral / bound) if bound > 0.0 else top
+    if cap >= top or bound <= tolerance * least:
+        return cap, True
+    longest = 0.0
+    for k in range(3):
+        square = 0.0
+        for j in range(r.shape[1]):
+            square += r[k, j] * r[k, j]
+        longest = max(longest, np.sqrt(square) * width)
+    return cap, accel * longest <= 0.5 * (tolerance - 1.0) * cap
+
+
+@kernel
+def _next_arc(
+    q: Floats,
+    r: Floats,
+    stack: Floats,
+    depth: int,
+    lateral: float,
+    accel: float,
+    top: float,
+    tolerance: float,
+) -> tuple[int, float, float, float, bool]:
+    """Take the next arc of a span from the stack, halving it until it is fine enough.
+
+    Returns:
+        The depth of the stack that is left, the arc's ends, the largest v² on it, and whether it
+        is a cusp: too short to be halved and its curvature still not bounded.
+    """
+    while True:
+        depth -= 1
+        a, b = stack[depth, 0], stack[depth, 1]
+        _restrict(q, a, b, r)
+        cap, fine = _arc_cap(r, b - a, lateral, accel, top, tolerance)
+        if fine:
+            return depth, a, b, cap, False
+        if b - a < 1e-9:
+            return depth, a, b, top, True
+        middle = 0.5 * (a + b)
+        stack[depth, 0], stack[depth, 1] = middle, b
+        stack[depth + 1, 0], stack[depth + 1, 1] = a, middle
+        depth += 2
+
+
+@kernel
 def bend_caps(
     spans: Floats, joints: Floats, lateral: float, accel: float, top: float, tolerance: float
 ) -> tuple[Floats, Floats, Flags]:
@@ -172,69 +231,88 @@ def bend_caps(
     count = 0
     q, r, before, after = np.empty((3, d)), np.empty((3, d)), np.empty(d), np.empty(d)
     stack = np.empty((64, 2))
-    short = 0.5 * (tolerance - 1.0)
-    arrived = False
     for i in range(m):
-        span_length = joints[i + 1] - joints[i]
-        if span_length <= 0.0:
+        length = joints[i + 1] - joints[i]
+        if length <= 0.0:
             continue
         _hodograph(spans[i], q)
         noise = 2.0**-46 * (_largest(spans[i]) + _largest(q))
         handle = _end_tangent(spans[i], False, after)
-        if arrived:
-            turn = 0.0
-            for j in range(d):
-                turn += (after[j] - before[j]) ** 2
-            if np.sqrt(turn) > 1e-5 + noise / handle:
-                rests[count] = True
-        straight = noise * _largest(q)
-        is_straight = max(_wedge(q[0], q[1]), _wedge(q[0], q[2]), _wedge(q[1], q[2])) <= straight
+        rests[count] |= count > 0 and _turns(before, after, noise / handle)
+        _end_tangent(spans[i], True, before)
+        bend = max(_wedge(q[0], q[1]), _wedge(q[0], q[2]), _wedge(q[1], q[2]))
+        is_straight = bend <= noise * _largest(q)
         first, summed = count, 0.0
         stack[0, 0], stack[0, 1] = 0.0, 1.0
         depth = 1
         while depth > 0:
-            depth -= 1
-            a, b = stack[depth, 0], stack[depth, 1]
-            cap, unresolved = top, False
+            depth, a, b, cap, cusp = depth - 1, 0.0, 1.0, top, False
             if not is_straight:
-                _restrict(q, a, b, r)
-                bound, least = _curvature_bounds(r, b - a)
-                cap = min(top, lateral / bound) if bound > 0.0 else top
-                longest = 0.0
-                for k in range(3):
-                    square = 0.0
-                    for j in range(d):
-                        square += r[k, j] * r[k, j]
-                    longest = max(longest, np.sqrt(square) * (b - a))
-                fine = cap >= top or bound <= tolerance * least or accel * longest <= short * cap
-                unresolved = not fine and (b - a < 1e-9 or depth > 60)
-                if not fine and not unresolved:
-                    middle = 0.5 * (a + b)
-                    stack[depth, 0], stack[depth, 1] = middle, b
-                    stack[depth + 1, 0], stack[depth + 1, 1] = a, middle
-                    depth += 2
-                    continue
-            piece = span_length if a == 0.0 and b == 1.0 else _arc_length(q, a, b)
+                depth, a, b, cap, cusp = _next_arc(
+                    q, r, stack, depth + 1, lateral, accel, top, tolerance
+                )
+            piece = _arc_length(q, a, b)
             if piece <= 0.0:
                 continue
             if count == size:
                 distances, caps, rests = _grown(distances, caps, rests)
                 size *= 2
-            if unresolved:
-                rests[count], rests[count + 1] = True, True
-                cap = top
+            rests[count] |= cusp
+            rests[count + 1] |= cusp
             summed += piece
             caps[count] = cap
             count += 1
             distances[count] = summed
-        scale = span_length / summed if summed > 0.0 else 1.0
         for k in range(first + 1, count + 1):
-            distances[k] = joints[i] + distances[k] * scale
+            distances[k] = joints[i] + distances[k] * length / summed
         distances[count] = joints[i + 1]
-        _end_tangent(spans[i], True, before)
-        arrived = True
-    distances[count] = joints[m]
     return distances[: count + 1], caps[:count], rests[: count + 1]
+
+
+@kernel
+def _backward(distances: Floats, caps: Floats, rests: Flags, accel: float, last: float) -> Floats:
+    """The largest v² at every end of a stretch from which all that follows can be kept."""
+    n = distances.shape[0]
+    back = np.empty(n)
+    back[n - 1] = 0.0 if rests[n - 1] else min(last, caps[n - 2])
+    for i in range(n - 2, -1, -1):
+        limit = caps[i] if i == 0 else min(caps[i], caps[i - 1])
+        reach = back[i + 1] + 2.0 * accel * (distances[i + 1] - distances[i])
+        back[i] = 0.0 if rests[i] else min(limit, reach)
+    return back
+
+
+@kernel
+def _exceeds(square: float, limit: float) -> bool:
+    return square > limit * (1.0 + 1e-9) + 1e-12
+
+
+@kernel
+def _peak(
+    left: float,
+    width: float,
+    low: float,
+    high: float,
+    cap: float,
+    accel: float,
+    s: Floats,
+    e: Floats,
+    count: int,
+) -> int:
+    """Break points inside a stretch whose ends have the v² ``low`` and ``high``."""
+    slope = 2.0 * accel
+    rise, fall = (cap - low) / slope, width - (cap - high) / slope
+    if rise < fall:
+        for x in (rise, fall):
+            if 0.0 < x < width:
+                s[count], e[count] = left + x, cap
+                count += 1
+        return count
+    x = (high - low + slope * width) / (2.0 * slope)
+    if 0.0 < x < width:
+        s[count], e[count] = left + x, low + slope * x
+        count += 1
+    return count
 
 
 @kernel
@@ -258,27 +336,19 @@ def speed_profile(
         come to rest as it should (nan if there is none).
     """
     n = distances.shape[0]
-    back = np.empty(n)
-    back[n - 1] = 0.0 if rests[n - 1] else min(last, caps[n - 2])
-    for i in range(n - 2, -1, -1):
-        limit = caps[i] if i == 0 else min(caps[i], caps[i - 1])
-        reach = back[i + 1] + 2.0 * accel * (distances[i + 1] - distances[i])
-        back[i] = 0.0 if rests[i] else min(limit, reach)
-    s, e = np.empty(3 * n), np.empty(3 * n)
-    count = 1
-    s[0], e[0] = distances[0], first
-    over, missed = distances[0], np.nan
-    is_over = first > back[0] * (1.0 + 1e-9) + 1e-12
-    if not is_over:
-        e[0] = min(first, back[0])
-    elif rests[0]:
+    slope = 2.0 * accel
+    back = _backward(distances, caps, rests, accel, last)
+    s, e = np.empty(4 * n), np.empty(4 * n)
+    count, over, missed = 1, distances[0], np.nan
+    is_over = _exceeds(first, back[0])
+    s[0], e[0] = distances[0], first if is_over else min(first, back[0])
+    if is_over and rests[0]:
         missed = distances[0]
     for i in range(n - 1):
-        left, right, cap = distances[i], distances[i + 1], caps[i]
-        low = e[count - 1]
+        left, right, cap, low = distances[i], distances[i + 1], caps[i], e[count - 1]
         if is_over:
-            brake = low - 2.0 * accel * (right - left)
-            if brake > back[i + 1] * (1.0 + 1e-9) + 1e-12:
+            brake = low - slope * (right - left)
+            if _exceeds(brake, back[i + 1]):
                 if np.isnan(missed) and (rests[i + 1] or i == n - 2):
                     missed = right
                 over = right
@@ -286,30 +356,14 @@ def speed_profile(
                 count += 1
                 continue
             is_over = False
-            over = left
             if low > cap:
-                over = left + (low - cap) / (2.0 * accel)
-                if over < right:
-                    left, low = over, cap
-                    s[count], e[count] = left, low
-                    count += 1
-                else:
-                    over = right
-        width = right - left
-        high = min(back[i + 1], max(low, 0.0) + 2.0 * accel * width)
-        rise, fall = (cap - low) / (2.0 * accel), width - (cap - high) / (2.0 * accel)
-        if rise < fall:
-            if 0.0 < rise < width:
-                s[count], e[count] = left + rise, cap
+                left = over = min(left + (low - cap) / slope, right)
+                low = cap
+                s[count], e[count] = left, low
                 count += 1
-            if 0.0 < fall < width:
-                s[count], e[count] = left + fall, cap
-                count += 1
-        else:
-            peak = (high - low + 2.0 * accel * width) / (4.0 * accel)
-            if 0.0 < peak < width:
-                s[count], e[count] = left + peak, low + 2.0 * accel * peak
-                count += 1
-        s[count], e[count] = right, high
-        count += 1
+        high = min(back[i + 1], max(low, 0.0) + slope * (right - left))
+        count = _peak(left, right - left, low, high, cap, accel, s, e, count)
+        if right > s[count - 1]:
+            s[count], e[count] = right, high
+            count += 1
     return s[:count], np.maximum(e[:count], 0.0), over, missed
