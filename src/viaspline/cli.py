@@ -1,0 +1,289 @@
+"""The command line: arguments and exit codes, nothing else.
+
+Exit codes: 0 done; 2 the mission or the arguments are wrong; 3 there is no such path; 4 the robot
+did not reach its goal; 130 interrupted; 143 terminated; 1 a defect of viaspline itself.
+"""
+
+from __future__ import annotations
+
+import os
+import traceback
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viaspline import __version__
+from viaspline.errors import MissionError, NoPathError, ViasplineError
+from viaspline.report.messages import Terminated, no_path, say, tell, telling_warnings
+
+if TYPE_CHECKING:
+    from viaspline.mission.model import Mission
+    from viaspline.planner import Plan
+    from viaspline.report.files import Folder
+    from viaspline.report.film_file import FilmFile
+    from viaspline.report.progress import Watch
+
+DEFECT, WRONG, NO_PATH, NOT_REACHED, INTERRUPTED, TERMINATED = 1, 2, 3, 4, 130, 143
+
+
+class Commands(click.Group):
+    """The commands; every error that they raise becomes a message and an exit code."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run a command."""
+        try:
+            with telling_warnings():
+                return super().invoke(ctx)
+        except (click.ClickException, click.exceptions.Exit, click.Abort):
+            raise
+        except NoPathError as error:
+            tell(no_path(error))
+            ctx.exit(NO_PATH)
+        except MissionError as error:
+            tell(*(str(fault) for fault in error.faults), prefix="")
+            ctx.exit(WRONG)
+        except ViasplineError as error:
+            tell(str(error))
+            ctx.exit(WRONG)
+        except KeyboardInterrupt:
+            tell("interrupted; no file was left half written")
+            ctx.exit(INTERRUPTED)
+        except Terminated:
+            tell("terminated; no file was left half written")
+            ctx.exit(TERMINATED)
+        except Exception as error:
+            if os.environ.get("VIASPLINE_DEBUG"):
+                traceback.print_exc()
+            problem = " ".join(str(error).split())
+            tell(f"defect: {type(error).__name__}: {problem} (VIASPLINE_DEBUG=1 shows where)")
+            ctx.exit(DEFECT)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="viaspline")
+def cli() -> None:
+    """Lay a spline through your via points: round what stands in the way, proven clear, driven.
+
+    \b
+    Example:
+      viaspline run examples/fig8-patrol.yaml --out patrol
+    """
+
+
+MISSION = click.argument("mission", type=click.Path(path_type=Path))
+OUT = click.option(
+    "--out", type=click.Path(path_type=Path), metavar="DIR",
+    help="Folder for the results.  [default: viaspline-out/<name of the mission>]",
+)  # fmt: skip
+QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
+
+
+@cli.command()
+@MISSION
+@OUT
+@click.option("--seed", type=int, default=0, show_default=True, help="Of what is random.")
+@click.option(
+    "--animate", type=click.Path(path_type=Path), metavar="FILE", help="A .gif or .mp4 of the run."
+)
+@QUIET
+def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet: bool) -> None:
+    """Plan a mission, drive it and report: the main job.
+
+    Writes plan.json, path.csv, plan.png, run.json, run.csv, run.png and timing.json.
+
+    \b
+    Example:
+      viaspline run examples/fig8-patrol.yaml --out patrol --animate patrol/run.gif
+    """
+    asked = _load(mission)
+    with (
+        _folder(out or _default(mission), RUN_NAMES) as folder,
+        _film(animate) as film,
+        _watch(quiet) as watch,
+    ):
+        plan = _plan(asked, watch)
+        with watch.stage("simulate", "driving"):
+            from viaspline.robot.simulator import simulate
+
+            done = simulate(asked, seed=seed, progress=watch.fraction, plan=plan)
+        with watch.stage("report", "drawing and writing"):
+            from viaspline.report import results
+
+            contents = results.plan_contents(plan, mission.stem)
+            contents |= results.run_contents(done, mission.stem, seed=seed)
+            if film is not None:
+                from viaspline.report.animation import film_run
+
+                with watch.stage("animate", f"filming {film.path.name}"):
+                    film_run(done, mission.stem, film, watch.fraction)
+        files = results.write_all(folder, contents, watch.times, done)
+    if not quiet:
+        from viaspline.report.screen import plan_tables, run_tables, show
+
+        show(plan_tables(plan, mission.stem), run_tables(done, mission.stem))
+        _say_written([*files, *([] if film is None else [film.path])])
+    if not done.reached:
+        from viaspline.report.units import place, seconds
+
+        where = place(tuple(done.positions[-1].tolist()))
+        tell(
+            f"the robot did not reach its goal: {done.reason}",
+            f"  it stands at {where} since {seconds(done.duration)}",
+        )
+        click.get_current_context().exit(NOT_REACHED)
+
+
+@cli.command()
+@MISSION
+@OUT
+@QUIET
+def plan(mission: Path, out: Path | None, quiet: bool) -> None:
+    """Plan a mission: the path, its proof and what it was chosen from.
+
+    Writes plan.json, path.csv, plan.png and timing.json.
+
+    \b
+    Example:
+      viaspline plan examples/fig7-obstacles.yaml --out detour
+    """
+    asked = _load(mission)
+    with _folder(out or _default(mission), PLAN_NAMES) as folder, _watch(quiet) as watch:
+        planned = _plan(asked, watch)
+        with watch.stage("report", "drawing and writing"):
+            from viaspline.report import results
+
+            contents = results.plan_contents(planned, mission.stem)
+        files = results.write_all(folder, contents, watch.times)
+    if not quiet:
+        from viaspline.report.screen import plan_tables, show
+
+        show(plan_tables(planned, mission.stem))
+        _say_written(files)
+
+
+@cli.command()
+@click.argument("mission", type=click.Path(path_type=Path), required=False)
+@click.option("--schema", is_flag=True, help="Print the JSON Schema of missions, for editors.")
+def check(mission: Path | None, schema: bool) -> None:
+    """Say whether a mission is sound: every fault at once, as file:line:column: key: what.
+
+    \b
+    Examples:
+      viaspline check examples/fig8-patrol.yaml
+      viaspline check --schema > mission.schema.json
+    """
+    if schema:
+        import json
+
+        from viaspline.mission.schema import json_schema
+
+        say(json.dumps(json_schema(), indent=2))
+        return
+    if mission is None:
+        raise click.UsageError("give a mission, or --schema")
+    from viaspline.report.summary import summary
+
+    lines = summary(_load(mission))
+    say(f"{mission} is sound", *(f"  {name:<7} {words}" for name, words in lines))
+
+
+@cli.command()
+@click.option(
+    "--out", type=click.Path(path_type=Path), metavar="DIR", default=Path("viaspline-out/figures"),
+    show_default=True, help="Folder for the figures.",
+)  # fmt: skip
+@QUIET
+def figures(out: Path, quiet: bool) -> None:
+    """Make the figures of the paper again, and one that it lacks.
+
+    \b
+    Example:
+      viaspline figures --out figures
+    """
+    with _folder(out, FIGURE_NAMES) as folder, _watch(quiet) as watch:
+        contents = {}
+        with watch.stage("load", "loading"):
+            from viaspline.report.figures import FIGURES
+        for name, (_, draw) in FIGURES.items():
+            with watch.stage(name, f"drawing {name}"):
+                contents[name] = draw()
+        files = [folder.write(name, content) for name, content in contents.items()]
+    if not quiet:
+        say(*(f"{name:<14} {caption}" for name, (caption, _) in FIGURES.items()))
+        _say_written(files)
+
+
+PLAN_NAMES = ("plan.json", "path.csv", "plan.png", "timing.json")
+RUN_NAMES = (*PLAN_NAMES, "run.json", "run.csv", "run.png")
+FIGURE_NAMES = tuple(
+    f"{name}.png" for name in ("fig2", "fig3", "fig5", "fig6", "fig7", "fig8", "curvature")
+)
+
+
+def _default(mission: Path) -> Path:
+    return Path("viaspline-out") / (mission.stem or "mission")
+
+
+def _load(path: Path) -> Mission:
+    from viaspline.formats.load import load
+
+    return load(path)
+
+
+@contextmanager
+def _folder(path: Path, names: Iterable[str]) -> Iterator[Folder]:
+    """The folder of the results, tried before the work and not left empty by a failure."""
+    from viaspline.report.files import Folder
+
+    folder = Folder(path, names)
+    old = folder.holds_earlier_results()
+    try:
+        yield folder
+    except BaseException:
+        folder.forget_if_empty()
+        if old:
+            tell(f"what {path} holds is from an earlier run", prefix="note: ")
+        raise
+
+
+@contextmanager
+def _film(path: Path | None) -> Iterator[FilmFile | None]:
+    """The file of the animation, tried before the work."""
+    from viaspline.report.film_file import FilmFile
+
+    film = None if path is None else FilmFile(path)
+    try:
+        yield film
+    except BaseException:
+        if film is not None:
+            film.folder.forget_if_empty()
+        raise
+
+
+@contextmanager
+def _watch(quiet: bool) -> Iterator[Watch]:
+    """Progress, which hears of every kernel that is compiled within the block."""
+    from viaspline.report.progress import Watch
+
+    watch = Watch(quiet=quiet)
+    with watch.stage("start", "starting"):
+        from viaspline.kernels.jit import compile_progress
+    with compile_progress(watch.compiling):
+        yield watch
+
+
+def _plan(mission: Mission, watch: Watch) -> Plan:
+    with watch.stage("plan", "planning"):
+        from viaspline import planner
+
+        return planner.plan(mission)
+
+
+def _say_written(files: list[Path]) -> None:
+    folders: dict[Path, list[str]] = {}
+    for file in files:
+        folders.setdefault(file.parent, []).append(file.name)
+    say(*(f"wrote {', '.join(names)} into {folder}" for folder, names in folders.items()))

@@ -1,0 +1,149 @@
+"""The film of a run: the robot, what it sees, what it knows, and the path that it follows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import shapely
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, PathPatch
+
+from viaspline.detour.brief import Brief
+from viaspline.report import style
+from viaspline.report.column import Column
+from viaspline.report.drawing import Floats, outline, polyline
+from viaspline.report.film import Frame, write_film
+from viaspline.report.film_file import FilmFile
+from viaspline.report.labels import Labels
+from viaspline.report.marks import draw_vias
+from viaspline.report.run_picture import thinned
+from viaspline.report.scene import Scene
+from viaspline.report.sheet import Sheet, new_sheet, view_of
+from viaspline.robot.run import Run
+
+FRAMES = 180
+DPI = 80
+
+
+def film_run(run: Run, name: str, film: FilmFile, progress: Callable[[float], None]) -> None:
+    """Film a run.
+
+    Args:
+        run: What was driven.
+        name: The mission's name.
+        film: Where to.
+        progress: Hears how much is done, from 0 to 1.
+    """
+    count = int(np.clip(len(run.times), 2, FRAMES))
+    write_film(film, frames(run, name, count), count, progress)
+
+
+def frames(run: Run, name: str, count: int) -> Iterator[Frame]:
+    """Pictures of the run, equally far apart in time."""
+    stage = _Stage(run, name)
+    for time in np.linspace(run.times[0], run.times[-1], count):
+        yield stage.frame(float(time))
+
+
+class _Stage:
+    """What stands still is drawn once; what moves is drawn onto it for every frame."""
+
+    def __init__(self, run: Run, name: str) -> None:
+        self._run = run
+        mission = run.plan.mission
+        scene = Scene.of(run.plan.world, Brief.of(mission).required, mission.world.unseen)
+        planned = polyline(run.plan.path.spans)
+        seen = np.vstack([planned, run.positions[:, :2]])
+        view = view_of(seen, scene.corners, scene.box, scene.required)
+        self._sheet = sheet = new_sheet(view, (), style.short(name, 48), (), dpi=DPI)
+        labels = Labels(sheet.map)
+        handles = scene.draw(sheet.map, sheet.pixels_per_metre, reveal=False)
+        vias, places = draw_vias(sheet.map, labels, run.plan.path.vias, mission)
+        labels.place(planned, places)
+        self._moving = _moving(sheet.map, sheet.pixels_per_metre, run)
+        self._found = _found(sheet.map, run, scene)
+        legend = [*handles, *vias, *(m for m in self._moving[:4] if isinstance(m, Artist))]
+        Column(sheet).legend([*legend, *(patch for _, patch in self._found[:1])])
+        self._clock = _clock(sheet)
+        self._paths = [(-np.inf, planned)]
+        self._paths += [(replan.time, polyline(replan.path.spans)) for replan in run.replans]
+        canvas = sheet.figure.canvas
+        assert isinstance(canvas, FigureCanvasAgg)
+        self._canvas = canvas
+        for artist in (*self._moving, *(patch for _, patch in self._found), self._clock):
+            artist.set_animated(True)
+        canvas.draw()
+        self._still = canvas.copy_from_bbox(sheet.figure.bbox)  # type: ignore[no-untyped-call]
+
+    def frame(self, time: float) -> Frame:
+        """The picture at a time [s]."""
+        run, (old, path, trail, robot, sight) = self._run, self._moving
+        x, y = (float(np.interp(time, run.times, run.positions[:, axis])) for axis in (0, 1))
+        now = max(i for i, (start, _) in enumerate(self._paths) if start <= time)
+        path.set_data(*self._paths[now][1].T)
+        old.set_data(*(self._paths[now - 1][1] if now else np.zeros((0, 2))).T)
+        driven = run.positions[: int(np.searchsorted(run.times, time, side="right")), :2]
+        trail.set_data(*np.vstack([thinned(driven, 1500), [[x, y]]]).T)
+        robot.set_center((x, y))
+        sight.set_center((x, y))
+        speed = float(np.interp(time, run.times, run.speeds))
+        self._clock.set_text(f"{time:7.1f} s   {speed:5.2f} m/s")
+        self._canvas.restore_region(self._still)  # type: ignore[no-untyped-call]
+        found = [patch for start, patch in self._found if start <= time]
+        for artist in (sight, *found, old, path, trail, robot):
+            self._sheet.map.draw_artist(artist)
+        self._sheet.figure.draw_artist(self._clock)
+        pixels = np.asarray(self._canvas.buffer_rgba())[..., :3]
+        height, width = (size - size % 2 for size in pixels.shape[:2])
+        return pixels[:height, :width].copy()
+
+
+def _clock(sheet: Sheet) -> Artist:
+    across, up = sheet.figure.get_size_inches()
+    x = sheet.map.get_position().x0
+    return sheet.figure.text(
+        x, 1 - 0.62 / up, "", size=style.TITLE - 2, color=style.MUTED, va="center",
+        family="DejaVu Sans Mono",
+    )  # fmt: skip
+
+
+def _moving(
+    axes: Axes, pixels_per_metre: float, run: Run
+) -> tuple[Line2D, Line2D, Line2D, Circle, Circle]:
+    """Old path, path, trail, robot, what the sensor reaches."""
+    (old,) = axes.plot([], [], color=style.OLD_PATH, linewidth=1.2, linestyle=(0, (5, 2)),
+                       zorder=7, label="path before")  # fmt: skip
+    (path,) = axes.plot([], [], color=style.SENSOR, linewidth=1.8, zorder=8, label="path")
+    (trail,) = axes.plot([], [], color=style.PATH, linewidth=2.8, zorder=9, label="driven",
+                         solid_capstyle="round")  # fmt: skip
+    robot_spec = run.plan.mission.robot
+    size = max(robot_spec.radius_m, 5.0 / pixels_per_metre)
+    robot = Circle((0, 0), size, facecolor=style.UNSEEN, edgecolor=style.INK, linewidth=0.8,
+                   zorder=30, label="robot")  # fmt: skip
+    reach = robot_spec.sensor.range_m if robot_spec.sensor is not None else 0.0
+    sight = Circle((0, 0), reach, facecolor=style.SENSOR, alpha=0.18, zorder=2.4)
+    for patch in (robot, sight):
+        axes.add_patch(patch)
+    return old, path, trail, robot, sight
+
+
+def _found(axes: Axes, run: Run, scene: Scene) -> list[tuple[float, Artist]]:
+    """Unseen obstacles, and when the sensor first reaches each [s]."""
+    sensor = run.plan.mission.robot.sensor
+    found: list[tuple[float, Artist]] = []
+    points = shapely.points(run.positions[:, :2])
+    for shape in scene.unseen:
+        reached = shapely.distance(points, shape) <= (sensor.range_m if sensor else -1.0)
+        if not reached.any():
+            continue
+        patch = PathPatch(
+            outline(shape), facecolor=style.UNSEEN_FILL, edgecolor=style.UNSEEN, hatch="////",
+            linewidth=0.9, zorder=5, label="found under way",
+        )  # fmt: skip
+        axes.add_patch(patch)
+        found.append((float(run.times[int(np.argmax(reached))]), patch))
+    return found

@@ -1,0 +1,62 @@
+"""What is said on the terminal in plain lines: never wrapped, no colour codes in a pipe."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import click
+
+from viaspline.errors import MissionWarning, NoPathError
+
+
+class Terminated(BaseException):
+    """The process was asked to end (SIGTERM)."""
+
+
+def say(*lines: str) -> None:
+    """Lines on the output stream; nobody listening any more is no error."""
+    try:
+        for line in lines:
+            click.echo(line)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        deafen()
+
+
+def deafen() -> None:
+    """Send the rest of the output stream nowhere, after its reader has gone."""
+    with open(os.devnull, "w") as nowhere:
+        os.dup2(nowhere.fileno(), sys.stdout.fileno())
+
+
+def tell(*lines: str, prefix: str = "viaspline: ") -> None:
+    """A message on the error stream; the first line begins with the prefix in red."""
+    for i, line in enumerate(lines):
+        start = click.style(prefix, fg="red", bold=True) if prefix and i == 0 else ""
+        click.echo(start + line, err=True)
+
+
+def no_path(error: NoPathError) -> str:
+    """Why there is no path, where, and what would help, on a line each."""
+    where = ", ".join(f"{x:.2f}" for x in error.where)
+    return (
+        f"there is no such path: {error.reason}\n  where:  ({where})\n  remedy: {error.remedy}"
+    )
+
+
+@contextmanager
+def telling_warnings() -> Iterator[None]:
+    """Within the block a warning is one line on the error stream."""
+
+    def show(message: Warning | str, *_: Any, **__: Any) -> None:
+        tell(" ".join(str(message).split()), prefix="warning: ")
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", MissionWarning)
+        warnings.showwarning = show
+        yield

@@ -1,0 +1,107 @@
+"""``plan.json``: the exact curve, its proof and the ledger of what was tried."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from viaspline.curve.certificate import Certificate
+from viaspline.curve.path import Path
+from viaspline.detour.ledger import LedgerEntry
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan
+from viaspline.report.plain import dumps
+from viaspline.report.summary import tension
+
+
+def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
+    """The text of ``plan.json``.
+
+    Args:
+        plan: What was planned.
+        name: The mission's name.
+        spacing: Of the points in ``path.csv`` [m].
+    """
+    return dumps(
+        {
+            "mission": mission_summary(plan.mission, name),
+            "path": {**path_data(plan.path), "csv_spacing_m": spacing},
+            "certificate": certificate_data(plan.certificate),
+            "ledger": [_entry(entry) for entry in plan.ledger],
+            "trajectory": {
+                "duration_s": plan.trajectory.duration,
+                "stations": [
+                    {"name": s.name, "distance_m": s.distance, "dwell_s": s.dwell}
+                    for s in plan.trajectory.stations
+                ],
+            },
+        }
+    )
+
+
+def mission_summary(mission: Mission, name: str) -> dict[str, Any]:
+    """What somebody who finds the file later needs to read it."""
+    robot, spline = mission.robot, mission.spline
+    return {
+        "name": name,
+        "frame": "ENU: x east, y north; headings anticlockwise from x",
+        "robot_radius_m": robot.radius_m,
+        "required_clearance_m": robot.clearance_m,
+        "max_speed_mps": robot.max_speed_mps,
+        "max_accel_mps2": robot.max_accel_mps2,
+        "max_lateral_accel_mps2": robot.max_lateral_accel_mps2,
+        "tension": tension(mission),
+        "knots": spline.knots,
+        "tangents": spline.tangents,
+        "closed": mission.route.closed,
+    }
+
+
+def path_data(path: Path) -> dict[str, Any]:
+    """A path: exact spans, via points, length and largest curvature."""
+    return {
+        "spans": path.spans,
+        "vias": [
+            {
+                "name": via.name,
+                "at": via.at,
+                "distance_m": distance,
+                "kind": via.kind,
+                "dwell_s": via.dwell,
+            }
+            for via, distance in zip(path.vias, path.via_distances, strict=True)
+        ],
+        "length_m": path.length,
+        "max_curvature_1pm": path.max_curvature()[0],
+    }
+
+
+def certificate_data(certificate: Certificate) -> dict[str, Any]:
+    """A certificate; ``clearance_m`` is null when there is nothing to keep clear of."""
+    return {
+        "clearance_m": certificate.clearance,
+        "required_clearance_m": certificate.required,
+        "holds": certificate.holds,
+        "tightest_at": certificate.tightest_at,
+        "tightest_distance_m": certificate.tightest_distance,
+        "nearest": certificate.obstacle,
+    }
+
+
+def _entry(entry: LedgerEntry) -> dict[str, Any]:
+    return {
+        "members": entry.members,
+        "leg": entry.leg,
+        "chosen": None if entry.chosen is None else entry.chosen.side,
+        "candidates": [
+            {
+                "side": candidate.side,
+                "chosen": candidate.chosen,
+                "vias": candidate.vias,
+                "length_m": candidate.length,
+                "clearance_m": candidate.clearance,
+                "max_curvature_1pm": candidate.max_curvature,
+                "impossible": candidate.impossible,
+            }
+            for candidate in entry.candidates
+        ],
+    }

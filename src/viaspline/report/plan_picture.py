@@ -1,0 +1,175 @@
+"""``plan.png``: the planned path in its world, what it was chosen from, and its time law."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle
+
+from viaspline.curve.certificate import Certificate
+from viaspline.curve.path import Path
+from viaspline.detour.brief import Brief
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan
+from viaspline.report import strips, style
+from viaspline.report.column import Column
+from viaspline.report.drawing import Floats, png, polyline
+from viaspline.report.labels import Labels
+from viaspline.report.marks import draw_arrows, draw_path, draw_tightest, draw_vias
+from viaspline.report.scene import Scene
+from viaspline.report.sheet import Sheet, new_sheet, view_of
+from viaspline.report.summary import spline_words
+from viaspline.report.units import down, metres, seconds
+
+LOSERS_NAMED = 8
+
+
+def plan_picture(plan: Plan, name: str) -> bytes:
+    """The picture as PNG.
+
+    Args:
+        plan: What was planned.
+        name: The mission's name.
+    """
+    required = Brief.of(plan.mission).required
+    scene = Scene.of(plan.world, required)
+    points = polyline(plan.path.spans)
+    losers = [
+        (candidate, polyline(candidate.spans))
+        for entry in plan.ledger
+        for candidate in entry.candidates
+        if not candidate.chosen and len(candidate.spans)
+    ]
+    seen = np.vstack([points, *(line for _, line in losers)])
+    view = view_of(seen, scene.corners, scene.box, required)
+    law = plan.trajectory
+    title = f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in {seconds(law.duration)}"
+    lines = (proof(plan.certificate), subtitle(plan.mission))
+    sheet = new_sheet(view, strips.names(plan.path.spans[:, 0]), title, lines)
+    labels = Labels(sheet.map)
+    handles = scene.draw(sheet.map, sheet.pixels_per_metre)
+    scene.name(labels)
+    handles += _draw_losers(sheet, labels, plan, losers)
+    handles.append(draw_path(sheet.map, points))
+    vias, places = draw_vias(sheet.map, labels, plan.path.vias, plan.mission)
+    draw_arrows(sheet.map, points, style.PATH, avoid=places)
+    handles += vias + draw_tightest(sheet.map, labels, plan.certificate)
+    labels.place(np.vstack([points, *(line[::3] for _, line in losers)]), places)
+    _fill_strips(sheet, plan)
+    column = Column(sheet)
+    column.legend(handles)
+    close_up(column, scene, plan.path, plan.certificate, points, plan.mission.robot.radius_m)
+    return png(sheet.figure)
+
+
+def subtitle(mission: Mission) -> str:
+    """How the curve was asked to be, and by whom it is driven."""
+    robot = mission.robot
+    return (
+        f"{spline_words(mission)}; robot of radius {robot.radius_m:g} m, "
+        f"at most {robot.max_speed_mps:g} m/s"
+    )
+
+
+def proof(certificate: Certificate) -> str:
+    """The proven clearance in a few words."""
+    if not np.isfinite(certificate.clearance):
+        return "nothing to keep clear of"
+    return (
+        f"proven: nowhere closer than {down(certificate.clearance)} to anything "
+        f"({metres(certificate.required)} was asked for)"
+    )
+
+
+def via_ticks(path: Path) -> list[tuple[float, str]]:
+    """Where the points of the route lie along a path, and their numbers."""
+    ticks = []
+    users = [(via, d) for via, d in zip(path.vias, path.via_distances, strict=True) if via.kind == "user"]
+    for number, (_, distance) in enumerate(users):
+        ends = {0: "S", len(users) - 1: "G"}
+        ticks.append((float(distance), ends.get(number, str(number))))
+    return ticks
+
+
+def _draw_losers(
+    sheet: Sheet, labels: Labels, plan: Plan, losers: list[tuple[object, Floats]]
+) -> list[Artist]:
+    handles: list[Artist] = []
+    for _, line in losers:
+        (handle,) = sheet.map.plot(
+            *line.T, color=style.LOSER, linewidth=1.1, linestyle=(0, (5, 3)), alpha=0.75,
+            zorder=6, scalex=False, scaley=False, label="way not taken",
+        )  # fmt: skip
+        handles = [handle]
+    named = 0
+    for entry in plan.ledger:
+        taken = entry.chosen
+        for candidate in entry.candidates:
+            if candidate.chosen or not len(candidate.spans) or named >= LOSERS_NAMED:
+                continue
+            if taken is None or taken.length is None or candidate.length is None:
+                continue
+            text = f"{candidate.side}: {candidate.length - taken.length:+.1f} m"
+            labels.add(text, _far_from(candidate.spans, taken.spans), rank=4, colour=style.LOSER)
+            named += 1
+    return handles
+
+
+def _far_from(spans: Floats, others: Floats) -> tuple[float, float]:
+    """The point of a curve that is farthest from another one."""
+    line, other = polyline(spans, 20), polyline(others, 20)
+    apart = np.hypot(*(line[:, None] - other[None]).transpose(2, 0, 1)).min(axis=1)
+    x, y = line[int(np.argmax(apart))]
+    return float(x), float(y)
+
+
+def _fill_strips(sheet: Sheet, plan: Plan) -> None:
+    path, law = plan.path, plan.trajectory
+    joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
+    even = np.linspace(0, path.length, 1500)
+    near = np.concatenate([law.distances, joints, np.maximum(joints - 1e-7 * path.length, 0)])
+    distances = np.unique(np.concatenate([even, near[: 20_000]]))
+    u = np.asarray(path.parameter(distances))
+    values = [np.asarray(law.speed_at(distances)), np.asarray(path.curvature(u))]
+    if len(sheet.strips) == 3:
+        values.append(np.asarray(path.evaluate(u))[:, 2])
+    strips.fill(sheet.strips, distances, values, via_ticks(path), style.PATH)
+
+
+def close_up(
+    column: Column, scene: Scene, path: Path, certificate: Certificate, points: Floats, radius: float
+) -> None:
+    """The tightest place, large enough to see the clearance."""
+    if certificate.obstacle is None or column.room < 2.75 or scene.required <= 0:
+        return
+    height = min(2.3, column.room - 0.5)
+    title = f"tightest place: {down(certificate.clearance)} beside {style.short(certificate.obstacle, 16)}"
+    axes = column.axes(height, title)
+    x, y = certificate.tightest_at[:2]
+    half = 5.0 * max(scene.required, 1.2 * certificate.clearance + radius)
+    box = axes.get_window_extent()
+    axes.set_xlim(x - half, x + half)
+    axes.set_ylim(y - half * box.height / box.width, y + half * box.height / box.width)
+    scale = box.width / (2 * half)
+    column.scale_bar(axes, scale)
+    scene.draw(axes, scale)
+    distance = certificate.tightest_distance
+    near = np.linspace(max(distance - 3 * half, 0), min(distance + 3 * half, path.length), 400)
+    line = np.asarray(path.at_distance(near))[:, :2]
+    draw_path(axes, line)
+    axes.add_patch(Circle((x, y), radius, facecolor=style.SENSOR, edgecolor=style.INK, zorder=10, linewidth=0.7))
+    nearest = scene.nearest_to(certificate.tightest_at)
+    if nearest is not None:
+        _gap(axes, (x, y), nearest, radius)
+
+
+def _gap(axes: Axes, robot: tuple[float, float], wall: tuple[float, float], radius: float) -> None:
+    """The clearance as a bar from the body to the obstacle."""
+    way = np.subtract(wall, robot)
+    distance = float(np.hypot(*way))
+    if distance <= radius:
+        return
+    body = np.array(robot) + way * (radius / distance)
+    axes.add_line(Line2D(*np.array([body, wall]).T, color=style.TIGHTEST, linewidth=2, zorder=15))

@@ -1,0 +1,58 @@
+"""Everything that a plan or a run leaves in its folder."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from viaspline.planner import Plan
+from viaspline.report.files import Folder
+from viaspline.report.plan_json import plan_json
+from viaspline.report.plan_picture import plan_picture
+from viaspline.report.run_json import run_json, timing_json
+from viaspline.report.run_picture import run_picture
+from viaspline.report.tables import path_csv, run_csv, spacing
+from viaspline.robot.run import Run
+
+PLAN_FILES = ("plan.json", "path.csv", "plan.png")
+RUN_FILES = ("run.json", "run.csv", "run.png")
+TIMING = "timing.json"
+
+Contents = dict[str, bytes | str]
+
+
+def plan_contents(plan: Plan, name: str) -> Contents:
+    """The files of a plan: the same bytes every time."""
+    return {
+        "plan.json": plan_json(plan, name, spacing=spacing(plan.path.length)),
+        "path.csv": path_csv(plan),
+        "plan.png": plan_picture(plan, name),
+    }
+
+
+def run_contents(run: Run, name: str, *, seed: int = 0) -> Contents:
+    """The files of a run, without those of its plan."""
+    return {
+        "run.json": run_json(run, name, seed=seed),
+        "run.csv": run_csv(run),
+        "run.png": run_picture(run, name),
+    }
+
+
+def write_all(
+    folder: Folder, contents: Contents, stages: Mapping[str, float], run: Run | None = None
+) -> list[Path]:
+    """Write every file when all are there, so that old and new ones are not mixed.
+
+    Args:
+        folder: Where to.
+        contents: The files.
+        stages: Wall-clock time of every stage, for ``timing.json`` [s].
+        run: For the times of its re-plans.
+
+    Returns:
+        The paths of the files.
+    """
+    timing = timing_json(stages, run.compute_times if run is not None else ())
+    everything = {**contents, TIMING: timing}
+    return [folder.write(name, content) for name, content in everything.items()]

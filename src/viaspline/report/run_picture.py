@@ -1,0 +1,168 @@
+"""``run.png``: what was driven, how fast, what was found under way and what was done about it."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.artist import Artist
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Colormap, ListedColormap, Normalize
+
+from viaspline.curve.path import PathVia
+from viaspline.detour.brief import Brief
+from viaspline.report import strips, style
+from viaspline.report.column import Column
+from viaspline.report.drawing import Floats, png, polyline
+from viaspline.report.labels import Labels
+from viaspline.report.marks import draw_arrows, draw_tightest, draw_vias
+from viaspline.report.plan_picture import close_up, proof, subtitle, via_ticks
+from viaspline.report.scene import Scene
+from viaspline.report.sheet import Sheet, new_sheet, view_of
+from viaspline.report.units import metres, seconds
+from viaspline.robot.run import Event, Run
+
+PIECES = 4000  # of the coloured line, at most
+NOTED = ("detected", "replanned", "skipped", "braked", "stopped", "contact")
+MARKED = {"detected": ("x", "detected"), "braked": ("v", "braked"), "stopped": ("X", "stopped"),
+          "skipped": ("P", "gave up a via point"), "contact": ("*", "contact")}  # fmt: skip
+
+
+def run_picture(run: Run, name: str) -> bytes:
+    """The picture as PNG.
+
+    Args:
+        run: What was driven.
+        name: The mission's name.
+    """
+    mission = run.plan.mission
+    required = Brief.of(mission).required
+    scene = Scene.of(run.plan.world, required, mission.world.unseen)
+    planned = polyline(run.plan.path.spans)
+    driven = run.positions[:, :2]
+    seen = np.vstack([planned, driven])
+    view = view_of(seen, scene.corners, scene.box, required)
+    sheet = new_sheet(view, strips.names(run.positions), *_heading(run, name))
+    labels = Labels(sheet.map)
+    handles = scene.draw(sheet.map, sheet.pixels_per_metre)
+    scene.name(labels)
+    handles.append(_draw_planned(sheet, planned))
+    colours, limits = speed_colours(run.speeds)
+    draw_driven(sheet, run, colours, limits)
+    vias, places = draw_vias(sheet.map, labels, _all_vias(run), mission)
+    draw_arrows(sheet.map, thinned(driven), style.INK, avoid=places, every=150)
+    handles += vias + _draw_events(sheet, labels, run)
+    handles += draw_tightest(sheet.map, labels, run.certificate)
+    noted = [event.at[:2] for event in run.events if event.kind in NOTED]
+    labels.place(np.vstack([planned, thinned(driven)]), np.vstack([places, *noted]))
+    _fill_strips(sheet, run)
+    column = Column(sheet)
+    column.colour_bar(colours, limits, "speed of the driven path [m/s]")
+    column.legend(handles)
+    column_notes = [note(event) for event in run.events if event.kind in NOTED]
+    if column.room > 2.75 + 0.155 * min(len(column_notes), 6):
+        close_up(column, scene, run.path, run.certificate, planned, mission.robot.radius_m)
+    column.notes("Under way", column_notes)
+    return png(sheet.figure)
+
+
+def _heading(run: Run, name: str) -> tuple[str, tuple[str, str]]:
+    end = "reached its goal" if run.reached else "did NOT reach its goal"
+    title = (
+        f"{style.short(name, 48)}: {end}, {metres(run.path.length, 1)} in {seconds(run.duration)}"
+    )
+    why = "" if run.reached else f"{run.reason}; "
+    new = {0: "no new path under way", 1: "1 new path under way"}
+    paths = new.get(len(run.replans), f"{len(run.replans)} new paths under way")
+    line = f"{why}{proof(run.certificate)}; {paths}"
+    return title, (line, subtitle(run.plan.mission))
+
+
+def note(event: Event) -> str:
+    """An event on one short line."""
+    return style.short(f"{event.time:.1f} s  {event.message or event.kind}", 62)
+
+
+def speed_colours(speeds: Floats) -> tuple[Colormap, Normalize]:
+    """Colours from standing to full speed, dark enough for white paper at both ends."""
+    whole = colormaps[style.SPEED_MAP]
+    top = float(speeds.max()) if speeds.size else 0.0
+    return ListedColormap(whole(np.linspace(0.0, 0.93, 256))), Normalize(0.0, max(top, 1e-3))
+
+
+def thinned(points: Floats, most: int = PIECES) -> Floats:
+    """At most so many of the points, the last one among them."""
+    if len(points) <= most:
+        return points
+    return points[np.linspace(0, len(points) - 1, most).round().astype(int)]
+
+
+def draw_driven(sheet: Sheet, run: Run, colours: Colormap, limits: Normalize) -> None:
+    """The driven path in the colours of its speed, with a dark edge."""
+    points = thinned(run.positions[:, :2])
+    speeds = thinned(run.speeds[:, None])[:, 0]
+    sheet.map.plot(
+        *points.T, color=style.INK, linewidth=3.4, zorder=7.5, solid_capstyle="round",
+        scalex=False, scaley=False,
+    )  # fmt: skip
+    pieces = LineCollection(
+        list(np.stack([points[:-1], points[1:]], axis=1)), cmap=colours, norm=limits,
+        linewidths=2.4, zorder=8, capstyle="round",
+    )  # fmt: skip
+    pieces.set_array((speeds[:-1] + speeds[1:]) / 2)
+    sheet.map.add_collection(pieces, autolim=False)
+
+
+def _draw_planned(sheet: Sheet, planned: Floats) -> Artist:
+    (line,) = sheet.map.plot(
+        *planned.T, color=style.OLD_PATH, linewidth=1.1, linestyle=(0, (6, 2)), zorder=7,
+        scalex=False, scaley=False, label="path planned before",
+    )  # fmt: skip
+    return line
+
+
+def _all_vias(run: Run) -> list[PathVia]:
+    """Points of the route as planned, detours as driven."""
+    users = [via for via in run.plan.path.vias if via.kind == "user"]
+    return [*users, *(via for via in run.path.vias if via.kind == "detour")]
+
+
+def _draw_events(sheet: Sheet, labels: Labels, run: Run) -> list[Artist]:
+    handles: dict[str, Artist] = {}
+    for event in run.events:
+        if event.kind not in MARKED:
+            continue
+        marker, words = MARKED[event.kind]
+        (handles[event.kind],) = sheet.map.plot(
+            *event.at[:2], marker=marker, markersize=6.5, color=style.UNSEEN, linestyle="none",
+            markeredgecolor=style.UNSEEN if marker == "x" else "white",
+            markeredgewidth=1.8 if marker == "x" else 0.6, zorder=15, label=words,
+        )  # fmt: skip
+        if event.kind != "detected":
+            labels.add(f"{words}, {event.time:.0f} s", event.at[:2], rank=2, colour=style.UNSEEN)
+    for replan in run.replans:
+        (handles["replanned"],) = sheet.map.plot(
+            *replan.at[:2], marker="D", markersize=6, markerfacecolor="white",
+            markeredgecolor=style.UNSEEN, markeredgewidth=1.4, linestyle="none", zorder=14.5,
+            label="new path from here",
+        )  # fmt: skip
+        labels.add(
+            f"new path, {replan.time:.0f} s ({replan.mode.replace('_', ' ')})",
+            (replan.at[0], replan.at[1]), rank=4, colour=style.UNSEEN,
+        )  # fmt: skip
+    return [*handles.values()]
+
+
+def _fill_strips(sheet: Sheet, run: Run) -> None:
+    steps = np.hypot(*np.diff(run.positions[:, :2], axis=0).T)
+    if run.positions.shape[1] == 3:
+        steps = np.hypot(steps, np.diff(run.positions[:, 2]))
+    distances = np.concatenate([[0.0], np.cumsum(steps)])
+    keep = thinned(np.arange(len(distances), dtype=float), 6000).astype(int)
+    values = [run.speeds[keep], run.curvatures[keep]]
+    if len(sheet.strips) == 3:
+        values.append(run.positions[keep, 2])
+    strips.fill(sheet.strips, distances[keep], values, via_ticks(run.path), style.PATH)
+    for replan in run.replans:
+        sheet.strips[0].axvline(replan.distance, color=style.UNSEEN, linewidth=0.9, linestyle=":")
+
+

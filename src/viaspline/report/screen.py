@@ -1,0 +1,133 @@
+"""Tables for the terminal."""
+
+from __future__ import annotations
+
+import sys
+
+from rich import box
+from rich.console import Console, Group, RenderableType
+from rich.table import Table
+
+from viaspline.detour.ledger import Candidate, LedgerEntry
+from viaspline.planner import Plan
+from viaspline.report.messages import deafen
+from viaspline.report.units import curvature, down, metres, place, seconds
+from viaspline.robot.run import Run
+
+LINES = 12  # of a long list, before the rest is only counted
+
+
+def console(*, stderr: bool = False) -> Console:
+    """A console that takes names as they are, and never wraps when it is not a terminal."""
+    plain = Console(stderr=stderr, markup=False, highlight=False, emoji=False)
+    if not plain.is_terminal:
+        plain = Console(stderr=stderr, markup=False, highlight=False, emoji=False, width=160)
+    return plain
+
+
+def plan_tables(plan: Plan, name: str) -> RenderableType:
+    """The path in figures, and its ledger."""
+    path, certificate = plan.path, plan.certificate
+    facts = _facts(f"Plan · {name}")
+    users = [via for via in path.vias if via.kind == "user"]
+    detours = len(path.vias) - len(users)
+    facts.add_row("length", metres(path.length, 1))
+    facts.add_row("duration", seconds(plan.trajectory.duration))
+    facts.add_row("points of the route", f"{len(users)}, and {detours} of detours")
+    facts.add_row(
+        "clearance, proven", f"{down(certificate.clearance)} (asked {metres(certificate.required)})"
+    )
+    if certificate.obstacle is not None:
+        facts.add_row(
+            "tightest place",
+            f"{place(certificate.tightest_at)} at {metres(certificate.tightest_distance, 1)}, "
+            f"beside {certificate.obstacle}",
+        )
+    facts.add_row("largest curvature", curvature(path.max_curvature()[0]))
+    stations = [s for s in plan.trajectory.stations if s.dwell > 0]
+    if stations:
+        facts.add_row("stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:LINES]))
+    return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
+
+
+def ledger_table(ledger: tuple[LedgerEntry, ...]) -> RenderableType:
+    """Every group met and every side tried."""
+    table = Table(title="Detours", title_justify="left", box=box.SIMPLE_HEAD)
+    for column in ("leg", "past", "side", "length", "clearance", "curvature", ""):
+        table.add_column(column, justify="right" if column in _NUMBERS else "left")
+    for entry in ledger[:LINES]:
+        leg, past = " → ".join(entry.leg), _members(entry.members)
+        for candidate in entry.candidates:
+            table.add_row(leg, past, candidate.side, *_candidate(candidate))
+            leg = past = ""
+    if len(ledger) > LINES:
+        table.add_row(f"… {len(ledger) - LINES} more in plan.json")
+    return table
+
+
+_NUMBERS = ("length", "clearance", "curvature")
+
+
+def _members(members: tuple[str, ...]) -> str:
+    more = f" and {len(members) - 3} more" if len(members) > 3 else ""
+    return ", ".join(members[:3]) + more
+
+
+def _candidate(candidate: Candidate) -> tuple[str, str, str, str]:
+    if candidate.impossible is not None:
+        return "–", "–", "–", f"impossible: {candidate.impossible}"
+    clearance = "–" if candidate.clearance is None else down(candidate.clearance)
+    bend = "–" if candidate.max_curvature is None else f"{candidate.max_curvature:.3g} 1/m"
+    return metres(candidate.length, 1), clearance, bend, "taken" if candidate.chosen else ""
+
+
+def run_tables(run: Run, name: str) -> RenderableType:
+    """What was driven in figures, the via points and the re-plans."""
+    facts = _facts(f"Run · {name}")
+    facts.add_row("reached its goal", "yes" if run.reached else f"NO: {run.reason}")
+    facts.add_row("driven", f"{metres(run.path.length, 1)} in {seconds(run.duration)}")
+    planned = f"{metres(run.plan.path.length, 1)} in {seconds(run.plan.trajectory.duration)}"
+    facts.add_row("planned before", planned)
+    required = metres(run.certificate.required)
+    facts.add_row("clearance, proven", f"{down(run.certificate.clearance)} (asked {required})")
+    if run.certificate.obstacle is not None:
+        facts.add_row(
+            "tightest place", f"{place(run.certificate.tightest_at)} beside {run.certificate.obstacle}"
+        )
+    served = sum(visit.status == "served" for visit in run.visits)
+    facts.add_row("points served", f"{served} of {len(run.visits)}")
+    missed = [visit for visit in run.visits if visit.status != "served"]
+    for visit in missed[:LINES]:
+        facts.add_row(f"  {visit.name}", f"{visit.status}: {visit.reason or 'no reason given'}")
+    if not run.replans:
+        return facts
+    table = Table(title="Re-plans", title_justify="left", box=box.SIMPLE_HEAD)
+    for column in ("time", "at", "because of", "mode", "length before", "after", "jump of heading"):
+        table.add_column(column)
+    for replan in run.replans[:LINES]:
+        table.add_row(
+            seconds(replan.time), place(replan.at), _members(replan.obstacles), replan.mode,
+            metres(replan.old_path.length, 1), metres(replan.path.length, 1),
+            f"{replan.heading_jump:.1g} rad",
+        )  # fmt: skip
+    if len(run.replans) > LINES:
+        table.add_row(f"… {len(run.replans) - LINES} more")
+    return Group(facts, table)
+
+
+def _facts(title: str) -> Table:
+    table = Table(title=title, title_justify="left", show_header=False, box=box.SIMPLE_HEAD)
+    table.add_column(style="dim", no_wrap=True)
+    table.add_column()
+    return table
+
+
+def show(*tables: RenderableType) -> None:
+    """Print tables on the output stream; nobody listening any more is no error."""
+    try:
+        screen = console()
+        for table in tables:
+            screen.print(table)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        deafen()

@@ -1,0 +1,68 @@
+"""What changes along the path: speed, curvature and height over distance, below the map."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from viaspline.report.drawing import Floats
+from viaspline.report.style import INK, MUTED, OBSTACLE, SMALL, TEXT
+
+Ticks = Sequence[tuple[float, str]]  # distance [m] and the number of a via point
+
+
+def names(points: Floats) -> list[str]:
+    """The strips that a path needs: the height only when there is one that changes."""
+    heights = ["height [m]"] if points.shape[1] == 3 and np.ptp(points[:, 2]) > 1e-6 else []
+    return ["speed [m/s]", "curvature [1/m]", *heights]
+
+
+def fill(
+    strips: Sequence[Axes], distances: Floats, values: Sequence[Floats], ticks: Ticks, colour: str
+) -> None:
+    """Draw one value in every strip.
+
+    Args:
+        strips: From ``new_sheet``.
+        distances: Along the path [m], not decreasing, shape (n,).
+        values: One array of shape (n,) for each strip: speed, signed curvature, height.
+        ticks: Via points: how far along the path, and their number.
+        colour: Of the lines.
+    """
+    last = max(float(distances[-1]), 1e-9)
+    for i, (axes, value) in enumerate(zip(strips, values, strict=True)):
+        axes.plot(distances, value, color=colour, linewidth=1.1)
+        axes.set_xlim(0, last)
+        axes.margins(y=0.1)
+        for distance, _ in ticks:
+            axes.axvline(distance, color=OBSTACLE, linewidth=0.5, zorder=0)
+        if i == 0:
+            top = max(float(np.nanmax(value)), 1e-9) if value.size else 1.0
+            axes.set_ylim(0, 1.15 * top)
+            axes.fill_between(distances, value, color=colour, alpha=0.12, linewidth=0)
+        elif i == 1:
+            axes.axhline(0, color=MUTED, linewidth=0.5)
+            reach = max(float(np.nanmax(np.abs(value))) if value.size else 0.0, 1e-6)
+            axes.set_ylim(-1.15 * reach, 1.15 * reach)
+    strips[-1].set_xlabel("distance along the path [m]", size=TEXT, color=MUTED, labelpad=2)
+    _number(strips[0], ticks, last)
+
+
+def _number(axes: Axes, ticks: Ticks, last: float) -> None:
+    """Numbers of the via points above the first strip, as far as they fit."""
+    free = -np.inf
+    per_metre = axes.get_window_extent().width / last
+    for distance, text in ticks:
+        pixels = distance * per_metre
+        width = 9.0 * len(text)
+        if pixels - width / 2 < free:
+            continue
+        free = pixels + width / 2 + 4
+        axes.annotate(
+            text, (distance, 1), xycoords=("data", "axes fraction"), xytext=(0, 2),
+            textcoords="offset points", size=SMALL - 1, color=INK, ha="center", va="bottom",
+        )  # fmt: skip
+
+

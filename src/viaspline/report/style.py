@@ -1,0 +1,46 @@
+"""Colours and sizes of every picture.
+
+The colours are Okabe and Ito's, which stay apart for every common kind of colour blindness; what
+matters differs in shape or dash as well.
+"""
+
+from __future__ import annotations
+
+DPI = 150
+
+INK = "#1b1f24"
+MUTED = "#6a737d"
+OBSTACLE = "#aeb5bf"
+OBSTACLE_EDGE = "#4d5661"
+OUTSIDE = "#e9ebee"
+RING = "#6f7985"
+PATH = "#0072b2"
+OLD_PATH = "#8c6d31"
+DETOUR = "#e69f00"
+LOSER = "#a0468c"
+TIGHTEST = "#d55e00"
+UNSEEN = "#d55e00"
+UNSEEN_FILL = "#fbe3d3"
+START = "#009e73"
+GOAL = "#1b1f24"
+STATION = "#f0e442"
+SENSOR = "#56b4e9"
+SPEED_MAP = "viridis"
+
+TITLE = 13.0  # points
+TEXT = 9.0
+SMALL = 7.5
+
+PATH_WIDTH = 2.0
+THIN = 0.8
+
+
+def short(name: str, length: int = 28) -> str:
+    """A name that fits on a picture: one line, not too long.
+
+    Example:
+        >>> short("pump house" * 5, 12)
+        'pump housep…'
+    """
+    line = " ".join(name.split())
+    return line if len(line) <= length else line[: length - 1] + "…"

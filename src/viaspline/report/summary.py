@@ -1,0 +1,96 @@
+"""A mission in a few words; light enough for ``viaspline check``."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from viaspline.mission.model import Mission, Obstacle
+from viaspline.report.units import metres
+
+
+def tension(mission: Mission) -> float | list[float]:
+    """Eq. (7)'s tension, whichever of its two names the mission uses; 0 when it uses none."""
+    spline = mission.spline
+    if spline.tension is not None:
+        return list(spline.tension) if isinstance(spline.tension, tuple) else spline.tension
+    if spline.slack is None:
+        return 0.0
+    if isinstance(spline.slack, tuple):
+        return [1 - 2 * slack for slack in spline.slack]
+    return 1 - 2 * spline.slack
+
+
+def spline_words(mission: Mission) -> str:
+    """How the curve is asked to be; the tension by both of its names."""
+    value, spline = tension(mission), mission.spline
+    if isinstance(value, list):
+        pull = f"tension {min(value):g} to {max(value):g} by span"
+    else:
+        pull = f"tension {value:g} (slack {(1 - value) / 2:g})"
+    bends = "continuous curvature" if spline.tangents == "continuous" else "cardinal tangents"
+    return f"{pull}, {spline.knots} knots, {bends}"
+
+
+def summary(mission: Mission) -> list[tuple[str, str]]:
+    """Route, world, robot and spline: what each of them is, on one line."""
+    return [
+        ("route", _route(mission)),
+        ("world", _world(mission)),
+        ("robot", _robot(mission)),
+        ("spline", spline_words(mission)),
+    ]
+
+
+def _route(mission: Mission) -> str:
+    points = [point for _, point in mission.route.points()]
+    places = [point.at for point in points] + ([points[0].at] if mission.route.closed else [])
+    straight = sum(math.dist(a, b) for a, b in zip(places, places[1:], strict=False))
+    words = [_count(len(points), "point"), f"{metres(straight, 1)} from point to point"]
+    if mission.route.closed:
+        words.insert(1, "back to the start")
+    dwells = [point.dwell_s for point in points if point.dwell_s > 0]
+    if dwells:
+        words.append(f"{_count(len(dwells), 'station')} with stops of {sum(dwells):g} s together")
+    if len(points[0].at) == 3:
+        words.append("with heights")
+    return ", ".join(words)
+
+
+def _world(mission: Mission) -> str:
+    world = mission.world
+    words = [_obstacles(world.known, "known")]
+    if world.unseen:
+        words.append(_obstacles(world.unseen, "unseen"))
+    if world.bounds is not None:
+        x0, y0, x1, y1 = world.bounds
+        words.append(f"bounds {x1 - x0:g} m x {y1 - y0:g} m")
+    if world.fences:
+        words.append(_count(len(world.fences), "fence"))
+    if world.bounds is None and not world.fences:
+        words.append("no bounds")
+    return ", ".join(words)
+
+
+def _obstacles(obstacles: Sequence[Obstacle], kind: str) -> str:
+    circles = sum(obstacle.circle is not None for obstacle in obstacles)
+    polygons = len(obstacles) - circles
+    parts = [_count(n, what) for n, what in ((circles, "circle"), (polygons, "polygon")) if n]
+    of = f" ({' and '.join(parts)})" if parts else ""
+    return f"{_count(len(obstacles), f'{kind} obstacle')}{of}"
+
+
+def _robot(mission: Mission) -> str:
+    robot = mission.robot
+    words = [
+        f"radius {robot.radius_m:g} m",
+        f"clearance {robot.clearance_m:g} m",
+        f"at most {robot.max_speed_mps:g} m/s and {robot.max_accel_mps2:g} m/s²",
+    ]
+    if robot.sensor is not None:
+        words.append(f"sees {robot.sensor.range_m:g} m far")
+    return ", ".join(words)
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number or 'no'} {what}{'' if number == 1 else 's'}"

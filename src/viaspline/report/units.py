@@ -1,0 +1,92 @@
+"""Lengths, times and speeds as people say them."""
+
+from __future__ import annotations
+
+import math
+
+
+def metres(value: float | None, digits: int = 2) -> str:
+    """A length.
+
+    Example:
+        >>> metres(0.5), metres(812.345, 1), metres(23456.7), metres(float("inf")), metres(None)
+        ('0.50 m', '812.3 m', '23.46 km', 'unlimited', '–')
+    """
+    if value is None or math.isnan(value):
+        return "–"
+    if math.isinf(value):
+        return "unlimited"
+    if abs(value) >= 10_000:
+        return f"{value / 1000:.2f} km"
+    if value and abs(value) < 0.5 * 10**-digits:
+        return f"{value:.1g} m"
+    return f"{value + 0.0:.{digits}f} m"
+
+
+def down(value: float) -> str:
+    """A proven clearance: rounded down, so that it promises no more than was proven.
+
+    Example:
+        >>> down(0.5059), down(0.4999999), down(float("inf"))
+        ('0.505 m', '0.499 m', 'unlimited')
+    """
+    return metres(math.floor(value * 1000 + 1e-6) / 1000, 3) if math.isfinite(value) else metres(value)
+
+
+def seconds(value: float | None) -> str:
+    """A time.
+
+    Example:
+        >>> seconds(4.25), seconds(512.3), seconds(7384), seconds(None)
+        ('4.2 s', '8 min 32 s', '2 h 03 min', '–')
+    """
+    if value is None or not math.isfinite(value):
+        return "–"
+    if value < 100:
+        return f"{value:.1f} s"
+    minutes, rest = divmod(round(value), 60)
+    if minutes < 100:
+        return f"{minutes} min {rest:02d} s"
+    hours, minutes = divmod(round(value / 60), 60)
+    return f"{hours} h {minutes:02d} min"
+
+
+def curvature(value: float | None) -> str:
+    """A curvature with the radius that it means.
+
+    Example:
+        >>> curvature(0.25), curvature(0.0)
+        ('0.25 1/m (radius 4.00 m)', '0 1/m (straight)')
+    """
+    if value is None or not math.isfinite(value):
+        return "–"
+    if abs(value) < 1e-9:
+        return "0 1/m (straight)"
+    return f"{value:.3g} 1/m (radius {metres(1 / abs(value))})"
+
+
+def place(point: tuple[float, ...] | None) -> str:
+    """A position in metres.
+
+    Example:
+        >>> place((12.345, -0.0))
+        '(12.35, 0.00)'
+    """
+    if point is None:
+        return "–"
+    return "(" + ", ".join(f"{round(x, 2) + 0.0:.2f}" for x in point) + ")"
+
+
+def nice(value: float) -> float:
+    """The smallest of 1, 2, 5 times a power of ten that is at least ``value``.
+
+    Example:
+        >>> nice(0.13), nice(34), nice(1000)
+        (0.2, 50.0, 1000.0)
+    """
+    exponent = math.floor(math.log10(value) + 1e-9)
+    for factor in (1, 2, 5, 10):
+        candidate = float(f"{factor}e{exponent}")
+        if candidate >= value * (1 - 1e-9):
+            return candidate
+    return 10.0 ** (exponent + 1)
