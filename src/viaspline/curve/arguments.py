@@ -1,0 +1,61 @@
+"""Arguments on their way to the kernels: validated, converted, writable."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viaspline.errors import GeometryError
+
+Floats = NDArray[np.float64]
+
+
+def working_copy(values: ArrayLike) -> Floats:
+    """A fresh array in row order.
+
+    Raises:
+        GeometryError: When the values are not numbers in a regular shape.
+    """
+    try:
+        return np.array(values, dtype=np.float64, order="C")
+    except (TypeError, ValueError) as error:
+        raise GeometryError(f"expected an array of numbers: {error}") from None
+
+
+def call(values: ArrayLike) -> tuple[Floats, tuple[int, ...]]:
+    """A flat array that the kernels take as it is, and the shape to give the answer.
+
+    Read-only arrays are copied: to the kernels they are another type, compiled again.
+    """
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise GeometryError(f"expected numbers: {error}") from None
+    flags = array.flags
+    if not (flags.c_contiguous and flags.writeable and flags.aligned):
+        array = array.copy(order="C")
+    return array.reshape(-1), array.shape
+
+
+def frozen(array: Floats) -> Floats:
+    """A read-only view."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def outside(name: str, value: float, domain: tuple[float, float]) -> GeometryError:
+    """The error for a value that is not in a domain, or not a number."""
+    return GeometryError(f"{name} = {float(value)} is outside [{domain[0]}, {domain[1]}]")
+
+
+def as_point(point: ArrayLike, dimension: int) -> Floats:
+    """A point of d finite numbers.
+
+    Raises:
+        GeometryError: When it is something else.
+    """
+    array = working_copy(point)
+    if array.shape != (dimension,) or not np.isfinite(array).all():
+        raise GeometryError(f"a point of {dimension} finite numbers is needed, not {point!r}")
+    return array

@@ -1,0 +1,335 @@
+"""Piecewise cubics in any dimension: evaluation, direction, curvature, subdivision, bounds.
+
+A curve is an array of Bézier control polygons ``spans`` (m, 4, d). For evaluation it is turned
+into ``rows`` (m + 1, 4, d), the Taylor coefficients about the start of each span and, in the last
+row, about the end of the curve, so that every parameter in [0, m] has a row of its own.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.jit import kernel
+
+Floats = NDArray[np.float64]
+
+FINE, NOT_FINITE, APART = range(3)
+LARGEST = 1e100  # coordinates beyond this would overflow where they are squared [m]
+JOINT_TOLERANCE = 1e-9  # [m], beside a few units in the last place
+ROUNDING = 2e-15
+
+
+@kernel
+def prepare(spans: Floats, closed: bool) -> tuple[Floats, int, int]:
+    """Check spans, close the rounding gaps between them, and give their Taylor coefficients.
+
+    Args:
+        spans: (m, 4, d) [m]; where adjoining points differ by rounding the later one is changed.
+        closed: Whether the last span ends where the first starts.
+
+    Returns:
+        (rows (m + 1, 4, d), fault, index): the fault is FINE, NOT_FINITE (span ``index``), or
+        APART (span ``index`` does not start where the one before it ends).
+    """
+    count, _, dimension = spans.shape
+    rows = np.empty((count + 1, 4, dimension))
+    for k in range(count):
+        for j in range(4):
+            for axis in range(dimension):
+                if not abs(spans[k, j, axis]) <= LARGEST:
+                    return rows, NOT_FINITE, k
+    for k in range(0 if closed else 1, count):
+        before = k - 1 if k > 0 else count - 1
+        for axis in range(dimension):
+            there = spans[before, 3, axis]
+            gap = abs(spans[k, 0, axis] - there)
+            if gap > JOINT_TOLERANCE + 1e-15 * abs(there):
+                return rows, APART, k
+            if k > 0:
+                spans[k, 0, axis] = there
+            else:
+                spans[before, 3, axis] = spans[0, 0, axis]
+    for k in range(count):
+        for axis in range(dimension):
+            first = spans[k, 1, axis] - spans[k, 0, axis]
+            second = spans[k, 2, axis] - spans[k, 1, axis]
+            third = spans[k, 3, axis] - spans[k, 2, axis]
+            rows[k, 0, axis] = spans[k, 0, axis]
+            rows[k, 1, axis] = 3.0 * first
+            rows[k, 2, axis] = 3.0 * (second - first)
+            rows[k, 3, axis] = (third - second) - (second - first)
+            if k == count - 1:
+                rows[count, 0, axis] = spans[k, 3, axis]
+                rows[count, 1, axis] = 3.0 * third
+                rows[count, 2, axis] = 3.0 * (third - second)
+                rows[count, 3, axis] = rows[k, 3, axis]
+    if closed:
+        rows[count] = rows[0]
+    return rows, FINE, -1
+
+
+@kernel
+def wrapped(u: float, count: int, closed: bool) -> float:
+    """The parameter within [0, count]; NaN outside the domain of an open curve."""
+    if 0.0 <= u <= count:
+        return u
+    if closed and abs(u) < np.inf:
+        return min(max(u - count * math.floor(u / count), 0.0), float(count))
+    return np.nan
+
+
+@kernel
+def evaluate(rows: Floats, u: Floats, closed: bool, out: Floats) -> int:
+    """Values of the polynomials at parameters.
+
+    Args:
+        rows: (m + 1, 4, d), see the module.
+        u: Parameters in [0, m], (n,); a closed curve takes any.
+        closed: Whether parameters outside wrap.
+        out: (n, d), filled up to the first parameter that is outside.
+
+    Returns:
+        The index of the first parameter that is outside or not a number; -1 when there is none.
+    """
+    count = rows.shape[0] - 1
+    dimension = rows.shape[2]
+    if dimension == 2:
+        return _evaluate_plane(rows, u, closed, out)
+    for i in range(u.shape[0]):
+        x = u[i]
+        if not 0.0 <= x <= count:
+            x = wrapped(x, count, closed)
+            if math.isnan(x):
+                return i
+        k = int(x)
+        w = x - k
+        if dimension == 3:
+            for axis in range(3):
+                c = rows[k, 2, axis] + w * rows[k, 3, axis]
+                out[i, axis] = rows[k, 0, axis] + w * (rows[k, 1, axis] + w * c)
+        else:
+            for axis in range(dimension):
+                c = rows[k, 2, axis] + w * rows[k, 3, axis]
+                out[i, axis] = rows[k, 0, axis] + w * (rows[k, 1, axis] + w * c)
+    return -1
+
+
+@kernel
+def _evaluate_plane(rows: Floats, u: Floats, closed: bool, out: Floats) -> int:
+    """``evaluate`` in two dimensions."""
+    count = rows.shape[0] - 1
+    for i in range(u.shape[0]):
+        x = u[i]
+        if not 0.0 <= x <= count:
+            x = wrapped(x, count, closed)
+            if math.isnan(x):
+                return i
+        k = int(x)
+        w = x - k
+        cx = rows[k, 2, 0] + w * rows[k, 3, 0]
+        cy = rows[k, 2, 1] + w * rows[k, 3, 1]
+        out[i, 0] = rows[k, 0, 0] + w * (rows[k, 1, 0] + w * cx)
+        out[i, 1] = rows[k, 0, 1] + w * (rows[k, 1, 1] + w * cy)
+    return -1
+
+
+@kernel
+def first_derivative(spans: Floats, k: int, axis: int, w: float) -> float:
+    """One coordinate of P'(w) on span k, in Bernstein form: exact zeros stay exact."""
+    v = 1.0 - w
+    first = spans[k, 1, axis] - spans[k, 0, axis]
+    second = spans[k, 2, axis] - spans[k, 1, axis]
+    third = spans[k, 3, axis] - spans[k, 2, axis]
+    return 3.0 * (v * v * first + 2.0 * v * w * second + w * w * third)
+
+
+@kernel
+def second_derivative(spans: Floats, k: int, axis: int, w: float) -> float:
+    """One coordinate of P''(w) on span k."""
+    first = spans[k, 1, axis] - spans[k, 0, axis]
+    second = spans[k, 2, axis] - spans[k, 1, axis]
+    third = spans[k, 3, axis] - spans[k, 2, axis]
+    return 6.0 * ((1.0 - w) * (second - first) + w * (third - second))
+
+
+@kernel
+def third_derivative(spans: Floats, k: int, axis: int) -> float:
+    """One coordinate of P''' on span k."""
+    first = spans[k, 1, axis] - spans[k, 0, axis]
+    second = spans[k, 2, axis] - spans[k, 1, axis]
+    third = spans[k, 3, axis] - spans[k, 2, axis]
+    return 6.0 * ((third - second) - (second - first))
+
+
+@kernel
+def speed_bound(spans: Floats, k: int) -> float:
+    """Upper bound of |P'(w)| on span k: the longest control vector of the derivative [m]."""
+    largest = 0.0
+    for j in range(3):
+        squared = 0.0
+        for axis in range(spans.shape[2]):
+            step = spans[k, j + 1, axis] - spans[k, j, axis]
+            squared += step * step
+        largest = max(largest, squared)
+    return 3.0 * math.sqrt(largest)
+
+
+@kernel
+def curvature_at(spans: Floats, k: int, w: float) -> float:
+    """Curvature of span k at w in [0, 1] [1/m].
+
+    Signed in the plane (anticlockwise positive), unsigned in space, 0 in one dimension. Where P'
+    vanishes it is the limit: 0 when the span is straight there, infinite at a cusp. What is lost
+    in rounding counts as straight.
+    """
+    dimension = spans.shape[2]
+    scale = speed_bound(spans, k)
+    if dimension == 1 or scale == 0.0:
+        return 0.0
+    aa = 0.0
+    ab = 0.0
+    bb = 0.0
+    for axis in range(dimension):
+        a = first_derivative(spans, k, axis, w)
+        b = second_derivative(spans, k, axis, w)
+        aa += a * a
+        ab += a * b
+        bb += b * b
+    speed = math.sqrt(aa)
+    at_rest = speed <= 1e-14 * scale
+    if dimension == 2:
+        ax = second_derivative(spans, k, 0, w) if at_rest else first_derivative(spans, k, 0, w)
+        ay = second_derivative(spans, k, 1, w) if at_rest else first_derivative(spans, k, 1, w)
+        bx = third_derivative(spans, k, 0) if at_rest else second_derivative(spans, k, 0, w)
+        by = third_derivative(spans, k, 1) if at_rest else second_derivative(spans, k, 1, w)
+        area = ax * by - ay * bx
+        if at_rest:
+            return math.copysign(np.inf, area) if abs(area) > 1e-12 * scale * scale else 0.0
+        if abs(area) <= ROUNDING * scale * (speed + math.sqrt(bb)):
+            return 0.0
+        return area / (speed * speed * speed)
+    if at_rest:
+        return _cusp_in_space(spans, k, w, scale)
+    across = 0.0
+    for axis in range(dimension):
+        a = first_derivative(spans, k, axis, w)
+        b = second_derivative(spans, k, axis, w) - ab / aa * a
+        across += b * b
+    across = math.sqrt(across)
+    if across * speed <= ROUNDING * scale * (speed + math.sqrt(bb)):
+        return 0.0
+    return across / aa
+
+
+@kernel
+def _cusp_in_space(spans: Floats, k: int, w: float, scale: float) -> float:
+    """Limit of the curvature where P' vanishes: 0 when P'' and P''' are parallel."""
+    squared = 0.0
+    for i in range(spans.shape[2]):
+        for j in range(i):
+            area = second_derivative(spans, k, i, w) * third_derivative(spans, k, j)
+            area -= second_derivative(spans, k, j, w) * third_derivative(spans, k, i)
+            squared += area * area
+    return np.inf if math.sqrt(squared) > 1e-12 * scale * scale else 0.0
+
+
+@kernel
+def curvature(spans: Floats, u: Floats, closed: bool, out: Floats) -> int:
+    """Curvature at parameters [1/m]; arguments and answer as in ``evaluate``, out (n,)."""
+    count = spans.shape[0]
+    for i in range(u.shape[0]):
+        x = wrapped(u[i], count, closed)
+        if math.isnan(x):
+            return i
+        k = int(x)
+        if k == count:
+            k = 0 if closed else count - 1
+        out[i] = curvature_at(spans, k, 0.0 if closed and x == count else x - k)
+    return -1
+
+
+@kernel
+def direction_at(spans: Floats, k: int, w: float, out: Floats) -> bool:
+    """Unit tangent of span k at w into ``out`` (d,); its limit where P' vanishes.
+
+    The limit is the one from the right, at w = 1 the one from the left. False for a span that is
+    a single point, which has none.
+    """
+    scale = speed_bound(spans, k)
+    if scale == 0.0:
+        return False
+    for order in range(1, 4):
+        squared = 0.0
+        for axis in range(spans.shape[2]):
+            if order == 1:
+                out[axis] = first_derivative(spans, k, axis, w)
+            elif order == 2:
+                out[axis] = second_derivative(spans, k, axis, w)
+                if w == 1.0:
+                    out[axis] = -out[axis]
+            else:
+                out[axis] = third_derivative(spans, k, axis)
+            squared += out[axis] * out[axis]
+        length = math.sqrt(squared)
+        if length > 1e-13 * scale or order == 3:
+            for axis in range(spans.shape[2]):
+                out[axis] /= length
+            return True
+    return False
+
+
+@kernel
+def direction(spans: Floats, u: Floats, closed: bool, out: Floats) -> int:
+    """Unit tangents at parameters; arguments and answer as in ``evaluate``.
+
+    A span that is a single point takes the tangent of the next span that is not, at the end of
+    the curve that of the last one; a curve that is a single point has a tangent of zero.
+    """
+    count = spans.shape[0]
+    for i in range(u.shape[0]):
+        x = wrapped(u[i], count, closed)
+        if math.isnan(x):
+            return i
+        k = int(x)
+        w = x - k
+        if k == count:
+            k = 0 if closed else count - 1
+            w = 0.0 if closed else 1.0
+        found = direction_at(spans, k, w, out[i])
+        after = k + 1
+        while not found and after < count:
+            found = direction_at(spans, after, 0.0, out[i])
+            after += 1
+        before = k - 1
+        while not found and before >= 0:
+            found = direction_at(spans, before, 1.0, out[i])
+            before -= 1
+        if not found:
+            out[i] = 0.0
+    return -1
+
+
+@kernel
+def subspan(span: Floats, start: float, end: float, out: Floats) -> None:
+    """The part [start, end] of a span, by de Casteljau's construction (blossoms).
+
+    Args:
+        span: (4, d).
+        start: Local parameter in [0, 1].
+        end: Local parameter in [0, 1].
+        out: (4, d); equals ``span`` bit by bit for [0, 1].
+    """
+    for axis in range(span.shape[1]):
+        for j in range(4):
+            a = start if j < 3 else end
+            b = start if j < 2 else end
+            c = start if j < 1 else end
+            p0 = (1.0 - a) * span[0, axis] + a * span[1, axis]
+            p1 = (1.0 - a) * span[1, axis] + a * span[2, axis]
+            p2 = (1.0 - a) * span[2, axis] + a * span[3, axis]
+            q0 = (1.0 - b) * p0 + b * p1
+            q1 = (1.0 - b) * p1 + b * p2
+            out[j, axis] = (1.0 - c) * q0 + c * q1
