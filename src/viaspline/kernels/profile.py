@@ -283,8 +283,8 @@ def _backward(distances: Floats, caps: Floats, rests: Flags, accel: float, last:
 
 
 @kernel
-def _exceeds(square: float, limit: float) -> bool:
-    return square > limit * (1.0 + 1e-9) + 1e-12
+def _exceeds(square: float, limit: float, slip: float) -> bool:
+    return square > limit * (1.0 + 1e-9) + slip
 
 
 @kernel
@@ -337,10 +337,11 @@ def speed_profile(
     """
     n = distances.shape[0]
     slope = 2.0 * accel
+    slip = 1e-12 + 1e-14 * accel * abs(distances[n - 1])
     back = _backward(distances, caps, rests, accel, last)
     s, e = np.empty(4 * n), np.empty(4 * n)
     count, over, missed = 1, distances[0], np.nan
-    is_over = _exceeds(first, back[0])
+    is_over = _exceeds(first, back[0], slip)
     s[0], e[0] = distances[0], first if is_over else min(first, back[0])
     if is_over and rests[0]:
         missed = distances[0]
@@ -348,7 +349,7 @@ def speed_profile(
         left, right, cap, low = distances[i], distances[i + 1], caps[i], e[count - 1]
         if is_over:
             brake = low - slope * (right - left)
-            if _exceeds(brake, back[i + 1]):
+            if _exceeds(brake, back[i + 1], slip):
                 if np.isnan(missed) and (rests[i + 1] or i == n - 2):
                     missed = right
                 over = right

@@ -1,0 +1,145 @@
+"""What a navigator knows at one moment, and how far along its path the robot is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.path import Path, PathVia
+from viaspline.detour.brief import Brief
+from viaspline.mission.model import Mission, Obstacle
+from viaspline.robot.run import Event, Replan, Visit
+from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.retime import retime
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.world import World
+
+SLIP = 1e-6
+"""Distances nearer than this are the same place [m]."""
+
+
+@dataclass(frozen=True)
+class Dwell:
+    """A stay at a station: its name, and until when [s]."""
+
+    name: str
+    until: float
+
+
+@dataclass(frozen=True)
+class Journey:
+    """A robot's way so far and the way it means to go on; a new one for every step.
+
+    Attributes:
+        mission: What was asked for.
+        limits: Of the robot, with what its sensor allows.
+        reaction: Longest time between two steps [s].
+        world: All that is known by now.
+        seen: The obstacles that are in that world.
+        plan_path: The path before the robot set off.
+        path: The path; all that was driven is its beginning.
+        law: The time law along it.
+        turns: Distances along the path where it has a corner to turn on the spot [m].
+        time: Of the last step [s].
+        distance: Progress along the path at that time [m].
+        off: How far beside the path the robot was then [m].
+        last: Index in the route of the last via point that was passed; -1 before the start.
+        dwell: The stay at a station that is under way.
+        skipped: Route points that were given up, with the reason.
+        served: Visits so far.
+        events: So far.
+        replans: So far.
+        compute_times: Of the re-plans [s], wall clock.
+        giving_up: Why the robot brakes for good, if it does.
+        finished: Whether the drive is over.
+    """
+
+    mission: Mission
+    limits: Limits
+    reaction: float
+    world: World
+    seen: frozenset[Obstacle]
+    plan_path: Path
+    path: Path
+    law: Trajectory
+    time: float
+    distance: float = 0.0
+    off: float = 0.0
+    turns: tuple[float, ...] = ()
+    last: int = -1
+    dwell: Dwell | None = None
+    skipped: tuple[tuple[int, str], ...] = ()
+    served: tuple[tuple[int, Visit], ...] = ()
+    events: tuple[Event, ...] = ()
+    replans: tuple[Replan, ...] = ()
+    compute_times: tuple[float, ...] = ()
+    giving_up: str | None = None
+    finished: bool = False
+
+    @cached_property
+    def brief(self) -> Brief:
+        """What every path has to keep."""
+        return Brief.of(self.mission)
+
+    @cached_property
+    def ahead(self) -> tuple[tuple[PathVia, float], ...]:
+        """The route's points still to come, in order, with their distances along the path [m]."""
+        return points_after(self.path, self.last)
+
+    @property
+    def reached(self) -> bool:
+        """Whether the drive is over and ended at its goal."""
+        return self.finished and self.giving_up is None
+
+    def place(self, distance: float) -> tuple[float, ...]:
+        """The path's point at a distance along it [m]."""
+        return tuple(np.asarray(self.path.at_distance(distance)).tolist())
+
+    def noted(self, *events: Event) -> Journey:
+        """The same with these events at its end."""
+        return replace(self, events=self.events + events)
+
+
+def points_after(path: Path, last: int) -> tuple[tuple[PathVia, float], ...]:
+    """The user's via points of a path that come after this one of the route."""
+    distances: NDArray[np.float64] = path.via_distances
+    return tuple(
+        (via, float(distance))
+        for via, distance in zip(path.vias, distances, strict=True)
+        if via.index is not None and via.index > last
+    )
+
+
+def time_law(
+    journey: Journey,
+    path: Path,
+    turns: tuple[float, ...],
+    *,
+    distance: float,
+    speed: float,
+    time: float,
+) -> Trajectory:
+    """The time law of the rest of a path, with the stops that are still to come.
+
+    A stay that is under way goes on.
+    """
+    stops = [Station(turn) for turn in turns if turn > distance + SLIP]
+    stops += [
+        Station(max(at, distance), via.dwell, via.name)
+        for via, at in points_after(path, journey.last)
+        if via.dwell > 0.0
+    ]
+    if journey.dwell is not None:
+        stops.append(Station(distance, max(journey.dwell.until - time, 0.0), journey.dwell.name))
+        speed = 0.0
+    return retime(
+        path,
+        journey.limits,
+        stops,
+        start=min(distance, path.length),
+        start_speed=speed,
+        start_time=time,
+    )

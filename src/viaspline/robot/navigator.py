@@ -1,0 +1,208 @@
+"""The navigator: sense, decide, steer; state in, state out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from viaspline.curve.path import Path
+from viaspline.errors import GeometryError
+from viaspline.mission.model import Mission, Obstacle
+from viaspline.planner import Plan, plan
+from viaspline.robot.journey import Journey, time_law
+from viaspline.robot.progress import advance, happened
+from viaspline.robot.reroute import notice
+from viaspline.robot.run import Event, Replan, Visit
+from viaspline.robot.state import Command, RobotState
+from viaspline.robot.steering import steer
+from viaspline.robot.visits import visits_of
+from viaspline.trajectory.limits import REACTION, Limits
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.world import World
+
+
+class Navigator:
+    """Drives a mission in a person's own control loop; immutable.
+
+    Every step takes what was measured and seen, and gives a command and the navigator of the
+    next step. Nothing is kept anywhere else, so a step can be repeated, stored or tried out. It
+    reads no clock: time is what the caller says it is (only the wall-clock time that a re-plan
+    took is noted, in ``compute_times``).
+
+    A robot with a sensor never drives faster than v with v²/(2 max_accel) + v reaction <= range -
+    radius - clearance, so it can stop before it comes too close to whatever comes into range. If
+    the sensor hardly sees past the clearance, a quarter of what it sees past the body counts.
+
+    Args:
+        mission: What to do.
+        plan: Its plan, if there is one already.
+        reaction: Longest time between two steps [s].
+
+    Raises:
+        NoPathError: When there is no path at all.
+        GeometryError: When the sensor sees no farther than the robot's body.
+
+    Example:
+        >>> mission = Mission.model_validate({
+        ...     "robot": {"sensor": {"range_m": 20}},
+        ...     "route": {"start": [0, 0], "goal": [50, 0]},
+        ... })
+        >>> nav = Navigator(mission)
+        >>> state = RobotState(position=(0.0, 0.0), heading=0.0, speed=0.0)
+        >>> command, nav = nav.step(state, sensed=[], time=0.0)
+        >>> command.acceleration, command.curvature
+        (1.0, 0.0)
+        >>> rock = Obstacle(circle={"center": (25, 1), "radius": 2}, name="rock")
+        >>> state = RobotState(position=(6.0, 0.0), heading=0.0, speed=2.0)
+        >>> command, nav = nav.step(state, sensed=[rock], time=4.0)
+        >>> [event.kind for event in nav.events]
+        ['started', 'detected', 'replanned']
+    """
+
+    def __init__(
+        self, mission: Mission, plan: Plan | None = None, *, reaction: float = REACTION
+    ) -> None:
+        if not 0.0 < reaction < float("inf"):
+            raise GeometryError(f"reaction is {reaction}; give a time above 0")
+        limits = Limits.of(mission.robot, reaction)
+        self._plan = _planned(mission) if plan is None else plan
+        journey = Journey(
+            mission=mission,
+            limits=limits,
+            reaction=reaction,
+            world=self._plan.world,
+            seen=frozenset(self._plan.world.obstacles),
+            plan_path=self._plan.path,
+            path=self._plan.path,
+            law=self._plan.trajectory,
+            time=0.0,
+        )
+        law = time_law(journey, journey.path, (), distance=0.0, speed=0.0, time=0.0)
+        self._journey = replace(journey, law=law)
+
+    def step(
+        self, state: RobotState, sensed: Iterable[Obstacle], time: float
+    ) -> tuple[Command, Navigator]:
+        """What to do from now on until the next step.
+
+        Args:
+            state: Where the robot is, as measured.
+            sensed: Every obstacle that is seen now; those already known make no difference.
+            time: Now [s], never less than in the step before.
+
+        Returns:
+            The command, and the navigator for the next step.
+
+        Raises:
+            GeometryError: When time runs backwards, or the state is not finite or has the wrong
+                dimension.
+        """
+        journey = self._journey
+        _check(state, time, journey)
+        if not journey.events:
+            journey = _started(journey, time)
+        if not journey.finished:
+            journey = advance(journey, state, time)
+        new = tuple(dict.fromkeys(o for o in sensed if o not in journey.seen))
+        if new and not journey.finished:
+            journey = happened(notice(journey, new))
+        return steer(journey, state), self._with(journey)
+
+    def _with(self, journey: Journey) -> Navigator:
+        navigator = object.__new__(Navigator)
+        navigator._plan, navigator._journey = self._plan, journey
+        return navigator
+
+    def reference(self, time: float) -> RobotState:
+        """Where a robot that follows exactly will be at a time, if nothing new is seen [s]."""
+        distance, speed, _ = self._journey.law.state_at(time)
+        u = self.path.parameter(float(distance))
+        place = np.asarray(self.path.evaluate(u))
+        return RobotState(tuple(place.tolist()), float(self.path.heading(u)), float(speed))
+
+    @property
+    def mission(self) -> Mission:
+        """What was asked for."""
+        return self._journey.mission
+
+    @property
+    def plan(self) -> Plan:
+        """The plan before the robot set off."""
+        return self._plan
+
+    @property
+    def world(self) -> World:
+        """All that is known by now."""
+        return self._journey.world
+
+    @property
+    def path(self) -> Path:
+        """The path; all that was driven is its beginning."""
+        return self._journey.path
+
+    @property
+    def trajectory(self) -> Trajectory:
+        """The time law along the path, from the last change on."""
+        return self._journey.law
+
+    @property
+    def distance(self) -> float:
+        """Progress along the path at the last step [m]."""
+        return self._journey.distance
+
+    @property
+    def finished(self) -> bool:
+        """Whether the drive is over."""
+        return self._journey.finished
+
+    @property
+    def reached(self) -> bool:
+        """Whether it is over and ended at the goal."""
+        return self._journey.reached
+
+    @property
+    def reason(self) -> str | None:
+        """Why the robot won't reach its goal; None if it will, as far as is known."""
+        return self._journey.giving_up
+
+    @property
+    def visits(self) -> tuple[Visit, ...]:
+        """How each point of the route was served so far, in order."""
+        return visits_of(self._journey)
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """Everything that happened so far."""
+        return self._journey.events
+
+    @property
+    def replans(self) -> tuple[Replan, ...]:
+        """Every new path so far."""
+        return self._journey.replans
+
+    @property
+    def compute_times(self) -> tuple[float, ...]:
+        """How long each re-plan took, by the clock on the wall [s]."""
+        return self._journey.compute_times
+
+
+_planned = plan
+
+
+def _started(journey: Journey, time: float) -> Journey:
+    journey = replace(journey, time=time, law=journey.law.delayed(time))
+    length = f"sets off on a path of {journey.path.length:.1f} m"
+    return journey.noted(Event("started", time, journey.place(0.0), length))
+
+
+def _check(state: RobotState, time: float, journey: Journey) -> None:
+    if journey.events and time < journey.time:
+        raise GeometryError(f"time {time} s is before the last step's, {journey.time} s")
+    numbers = (*state.position, state.heading, state.speed, time)
+    if len(state.position) != journey.path.dimension or not np.isfinite(numbers).all():
+        raise GeometryError(
+            f"the state {state} at {time} s needs {journey.path.dimension} finite coordinates, "
+            "a finite heading, speed and time"
+        )

@@ -1,0 +1,59 @@
+"""A range sensor: it sees every obstacle of which a part is near enough."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viaspline.errors import GeometryError
+from viaspline.mission.model import Obstacle
+from viaspline.world.world import World
+
+
+class RangeSensor:
+    """Sees all round, up to a range, whatever stands in between.
+
+    Args:
+        unseen: What there is to see.
+        range_m: How far it sees from the robot's centre [m].
+
+    Example:
+        >>> rock = Obstacle(circle={"center": (10, 0), "radius": 2}, name="rock")
+        >>> sensor = RangeSensor([rock], range_m=5)
+        >>> [len(sensor.seen((x, 0))) for x in (0, 2, 3, 30)]
+        [0, 0, 1, 0]
+    """
+
+    def __init__(self, unseen: Sequence[Obstacle], range_m: float) -> None:
+        if not range_m > 0:
+            raise GeometryError(f"range_m is {range_m}; give a range above 0")
+        self.range = float(range_m)
+        self.obstacles = tuple(unseen)
+        self._world = World(self.obstacles)
+        discs = np.array([_disc_around(o) for o in self.obstacles]).reshape(-1, 3)
+        self._centers, self._radii = discs[:, :2], discs[:, 2]
+
+    def seen(self, position: ArrayLike) -> tuple[Obstacle, ...]:
+        """The obstacles within range of a position [m], shape (d,), in their own order."""
+        if not self.obstacles:
+            return ()
+        point = np.asarray(position, dtype=float)[:2]
+        gaps = np.hypot(*(self._centers - point).T) - self._radii
+        near = np.flatnonzero(gaps <= self.range)
+        return tuple(
+            self.obstacles[i]
+            for i in near.tolist()
+            if float(self._world.distances_to(i, point[None, :])[0]) <= self.range
+        )
+
+
+def _disc_around(obstacle: Obstacle) -> tuple[float, float, float]:
+    """Centre and radius [m] of a disc that the obstacle lies in."""
+    if obstacle.circle is not None:
+        x, y = obstacle.circle.center
+        return x, y, obstacle.circle.radius
+    ring: NDArray[np.float64] = np.array(obstacle.polygon)
+    x, y = 0.5 * (ring.min(axis=0) + ring.max(axis=0))
+    return float(x), float(y), float(np.hypot(*(ring - (x, y)).T).max())

@@ -1,0 +1,207 @@
+"""The simulator: the whole world, a sensor, a navigator, and a point robot that follows exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.certificate import certify
+from viaspline.curve.path import Path
+from viaspline.errors import GeometryError
+from viaspline.mission.model import Mission, Obstacle
+from viaspline.planner import Plan
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.run import Event, Run, Visit
+from viaspline.robot.sensor import RangeSensor
+from viaspline.trajectory.limits import REACTION
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+Progress = Callable[[float, float, float], None]
+
+PATIENCE = 10.0  # times the planned duration, and
+GRACE = 600.0  # this much longer [s]: then the drive is broken off
+
+
+@dataclass(frozen=True)
+class _Drive:
+    """A drive that is over: its navigator, its time laws with their beginnings, and its end."""
+
+    nav: Navigator
+    laws: tuple[tuple[float, Trajectory], ...]
+    ticks: int
+    end: float
+    touched: Event | None
+    overdue: str | None
+
+
+def simulate(
+    mission: Mission,
+    *,
+    seed: int = 0,
+    step: float = 0.05,
+    progress: Progress | None = None,
+    plan: Plan | None = None,
+) -> Run:
+    """Drive a mission in the world as it is, with what is not on the map.
+
+    The same mission gives the same run, bit by bit. A drive takes at most ten times its planned
+    duration and ten minutes; then it is broken off, with that as its reason.
+
+    Args:
+        mission: What to do.
+        seed: For what is random. A range sensor and a point robot are not, so that it has no
+            effect yet.
+        step: Time between two looks of the sensor [s].
+        progress: Called with the time [s], the distance driven and the length of the path [m].
+        plan: The mission's plan, if there is one already.
+
+    Returns:
+        What was driven, whether the robot reached its goal or not: see ``Run.reached``.
+
+    Raises:
+        NoPathError: When there is no path at all.
+        GeometryError: When the step is not above 0, or the sensor sees no farther than the
+            robot's body.
+
+    Example:
+        >>> run = simulate(Mission.model_validate({
+        ...     "world": {"unseen": [{"circle": {"center": [25, 1], "radius": 2}}]},
+        ...     "robot": {"sensor": {"range_m": 10}},
+        ...     "route": {"start": [0, 0], "goal": [50, 0]},
+        ... }))
+        >>> run.reached, run.certificate.holds, len(run.replans)
+        (True, True, 1)
+    """
+    del seed
+    if not 0.0 < step < float("inf"):
+        raise GeometryError(f"step is {step}; give a time above 0 s")
+    world = World.everything(mission)
+    nav = Navigator(mission, plan, reaction=max(step, REACTION))
+    drive = _drive(nav, world, step, progress)
+    return _run(drive, world, step)
+
+
+def _named_unseen(mission: Mission, world: World) -> tuple[Obstacle, ...]:
+    """The unseen obstacles, each with the name that it has in the whole world."""
+    first = len(mission.world.known)
+    return tuple(
+        obstacle.model_copy(update={"name": world.name(first + i)})
+        for i, obstacle in enumerate(mission.world.unseen)
+    )
+
+
+def _drive(nav: Navigator, world: World, step: float, progress: Progress | None) -> _Drive:
+    robot = nav.mission.robot
+    sensor = None
+    if robot.sensor is not None:
+        sensor = RangeSensor(_named_unseen(nav.mission, world), robot.sensor.range_m)
+    limit = PATIENCE * nav.trajectory.duration + GRACE
+    laws: tuple[tuple[float, Trajectory], ...] = ()
+    tick, time, state = 0, 0.0, nav.reference(0.0)
+    while True:
+        before = time if tick == 0 else time - step
+        touched = _contact(nav, world, before, time)
+        if touched is not None:
+            return _Drive(nav, laws, tick, touched.time, touched, None)
+        sensed = () if sensor is None else sensor.seen(state.position)
+        _, nav = nav.step(state, sensed, time)
+        if not laws or nav.trajectory is not laws[-1][1]:
+            laws = (*laws, (time, nav.trajectory))
+        if progress is not None:
+            progress(time, nav.distance, nav.path.length)
+        if nav.finished:
+            return _Drive(nav, laws, tick, nav.trajectory.end_time, None, None)
+        if time > limit:
+            reason = f"the drive was broken off after {time:.0f} s, its limit"
+            return _Drive(nav, laws, tick, time, None, reason)
+        tick += 1
+        time = tick * step
+        state = nav.reference(time)
+
+
+def _contact(nav: Navigator, world: World, before: float, time: float) -> Event | None:
+    """Whether the body touched something between two times."""
+    radius = nav.mission.robot.radius_m
+    first, last = np.asarray(nav.trajectory.distance_at(np.array([before, time])))
+    end = np.asarray(nav.path.at_distance(last))
+    if float(world.distance(end)) > radius + (last - first):
+        return None
+    times = np.linspace(before, time, 33)
+    places = np.asarray(nav.path.at_distance(nav.trajectory.distance_at(times)))
+    distances, nearest = world.nearest(places)
+    inside = np.flatnonzero(distances < radius - 1e-9)
+    if not inside.size:
+        return None
+    k = int(inside[0])
+    name = world.name(int(nearest[k]))
+    where = tuple(places[k].tolist())
+    return Event("contact", float(times[k]), where, f"touches '{name}'", {"name": name})
+
+
+def _run(drive: _Drive, world: World, step: float) -> Run:
+    nav = drive.nav
+    reason = drive.overdue or nav.reason
+    events, visits = nav.events, nav.visits
+    if drive.touched is not None:
+        reason = f"the robot touched '{drive.touched.data['name']}'"
+        events = (*(e for e in events if e.time <= drive.end), drive.touched)
+    if reason is not None:
+        visits = tuple(_because(visit, reason) for visit in visits)
+    events = tuple(sorted(events, key=lambda event: event.time))
+    times = _sample_times(drive, step, events)
+    distances, speeds = _along(drive.laws, times)
+    path = driven(nav.path, float(distances[-1]))
+    u = np.asarray(path.parameter(np.minimum(distances, path.length)))
+    robot = nav.mission.robot
+    return Run(
+        plan=nav.plan,
+        world=world,
+        reached=nav.reached and reason is None,
+        reason=reason,
+        duration=drive.end,
+        path=path,
+        certificate=certify(path, world, robot.clearance_m, radius=robot.radius_m),
+        times=times,
+        positions=np.asarray(path.evaluate(u)),
+        headings=np.asarray(path.heading(u)),
+        speeds=speeds,
+        curvatures=np.asarray(path.curvature(u)),
+        visits=visits,
+        events=events,
+        replans=nav.replans,
+        compute_times=nav.compute_times,
+    )
+
+
+def _because(visit: Visit, reason: str) -> Visit:
+    return replace(visit, reason=reason) if visit.status == "failed" else visit
+
+
+def _sample_times(drive: _Drive, step: float, events: tuple[Event, ...]) -> Floats:
+    """Every step and every event, up to the end."""
+    ticks = step * np.arange(drive.ticks + 1)
+    times = np.concatenate((ticks, [event.time for event in events], [drive.end]))
+    return np.unique(times[times <= drive.end])
+
+
+def _along(laws: tuple[tuple[float, Trajectory], ...], times: Floats) -> tuple[Floats, Floats]:
+    """Distances [m] and speeds [m/s] at times; each law holds from its beginning to the next."""
+    distances, speeds = np.zeros(times.shape), np.zeros(times.shape)
+    for begin, law in laws:
+        later = times >= begin
+        distances[later], speeds[later], _ = law.state_at(times[later])
+    return distances, speeds
+
+
+def driven(path: Path, distance: float) -> Path:
+    """The exact beginning of a path, with the via points that lie on it."""
+    u = float(path.parameter(min(distance, path.length)))
+    if u <= 0.0:
+        return Path(np.repeat(path.spans[:1, :1], 4, axis=1), path.vias[:1])
+    spans = path.section(0.0, u).spans
+    return Path(spans, [via for via in path.vias if via.u <= u])
