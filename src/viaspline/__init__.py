@@ -1,2 +1,88 @@
-"""viaspline."""
+"""Lay a spline through your via points, round whatever stands in the way, proven clear.
+
+The flow is the folder tree: mission → world → curve → detour → trajectory → robot → report.
+
+>>> import viaspline as vs
+>>> mission = vs.Mission.model_validate({
+...     "world": {"bounds": [0, 0, 100, 100],
+...               "known": [{"name": "tank", "circle": {"center": [50, 52], "radius": 10}}]},
+...     "route": {"start": [10, 50], "via": [[70, 60]], "goal": [90, 20]},
+... })
+>>> plan = vs.plan(mission)
+>>> plan.certificate.holds, [via.name for via in plan.path.vias if via.kind == "user"]
+(True, ['start', 'via 1', 'goal'])
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 __version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from viaspline.curve.cardinal import CardinalSpline
+    from viaspline.curve.certificate import Certificate, certify
+    from viaspline.curve.path import Path
+    from viaspline.curve.piecewise import PiecewiseCubic
+    from viaspline.errors import (
+        GeometryError,
+        MissionError,
+        MissionWarning,
+        NoPathError,
+        OutputError,
+        ViasplineError,
+    )
+    from viaspline.formats.load import load
+    from viaspline.mission.model import Mission, Obstacle
+    from viaspline.planner import Plan, plan
+    from viaspline.robot.navigator import Navigator
+    from viaspline.robot.run import Run
+    from viaspline.robot.simulator import simulate
+    from viaspline.robot.state import Command, RobotState
+    from viaspline.trajectory.limits import Limits, Station
+    from viaspline.trajectory.retime import retime
+    from viaspline.trajectory.trajectory import Trajectory
+    from viaspline.world.world import World
+
+_HOMES = {
+    "CardinalSpline": "curve.cardinal",
+    "Certificate": "curve.certificate",
+    "Command": "robot.state",
+    "GeometryError": "errors",
+    "Limits": "trajectory.limits",
+    "Mission": "mission.model",
+    "MissionError": "errors",
+    "MissionWarning": "errors",
+    "Navigator": "robot.navigator",
+    "NoPathError": "errors",
+    "Obstacle": "mission.model",
+    "OutputError": "errors",
+    "Path": "curve.path",
+    "PiecewiseCubic": "curve.piecewise",
+    "Plan": "planner",
+    "RobotState": "robot.state",
+    "Run": "robot.run",
+    "Station": "trajectory.limits",
+    "Trajectory": "trajectory.trajectory",
+    "ViasplineError": "errors",
+    "World": "world.world",
+    "certify": "curve.certificate",
+    "load": "formats.load",
+    "plan": "planner",
+    "retime": "trajectory.retime",
+    "simulate": "robot.simulator",
+}
+
+__all__ = [*sorted(_HOMES), "__version__"]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used: numba and shapely take their time."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'viaspline' has no attribute {name!r}")
+    return getattr(import_module(f"viaspline.{_HOMES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return list(__all__)

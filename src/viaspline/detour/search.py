@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.certificate import certify
-from viaspline.curve.path import Path, PathVia
+from viaspline.curve.path import Path, PathVia, ViaKind
 from viaspline.detour.blocked import explain_tight_leg, refuse_blocked_vias
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, lay
@@ -78,19 +80,20 @@ def path_vias(course: Course, first_span: int = 0) -> tuple[PathVia, ...]:
     vias: list[PathVia] = []
     u = first_span
     for k, leg in enumerate(course.legs):
-        vias.append(_user(course, k, u))
-        for j, point in enumerate(leg.points, start=1):
-            at = tuple(point.tolist())
-            vias.append(PathVia(f"detour {len(vias)}", at, "detour", float(u + j)))
+        vias.append(_on_path(course, k, u))
+        vias += [
+            PathVia("detour", tuple(point.tolist()), "detour", float(u + j))
+            for j, point in enumerate(leg.points, start=1)
+        ]
         u += len(leg.slack)
     if course.closed:
-        start = _user(course, 0, u)
-        vias.append(PathVia(start.name, start.at, "user", float(u), start.dwell, len(course.vias)))
+        vias.append(replace(_on_path(course, 0, u), index=len(course.vias)))
     else:
-        vias.append(_user(course, len(course.vias) - 1, u))
+        vias.append(_on_path(course, len(course.vias) - 1, u))
     return tuple(vias)
 
 
-def _user(course: Course, k: int, u: int) -> PathVia:
+def _on_path(course: Course, k: int, u: int) -> PathVia:
     via = course.vias[k]
-    return PathVia(via.name, tuple(via.at.tolist()), "user", float(u), via.dwell, via.index)
+    kind: ViaKind = "detour" if via.index is None else "user"
+    return PathVia(via.name, tuple(via.at.tolist()), kind, float(u), via.dwell, via.index)

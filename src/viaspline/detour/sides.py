@@ -141,7 +141,7 @@ def _other_side(
     start, goal = (via.at for via in course.ends(leg))
     closed = barrier(world, group.foremost, _other(side), start, goal)
     way = find_way(
-        world, start, goal, brief.required, np.vstack((barriers, closed)), active.copy()
+        world, start, goal, brief.required, np.vstack((barriers, closed)), active
     )
     if way is None:
         return None, f"no way is wide enough on the {side}"

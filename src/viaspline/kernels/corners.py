@@ -15,7 +15,7 @@ import numpy as np
 from viaspline.kernels.jit import kernel
 
 # columns of a corner
-X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, HALF = range(8)
+X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, SLOPE = range(8)
 COLUMNS = 8
 
 
@@ -25,6 +25,7 @@ def _fan(corners, count, x, y, radius, first, turn, step):  # type: ignore[no-un
     parts = max(1, int(math.ceil(turn / step - 1e-9)))
     half = 0.5 * turn / parts
     reach = radius / math.cos(half)
+    slope = math.tan(half)
     for k in range(parts):
         angle = first + (2 * k + 1) * half
         nx = math.cos(angle)
@@ -37,7 +38,7 @@ def _fan(corners, count, x, y, radius, first, turn, step):  # type: ignore[no-un
             corners[count, RADIUS] = radius
             corners[count, NORMAL_X] = nx
             corners[count, NORMAL_Y] = ny
-            corners[count, HALF] = half
+            corners[count, SLOPE] = slope
         count += 1
     return count
 
@@ -99,7 +100,5 @@ def supports(corners, k, dx, dy):  # type: ignore[no-untyped-def]
     ny = corners[k, NORMAL_Y]
     along = dx * nx + dy * ny
     across = dx * ny - dy * nx
-    # the corner's edges run at 90 degrees + half from its normal, to either side
-    return abs(along) * math.cos(corners[k, HALF]) <= (
-        abs(across) * math.sin(corners[k, HALF]) + 1e-9 * (abs(dx) + abs(dy))
-    )
+    # the corner's edges lie behind its tangent by an angle whose tangent is SLOPE, to either side
+    return abs(along) <= abs(across) * corners[k, SLOPE] + 1e-9 * (abs(dx) + abs(dy))
