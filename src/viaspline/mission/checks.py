@@ -184,7 +184,8 @@ def _spline(draft: Draft, spline: SplineSpec) -> list[Flaw]:
 def _tensions(draft: Draft, key: str, values: float | tuple[float, ...]) -> list[Flaw]:
     flaws = []
     path: Path = ("spline", key)
-    if isinstance(values, tuple) and draft.has_route and draft.closed is not None:
+    is_contradictory = draft.closed is None or (draft.closed and draft.has_goal)
+    if isinstance(values, tuple) and draft.has_route and not is_contradictory:
         spans = len(draft.points) - (0 if draft.closed else 1)
         if len(values) != spans and spans > 0:
             problem = f"has {len(values)} values for {spans} {'span' if spans == 1 else 'spans'}"

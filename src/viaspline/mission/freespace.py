@@ -22,6 +22,7 @@ Indices: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
 
 _CROWD = 2000  # Obstacles round a point beyond which no nearest free place is looked for.
 _QUARTER = 64  # Corners of a quarter circle where outlines are moved outwards.
+_OUTWARD = 1 / math.cos(math.pi / (4 * _QUARTER))  # Chords cut corners; so much farther, none.
 
 
 class FreeSpace:
@@ -130,11 +131,12 @@ class FreeSpace:
         here = shapely.points(place)
         reach = 4 * self.margin + 1e-3
         while reach < 1e10:
-            window = shapely.box(*(np.array([-1, -1, 1, 1]) * reach + np.array([*place, *place])))
-            around = self._tree.query(window.buffer(self.margin)) if len(self.boxes) else []
+            around = np.empty(0, dtype=np.intp)
+            if len(self.boxes):
+                around = self._tree.query(_window(place, reach + 2 * self.margin))
             if len(around) > _CROWD:
                 return None
-            free = self._free(window, np.asarray(around, dtype=np.intp))
+            free = self._free(_window(place, reach), around)
             if not free.is_empty:
                 found = shapely.shortest_line(free, here).coords[0]
                 if math.dist(found, place) <= reach:
@@ -146,23 +148,26 @@ class FreeSpace:
         """The part of a window where the robot may be, a little smaller than it is."""
         import shapely
 
-        slack = self._step * 2
-        margin = self.margin + slack
+        margin = self.margin + 2 * self._step
         if self.bounds is not None:
             x_min, y_min, x_max, y_max = self.bounds
             if x_max - x_min < 2 * margin or y_max - y_min < 2 * margin:
                 return shapely.Polygon()
             inner = shapely.box(x_min + margin, y_min + margin, x_max - margin, y_max - margin)
             window = shapely.intersection(window, inner)
-        # Chords cut corners: circles of this radius have theirs outside.
-        outward = 1 / math.cos(math.pi / (4 * _QUARTER))
-        for fence in self.fences:
-            inner = shapely.buffer(fence, -margin * outward, quad_segs=_QUARTER)
-            window = shapely.intersection(window, inner)
+        for fence in self._inner_fences:
+            window = shapely.intersection(window, fence)
         grown = shapely.buffer(
-            self.geometries[around], (self.radii[around] + margin) * outward, quad_segs=_QUARTER
+            self.geometries[around], (self.radii[around] + margin) * _OUTWARD, quad_segs=_QUARTER
         )
         return shapely.difference(window, shapely.union_all(grown))
+
+    @cached_property
+    def _inner_fences(self) -> Geometries:
+        import shapely
+
+        margin = (self.margin + 2 * self._step) * _OUTWARD
+        return np.asarray(shapely.buffer(self.fences, -margin, quad_segs=_QUARTER), dtype=object)
 
     @property
     def _step(self) -> float:
@@ -173,11 +178,26 @@ class FreeSpace:
         """The place in round numbers, if the robot may really be there."""
         decimals = round(-math.log10(self._step))
         xy = (round(place[0], decimals), round(place[1], decimals))
-        taken = (*self.near_bounds([xy]), *self.near_fences([xy]), *self.near_obstacles([xy]))
-        return None if taken else xy
+        if any(self.near_bounds([xy])) or any(self.near_fences([xy])):
+            return None
+        if len(self.boxes):
+            around = self._tree.query(_window(xy, self.margin))
+            distances = self._distances(_points([xy] * len(around)), around)
+            if (distances < self.margin).any():
+                return None
+        return xy
 
 
 def _points(places: Sequence[Sequence[float]]) -> Geometries:
     import shapely
 
-    return np.asarray(shapely.points(np.array(places, dtype=float)), dtype=object)
+    xy = np.array(places, dtype=float).reshape(-1, 2)
+    return np.asarray(shapely.points(xy), dtype=object)
+
+
+def _window(place: Sequence[float], reach: float) -> Any:
+    """A square round a place, up to ``reach`` [m] to each side."""
+    import shapely
+
+    x, y = place
+    return shapely.box(x - reach, y - reach, x + reach, y + reach)

@@ -43,12 +43,24 @@ def json_schema() -> dict[str, Any]:
     obstacle = schema["$defs"]["Obstacle"]
     obstacle["oneOf"] = [{"required": ["circle"]}, {"required": ["polygon"]}]
     obstacle["dependentRequired"] = {"holes": ["polygon"]}
-    schema["$defs"]["SplineSpec"]["not"] = {"required": ["tension", "slack"]}
+    spline = schema["$defs"]["SplineSpec"]
+    spline["not"] = {"required": ["tension", "slack"]}
+    _limit(spline["properties"]["tension"], {"maximum": 1})
+    _limit(spline["properties"]["slack"], {"minimum": 0})
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         **schema,
         "title": "A mission of viaspline",
     }
+
+
+def _limit(prop: dict[str, Any], limit: dict[str, float]) -> None:
+    """Limit the numbers of "one number, or a list of them"."""
+    for choice in prop["anyOf"]:
+        if choice["type"] == "number":
+            choice.update(limit)
+        elif choice["type"] == "array":
+            choice["items"].update(limit)
 
 
 def _describe(schema: dict[str, Any], model: type) -> None:

@@ -26,6 +26,7 @@ def structural_flaws(error: ValidationError) -> list[Flaw]:
     details = error.errors(include_url=False)
     meant = {key for detail in details if (key := _meant(detail)) is not None}
     flaws: dict[Path, Flaw] = {}
+    short: set[Path] = set()
     for detail in details:
         path = _path(detail["loc"])
         if detail["type"] == "missing" and path in meant:
@@ -34,7 +35,11 @@ def structural_flaws(error: ValidationError) -> list[Flaw]:
             continue
         flaw = _flaw(detail, path)
         flaws.setdefault(flaw.path, flaw)
-    return list(flaws.values())
+        if detail["type"] == "too_short":
+            short.add(path)
+    # A list that lost its faulty items is called too short as well; it isn't.
+    around = {path[:i] for path in flaws for i in range(len(path))}
+    return [flaw for path, flaw in flaws.items() if path not in short or path not in around]
 
 
 def _path(loc: tuple[int | str, ...]) -> Path:
@@ -84,7 +89,7 @@ def _flaw(detail: ErrorDetails, path: Path) -> Flaw:
             problem = f"{describe(found)} is negative"
         return Flaw(path, problem, f"it should be a number {words} {limit}")
     if kind in ("too_short", "too_long"):
-        return _wrong_length(path, found, detail)
+        return _wrong_length(path, found)
     return Flaw(path, f"found {describe(found)}", _remedy(path, found))
 
 
@@ -117,15 +122,13 @@ def _missing(path: Path, found: Any) -> Flaw:
     return Flaw(path, "is missing", f"give {path[-1]}: {expectation(path)}")
 
 
-def _wrong_length(path: Path, found: Any, detail: ErrorDetails) -> Flaw:
+def _wrong_length(path: Path, found: Any) -> Flaw:
     if found == "":
         return Flaw(path, "is empty", f"it should be {expectation(path)}")
     remedy = f"it should be {expectation(path)}"
     if field_of(path) == "center" and isinstance(found, list | tuple) and len(found) == 3:
         remedy += "; obstacles are flat in this version"
-    length = detail.get("ctx", {}).get("actual_length")
-    problem = f"found {describe(found)}" if length is None else f"found {length} values"
-    return Flaw(path, problem, remedy)
+    return Flaw(path, f"found {describe(found)}", remedy)
 
 
 def parts(value: Any) -> Iterator[tuple[int, Any]]:

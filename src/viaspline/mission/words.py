@@ -137,12 +137,12 @@ def suggestion(key: str, path: Path) -> tuple[str, str | None]:
     """
     known = keys_at(path)
     folded = key.strip().lower().replace("-", "_").replace(" ", "_")
+    home = [name for name, model in _MODELS.items() if name and folded in model.model_fields]
+    if home and folded not in known:
+        return f"'{folded}' belongs under {home[0]}", None
     near = difflib.get_close_matches(folded, known, n=1, cutoff=0.6)
     if not near:
         near = [name for name in known if folded and name.startswith(folded)]
     if near:
         return f"did you mean '{near[0]}'?", near[0]
-    home = [name for name, model in _MODELS.items() if name and folded in model.model_fields]
-    if home and folded not in known:
-        return f"'{folded}' belongs under {home[0]}", None
     return "the keys here are " + ", ".join(known), None
