@@ -108,7 +108,7 @@ def _route(draft: Draft) -> list[Flaw]:
                 at_key=True,
             )
         )
-    if draft.has_route and len(draft.points) < 2:
+    if draft.has_route and len(draft.points) < 2 and draft.points[0][1] is not None:
         problem = "a route needs at least two distinct points; this one has only its start"
         flaws.append(Flaw(("route",), problem, "give goal: [x, y] or via: [[x, y], ...]"))
     return flaws
