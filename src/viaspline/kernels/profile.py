@@ -290,7 +290,7 @@ def _exceeds(square: float, limit: float, slip: float) -> bool:
 @kernel
 def _peak(
     left: float,
-    width: float,
+    right: float,
     low: float,
     high: float,
     cap: float,
@@ -300,16 +300,16 @@ def _peak(
     count: int,
 ) -> int:
     """Break points inside a stretch whose ends have the v² ``low`` and ``high``."""
-    slope = 2.0 * accel
+    slope, width = 2.0 * accel, right - left
     rise, fall = (cap - low) / slope, width - (cap - high) / slope
     if rise < fall:
         for x in (rise, fall):
-            if 0.0 < x < width:
+            if s[count - 1] < left + x < right:
                 s[count], e[count] = left + x, cap
                 count += 1
         return count
     x = (high - low + slope * width) / (2.0 * slope)
-    if 0.0 < x < width:
+    if s[count - 1] < left + x < right:
         s[count], e[count] = left + x, low + slope * x
         count += 1
     return count
@@ -363,7 +363,7 @@ def speed_profile(
                 s[count], e[count] = left, low
                 count += 1
         high = min(back[i + 1], max(low, 0.0) + slope * (right - left))
-        count = _peak(left, right - left, low, high, cap, accel, s, e, count)
+        count = _peak(left, right, low, high, cap, accel, s, e, count)
         if right > s[count - 1]:
             s[count], e[count] = right, high
             count += 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,16 +37,29 @@ class RangeSensor:
 
     def seen(self, position: ArrayLike) -> tuple[Obstacle, ...]:
         """The obstacles within range of a position [m], shape (d,), in their own order."""
-        if not self.obstacles:
-            return ()
-        point = np.asarray(position, dtype=float)[:2]
-        gaps = np.hypot(*(self._centers - point).T) - self._radii
-        near = np.flatnonzero(gaps <= self.range)
-        return tuple(
-            self.obstacles[i]
-            for i in near.tolist()
-            if float(self._world.distances_to(i, point[None, :])[0]) <= self.range
-        )
+        point = np.asarray(position, dtype=float)[None, :2]
+        return tuple(self.obstacles[i] for i in self._near(point) if self._sights(i, point).size)
+
+    def first_sight(self, positions: NDArray[np.float64], known: Container[Obstacle]) -> int | None:
+        """Index of the first of some positions [m], shape (n, d), that shows something unknown."""
+        points = positions[:, :2]
+        firsts = [
+            int(sights[0])
+            for i in self._near(points)
+            if self.obstacles[i] not in known and (sights := self._sights(i, points)).size
+        ]
+        return min(firsts, default=None)
+
+    def _near(self, points: NDArray[np.float64]) -> list[int]:
+        """Indices of the obstacles that may be in range of one of the points."""
+        low, high = points.min(axis=0), points.max(axis=0)
+        aside = np.maximum(np.maximum(low - self._centers, self._centers - high), 0.0)
+        near: list[int] = np.flatnonzero(np.hypot(*aside.T) <= self.range + self._radii).tolist()
+        return near
+
+    def _sights(self, index: int, points: NDArray[np.float64]) -> NDArray[np.intp]:
+        """Indices of the points that have an obstacle in range."""
+        return np.flatnonzero(self._world.distances_to(index, points) <= self.range)
 
 
 def _disc_around(obstacle: Obstacle) -> tuple[float, float, float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -106,18 +107,19 @@ class Trajectory:
         Before its start and after its end the robot stands there (with the speed that the time
         law has at that end, if it isn't 0). Scalar or array in, the same shape out.
         """
-        t = np.clip(np.asarray(time, dtype=float), self.times[0], self.times[-1])
+        t = _within(np.asarray(time, dtype=float), self.times[0], self.times[-1])
         last = self.accelerations.shape[0] - 1
-        i = np.clip(np.searchsorted(self.times, t, side="right") - 1, 0, last)
+        i = _within(self.times.searchsorted(t, side="right") - 1, 0, last)
         late = t - self.times[i]
-        acceleration = self.accelerations[i]
-        speed = self.speeds[i] + acceleration * late
-        distance = self.distances[i] + (self.speeds[i] + 0.5 * acceleration * late) * late
-        low = np.minimum(self.speeds[i], self.speeds[i + 1])
-        high = np.maximum(self.speeds[i], self.speeds[i + 1])
+        first, acceleration = self.speeds[i], self.accelerations[i]
+        distance = self.distances[i] + (first + 0.5 * acceleration * late) * late
+        second = self.speeds[i + 1]
+        speed = _within(
+            first + acceleration * late, np.minimum(first, second), np.maximum(first, second)
+        )
         return (
-            np.clip(distance, self.distances[i], self.distances[i + 1])[()],
-            np.clip(speed, low, high)[()],
+            _within(distance, self.distances[i], self.distances[i + 1])[()],
+            speed[()],
             acceleration[()],
         )
 
@@ -127,9 +129,9 @@ class Trajectory:
 
     def _before(self, distance: ArrayLike) -> tuple[Floats, NDArray[np.intp], Floats, Floats]:
         """The clipped distance, its stretch, how far it is into it and the speed there."""
-        s = np.clip(np.asarray(distance, dtype=float), self.distances[0], self.distances[-1])
+        s = _within(np.asarray(distance, dtype=float), self.distances[0], self.distances[-1])
         last = self.accelerations.shape[0] - 1
-        i = np.clip(np.searchsorted(self.distances, s, side="left") - 1, 0, last)
+        i = _within(self.distances.searchsorted(s, side="left") - 1, 0, last)
         into = s - self.distances[i]
         width = self.distances[i + 1] - self.distances[i]
         part = np.divide(into, width, out=np.zeros_like(into), where=width > 0)
@@ -152,3 +154,8 @@ class Trajectory:
         """The first distance from here on where the robot comes to rest, or the end [m]."""
         rests = self.distances[(self.speeds == 0.0) & (self.distances >= distance)]
         return float(rests[0]) if rests.size else float(self.distances[-1])
+
+
+def _within(values: Any, low: Any, high: Any) -> Any:
+    """``np.clip``, which takes ten times as long for a number."""
+    return np.minimum(np.maximum(values, low), high)
