@@ -1,4 +1,4 @@
-"""What is measured on a curve in metres: length, distance along it, the nearest point, curvature."""
+"""What is measured on a curve in metres: length, distance along it, nearest point, curvature."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from viaspline.curve.arguments import Floats, as_point, call, frozen, outside
 from viaspline.errors import GeometryError
-from viaspline.kernels import arclength, cubic, extrema
+from viaspline.kernels import arclength, cubic, extrema, frame
 
 MOST_SAMPLES = 50_000_000
 
@@ -172,4 +172,29 @@ class Measured:
             Shape (m - 1,), joint 1 first; (m,), joint 0 first, for a closed curve. In the plane
             the difference of the signed curvatures, in space that of the curvature vectors.
         """
-        return np.asarray(extrema.joint_jumps(self._spans, self._closed))
+        joints = np.arange(0.0 if self._closed else 1.0, len(self._spans))
+        sides = np.empty((2, joints.size))
+        for side, left in zip(sides, (True, False), strict=True):
+            frame.curvature(self._spans, joints, self._closed, left, side)
+        cusps = np.isinf(sides).any(axis=0)
+        sides[:, cusps] = 0.0
+        if self._spans.shape[2] < 3:
+            jumps = np.abs(sides[1] - sides[0])
+        else:
+            before = self._spans[joints.astype(int) - 1, :0:-1]
+            after = self._spans[joints.astype(int), :3]
+            vectors = _across(after) * sides[1, :, None] - _across(before) * sides[0, :, None]
+            jumps = np.linalg.norm(vectors, axis=1)
+        jumps[cusps] = np.inf
+        return np.asarray(jumps)
+
+
+def _across(control: Floats) -> Floats:
+    """Unit vectors of the curvature at the first of three control points each, (k, 3, d)."""
+    first = control[:, 1] - control[:, 0]
+    second = control[:, 2] - control[:, 1]
+    squared = np.sum(first * first, axis=1, keepdims=True)
+    part = np.sum(first * second, axis=1, keepdims=True) / np.where(squared > 0.0, squared, 1.0)
+    across = second - part * first
+    length = np.linalg.norm(across, axis=1, keepdims=True)
+    return np.asarray(across / np.where(length > 0.0, length, 1.0))

@@ -12,6 +12,7 @@ from viaspline.curve.arguments import Floats, call, frozen, outside, working_cop
 from viaspline.curve.measured import Measured
 from viaspline.errors import GeometryError
 from viaspline.kernels import cubic as kernels
+from viaspline.kernels import frame
 
 
 class PiecewiseCubic(Measured):
@@ -146,7 +147,7 @@ class PiecewiseCubic(Measured):
         """
         parameters, shape = call(u)
         out = np.empty((parameters.size, self.dimension))
-        bad = kernels.direction(self._spans, parameters, self._closed, out)
+        bad = frame.direction(self._spans, parameters, self._closed, out)
         if bad >= 0:
             raise outside("u", parameters[bad], self.domain)
         return out.reshape((*shape, self.dimension))
@@ -186,7 +187,7 @@ class PiecewiseCubic(Measured):
         """
         parameters, shape = call(u)
         out = np.empty(parameters.size)
-        bad = kernels.curvature(self._spans, parameters, self._closed, out)
+        bad = frame.curvature(self._spans, parameters, self._closed, False, out)
         if bad >= 0:
             raise outside("u", parameters[bad], self.domain)
         return out.reshape(shape) if shape else float(out[0])
@@ -243,7 +244,8 @@ class PiecewiseCubic(Measured):
             if (low, high) != (0.0, 1.0):
                 kernels.subspan(self._spans[k], low, high, spans[k - first])
         joints = np.r_[u0, np.arange(first + 1.0, last + 1.0), u1]
-        return self._made(spans, np.interp(joints, np.arange(len(self._knots)), self._knots))
+        knots = np.interp(joints, np.arange(0.0, len(self.knots)), self.knots)
+        return self._made(spans, np.asarray(knots))
 
     def joined(self, other: PiecewiseCubic) -> PiecewiseCubic:
         """This curve and then another one that starts where this one ends.
@@ -264,7 +266,7 @@ class PiecewiseCubic(Measured):
                 f"a curve of dimension {other.dimension} can't follow one of {self.dimension}"
             )
         spans = np.concatenate((self._spans, other._spans))
-        knots = np.concatenate((self._knots, other._knots[1:] - other._knots[0] + self._knots[-1]))
+        knots = np.concatenate((self.knots, other.knots[1:] - other.knots[0] + self.knots[-1]))
         return self._made(spans, knots)
 
     def __copy__(self) -> Self:

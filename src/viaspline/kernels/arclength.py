@@ -46,6 +46,15 @@ def panel_length(rows: Floats, k: int, start: float, end: float) -> float:
 
 
 @kernel
+def _larger(array: Floats) -> Floats:
+    """The same numbers with as much room again."""
+    larger = np.zeros(2 * array.shape[0])
+    for i in range(array.shape[0]):
+        larger[i] = array[i]
+    return larger
+
+
+@kernel
 def length_table(rows: Floats) -> tuple[Floats, Floats]:
     """Panels of a whole curve.
 
@@ -62,20 +71,23 @@ def length_table(rows: Floats) -> tuple[Floats, Floats]:
     size = 1
     stack = np.empty((40, 3))
     for k in range(count):
-        stack[0] = 0.0, 1.0, panel_length(rows, k, 0.0, 1.0)
+        stack[0, 0] = 0.0
+        stack[0, 1] = 1.0
+        stack[0, 2] = panel_length(rows, k, 0.0, 1.0)
         top = 0
         allowed = 0.0
         for j in range(9):
             allowed = max(allowed, TOLERANCE * speed(rows, k, j / 8.0))
         while top >= 0:
-            start, end, whole = stack[top]
+            start = stack[top, 0]
+            end = stack[top, 1]
             middle = 0.5 * (start + end)
             left = panel_length(rows, k, start, middle)
             right = panel_length(rows, k, middle, end)
-            if abs(left + right - whole) <= allowed or end - start <= SMALLEST:
+            if abs(left + right - stack[top, 2]) <= allowed or end - start <= SMALLEST:
                 if size + 2 > at.shape[0]:
-                    at = np.concatenate((at, np.zeros(at.shape[0])))
-                    along = np.concatenate((along, np.zeros(along.shape[0])))
+                    at = _larger(at)
+                    along = _larger(along)
                 at[size] = k + middle
                 along[size] = along[size - 1] + left
                 at[size + 1] = k + end
@@ -83,9 +95,12 @@ def length_table(rows: Floats) -> tuple[Floats, Floats]:
                 size += 2
                 top -= 1
             else:
-                stack[top] = middle, end, right
+                stack[top, 0] = middle
+                stack[top, 2] = right
                 top += 1
-                stack[top] = start, middle, left
+                stack[top, 0] = start
+                stack[top, 1] = middle
+                stack[top, 2] = left
     return at[:size].copy(), along[:size].copy()
 
 
@@ -150,7 +165,7 @@ def _along_panel(rows: Floats, k: int, start: float, end: float, step: float, pa
         better = w - excess / rate if rate > 0.0 else low
         if not low < better < high:
             better = 0.5 * (low + high)
-        if abs(better - w) <= 4e-16 * max(1.0, abs(w)):
+        if abs(better - w) <= 1e-8 * (better - start):  # the next step would be its square
             return better
         w = better
     return w

@@ -1,4 +1,4 @@
-"""Piecewise cubics in any dimension: evaluation, direction, curvature, subdivision, bounds.
+"""Piecewise cubics in any dimension: evaluation, derivatives, subdivision, bounds.
 
 A curve is an array of Bézier control polygons ``spans`` (m, 4, d). For evaluation it is turned
 into ``rows`` (m + 1, 4, d), the Taylor coefficients about the start of each span and, in the last
@@ -19,7 +19,6 @@ Floats = NDArray[np.float64]
 FINE, NOT_FINITE, APART = range(3)
 LARGEST = 1e100  # coordinates beyond this would overflow where they are squared [m]
 JOINT_TOLERANCE = 1e-9  # [m], beside a few units in the last place
-ROUNDING = 2e-15
 
 
 @kernel
@@ -66,8 +65,9 @@ def prepare(spans: Floats, closed: bool) -> tuple[Floats, int, int]:
                 rows[count, 1, axis] = 3.0 * third
                 rows[count, 2, axis] = 3.0 * (third - second)
                 rows[count, 3, axis] = rows[k, 3, axis]
-    if closed:
-        rows[count] = rows[0]
+                if closed:
+                    for j in range(4):
+                        rows[count, j, axis] = rows[0, j, axis]
     return rows, FINE, -1
 
 
@@ -119,20 +119,31 @@ def evaluate(rows: Floats, u: Floats, closed: bool, out: Floats) -> int:
 
 @kernel
 def _evaluate_plane(rows: Floats, u: Floats, closed: bool, out: Floats) -> int:
-    """``evaluate`` in two dimensions."""
+    """``evaluate`` in two dimensions; the span stays in registers while parameters stay on it.
+
+    One comparison tells whether they do: two would be guessed wrong half the time by the
+    processor when parameters are in no order.
+    """
     count = rows.shape[0] - 1
+    start = np.nan
+    ax = ay = bx = by = cx = cy = dx = dy = 0.0
     for i in range(u.shape[0]):
-        x = u[i]
-        if not 0.0 <= x <= count:
-            x = wrapped(x, count, closed)
-            if math.isnan(x):
-                return i
-        k = int(x)
-        w = x - k
-        cx = rows[k, 2, 0] + w * rows[k, 3, 0]
-        cy = rows[k, 2, 1] + w * rows[k, 3, 1]
-        out[i, 0] = rows[k, 0, 0] + w * (rows[k, 1, 0] + w * cx)
-        out[i, 1] = rows[k, 0, 1] + w * (rows[k, 1, 1] + w * cy)
+        w = u[i] - start
+        if not abs(w - 0.5) < 0.5:
+            x = u[i]
+            if not 0.0 <= x <= count:
+                x = wrapped(x, count, closed)
+                if math.isnan(x):
+                    return i
+            k = int(x)
+            start = float(k)
+            w = x - start
+            ax, ay = rows[k, 0, 0], rows[k, 0, 1]
+            bx, by = rows[k, 1, 0], rows[k, 1, 1]
+            cx, cy = rows[k, 2, 0], rows[k, 2, 1]
+            dx, dy = rows[k, 3, 0], rows[k, 3, 1]
+        out[i, 0] = ax + w * (bx + w * (cx + w * dx))
+        out[i, 1] = ay + w * (by + w * (cy + w * dy))
     return -1
 
 
@@ -143,7 +154,7 @@ def first_derivative(spans: Floats, k: int, axis: int, w: float) -> float:
     first = spans[k, 1, axis] - spans[k, 0, axis]
     second = spans[k, 2, axis] - spans[k, 1, axis]
     third = spans[k, 3, axis] - spans[k, 2, axis]
-    return 3.0 * (v * v * first + 2.0 * v * w * second + w * w * third)
+    return float(3.0 * (v * v * first + 2.0 * v * w * second + w * w * third))
 
 
 @kernel
@@ -152,7 +163,7 @@ def second_derivative(spans: Floats, k: int, axis: int, w: float) -> float:
     first = spans[k, 1, axis] - spans[k, 0, axis]
     second = spans[k, 2, axis] - spans[k, 1, axis]
     third = spans[k, 3, axis] - spans[k, 2, axis]
-    return 6.0 * ((1.0 - w) * (second - first) + w * (third - second))
+    return float(6.0 * ((1.0 - w) * (second - first) + w * (third - second)))
 
 
 @kernel
@@ -161,7 +172,7 @@ def third_derivative(spans: Floats, k: int, axis: int) -> float:
     first = spans[k, 1, axis] - spans[k, 0, axis]
     second = spans[k, 2, axis] - spans[k, 1, axis]
     third = spans[k, 3, axis] - spans[k, 2, axis]
-    return 6.0 * ((third - second) - (second - first))
+    return float(6.0 * ((third - second) - (second - first)))
 
 
 @kernel
@@ -175,141 +186,6 @@ def speed_bound(spans: Floats, k: int) -> float:
             squared += step * step
         largest = max(largest, squared)
     return 3.0 * math.sqrt(largest)
-
-
-@kernel
-def curvature_at(spans: Floats, k: int, w: float) -> float:
-    """Curvature of span k at w in [0, 1] [1/m].
-
-    Signed in the plane (anticlockwise positive), unsigned in space, 0 in one dimension. Where P'
-    vanishes it is the limit: 0 when the span is straight there, infinite at a cusp. What is lost
-    in rounding counts as straight.
-    """
-    dimension = spans.shape[2]
-    scale = speed_bound(spans, k)
-    if dimension == 1 or scale == 0.0:
-        return 0.0
-    aa = 0.0
-    ab = 0.0
-    bb = 0.0
-    for axis in range(dimension):
-        a = first_derivative(spans, k, axis, w)
-        b = second_derivative(spans, k, axis, w)
-        aa += a * a
-        ab += a * b
-        bb += b * b
-    speed = math.sqrt(aa)
-    at_rest = speed <= 1e-14 * scale
-    if dimension == 2:
-        ax = second_derivative(spans, k, 0, w) if at_rest else first_derivative(spans, k, 0, w)
-        ay = second_derivative(spans, k, 1, w) if at_rest else first_derivative(spans, k, 1, w)
-        bx = third_derivative(spans, k, 0) if at_rest else second_derivative(spans, k, 0, w)
-        by = third_derivative(spans, k, 1) if at_rest else second_derivative(spans, k, 1, w)
-        area = ax * by - ay * bx
-        if at_rest:
-            return math.copysign(np.inf, area) if abs(area) > 1e-12 * scale * scale else 0.0
-        if abs(area) <= ROUNDING * scale * (speed + math.sqrt(bb)):
-            return 0.0
-        return area / (speed * speed * speed)
-    if at_rest:
-        return _cusp_in_space(spans, k, w, scale)
-    across = 0.0
-    for axis in range(dimension):
-        a = first_derivative(spans, k, axis, w)
-        b = second_derivative(spans, k, axis, w) - ab / aa * a
-        across += b * b
-    across = math.sqrt(across)
-    if across * speed <= ROUNDING * scale * (speed + math.sqrt(bb)):
-        return 0.0
-    return across / aa
-
-
-@kernel
-def _cusp_in_space(spans: Floats, k: int, w: float, scale: float) -> float:
-    """Limit of the curvature where P' vanishes: 0 when P'' and P''' are parallel."""
-    squared = 0.0
-    for i in range(spans.shape[2]):
-        for j in range(i):
-            area = second_derivative(spans, k, i, w) * third_derivative(spans, k, j)
-            area -= second_derivative(spans, k, j, w) * third_derivative(spans, k, i)
-            squared += area * area
-    return np.inf if math.sqrt(squared) > 1e-12 * scale * scale else 0.0
-
-
-@kernel
-def curvature(spans: Floats, u: Floats, closed: bool, out: Floats) -> int:
-    """Curvature at parameters [1/m]; arguments and answer as in ``evaluate``, out (n,)."""
-    count = spans.shape[0]
-    for i in range(u.shape[0]):
-        x = wrapped(u[i], count, closed)
-        if math.isnan(x):
-            return i
-        k = int(x)
-        if k == count:
-            k = 0 if closed else count - 1
-        out[i] = curvature_at(spans, k, 0.0 if closed and x == count else x - k)
-    return -1
-
-
-@kernel
-def direction_at(spans: Floats, k: int, w: float, out: Floats) -> bool:
-    """Unit tangent of span k at w into ``out`` (d,); its limit where P' vanishes.
-
-    The limit is the one from the right, at w = 1 the one from the left. False for a span that is
-    a single point, which has none.
-    """
-    scale = speed_bound(spans, k)
-    if scale == 0.0:
-        return False
-    for order in range(1, 4):
-        squared = 0.0
-        for axis in range(spans.shape[2]):
-            if order == 1:
-                out[axis] = first_derivative(spans, k, axis, w)
-            elif order == 2:
-                out[axis] = second_derivative(spans, k, axis, w)
-                if w == 1.0:
-                    out[axis] = -out[axis]
-            else:
-                out[axis] = third_derivative(spans, k, axis)
-            squared += out[axis] * out[axis]
-        length = math.sqrt(squared)
-        if length > 1e-13 * scale or order == 3:
-            for axis in range(spans.shape[2]):
-                out[axis] /= length
-            return True
-    return False
-
-
-@kernel
-def direction(spans: Floats, u: Floats, closed: bool, out: Floats) -> int:
-    """Unit tangents at parameters; arguments and answer as in ``evaluate``.
-
-    A span that is a single point takes the tangent of the next span that is not, at the end of
-    the curve that of the last one; a curve that is a single point has a tangent of zero.
-    """
-    count = spans.shape[0]
-    for i in range(u.shape[0]):
-        x = wrapped(u[i], count, closed)
-        if math.isnan(x):
-            return i
-        k = int(x)
-        w = x - k
-        if k == count:
-            k = 0 if closed else count - 1
-            w = 0.0 if closed else 1.0
-        found = direction_at(spans, k, w, out[i])
-        after = k + 1
-        while not found and after < count:
-            found = direction_at(spans, after, 0.0, out[i])
-            after += 1
-        before = k - 1
-        while not found and before >= 0:
-            found = direction_at(spans, before, 1.0, out[i])
-            before -= 1
-        if not found:
-            out[i] = 0.0
-    return -1
 
 
 @kernel

@@ -14,7 +14,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.cubic import curvature_at, speed_bound
+from viaspline.kernels.cubic import speed_bound
+from viaspline.kernels.frame import curvature_at
 from viaspline.kernels.jit import kernel
 
 Floats = NDArray[np.float64]
@@ -56,7 +57,7 @@ def _changes_sign(coefficients: Floats) -> bool:
     for i in range(1, coefficients.shape[0]):
         low = min(low, coefficients[i])
         high = max(high, coefficients[i])
-    return low < 0.0 < high
+    return bool(low < 0.0 < high)
 
 
 @kernel
@@ -73,7 +74,8 @@ def roots(coefficients: Floats, stack: Floats, out: Floats) -> int:
     """
     size = coefficients.shape[0]
     found = 0
-    stack[0, :size] = coefficients
+    for i in range(size):
+        stack[0, i] = coefficients[i]
     stack[0, size] = 0.0
     stack[0, size + 1] = 1.0
     top = 0
@@ -107,7 +109,7 @@ def roots(coefficients: Floats, stack: Floats, out: Floats) -> int:
 
 @kernel
 def _moved(spans: Floats, k: int, point: Floats, out: Floats) -> float:
-    """Control points of span k seen from a point into ``out`` (4, d); squared bound of its distance."""
+    """Control points of span k seen from a point into ``out``, and a bound: distance squared."""
     bound = 0.0
     for axis in range(point.shape[0]):
         low = np.inf
@@ -200,7 +202,8 @@ def nearest_parameter(
     for k in range(first, last + 1):
         if _moved(spans, k, point, control) >= best:
             continue
-        product[:] = 0.0
+        for j in range(6):
+            product[j] = 0.0
         for axis in range(dimension):
             for j in range(4):
                 position[j] = control[j, axis] * (3.0 if 0 < j < 3 else 1.0)
@@ -242,7 +245,8 @@ def _curvature_slope(spans: Floats, k: int, scale: float, out: Floats) -> None:
             factor[2] = step[1, i] * step[2, j] - step[1, j] * step[2, i]
             _add_product(factor, factor, 1.0, y)
     slope = np.empty(4)
-    out[:] = 0.0
+    for j in range(8):
+        out[j] = 0.0
     _slope(y, slope)
     _add_product(slope, q, 1.0, out)
     _slope(q, slope)
@@ -280,62 +284,3 @@ def sharpest(spans: Floats) -> tuple[float, int, float]:
             if value > largest:
                 largest, span_at, w_at = value, k, found[i]
     return largest, span_at, w_at
-
-
-@kernel
-def joint_jumps(spans: Floats, closed: bool) -> Floats:
-    """Jump of the curvature at every joint [1/m], (m - 1,), or (m,) from joint 0 when closed.
-
-    In the plane the difference of the signed curvatures; in space that of the curvature vectors.
-    """
-    count, _, dimension = spans.shape
-    first = 0 if closed else 1
-    jumps = np.empty(count - first)
-    for k in range(first, count):
-        before = k - 1 if k > 0 else count - 1
-        left = curvature_at(spans, before, 1.0)
-        right = curvature_at(spans, k, 0.0)
-        if abs(left) == np.inf or abs(right) == np.inf:
-            jumps[k - first] = np.inf
-        elif dimension < 3:
-            jumps[k - first] = abs(right - left)
-        else:
-            jumps[k - first] = _vector_jump(spans, before, k, left, right)
-    return jumps
-
-
-@kernel
-def _vector_jump(spans: Floats, before: int, k: int, left: float, right: float) -> float:
-    """Length of the difference of two curvature vectors, where each is not straight."""
-    one = _curvature_vector(spans, before, 1.0, left)
-    other = _curvature_vector(spans, k, 0.0, right)
-    total = 0.0
-    for axis in range(spans.shape[2]):
-        total += (other[axis] - one[axis]) ** 2
-    return math.sqrt(total)
-
-
-@kernel
-def _curvature_vector(spans: Floats, k: int, w: float, value: float) -> Floats:
-    """The part of P'' across P', as long as ``value``; zero where that is zero."""
-    dimension = spans.shape[2]
-    vector = np.zeros(dimension)
-    if value == 0.0:
-        return vector
-    aa = 0.0
-    ab = 0.0
-    for axis in range(dimension):
-        a = 3.0 * (spans[k, 1, axis] - spans[k, 0, axis])
-        b = spans[k, 2, axis] - 2.0 * spans[k, 1, axis] + spans[k, 0, axis]
-        if w == 1.0:
-            a = 3.0 * (spans[k, 3, axis] - spans[k, 2, axis])
-            b = spans[k, 3, axis] - 2.0 * spans[k, 2, axis] + spans[k, 1, axis]
-        aa += a * a
-        ab += 6.0 * a * b
-        vector[axis] = 6.0 * b
-    for axis in range(dimension):
-        a = 3.0 * (spans[k, 1, axis] - spans[k, 0, axis])
-        if w == 1.0:
-            a = 3.0 * (spans[k, 3, axis] - spans[k, 2, axis])
-        vector[axis] = (vector[axis] - ab / aa * a) / aa
-    return vector

@@ -52,39 +52,35 @@ def knot_spacing(points: Floats, alpha: float, closed: bool) -> Floats:
 
 
 @kernel
-def distinct(spacing: Floats, closed: bool) -> NDArray[np.int64]:
-    """The spans that have a length, as numbers of the points that they start from.
+def slopes_of(points: Floats, spacing: Floats) -> tuple[NDArray[np.int64], Floats, Floats]:
+    """The spans that have a length, and the slopes of their chords.
 
     Args:
-        spacing: Knot distances, (m,).
-        closed: Whether the last span ends at the first point.
+        points: Via points, (n, d) [m].
+        spacing: Knot distances, (m,); 0 between a point and its repetition.
 
     Returns:
-        (p,): spans with a spacing above 0, in order.
+        (kept (p,), h (p,), slopes (p, d)): numbers of the spans with a spacing above 0, their
+        knot distances, and chord over knot distance.
     """
+    count, dimension = points.shape
     kept = np.empty(spacing.shape[0], np.int64)
+    h = np.empty(spacing.shape[0])
+    slopes = np.empty((spacing.shape[0], dimension))
     size = 0
     for k in range(spacing.shape[0]):
         if spacing[k] > 0.0:
             kept[size] = k
+            h[size] = spacing[k]
+            for axis in range(dimension):
+                chord = points[(k + 1) % count, axis] - points[k, axis]
+                slopes[size, axis] = chord / spacing[k]
             size += 1
-    return kept[:size]
+    return kept[:size], h[:size], slopes[:size]
 
 
 @kernel
-def _slopes(points: Floats, spacing: Floats, kept: NDArray[np.int64]) -> Floats:
-    """Chord over knot distance of every span that has a length, (p, d)."""
-    count = points.shape[0]
-    slopes = np.empty((kept.shape[0], points.shape[1]))
-    for j in range(kept.shape[0]):
-        k = kept[j]
-        for axis in range(points.shape[1]):
-            slopes[j, axis] = (points[(k + 1) % count, axis] - points[k, axis]) / spacing[k]
-    return slopes
-
-
-@kernel
-def cardinal_velocities(slopes: Floats, h: Floats, closed: bool) -> Floats:
+def cardinal_velocities(slopes: Floats, h: Floats, closed: bool, velocities: Floats) -> None:
     """Non-uniform Catmull-Rom velocities; the paper's when the knots are uniform.
 
     Barry and Goldman (1988): the derivative of the parabola through three via points,
@@ -95,13 +91,10 @@ def cardinal_velocities(slopes: Floats, h: Floats, closed: bool) -> Floats:
     Args:
         slopes: (p, d), p spans that have a length.
         h: Their knot distances, (p,).
-        closed: Whether the last span is followed by the first.
-
-    Returns:
-        (p + 1, d); closed: the last row repeats the first.
+        closed: Whether the last span is followed by the first; the last row repeats the first.
+        velocities: (p + 1, d), filled.
     """
     spans = slopes.shape[0]
-    velocities = np.empty((spans + 1, slopes.shape[1]))
     for axis in range(slopes.shape[1]):
         for j in range(1, spans):
             weight = h[j - 1] / (h[j - 1] + h[j])
@@ -115,7 +108,6 @@ def cardinal_velocities(slopes: Floats, h: Floats, closed: bool) -> Floats:
         else:
             velocities[0, axis] = 0.5 * slopes[0, axis]
             velocities[spans, axis] = 0.5 * slopes[spans - 1, axis]
-    return velocities
 
 
 @kernel
@@ -126,14 +118,12 @@ def _solve(lower: Floats, upper: Floats, right: Floats) -> None:
     """
     count, columns = right.shape
     above = np.empty(count)
-    pivot = 1.0
-    for i in range(count):
-        if i > 0:
-            pivot = 1.0 - lower[i] * above[i - 1]
+    above[0] = upper[0]
+    for i in range(1, count):
+        pivot = 1.0 - lower[i] * above[i - 1]
         above[i] = upper[i] / pivot
         for c in range(columns):
-            before = lower[i] * right[i - 1, c] if i > 0 else 0.0
-            right[i, c] = (right[i, c] - before) / pivot
+            right[i, c] = (right[i, c] - lower[i] * right[i - 1, c]) / pivot
     for i in range(count - 2, -1, -1):
         for c in range(columns):
             right[i, c] -= above[i] * right[i + 1, c]
@@ -143,39 +133,36 @@ def _solve(lower: Floats, upper: Floats, right: Floats) -> None:
 def _solve_cyclic(lower: Floats, upper: Floats, right: Floats) -> None:
     """The same with ``lower[0]`` in the last column and ``upper[-1]`` in the first.
 
-    The corners are a rank-one change of a tridiagonal matrix (Sherman and Morrison): with
-    ``A = B + p q'``, p = (-1, 0, ..., 0, upper[-1]) and q = (1, 0, ..., 0, -lower[0]).
+    The corners are a rank-one change of a tridiagonal matrix (Sherman and Morrison): A = B + p q',
+    p = (-1, 0, ..., 0, upper[-1]) and q = (1, 0, ..., 0, -lower[0]). ``right`` (n, r + 1) has
+    room for p in its last column; ``lower`` and ``upper`` are used up.
     """
     count, columns = right.shape
+    last = count - 1
     corner = lower[0]
-    other = upper[count - 1]
-    scaled = np.zeros((count, columns + 1))
-    low = lower.copy()
-    up = upper.copy()
-    low[0] = 0.0
-    up[count - 1] = 0.0
-    scaled[:, :columns] = right
-    scaled[0, columns] = -1.0
-    scaled[count - 1, columns] += other
-    # the diagonal of B is 2, 1, ..., 1, 1 + corner * other: rows are divided by it
-    last = 1.0 + corner * other
-    up[0] /= 2.0
-    low[count - 1] /= last
-    for c in range(columns + 1):
-        scaled[0, c] /= 2.0
-        scaled[count - 1, c] /= last
-    _solve(low, up, scaled)
-    bottom = 1.0 + scaled[0, columns] - corner * scaled[count - 1, columns]
+    for i in range(count):
+        right[i, columns - 1] = 0.0
+    right[0, columns - 1] = -1.0
+    right[last, columns - 1] += upper[last]
+    # the diagonal of B is 2, 1, ..., 1, 1 + product of the corners: its rows are divided by it
+    scale = 1.0 + corner * upper[last]
+    upper[0] /= 2.0
+    lower[last] /= scale
     for c in range(columns):
-        factor = (scaled[0, c] - corner * scaled[count - 1, c]) / bottom
+        right[0, c] /= 2.0
+        right[last, c] /= scale
+    _solve(lower, upper, right)
+    bottom = 1.0 + right[0, columns - 1] - corner * right[last, columns - 1]
+    for c in range(columns - 1):
+        factor = (right[0, c] - corner * right[last, c]) / bottom
         for i in range(count):
-            right[i, c] = scaled[i, c] - factor * scaled[i, columns]
+            right[i, c] -= factor * right[i, columns - 1]
 
 
 @kernel
 def continuous_velocities(
-    slopes: Floats, h: Floats, slack: Floats, start: Floats, end: Floats, closed: bool
-) -> Floats:
+    slopes: Floats, h: Floats, slack: Floats, velocities: Floats, fixed: int, closed: bool
+) -> None:
     """Velocities of Nielson's nu-spline: curvature is continuous at every via point.
 
     See ``viaspline.curve.tangents.continuous`` for the derivation.
@@ -184,28 +171,29 @@ def continuous_velocities(
         slopes: (p, d), p spans that have a length.
         h: Their knot distances, (p,).
         slack: Their slack, (p,).
-        start: Velocity at the start, (d,); its first number is NaN for a natural end.
-        end: Velocity at the end, likewise.
-        closed: Whether the last span is followed by the first.
-
-    Returns:
-        (p + 1, d); closed: the last row repeats the first.
+        velocities: (p + 1, d + 1), filled but for the last column, which is scratch. Where the
+            first or last row is fixed, it holds the velocity already.
+        fixed: 1 when the first row is fixed, 2 when the last one is, 3 when both are.
+        closed: Whether the last span is followed by the first; the last row repeats the first.
     """
     spans, dimension = slopes.shape
     count = spans if closed else spans + 1
-    lower = np.zeros(count)
-    upper = np.zeros(count)
-    velocities = np.empty((spans + 1, dimension))
+    lower = np.empty(count)
+    upper = np.empty(count)
+    for i in range(spans + 1):
+        velocities[i, dimension] = 0.0
     for i in range(count):
-        before = i - 1 if i > 0 else (spans - 1 if closed else 0)
-        after = i if i < spans else spans - 1
+        before = max(i - 1, 0) if i > 0 or not closed else spans - 1
+        after = min(i, spans - 1)
         s = 0.5 * (slack[before] + slack[after])
         gain = 2.0 * s / (1.0 + 2.0 * s)  # (1 - t) / (2 - t)
         weight = h[after] / (h[before] + h[after])
-        if not closed and i == 0:
-            weight = 0.0
-        elif not closed and i == spans:
-            weight = 1.0
+        if not closed and (i == 0 or i == spans):
+            weight = 0.0 if i == 0 else 1.0
+            if fixed & (1 if i == 0 else 2):
+                lower[i] = 0.0
+                upper[i] = 0.0
+                continue
         lower[i] = gain * weight
         upper[i] = gain * (1.0 - weight)
         for axis in range(dimension):
@@ -213,81 +201,43 @@ def continuous_velocities(
             velocities[i, axis] = 3.0 * gain * mean
     if closed:
         _solve_cyclic(lower, upper, velocities[:count])
-        velocities[spans] = velocities[0]
-        return velocities
-    if not math.isnan(start[0]):
-        upper[0] = 0.0
-        velocities[0] = start
-    if not math.isnan(end[0]):
-        lower[spans] = 0.0
-        velocities[spans] = end
-    _solve(lower, upper, velocities)
-    return velocities
-
-
-@kernel
-def _end_velocity(direction: Floats, has: bool, slope: Floats, slack: float) -> Floats:
-    """Velocity along a unit direction, ``2 s`` times as long as the slope of the end span."""
-    velocity = np.full(direction.shape[0], np.nan)
-    if has:
-        squared = 0.0
-        for axis in range(slope.shape[0]):
-            squared += slope[axis] * slope[axis]
-        for axis in range(slope.shape[0]):
-            velocity[axis] = direction[axis] * (2.0 * slack * math.sqrt(squared))
-    return velocity
-
-
-@kernel
-def _spans_of(
-    points: Floats,
-    alpha: float,
-    slack: Floats,
-    start: Floats,
-    end: Floats,
-    has_start: bool,
-    has_end: bool,
-    closed: bool,
-    continuous: bool,
-) -> Floats:
-    """Spans through the points by either rule."""
-    count, dimension = points.shape
-    spacing = knot_spacing(points, alpha, closed)
-    spans = np.empty((spacing.shape[0], 4, dimension))
-    for k in range(spans.shape[0]):  # a repeated point: all four control points are the same
         for axis in range(dimension):
-            spans[k, 0, axis] = points[k, axis]
-            spans[k, 1, axis] = points[k, axis]
-            spans[k, 2, axis] = points[(k + 1) % count, axis]
-            spans[k, 3, axis] = points[(k + 1) % count, axis]
-    kept = distinct(spacing, closed)
-    last = kept.shape[0] - 1
-    if last < 0:
-        return spans
-    slopes = _slopes(points, spacing, kept)
-    h = spacing[kept]
-    s = slack[kept]
-    first_velocity = _end_velocity(start, has_start, slopes[0], s[0])
-    last_velocity = _end_velocity(end, has_end, slopes[last], s[last])
-    if continuous:
-        velocities = continuous_velocities(slopes, h, s, first_velocity, last_velocity, closed)
+            velocities[spans, axis] = velocities[0, axis]
     else:
-        velocities = cardinal_velocities(slopes, h, closed)
-    for j in range(last + 1):
+        _solve(lower, upper, velocities)
+
+
+@kernel
+def _aim(velocity: Floats, direction: Floats, slope: Floats, factor: float) -> None:
+    """Set a velocity along a unit direction, ``factor`` times as long as a slope."""
+    squared = 0.0
+    for axis in range(slope.shape[0]):
+        squared += slope[axis] * slope[axis]
+    for axis in range(slope.shape[0]):
+        velocity[axis] = direction[axis] * (factor * math.sqrt(squared))
+
+
+@kernel
+def _assemble(
+    points: Floats, spans: int, kept: NDArray[np.int64], gain: Floats, velocities: Floats
+) -> Floats:
+    """Bézier spans from velocities; the tangents of kept span j are ``gain[j]`` times them."""
+    count, dimension = points.shape
+    polygons = np.empty((spans, 4, dimension))
+    for k in range(spans):
+        for axis in range(dimension):
+            start = points[k, axis]
+            end = points[(k + 1) % count, axis]
+            polygons[k, 0, axis] = start
+            polygons[k, 1, axis] = start
+            polygons[k, 2, axis] = end
+            polygons[k, 3, axis] = end
+    for j in range(kept.shape[0]):
         k = kept[j]
-        scale = h[j] / 3.0 if continuous else 2.0 * s[j] * h[j] / 3.0
         for axis in range(dimension):
-            spans[k, 1, axis] += scale * velocities[j, axis]
-            spans[k, 2, axis] -= scale * velocities[j + 1, axis]
-    if has_start and not closed:
-        for axis in range(dimension):
-            k = kept[0]
-            spans[k, 1, axis] = spans[k, 0, axis] + h[0] / 3.0 * first_velocity[axis]
-    if has_end and not closed:
-        for axis in range(dimension):
-            k = kept[last]
-            spans[k, 2, axis] = spans[k, 3, axis] - h[last] / 3.0 * last_velocity[axis]
-    return spans
+            polygons[k, 1, axis] += gain[j] / 3.0 * velocities[j, axis]
+            polygons[k, 2, axis] -= gain[j] / 3.0 * velocities[j + 1, axis]
+    return polygons
 
 
 @kernel
@@ -309,17 +259,26 @@ def cardinal_spans(
         slack_per_span: s = (1 - tension) / 2, (m,), m = n - 1 spans, or n when closed.
         start_tangent: Unit direction at the start, (d,); counts when ``has_start``.
         end_tangent: Unit direction at the end, (d,); counts when ``has_end``.
-        has_start: Whether the start's direction is given.
-        has_end: Whether the end's direction is given.
-        closed: Whether the last point is followed by the first; no directions then.
+        has_start: Whether the start's direction is given; not when closed.
+        has_end: Whether the end's direction is given; not when closed.
+        closed: Whether the last point is followed by the first.
 
     Returns:
         Bézier control polygons, (m, 4, d) [m].
     """
-    return _spans_of(
-        points, knots_alpha, slack_per_span, start_tangent, end_tangent,
-        has_start, has_end, closed, False,
-    )  # fmt: skip
+    spacing = knot_spacing(points, knots_alpha, closed)
+    kept, h, slopes = slopes_of(points, spacing)
+    last = kept.shape[0] - 1
+    velocities = np.empty((last + 2, points.shape[1]))
+    if last >= 0:
+        cardinal_velocities(slopes, h, closed, velocities)
+        if has_start:
+            _aim(velocities[0], start_tangent, slopes[0], 1.0)
+        if has_end:
+            _aim(velocities[last + 1], end_tangent, slopes[last], 1.0)
+    for j in range(last + 1):
+        h[j] *= 2.0 * slack_per_span[kept[j]]
+    return _assemble(points, spacing.shape[0], kept, h, velocities)
 
 
 @kernel
@@ -334,7 +293,20 @@ def continuous_spans(
     closed: bool,
 ) -> Floats:
     """The same through velocities that make curvature continuous; see ``cardinal_spans``."""
-    return _spans_of(
-        points, knots_alpha, slack_per_span, start_tangent, end_tangent,
-        has_start, has_end, closed, True,
-    )  # fmt: skip
+    spacing = knot_spacing(points, knots_alpha, closed)
+    kept, h, slopes = slopes_of(points, spacing)
+    last = kept.shape[0] - 1
+    velocities = np.empty((last + 2, points.shape[1] + 1))
+    slack = np.empty(last + 1)
+    for j in range(last + 1):
+        slack[j] = slack_per_span[kept[j]]
+    if last >= 0:
+        fixed = 0
+        if has_start:
+            fixed += 1
+            _aim(velocities[0], start_tangent, slopes[0], 2.0 * slack[0])
+        if has_end:
+            fixed += 2
+            _aim(velocities[last + 1], end_tangent, slopes[last], 2.0 * slack[last])
+        continuous_velocities(slopes, h, slack, velocities, fixed, closed)
+    return _assemble(points, spacing.shape[0], kept, h, velocities)
