@@ -75,11 +75,13 @@ def certify(
         (1.5, (5.0, 0.0), True)
     """
     if curve.dimension not in (2, 3):
-        raise GeometryError(f"a curve of dimension {curve.dimension} can't be certified; 2 or 3 can")
+        raise GeometryError(
+            f"a curve of dimension {curve.dimension} can't be certified; 2 or 3 can"
+        )
     required = float(clearance) + float(radius)
     if not math.isfinite(required):
         raise GeometryError(f"clearance {clearance} and radius {radius} have to be finite")
-    spans = curve.spans
+    spans = np.array(curve.spans)  # numba compiles read-only arrays once more
     for tolerance in (TOLERANCE, 0.01 * TOLERANCE, 0.5 * SPARE):
         lower, upper, span, w, index = kernels.tightest(world.packed, spans, tolerance)
         if lower >= required - SPARE or upper < required - SPARE:

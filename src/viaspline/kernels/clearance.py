@@ -16,12 +16,12 @@ import math
 import numpy as np
 
 from viaspline.kernels.distance import nearest, nearest_to_segment, point_segment
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 DEPTH = 64
 
 
-@kernel
+@inner
 def _halve(stack, top):  # type: ignore[no-untyped-def]
     """Replace the piece at ``top`` of the stack by its right half, its left half above it."""
     for axis in range(2):
@@ -49,7 +49,7 @@ def _halve(stack, top):  # type: ignore[no-untyped-def]
     stack[top, 8] = middle
 
 
-@kernel
+@inner
 def _load(stack, spans, span):  # type: ignore[no-untyped-def]
     for k in range(4):
         stack[0, 2 * k] = spans[span, k, 0]
@@ -58,14 +58,14 @@ def _load(stack, spans, span):  # type: ignore[no-untyped-def]
     stack[0, 9] = 1.0
 
 
-@kernel
+@inner
 def _middle(piece):  # type: ignore[no-untyped-def]
     x = (piece[0] + 3.0 * (piece[2] + piece[4]) + piece[6]) / 8.0
     y = (piece[1] + 3.0 * (piece[3] + piece[5]) + piece[7]) / 8.0
     return x, y
 
 
-@kernel
+@inner
 def _reach(piece, x, y):  # type: ignore[no-untyped-def]
     """Distance from (x, y) to the farthest control point."""
     squared = 0.0
@@ -76,7 +76,7 @@ def _reach(piece, x, y):  # type: ignore[no-untyped-def]
     return math.sqrt(squared)
 
 
-@kernel
+@inner
 def _sag(piece):  # type: ignore[no-untyped-def]
     """Bound of the distance between a piece and its chord."""
     first = point_segment(piece[2], piece[3], piece[0], piece[1], piece[6], piece[7])

@@ -12,14 +12,14 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner
 
 # columns of a corner
 X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, SLOPE = range(8)
 COLUMNS = 8
 
 
-@kernel
+@inner
 def _fan(corners, count, x, y, radius, first, turn, step):  # type: ignore[no-untyped-def]
     """Write the corners of one arc: ``turn`` [rad] from the direction ``first`` about (x, y)."""
     parts = max(1, int(math.ceil(turn / step - 1e-9)))
@@ -43,7 +43,7 @@ def _fan(corners, count, x, y, radius, first, turn, step):  # type: ignore[no-un
     return count
 
 
-@kernel
+@inner
 def _polygon_corners(world, p, rho, step, corners, count):  # type: ignore[no-untyped-def]
     """Corners of polygon p: its rings follow each other, each starting where the last closed."""
     first = world.block_edges[world.polygon_blocks[p]]
@@ -68,7 +68,7 @@ def _polygon_corners(world, p, rho, step, corners, count):  # type: ignore[no-un
     return count
 
 
-@kernel
+@inner
 def obstacle_corners(world, i, rho, step, corners, count):  # type: ignore[no-untyped-def]
     """Append the corners of obstacle i to ``corners`` from row ``count`` on.
 
@@ -90,7 +90,7 @@ def obstacle_corners(world, i, rho, step, corners, count):  # type: ignore[no-un
     return _polygon_corners(world, world.slot[i], rho, step, corners, count)
 
 
-@kernel
+@inner
 def supports(corners, k, dx, dy):  # type: ignore[no-untyped-def]
     """Whether a line through corner k along (dx, dy) leaves its obstacle on one side.
 

@@ -12,10 +12,10 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 
-@kernel
+@inner
 def squared_point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     """Squared distance from (x, y) to the segment a-b [m²]."""
     dx = bx - ax
@@ -30,18 +30,18 @@ def squared_point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     return across * across + along * along
 
 
-@kernel
+@inner
 def point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     """Distance from (x, y) to the segment a-b [m]."""
     return math.sqrt(squared_point_segment(x, y, ax, ay, bx, by))
 
 
-@kernel
+@inner
 def _orientation(ax, ay, bx, by, cx, cy):  # type: ignore[no-untyped-def]
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
-@kernel
+@inner
 def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):  # type: ignore[no-untyped-def]
     """Distance between the segments a-b and c-d [m]; 0 where they cross."""
     if _orientation(ax, ay, bx, by, cx, cy) * _orientation(ax, ay, bx, by, dx, dy) < 0.0 and (
@@ -54,7 +54,7 @@ def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):  # type: ignore[no-untyped-
     )
 
 
-@kernel
+@inner
 def box_signed(boxes, b, x, y):  # type: ignore[no-untyped-def]
     """Signed distance from (x, y) to box b: a lower bound for all that lies in the box."""
     left = max(boxes[b, 0] - x, x - boxes[b, 2])
@@ -64,7 +64,7 @@ def box_signed(boxes, b, x, y):  # type: ignore[no-untyped-def]
     return math.sqrt(left * left + down * down)
 
 
-@kernel
+@inner
 def box_gap(boxes, b, x0, y0, x1, y1):  # type: ignore[no-untyped-def]
     """Distance between box b and the box (x0, y0)-(x1, y1); 0 where they overlap."""
     gap_x = max(max(boxes[b, 0] - x1, x0 - boxes[b, 2]), 0.0)
@@ -72,7 +72,7 @@ def box_gap(boxes, b, x0, y0, x1, y1):  # type: ignore[no-untyped-def]
     return math.sqrt(gap_x * gap_x + gap_y * gap_y)
 
 
-@kernel
+@inner
 def _crosses(edges, e, x, y):  # type: ignore[no-untyped-def]
     """Whether the ray from (x, y) to the east crosses edge e."""
     y0 = edges[e, 1]
@@ -82,7 +82,7 @@ def _crosses(edges, e, x, y):  # type: ignore[no-untyped-def]
     return x < edges[e, 0] + (y - y0) / (y1 - y0) * (edges[e, 2] - edges[e, 0])
 
 
-@kernel
+@inner
 def polygon_signed(world, p, x, y, limit):  # type: ignore[no-untyped-def]
     """Signed distance from (x, y) to polygon p [m]; negative inside."""
     boxes = world.block_boxes
@@ -105,7 +105,7 @@ def polygon_signed(world, p, x, y, limit):  # type: ignore[no-untyped-def]
     return -best if inside else min(best, limit)
 
 
-@kernel
+@inner
 def fence_signed(world, f, x, y):  # type: ignore[no-untyped-def]
     """Signed distance from (x, y) to the outside of fence f [m]; positive inside the fence."""
     inside = False
@@ -118,7 +118,7 @@ def fence_signed(world, f, x, y):  # type: ignore[no-untyped-def]
     return math.sqrt(squared) if inside else -math.sqrt(squared)
 
 
-@kernel
+@inner
 def inner_signed(world, x, y, limit):  # type: ignore[no-untyped-def]
     """Distance from (x, y) to what the robot stays inside of [m], and which (see ``nearest``)."""
     best = limit
@@ -136,7 +136,7 @@ def inner_signed(world, x, y, limit):  # type: ignore[no-untyped-def]
     return best, index
 
 
-@kernel
+@inner
 def obstacle_signed(world, i, x, y, limit):  # type: ignore[no-untyped-def]
     """Signed distance from (x, y) to obstacle i [m]."""
     slot = world.slot[i]
@@ -148,7 +148,7 @@ def obstacle_signed(world, i, x, y, limit):  # type: ignore[no-untyped-def]
     return polygon_signed(world, slot, x, y, limit)
 
 
-@kernel
+@inner
 def _descend(world, x, y):  # type: ignore[no-untyped-def]
     """The obstacle that is found by going to the nearest box on every level of the tree."""
     node = 0
@@ -167,7 +167,7 @@ def _descend(world, x, y):  # type: ignore[no-untyped-def]
     return world.leaf[node]
 
 
-@kernel
+@inner
 def nearest(world, x, y, limit):  # type: ignore[no-untyped-def]
     """Signed distance from (x, y) to the world, and what is nearest.
 
@@ -198,7 +198,7 @@ def nearest(world, x, y, limit):  # type: ignore[no-untyped-def]
     return best, index
 
 
-@kernel
+@inner
 def obstacle_segment(world, i, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
     """Distance between obstacle i and the segment a-b [m].
 
@@ -225,7 +225,7 @@ def obstacle_segment(world, i, ax, ay, bx, by, limit):  # type: ignore[no-untype
     return best
 
 
-@kernel
+@inner
 def fence_segment(world, f, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     """Distance between the segment a-b and the outside of fence f [m]; 0 where it leaves it."""
     if fence_signed(world, f, ax, ay) <= 0.0:
@@ -237,7 +237,7 @@ def fence_segment(world, f, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     return best
 
 
-@kernel
+@inner
 def inner_segment(world, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
     """Distance of the segment a-b to what the robot stays inside of [m], and which."""
     best = limit

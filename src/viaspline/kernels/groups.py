@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.distance import box_gap, obstacle_segment, polygon_signed
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 
-@kernel
+@inner
 def obstacle_gap(world, i, j, limit):  # type: ignore[no-untyped-def]
     """Distance between the obstacles i and j [m]; not above 0 where they overlap."""
     if world.kind[i] == 0 or world.kind[j] == 0:
@@ -31,7 +31,7 @@ def obstacle_gap(world, i, j, limit):  # type: ignore[no-untyped-def]
     return best
 
 
-@kernel
+@inner
 def _root(parent, i):  # type: ignore[no-untyped-def]
     while parent[i] != i:
         parent[i] = parent[parent[i]]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 BRANCHES = 4
 
@@ -80,7 +80,7 @@ def box_tree(boxes, order):  # type: ignore[no-untyped-def]
     return nodes[:size].copy(), skip[:size].copy(), leaf[:size].copy()
 
 
-@kernel
+@inner
 def _close(nodes, skip, leaf, boxes, size):  # type: ignore[no-untyped-def]
     """Give every node its box and its skip, from the last one back."""
     for node in range(size - 1, -1, -1):
@@ -104,7 +104,7 @@ def _close(nodes, skip, leaf, boxes, size):  # type: ignore[no-untyped-def]
         skip[node] = child
 
 
-@kernel
+@inner
 def _leaves(skip, leaf, node):  # type: ignore[no-untyped-def]
     count = 0
     for k in range(node, skip[node]):

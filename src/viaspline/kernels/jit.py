@@ -70,21 +70,33 @@ def cache_folder() -> Path | None:
 CACHE_FOLDER = cache_folder()
 
 
+def _compile(function: _Function, **options: bool) -> _Function:
+    kept = config.CACHE_DIR
+    if CACHE_FOLDER is not None:
+        config.CACHE_DIR = str(CACHE_FOLDER)
+    try:
+        jit = numba.njit(cache=CACHE_FOLDER is not None, error_model="numpy", nogil=True, **options)
+        compiled: _Function = jit(function)
+    finally:
+        config.CACHE_DIR = kept
+    return compiled
+
+
 def kernel(function: _Function) -> _Function:
     """Compile an array function with numba; cached on disk where that is possible.
 
     The cache folder is set only while numba looks at it, so the caller's own numba functions keep
     theirs.
     """
-    kept = config.CACHE_DIR
-    if CACHE_FOLDER is not None:
-        config.CACHE_DIR = str(CACHE_FOLDER)
-    try:
-        jit = numba.njit(cache=CACHE_FOLDER is not None, error_model="numpy", nogil=True)
-        compiled: _Function = jit(function)
-    finally:
-        config.CACHE_DIR = kept
-    return compiled
+    return _compile(function)
+
+
+def inner(function: _Function) -> _Function:
+    """Compile a function that only kernels call: without a door from Python it compiles sooner.
+
+    With ``NUMBA_DISABLE_JIT=1`` it is an ordinary function and can be tested by itself.
+    """
+    return _compile(function, no_cpython_wrapper=True)
 
 
 class _CompileListener(event.Listener):  # type: ignore[misc]

@@ -6,11 +6,13 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 SAMPLES = 32  # of curvature on a span
 PARTS = 4  # Gauss-Legendre rules of five points on a span
-NODES = np.array([-0.906179845938664, -0.5384693101056831, 0.0, 0.5384693101056831, 0.906179845938664])
+NODES = np.array(
+    [-0.906179845938664, -0.5384693101056831, 0.0, 0.5384693101056831, 0.906179845938664]
+)
 WEIGHTS = np.array(
     [0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665, 0.2369268850561891]
 )  # fmt: skip
@@ -39,7 +41,7 @@ def length_and_curvature(spans):  # type: ignore[no-untyped-def]
     return length, sharpest
 
 
-@kernel
+@inner
 def _curvature(spans, span, w):  # type: ignore[no-untyped-def]
     ax = spans[span, 1, 0] - spans[span, 0, 0]
     ay = spans[span, 1, 1] - spans[span, 0, 1]

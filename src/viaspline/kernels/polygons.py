@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 BLOCK = 16  # consecutive edges that share a box
 
 
-@kernel
+@inner
 def _twice_area(vertices, first, last):  # type: ignore[no-untyped-def]
     area = 0.0
     x0 = vertices[first, 0]

@@ -13,10 +13,10 @@ import numpy as np
 
 from viaspline.kernels.corners import X, Y, obstacle_corners, supports
 from viaspline.kernels.distance import inner_segment, mark_near_segment, obstacle_segment
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 
-@kernel
+@inner
 def _crosses_barrier(barriers, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     for k in range(barriers.shape[0]):
         cx = barriers[k, 0]
@@ -34,7 +34,7 @@ def _crosses_barrier(barriers, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     return False
 
 
-@kernel
+@inner
 def is_clear(world, members, barriers, ax, ay, bx, by, floor):  # type: ignore[no-untyped-def]
     """Whether the segment a-b keeps ``floor`` from the given obstacles and crosses no barrier."""
     if barriers.shape[0] > 0 and _crosses_barrier(barriers, ax, ay, bx, by):
@@ -54,7 +54,7 @@ def is_clear(world, members, barriers, ax, ay, bx, by, floor):  # type: ignore[n
     return True
 
 
-@kernel
+@inner
 def _members(world, active):  # type: ignore[no-untyped-def]
     """Index and box of every active obstacle, (k, 5)."""
     count = 0
@@ -73,7 +73,7 @@ def _members(world, active):  # type: ignore[no-untyped-def]
     return rows
 
 
-@kernel
+@inner
 def _corners(world, members, start, goal, rho, step):  # type: ignore[no-untyped-def]
     """Start, goal, then the corners of all members, (n, 8)."""
     room = 64
@@ -91,7 +91,7 @@ def _corners(world, members, start, goal, rho, step):  # type: ignore[no-untyped
         room = count
 
 
-@kernel
+@inner
 def _search(world, members, corners, barriers, floor):  # type: ignore[no-untyped-def]
     """A* from corner 0 to corner 1; returns each corner's predecessor, -1 where there is none."""
     count = corners.shape[0]

@@ -7,20 +7,20 @@ import math
 import numpy as np
 
 from viaspline.kernels.corners import CENTER_X, CENTER_Y, RADIUS, X, Y
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 # columns of a bend: the arc's centre, radius and side (+1: it turns left), the headings with which
 # the route comes to it and leaves it
 BEND_X, BEND_Y, BEND_RADIUS, SIDE, HEADING_IN, TURN = range(6)
 
 
-@kernel
+@inner
 def _nearest_turn(angle, about):  # type: ignore[no-untyped-def]
     """The angle plus whole turns that is nearest to ``about``: a route may wrap far round."""
     return angle - 2 * math.pi * math.floor((angle - about + math.pi) / (2 * math.pi))
 
 
-@kernel
+@inner
 def _tangent(bends, i, j):  # type: ignore[no-untyped-def]
     """Heading of the line that leaves bend i and comes to bend j; NaN where there is none."""
     dx = bends[j, BEND_X] - bends[i, BEND_X]
@@ -32,7 +32,7 @@ def _tangent(bends, i, j):  # type: ignore[no-untyped-def]
     return math.atan2(dy, dx) - math.asin(offset / gap)
 
 
-@kernel
+@inner
 def _merge(route):  # type: ignore[no-untyped-def]
     """One row for every arc that the route wraps round; start and goal are arcs of radius 0."""
     bends = np.zeros((route.shape[0], 6))
@@ -98,7 +98,7 @@ def bends_of(route):  # type: ignore[no-untyped-def]
             return bends[:count]
 
 
-@kernel
+@inner
 def _touch(bends, k, heading):  # type: ignore[no-untyped-def]
     """Where a tangent of this heading touches bend k."""
     reach = bends[k, SIDE] * bends[k, BEND_RADIUS]
@@ -108,14 +108,14 @@ def _touch(bends, k, heading):  # type: ignore[no-untyped-def]
     )
 
 
-@kernel
+@inner
 def _append(points, count, x, y):  # type: ignore[no-untyped-def]
     points[count, 0] = x
     points[count, 1] = y
     return count + 1
 
 
-@kernel
+@inner
 def _helper_distance(bends, k, half, length, stretch, ease):  # type: ignore[no-untyped-def]
     """How far from bend k its helper stands on a straight piece of this length [m].
 
@@ -129,7 +129,7 @@ def _helper_distance(bends, k, half, length, stretch, ease):  # type: ignore[no-
     return max(needed, rounder)
 
 
-@kernel
+@inner
 def _straight(points, count, bends, k, halves, stretch, ease):  # type: ignore[no-untyped-def]
     """Helper via points near the ends of the straight piece from bend k to bend k + 1."""
     heading = bends[k + 1, HEADING_IN]
