@@ -65,7 +65,7 @@ class Commands(click.Group):
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="viaspline")
 def cli() -> None:
-    """Lay a spline through your via points: round what stands in the way, proven clear, driven.
+    r"""Lay a spline through your via points: round what stands in the way, proven clear, driven.
 
     \b
     Example:
@@ -90,7 +90,7 @@ QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all g
 )
 @QUIET
 def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet: bool) -> None:
-    """Plan a mission, drive it and report: the main job.
+    r"""Plan a mission, drive it and report: the main job.
 
     Writes plan.json, path.csv, plan.png, run.json, run.csv, run.png and timing.json.
 
@@ -108,7 +108,7 @@ def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet:
         with watch.stage("simulate", "driving"):
             from viaspline.robot.simulator import simulate
 
-            done = simulate(asked, seed=seed, progress=watch.fraction, plan=plan)
+            done = simulate(asked, seed=seed, progress=watch.driven, plan=plan)
         with watch.stage("report", "drawing and writing"):
             from viaspline.report import results
 
@@ -141,7 +141,7 @@ def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet:
 @OUT
 @QUIET
 def plan(mission: Path, out: Path | None, quiet: bool) -> None:
-    """Plan a mission: the path, its proof and what it was chosen from.
+    r"""Plan a mission: the path, its proof and what it was chosen from.
 
     Writes plan.json, path.csv, plan.png and timing.json.
 
@@ -168,7 +168,7 @@ def plan(mission: Path, out: Path | None, quiet: bool) -> None:
 @click.argument("mission", type=click.Path(path_type=Path), required=False)
 @click.option("--schema", is_flag=True, help="Print the JSON Schema of missions, for editors.")
 def check(mission: Path | None, schema: bool) -> None:
-    """Say whether a mission is sound: every fault at once, as file:line:column: key: what.
+    r"""Say whether a mission is sound: every fault at once, as file:line:column: key: what.
 
     \b
     Examples:
@@ -197,7 +197,7 @@ def check(mission: Path | None, schema: bool) -> None:
 )  # fmt: skip
 @QUIET
 def figures(out: Path, quiet: bool) -> None:
-    """Make the figures of the paper again, and one that it lacks.
+    r"""Make the figures of the paper again, and one that it lacks.
 
     \b
     Example:

@@ -11,11 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, PathPatch
+from matplotlib.text import Text
 
 from viaspline.detour.brief import Brief
 from viaspline.report import style
 from viaspline.report.column import Column
-from viaspline.report.drawing import Floats, outline, polyline
+from viaspline.report.drawing import any_name, outline, polyline
 from viaspline.report.film import Frame, write_film
 from viaspline.report.film_file import FilmFile
 from viaspline.report.labels import Labels
@@ -29,6 +30,7 @@ FRAMES = 180
 DPI = 80
 
 
+@any_name()
 def film_run(run: Run, name: str, film: FilmFile, progress: Callable[[float], None]) -> None:
     """Film a run.
 
@@ -68,6 +70,8 @@ class _Stage:
         self._found = _found(sheet.map, run, scene)
         legend = [*handles, *vias, *(m for m in self._moving[:4] if isinstance(m, Artist))]
         Column(sheet).legend([*legend, *(patch for _, patch in self._found[:1])])
+        # the few markers of the route are drawn over the trail again
+        self._over = [a for a in (*sheet.map.lines, *sheet.map.texts) if a.get_zorder() >= 11][:120]
         self._clock = _clock(sheet)
         self._paths = [(-np.inf, planned)]
         self._paths += [(replan.time, polyline(replan.path.spans)) for replan in run.replans]
@@ -76,7 +80,7 @@ class _Stage:
         self._canvas = canvas
         for artist in (*self._moving, *(patch for _, patch in self._found), self._clock):
             artist.set_animated(True)
-        canvas.draw()
+        canvas.draw()  # type: ignore[no-untyped-call]
         self._still = canvas.copy_from_bbox(sheet.figure.bbox)  # type: ignore[no-untyped-call]
 
     def frame(self, time: float) -> Frame:
@@ -94,16 +98,16 @@ class _Stage:
         self._clock.set_text(f"{time:7.1f} s   {speed:5.2f} m/s")
         self._canvas.restore_region(self._still)  # type: ignore[no-untyped-call]
         found = [patch for start, patch in self._found if start <= time]
-        for artist in (sight, *found, old, path, trail, robot):
+        for artist in (sight, *found, old, path, trail, *self._over, robot):
             self._sheet.map.draw_artist(artist)
         self._sheet.figure.draw_artist(self._clock)
-        pixels = np.asarray(self._canvas.buffer_rgba())[..., :3]
+        pixels = np.asarray(self._canvas.buffer_rgba())[..., :3]  # type: ignore[no-untyped-call]
         height, width = (size - size % 2 for size in pixels.shape[:2])
         return pixels[:height, :width].copy()
 
 
-def _clock(sheet: Sheet) -> Artist:
-    across, up = sheet.figure.get_size_inches()
+def _clock(sheet: Sheet) -> Text:
+    _, up = sheet.figure.get_size_inches()
     x = sheet.map.get_position().x0
     return sheet.figure.text(
         x, 1 - 0.62 / up, "", size=style.TITLE - 2, color=style.MUTED, va="center",
@@ -127,7 +131,7 @@ def _moving(
     reach = robot_spec.sensor.range_m if robot_spec.sensor is not None else 0.0
     sight = Circle((0, 0), reach, facecolor=style.SENSOR, alpha=0.18, zorder=2.4)
     for patch in (robot, sight):
-        axes.add_patch(patch)
+        axes.add_artist(patch)
     return old, path, trail, robot, sight
 
 
@@ -144,6 +148,6 @@ def _found(axes: Axes, run: Run, scene: Scene) -> list[tuple[float, Artist]]:
             outline(shape), facecolor=style.UNSEEN_FILL, edgecolor=style.UNSEEN, hatch="////",
             linewidth=0.9, zorder=5, label="found under way",
         )  # fmt: skip
-        axes.add_patch(patch)
+        axes.add_artist(patch)
         found.append((float(run.times[int(np.argmax(reached))]), patch))
     return found

@@ -1,4 +1,4 @@
-"""The column at the right of a map: legend, colour bar, close-up, notes; nothing of it on the map."""
+"""The column at the right of a map: legend, colour bar, close-up, notes; it hides nothing."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
@@ -99,6 +99,7 @@ class Column:
         self._top -= 0.35 + len(lines) * step
 
 
-def _renderer(figure: Figure) -> object:
+def _renderer(figure: Figure) -> RendererAgg:
     assert isinstance(figure.canvas, FigureCanvasAgg)
-    return figure.canvas.get_renderer()  # type: ignore[no-untyped-call]
+    renderer: RendererAgg = figure.canvas.get_renderer()  # type: ignore[no-untyped-call]
+    return renderer

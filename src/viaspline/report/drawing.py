@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 import numpy as np
 import shapely
@@ -27,12 +28,21 @@ def new_figure(width: float, height: float, dpi: int = DPI) -> Figure:
     return figure
 
 
+@contextmanager
+def any_name() -> Iterator[None]:
+    """Within the block a name with letters that the font lacks is drawn with boxes, no warning."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing")
+        yield
+
+
 def png(figure: Figure) -> bytes:
     """The figure as PNG: no date and no version in it, so the same figure gives the same bytes."""
     buffer = io.BytesIO()
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message="Glyph .* missing")  # of a name in the mission
-        figure.savefig(buffer, format="png", dpi="figure", metadata={"Software": None})
+    figure.savefig(
+        buffer, format="png", dpi="figure", metadata={"Software": None},
+        pil_kwargs={"compress_level": 4},
+    )  # fmt: skip
     return buffer.getvalue()
 
 
@@ -79,26 +89,19 @@ def shapes_of(obstacles: Sequence[Obstacle]) -> NDArray[np.object_]:
     return shapes
 
 
-def outline(geometry: shapely.Geometry) -> Outline:
-    """A polygon, or a union of polygons, as a matplotlib path with its holes."""
-    vertices, codes = [], []
-    for part in shapely.get_parts(geometry):
-        if shapely.get_type_id(part) != 3 or part.is_empty:
-            continue
-        for ring in shapely.get_rings(shapely.orient_polygons(part)):
-            points = shapely.get_coordinates(ring)
-            vertices.append(points)
-            codes.append(ring_codes(len(points)))
-    if not vertices:
+def outline(geometry: shapely.Geometry | NDArray[np.object_]) -> Outline:
+    """Polygons, or unions of them, as one matplotlib path with all holes."""
+    polygons = shapely.get_parts(np.atleast_1d(np.asarray(geometry, object)))
+    polygons = polygons[(shapely.get_type_id(polygons) == 3) & ~shapely.is_empty(polygons)]
+    if not polygons.size:
         return Outline(np.zeros((0, 2)))
-    return Outline(np.concatenate(vertices), np.concatenate(codes))
-
-
-def ring_codes(count: int) -> NDArray[np.uint8]:
-    """Move, lines, close, for a closed ring of ``count`` points."""
-    codes = np.full(count, Outline.LINETO, np.uint8)
-    codes[0], codes[-1] = Outline.MOVETO, Outline.CLOSEPOLY
-    return codes
+    rings = shapely.get_rings(shapely.orient_polygons(polygons))
+    vertices, ring = shapely.get_coordinates(rings, return_index=True)
+    codes = np.full(len(vertices), Outline.LINETO, np.uint8)
+    starts = np.searchsorted(ring, np.arange(len(rings)))
+    codes[starts] = Outline.MOVETO
+    codes[np.append(starts[1:] - 1, len(codes) - 1)] = Outline.CLOSEPOLY
+    return Outline(vertices, codes)
 
 
 def tidy(axes: Axes) -> None:

@@ -74,7 +74,9 @@ class Folder:
             if part.is_dir():
                 continue
             if part.exists() or part.is_symlink():
-                raise OutputError(part, "is a file, not a folder; give another folder for the output")
+                raise OutputError(
+                    part, "is a file, not a folder; give another folder for the output"
+                )
             with suppress(FileExistsError):
                 part.mkdir()
                 self._made.append(part)

@@ -44,19 +44,47 @@ def write_film(
 
 
 def _gif(path: Path, frames: Iterator[Frame], count: int) -> None:
-    images = [Image.fromarray(frame) for frame in frames]
-    first = images[0]
-    # one palette for all, from the first and the last frame: between them they have every colour
-    both = Image.new("RGB", (first.width, 2 * first.height))
-    both.paste(images[0], (0, 0))
-    both.paste(images[-1], (0, first.height))
-    palette = both.quantize(128, method=Image.Quantize.MEDIANCUT)
-    small = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    pictures = list(frames)
+    paint = _Paint(pictures[0], pictures[len(pictures) // 2], pictures[-1])
+    images = [paint(picture) for picture in pictures]
     durations = [round(1000 / RATE)] * (count - 1) + [round(1000 * LAST)]
-    small[0].save(
-        path, format="GIF", save_all=True, append_images=small[1:], duration=durations, loop=0,
+    images[0].save(
+        path, format="GIF", save_all=True, append_images=images[1:], duration=durations, loop=0,
         optimize=False,
     )  # fmt: skip
+
+
+class _Paint:
+    """Pictures in one palette for the whole film: the colours that a few of them have most of."""
+
+    def __init__(self, *pictures: Frame) -> None:
+        colours, counts = np.unique(
+            np.concatenate([_packed(p) for p in pictures]), return_counts=True
+        )
+        self._palette = colours[np.argsort(-counts, kind="stable")[:256]]
+        self._index = np.full(1 << 24, -1, np.int16)  # of every colour that was met
+
+    def __call__(self, picture: Frame) -> Image.Image:
+        packed = _packed(picture)
+        new = np.unique(packed[self._index[packed] < 0])
+        if new.size:
+            apart = _split(new)[:, None, :] - _split(self._palette)[None]
+            self._index[new] = np.square(apart).sum(axis=2).argmin(axis=1)
+        places = self._index[packed].astype(np.uint8).reshape(picture.shape[:2])
+        image = Image.fromarray(places).convert("P")
+        image.putpalette(_split(self._palette).astype(np.uint8).tobytes())
+        return image
+
+
+def _packed(picture: Frame) -> NDArray[np.int64]:
+    """One number for each pixel."""
+    flat = picture.reshape(-1, 3).astype(np.int64)
+    packed: NDArray[np.int64] = (flat[:, 0] << 16) | (flat[:, 1] << 8) | flat[:, 2]
+    return packed
+
+
+def _split(packed: NDArray[np.int64]) -> NDArray[np.int64]:
+    return np.stack([packed >> 16, (packed >> 8) & 255, packed & 255], axis=-1)
 
 
 def _mp4(path: Path, frames: Iterator[Frame], ffmpeg: str) -> None:

@@ -16,6 +16,7 @@ from viaspline.report.style import INK, SMALL
 _ANGLES = np.radians([35, -35, 145, -145, 0, 180, 90, -90])
 _REACHES = (0.0, 6.0, 15.0, 27.0, 43.0, 66.0)  # beyond the gap, to the label's box [pixels]
 MOST = 150
+_HALO = withStroke(linewidth=2.2, foreground="white", alpha=0.9)
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ class Labels:
         if not self._labels:
             return
         to_pixels = self._axes.transData.transform
-        curve = to_pixels(lines) if len(lines) else np.zeros((0, 2))
+        curve = _sparse(to_pixels(lines)) if len(lines) else np.zeros((0, 2))
         dots = to_pixels(markers) if len(markers) else np.zeros((0, 2))
         frame = self._axes.get_window_extent()
         area = np.array([frame.x0 + 3, frame.y0 + 3, frame.x1 - 3, frame.y1 - 3])
@@ -81,7 +82,9 @@ class Labels:
             if not (area[0] <= anchor[0] <= area[2] and area[1] <= anchor[1] <= area[3]):
                 continue
             size = self._measure(label)
-            best = _best_place(label, anchor, size, area, curve, dots, marker_size, taken, to_pixels)
+            best = _best_place(
+                label, anchor, size, area, curve, dots, marker_size, taken, to_pixels
+            )
             if best is not None:
                 self._draw(label, anchor, best, size)
                 taken.append(_box(best, size))
@@ -102,11 +105,17 @@ class Labels:
             ends = to_metres([anchor + (near - anchor) * label.gap / distance, near])
             self._axes.plot(*ends.T, color=label.colour, linewidth=0.6, alpha=0.7, zorder=19)
         x, y = to_metres(middle)
+        halo = [] if (middle == anchor).all() else [_HALO]  # on the thing itself it needs none
         self._axes.text(
             x, y, label.text, size=label.size, color=label.colour, ha="center", va="center",
             zorder=20, parse_math=False, linespacing=1.05, clip_on=True,
-            path_effects=[withStroke(linewidth=2.2, foreground="white", alpha=0.9)],
+            path_effects=halo,
         )  # fmt: skip
+
+
+def _sparse(points: Floats) -> Floats:
+    """One of the points for each square of four pixels."""
+    return np.unique(np.round(points / 4), axis=0) * 4
 
 
 def _box(middle: Floats, size: Floats) -> Floats:
@@ -152,5 +161,7 @@ def _places(
         for i, angle in enumerate(_ANGLES):
             way = np.array([np.cos(angle), np.sin(angle)])
             lean = np.sign(np.where(np.abs(way) < 0.2, 0.0, way))
-            places.append((1.0 + reach / 4 + 0.2 * i, anchor + way * (label.gap + reach) + lean * size / 2))
+            places.append(
+                (1.0 + reach / 4 + 0.2 * i, anchor + way * (label.gap + reach) + lean * size / 2)
+            )
     return places

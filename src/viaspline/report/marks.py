@@ -19,7 +19,7 @@ from viaspline.report.drawing import Floats
 from viaspline.report.labels import Labels
 from viaspline.report.units import down
 
-APART = 21.0  # pixels between via points, below which they lose their numbers
+APART = 24.0  # pixels between via points, below which they lose their numbers
 ARROWS = 105.0  # pixels from one arrow to the next
 
 
@@ -44,7 +44,7 @@ def draw_arrows(
     pixels = axes.transData.transform(points)
     steps = np.hypot(*np.diff(pixels, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])
-    count = min(int(along[-1] // every), 400)
+    count = min(int(along[-1] // every), 80)
     if count < 1 or not np.isfinite(along[-1]):
         return
     dots = np.zeros((0, 2)) if avoid is None or not len(avoid) else axes.transData.transform(avoid)
@@ -94,7 +94,8 @@ def draw_vias(
         marker = "s" if kind == "station" else "o"
         (dot,) = axes.plot(
             *via.at[:2], marker=marker, markersize=size if marker == "o" else size - 1,
-            markerfacecolor=colour, markeredgecolor=style.INK, markeredgewidth=0.9 if numbered else 0.6,
+            markerfacecolor=colour, markeredgecolor=style.INK,
+            markeredgewidth=0.9 if numbered else 0.6,
             linestyle="none", zorder=12, label=kind if kind not in seen else "_",
         )  # fmt: skip
         if kind not in seen:
@@ -102,8 +103,8 @@ def draw_vias(
             seen.add(kind)
         if numbered:
             axes.text(
-                *via.at[:2], text, size=6.5 if len(text) < 3 else 5, color=ink, ha="center",
-                va="center_baseline", zorder=13, weight="bold", clip_on=True,
+                via.at[0], via.at[1], text, size=6.5 if len(text) < 3 else 5, color=ink,
+                ha="center", va="center_baseline", zorder=13, weight="bold", clip_on=True,
             )  # fmt: skip
         words = [style.short(named[number])] if number in named else []
         if via.dwell > 0:
@@ -163,5 +164,7 @@ def draw_tightest(axes: Axes, labels: Labels, certificate: Certificate) -> list[
         x, y, marker="o", markersize=11, markerfacecolor="none", markeredgecolor=style.TIGHTEST,
         markeredgewidth=1.6, linestyle="none", zorder=14, label="tightest place",
     )  # fmt: skip
-    labels.add(f"{down(certificate.clearance)} clear", (x, y), rank=1, colour=style.TIGHTEST, gap=14)
+    labels.add(
+        f"{down(certificate.clearance)} clear", (x, y), rank=1, colour=style.TIGHTEST, gap=14
+    )
     return [ring]

@@ -44,9 +44,7 @@ def tell(*lines: str, prefix: str = "viaspline: ") -> None:
 def no_path(error: NoPathError) -> str:
     """Why there is no path, where, and what would help, on a line each."""
     where = ", ".join(f"{x:.2f}" for x in error.where)
-    return (
-        f"there is no such path: {error.reason}\n  where:  ({where})\n  remedy: {error.remedy}"
-    )
+    return f"there is no such path: {error.reason}\n  where:  ({where})\n  remedy: {error.remedy}"
 
 
 @contextmanager

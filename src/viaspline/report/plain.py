@@ -55,7 +55,10 @@ def _text(value: Any, indent: str) -> str:
         return json.dumps(value, ensure_ascii=False, allow_nan=False)
     inner = indent + "  "
     if isinstance(value, dict):
-        items = [f"{json.dumps(key, ensure_ascii=False)}: {_text(item, inner)}" for key, item in value.items()]
+        items = [
+            f"{json.dumps(key, ensure_ascii=False)}: {_text(item, inner)}"
+            for key, item in value.items()
+        ]
         opening, closing = "{}"
     else:
         items = [_text(item, inner) for item in value]

@@ -24,7 +24,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
     return dumps(
         {
             "mission": mission_summary(plan.mission, name),
-            "path": {**path_data(plan.path), "csv_spacing_m": spacing},
+            "path": path_data(plan.path) | {"csv_spacing_m": spacing},
             "certificate": certificate_data(plan.certificate),
             "ledger": [_entry(entry) for entry in plan.ledger],
             "trajectory": {

@@ -15,7 +15,7 @@ from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.report import strips, style
 from viaspline.report.column import Column
-from viaspline.report.drawing import Floats, png, polyline
+from viaspline.report.drawing import Floats, any_name, png, polyline
 from viaspline.report.labels import Labels
 from viaspline.report.marks import draw_arrows, draw_path, draw_tightest, draw_vias
 from viaspline.report.scene import Scene
@@ -23,9 +23,10 @@ from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.summary import spline_words
 from viaspline.report.units import down, metres, seconds
 
-LOSERS_NAMED = 8
+WAYS_NAMED = 6  # groups, at most, whose ways have their lengths on the picture
 
 
+@any_name()
 def plan_picture(plan: Plan, name: str) -> bytes:
     """The picture as PNG.
 
@@ -36,13 +37,8 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     required = Brief.of(plan.mission).required
     scene = Scene.of(plan.world, required)
     points = polyline(plan.path.spans)
-    losers = [
-        (candidate, polyline(candidate.spans))
-        for entry in plan.ledger
-        for candidate in entry.candidates
-        if not candidate.chosen and len(candidate.spans)
-    ]
-    seen = np.vstack([points, *(line for _, line in losers)])
+    losers = losing(plan)
+    seen = np.vstack([points, *losers])
     view = view_of(seen, scene.corners, scene.box, required)
     law = plan.trajectory
     title = f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in {seconds(law.duration)}"
@@ -51,12 +47,12 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     labels = Labels(sheet.map)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre)
     scene.name(labels)
-    handles += _draw_losers(sheet, labels, plan, losers)
+    handles += draw_losers(sheet, labels, plan)
     handles.append(draw_path(sheet.map, points))
     vias, places = draw_vias(sheet.map, labels, plan.path.vias, plan.mission)
     draw_arrows(sheet.map, points, style.PATH, avoid=places)
     handles += vias + draw_tightest(sheet.map, labels, plan.certificate)
-    labels.place(np.vstack([points, *(line[::3] for _, line in losers)]), places)
+    labels.place(np.vstack([points, *losers]), places)
     _fill_strips(sheet, plan)
     column = Column(sheet)
     column.legend(handles)
@@ -86,34 +82,53 @@ def proof(certificate: Certificate) -> str:
 def via_ticks(path: Path) -> list[tuple[float, str]]:
     """Where the points of the route lie along a path, and their numbers."""
     ticks = []
-    users = [(via, d) for via, d in zip(path.vias, path.via_distances, strict=True) if via.kind == "user"]
+    users = [
+        (via, d) for via, d in zip(path.vias, path.via_distances, strict=True) if via.kind == "user"
+    ]
     for number, (_, distance) in enumerate(users):
         ends = {0: "S", len(users) - 1: "G"}
         ticks.append((float(distance), ends.get(number, str(number))))
     return ticks
 
 
-def _draw_losers(
-    sheet: Sheet, labels: Labels, plan: Plan, losers: list[tuple[object, Floats]]
-) -> list[Artist]:
+def losing(plan: Plan) -> list[Floats]:
+    """The ways that were possible and not taken, as points [m]."""
+    return [
+        polyline(candidate.spans)
+        for entry in plan.ledger
+        for candidate in entry.candidates
+        if not candidate.chosen and len(candidate.spans)
+    ]
+
+
+def draw_losers(sheet: Sheet, labels: Labels, plan: Plan) -> list[Artist]:
+    """The ways that were not taken, with what they would have cost.
+
+    Returns:
+        What belongs in a legend.
+    """
     handles: list[Artist] = []
-    for _, line in losers:
+    for line in losing(plan):
         (handle,) = sheet.map.plot(
             *line.T, color=style.LOSER, linewidth=1.1, linestyle=(0, (5, 3)), alpha=0.75,
             zorder=6, scalex=False, scaley=False, label="way not taken",
         )  # fmt: skip
         handles = [handle]
-    named = 0
-    for entry in plan.ledger:
+    for entry in plan.ledger[:WAYS_NAMED]:
         taken = entry.chosen
-        for candidate in entry.candidates:
-            if candidate.chosen or not len(candidate.spans) or named >= LOSERS_NAMED:
-                continue
-            if taken is None or taken.length is None or candidate.length is None:
-                continue
-            text = f"{candidate.side}: {candidate.length - taken.length:+.1f} m"
-            labels.add(text, _far_from(candidate.spans, taken.spans), rank=4, colour=style.LOSER)
-            named += 1
+        if taken is None or taken.length is None or len(entry.candidates) < 2:
+            continue
+        losers = [c for c in entry.candidates if not c.chosen and c.length is not None]
+        for candidate in losers:
+            assert candidate.length is not None
+            more = candidate.length - taken.length
+            text = f"{candidate.side}: {metres(candidate.length, 1)} ({more:+.1f} m)"
+            at = _far_from(candidate.spans, taken.spans)
+            labels.add(text, at, rank=4, colour=style.LOSER)
+        if losers:
+            at = _far_from(taken.spans, losers[0].spans)
+            text = f"{taken.side}: {metres(taken.length, 1)}"
+            labels.add(text, at, rank=6, colour=style.PATH)
     return handles
 
 
@@ -130,7 +145,7 @@ def _fill_strips(sheet: Sheet, plan: Plan) -> None:
     joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
     even = np.linspace(0, path.length, 1500)
     near = np.concatenate([law.distances, joints, np.maximum(joints - 1e-7 * path.length, 0)])
-    distances = np.unique(np.concatenate([even, near[: 20_000]]))
+    distances = np.unique(np.concatenate([even, near[:20_000]]))
     u = np.asarray(path.parameter(distances))
     values = [np.asarray(law.speed_at(distances)), np.asarray(path.curvature(u))]
     if len(sheet.strips) == 3:
@@ -139,13 +154,20 @@ def _fill_strips(sheet: Sheet, plan: Plan) -> None:
 
 
 def close_up(
-    column: Column, scene: Scene, path: Path, certificate: Certificate, points: Floats, radius: float
+    column: Column,
+    scene: Scene,
+    path: Path,
+    certificate: Certificate,
+    points: Floats,
+    radius: float,
 ) -> None:
     """The tightest place, large enough to see the clearance."""
-    if certificate.obstacle is None or column.room < 2.75 or scene.required <= 0:
+    tight = certificate.clearance < 10 * max(certificate.required, radius)
+    if certificate.obstacle is None or not tight or column.room < 2.75 or scene.required <= 0:
         return
     height = min(2.3, column.room - 0.5)
-    title = f"tightest place: {down(certificate.clearance)} beside {style.short(certificate.obstacle, 16)}"
+    where = style.short(certificate.obstacle, 16)
+    title = f"tightest place: {down(certificate.clearance)} beside {where}"
     axes = column.axes(height, title)
     x, y = certificate.tightest_at[:2]
     half = 5.0 * max(scene.required, 1.2 * certificate.clearance + radius)
@@ -159,7 +181,11 @@ def close_up(
     near = np.linspace(max(distance - 3 * half, 0), min(distance + 3 * half, path.length), 400)
     line = np.asarray(path.at_distance(near))[:, :2]
     draw_path(axes, line)
-    axes.add_patch(Circle((x, y), radius, facecolor=style.SENSOR, edgecolor=style.INK, zorder=10, linewidth=0.7))
+    axes.add_artist(
+        Circle(
+            (x, y), radius, facecolor=style.SENSOR, edgecolor=style.INK, zorder=10, linewidth=0.7
+        )
+    )
     nearest = scene.nearest_to(certificate.tightest_at)
     if nearest is not None:
         _gap(axes, (x, y), nearest, radius)

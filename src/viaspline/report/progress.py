@@ -65,6 +65,11 @@ class Watch:
         if self._bar is not None and self._task is not None:
             self._bar.update(self._task, completed=done, total=1.0, description=self._text)  # type: ignore[arg-type]
 
+    def driven(self, time: float, distance: float, length: float) -> None:
+        """Hear how far the robot has come [s, m], and how long its path is [m]."""
+        del time
+        self.fraction(distance / length if length > 0 else 1.0)
+
     def update(self, text: str) -> None:
         """Say something else about the stage."""
         if self._bar is not None and self._task is not None:
@@ -85,7 +90,12 @@ class Watch:
                 self._told.add(self._text)
                 self._say(f"{self._text} …")
             return
-        columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(24), TimeElapsedColumn()
+        columns = (
+            SpinnerColumn(),
+            TextColumn("{task.description}"),
+            BarColumn(24),
+            TimeElapsedColumn(),
+        )
         bar = Progress(*columns, console=self._console, transient=True)
         self._task = bar.add_task(self._text, total=None)
         bar.start()

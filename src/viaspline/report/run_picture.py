@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import shapely
 from matplotlib import colormaps
 from matplotlib.artist import Artist
 from matplotlib.collections import LineCollection
@@ -12,7 +13,7 @@ from viaspline.curve.path import PathVia
 from viaspline.detour.brief import Brief
 from viaspline.report import strips, style
 from viaspline.report.column import Column
-from viaspline.report.drawing import Floats, png, polyline
+from viaspline.report.drawing import Floats, any_name, png, polyline
 from viaspline.report.labels import Labels
 from viaspline.report.marks import draw_arrows, draw_tightest, draw_vias
 from viaspline.report.plan_picture import close_up, proof, subtitle, via_ticks
@@ -27,6 +28,7 @@ MARKED = {"detected": ("x", "detected"), "braked": ("v", "braked"), "stopped": (
           "skipped": ("P", "gave up a via point"), "contact": ("*", "contact")}  # fmt: skip
 
 
+@any_name()
 def run_picture(run: Run, name: str) -> bytes:
     """The picture as PNG.
 
@@ -50,7 +52,7 @@ def run_picture(run: Run, name: str) -> bytes:
     draw_driven(sheet, run, colours, limits)
     vias, places = draw_vias(sheet.map, labels, _all_vias(run), mission)
     draw_arrows(sheet.map, thinned(driven), style.INK, avoid=places, every=150)
-    handles += vias + _draw_events(sheet, labels, run)
+    handles += vias + _draw_events(sheet, labels, run, scene)
     handles += draw_tightest(sheet.map, labels, run.certificate)
     noted = [event.at[:2] for event in run.events if event.kind in NOTED]
     labels.place(np.vstack([planned, thinned(driven)]), np.vstack([places, *noted]))
@@ -79,21 +81,22 @@ def _heading(run: Run, name: str) -> tuple[str, tuple[str, str]]:
 
 def note(event: Event) -> str:
     """An event on one short line."""
-    return style.short(f"{event.time:.1f} s  {event.message or event.kind}", 62)
+    return style.short(f"{event.time:.1f} s  {event.message or event.kind}", 50)
 
 
 def speed_colours(speeds: Floats) -> tuple[Colormap, Normalize]:
     """Colours from standing to full speed, dark enough for white paper at both ends."""
     whole = colormaps[style.SPEED_MAP]
     top = float(speeds.max()) if speeds.size else 0.0
-    return ListedColormap(whole(np.linspace(0.0, 0.93, 256))), Normalize(0.0, max(top, 1e-3))
+    return ListedColormap(whole(np.linspace(0.0, 0.88, 256))), Normalize(0.0, max(top, 1e-3))
 
 
 def thinned(points: Floats, most: int = PIECES) -> Floats:
     """At most so many of the points, the last one among them."""
     if len(points) <= most:
         return points
-    return points[np.linspace(0, len(points) - 1, most).round().astype(int)]
+    kept: Floats = points[np.linspace(0, len(points) - 1, most).round().astype(int)]
+    return kept
 
 
 def draw_driven(sheet: Sheet, run: Run, colours: Colormap, limits: Normalize) -> None:
@@ -126,7 +129,7 @@ def _all_vias(run: Run) -> list[PathVia]:
     return [*users, *(via for via in run.path.vias if via.kind == "detour")]
 
 
-def _draw_events(sheet: Sheet, labels: Labels, run: Run) -> list[Artist]:
+def _draw_events(sheet: Sheet, labels: Labels, run: Run, scene: Scene) -> list[Artist]:
     handles: dict[str, Artist] = {}
     for event in run.events:
         if event.kind not in MARKED:
@@ -137,8 +140,11 @@ def _draw_events(sheet: Sheet, labels: Labels, run: Run) -> list[Artist]:
             markeredgecolor=style.UNSEEN if marker == "x" else "white",
             markeredgewidth=1.8 if marker == "x" else 0.6, zorder=15, label=words,
         )  # fmt: skip
-        if event.kind != "detected":
-            labels.add(f"{words}, {event.time:.0f} s", event.at[:2], rank=2, colour=style.UNSEEN)
+        if event.kind == "detected":
+            _draw_sight(sheet, run, scene, event)
+        else:
+            at = event.at[0], event.at[1]
+            labels.add(f"{words}, {event.time:.0f} s", at, rank=2, colour=style.UNSEEN)
     for replan in run.replans:
         (handles["replanned"],) = sheet.map.plot(
             *replan.at[:2], marker="D", markersize=6, markerfacecolor="white",
@@ -150,6 +156,19 @@ def _draw_events(sheet: Sheet, labels: Labels, run: Run) -> list[Artist]:
             (replan.at[0], replan.at[1]), rank=4, colour=style.UNSEEN,
         )  # fmt: skip
     return [*handles.values()]
+
+
+def _draw_sight(sheet: Sheet, run: Run, scene: Scene, event: Event) -> None:
+    """A line from where the robot was to what it saw."""
+    shapes = dict(zip(run.world.names, [*scene.known, *scene.unseen], strict=True))
+    seen = shapes.get(str(event.data.get("name")))
+    if seen is None:
+        return
+    line = shapely.shortest_line(shapely.Point(event.at[:2]), seen)
+    sheet.map.plot(
+        *shapely.get_coordinates(line).T, color=style.UNSEEN, linewidth=0.8, linestyle=":",
+        zorder=14, scalex=False, scaley=False,
+    )  # fmt: skip
 
 
 def _fill_strips(sheet: Sheet, run: Run) -> None:
@@ -164,5 +183,3 @@ def _fill_strips(sheet: Sheet, run: Run) -> None:
     strips.fill(sheet.strips, distances[keep], values, via_ticks(run.path), style.PATH)
     for replan in run.replans:
         sheet.strips[0].axvline(replan.distance, color=style.UNSEEN, linewidth=0.9, linestyle=":")
-
-

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 from matplotlib.patches import PathPatch, Rectangle
 from numpy.typing import NDArray
+from shapely.geometry.base import BaseGeometry
 
 from viaspline.mission.model import Obstacle
 from viaspline.report import style
@@ -33,13 +34,15 @@ class Scene:
         names: Of the known ones, then of the unseen ones; None for those without.
         free: Where the robot may be as far as bounds and fences say; None without.
         required: Distance that the path keeps from everything [m].
+        frame: What ``free`` is made of: bounds, fences or both.
     """
 
     known: NDArray[np.object_]
     unseen: NDArray[np.object_]
     names: tuple[str | None, ...]
-    free: shapely.Geometry | None
+    free: BaseGeometry | None
     required: float
+    frame: str
 
     @classmethod
     def of(cls, world: World, required: float, unseen: Sequence[Obstacle] = ()) -> Scene:
@@ -49,7 +52,10 @@ class Scene:
             parts.append(shapely.box(*world.bounds))
         free = shapely.intersection_all(np.array(parts, object)) if parts else None
         names = tuple(obstacle.name for obstacle in (*world.obstacles, *unseen))
-        return cls(shapes_of(world.obstacles), shapes_of(unseen), names, free, required)
+        frame = {(True, False): "bounds", (False, True): "fence"}.get(
+            (world.bounds is not None, bool(world.fences)), "bounds and fences"
+        )
+        return cls(shapes_of(world.obstacles), shapes_of(unseen), names, free, required, frame)
 
     @property
     def corners(self) -> Floats:
@@ -82,7 +88,7 @@ class Scene:
         view: Box = (x0, y0, x1, y1)
         artists: list[Artist] = []
         if self.free is not None:
-            artists += _draw_outside(axes, view, self.free)
+            artists += _draw_outside(axes, view, self.free, self.frame)
         known, unseen = _within(self.known, view), _within(self.unseen, view)
         if not reveal:
             unseen = unseen[:0]
@@ -97,11 +103,11 @@ class Scene:
                     outline(ring), facecolor="none", edgecolor=style.RING, linewidth=0.6,
                     linestyle=(0, (4, 2)), zorder=3, label="required distance of the path",
                 )  # fmt: skip
-                axes.add_patch(patch)
+                axes.add_artist(patch)
                 artists.append(patch)
         return artists
 
-    def _ring(self, shapes: NDArray[np.object_], view: Box) -> shapely.Geometry:
+    def _ring(self, shapes: NDArray[np.object_], view: Box) -> BaseGeometry:
         """Where the path may not be, as far as its edge can be seen."""
         if self.required <= 0:
             return shapely.Polygon()
@@ -126,7 +132,7 @@ class Scene:
             width = shape.bounds[2] - shape.bounds[0]
             labels.add(
                 style.short(name), (middle.x, middle.y), rank=7, colour=style.OBSTACLE_EDGE,
-                inside=0.8 * width,
+                inside=0.95 * width,
             )  # fmt: skip
 
     def nearest_to(self, point: tuple[float, ...]) -> tuple[float, float] | None:
@@ -144,7 +150,7 @@ class Scene:
         return float(x), float(y)
 
 
-def _centred(shape: shapely.Geometry) -> bool:
+def _centred(shape: BaseGeometry) -> bool:
     return bool(shape.contains(shape.centroid))
 
 
@@ -157,16 +163,16 @@ def _within(shapes: NDArray[np.object_], view: Box) -> NDArray[np.object_]:
     return seen
 
 
-def _draw_outside(axes: Axes, view: Box, free: shapely.Geometry) -> list[Artist]:
+def _draw_outside(axes: Axes, view: Box, free: BaseGeometry, name: str) -> list[Artist]:
     outside = shapely.box(*_grown(view, 0.05 * (view[2] - view[0]))).difference(free)
-    axes.add_patch(
+    axes.add_artist(
         PathPatch(outline(outside), facecolor=style.OUTSIDE, edgecolor="none", zorder=0)
     )
     edge = PathPatch(
         outline(free), facecolor="none", edgecolor=style.INK, linewidth=1.0, zorder=2,
-        label="bounds and fences",
+        label=name,
     )  # fmt: skip
-    axes.add_patch(edge)
+    axes.add_artist(edge)
     return [edge]
 
 

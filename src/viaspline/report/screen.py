@@ -92,7 +92,8 @@ def run_tables(run: Run, name: str) -> RenderableType:
     facts.add_row("clearance, proven", f"{down(run.certificate.clearance)} (asked {required})")
     if run.certificate.obstacle is not None:
         facts.add_row(
-            "tightest place", f"{place(run.certificate.tightest_at)} beside {run.certificate.obstacle}"
+            "tightest place",
+            f"{place(run.certificate.tightest_at)} beside {run.certificate.obstacle}",
         )
     served = sum(visit.status == "served" for visit in run.visits)
     facts.add_row("points served", f"{served} of {len(run.visits)}")

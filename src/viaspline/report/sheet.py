@@ -84,7 +84,9 @@ def new_sheet(
     below = BOTTOM + (0.5 + len(strips) * (STRIP + GAP) if strips else 0.0)
     total_w, total_h = LEFT + width + RIGHT, below + height + TOP
     figure = new_figure(total_w, total_h, dpi)
-    sheet_map = figure.add_axes((LEFT / total_w, below / total_h, width / total_w, height / total_h))
+    sheet_map = figure.add_axes(
+        (LEFT / total_w, below / total_h, width / total_w, height / total_h)
+    )
     middle = (view[0] + view[2]) / 2, (view[1] + view[3]) / 2
     sheet_map.set_xlim(middle[0] - width / scale / 2, middle[0] + width / scale / 2)
     sheet_map.set_ylim(middle[1] - height / scale / 2, middle[1] + height / scale / 2)
@@ -123,7 +125,7 @@ def _heading(figure: Figure, title: str, subtitles: Sequence[str]) -> None:
         width = text.get_window_extent(canvas.get_renderer()).width / figure.dpi  # type: ignore[no-untyped-call]
         room = across - LEFT - 0.25
         if width > room:
-            text.set_fontsize(text.get_fontsize() * room / width)
+            text.set_fontsize((TEXT if i else TITLE) * room / width)
 
 
 def _scale_bar(sheet: Sheet, scale: float, right: float, bottom: float) -> None:

@@ -44,8 +44,9 @@ def fill(
             axes.fill_between(distances, value, color=colour, alpha=0.12, linewidth=0)
         elif i == 1:
             axes.axhline(0, color=MUTED, linewidth=0.5)
-            reach = max(float(np.nanmax(np.abs(value))) if value.size else 0.0, 1e-6)
-            axes.set_ylim(-1.15 * reach, 1.15 * reach)
+            low, high = min(0.0, float(np.nanmin(value))), max(0.0, float(np.nanmax(value)))
+            pad = 0.15 * (high - low) if high - low > 1e-8 else 0.01  # or it is straight
+            axes.set_ylim(low - pad, high + pad)
     strips[-1].set_xlabel("distance along the path [m]", size=TEXT, color=MUTED, labelpad=2)
     _number(strips[0], ticks, last)
 
@@ -64,5 +65,3 @@ def _number(axes: Axes, ticks: Ticks, last: float) -> None:
             text, (distance, 1), xycoords=("data", "axes fraction"), xytext=(0, 2),
             textcoords="offset points", size=SMALL - 1, color=INK, ha="center", va="bottom",
         )  # fmt: skip
-
-

@@ -6,7 +6,7 @@ matters differs in shape or dash as well.
 
 from __future__ import annotations
 
-DPI = 150
+DPI = 135
 
 INK = "#1b1f24"
 MUTED = "#6a737d"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 from viaspline.mission.model import Mission, Obstacle
 from viaspline.report.units import metres
@@ -45,7 +46,7 @@ def summary(mission: Mission) -> list[tuple[str, str]]:
 def _route(mission: Mission) -> str:
     points = [point for _, point in mission.route.points()]
     places = [point.at for point in points] + ([points[0].at] if mission.route.closed else [])
-    straight = sum(math.dist(a, b) for a, b in zip(places, places[1:], strict=False))
+    straight = sum(math.dist(a, b) for a, b in pairwise(places))
     words = [_count(len(points), "point"), f"{metres(straight, 1)} from point to point"]
     if mission.route.closed:
         words.insert(1, "back to the start")

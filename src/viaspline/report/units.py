@@ -27,10 +27,13 @@ def down(value: float) -> str:
     """A proven clearance: rounded down, so that it promises no more than was proven.
 
     Example:
-        >>> down(0.5059), down(0.4999999), down(float("inf"))
-        ('0.505 m', '0.499 m', 'unlimited')
+        >>> down(0.5059), down(0.4999999), down(49.4999), down(float("inf"))
+        ('0.505 m', '0.499 m', '49.4 m', 'unlimited')
     """
-    return metres(math.floor(value * 1000 + 1e-6) / 1000, 3) if math.isfinite(value) else metres(value)
+    if not math.isfinite(value):
+        return metres(value)
+    digits = 3 if value < 10 else 1
+    return metres(math.floor(value * 10**digits + 1e-6) / 10**digits, digits)
 
 
 def seconds(value: float | None) -> str:
