@@ -13,7 +13,7 @@ Every error carries its data as attributes; its message names the thing and the 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 
@@ -94,7 +94,7 @@ class NoPathError(ViasplineError):
         self,
         reason: str,
         *,
-        where: Sequence[float],
+        where: Iterable[float],
         remedy: str,
         via: str | None = None,
         obstacles: Sequence[str] = (),

@@ -52,7 +52,7 @@ def plan(mission: Mission) -> Plan:
         ... })
         >>> result = plan(mission)
         >>> result.certificate.holds, round(result.path.length, 1), result.ledger[0].chosen.side
-        (True, 50.9, 'right')
+        (True, 50.8, 'right')
     """
     world = World.known(mission)
     brief = Brief.of(mission)

@@ -44,7 +44,7 @@ class Path(PiecewiseCubic):
 
     Example:
         >>> path = Path([[[0, 0], [1, 0], [2, 0], [3, 0]]], vias=[])
-        >>> path.length
+        >>> round(path.length, 9)
         3.0
     """
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, RouteVia
-from viaspline.detour.route import NO_BARRIERS, SPARE, Floats, Way, find_way
+from viaspline.detour.route import NO_BARRIERS, SPARE, Floats, Way, find_way, on_the_line
 from viaspline.errors import NoPathError
 from viaspline.kernels.corners import X, Y
 from viaspline.kernels.distance import nearest_to_segment
@@ -164,7 +164,7 @@ def _narrowest(way: Way, world: World) -> tuple[tuple[float, float], int, float]
     tightest = (np.inf, -1, 0)
     for k in range(1, len(way.corners) - 1):
         a, b = way.corners[k, X : Y + 1], way.corners[k + 1, X : Y + 1]
-        distance, index = nearest_to_segment(world.packed, *a, *b, np.inf)
+        distance, index = nearest_to_segment(world.packed, a[0], a[1], b[0], b[1], np.inf)
         if distance < tightest[0]:
             tightest = (distance, index, k)
     distance, index, k = tightest
@@ -174,8 +174,5 @@ def _narrowest(way: Way, world: World) -> tuple[tuple[float, float], int, float]
 
 def _walls(start: RouteVia, goal: RouteVia, world: World) -> tuple[str, ...]:
     """The obstacles that the straight line between two via points meets."""
-    from viaspline.kernels.distance import mark_near_segment
-
-    found = np.zeros(len(world), np.bool_)
-    mark_near_segment(world.packed, *start.at[:2], *goal.at[:2], 0.0, found)
+    found = on_the_line(world, start.at, goal.at, 0.0)
     return tuple(world.name(int(i)) for i in np.flatnonzero(found))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from viaspline.mission.model import Mission, SplineSpec
 
@@ -19,7 +19,7 @@ class Brief:
 
     radius: float
     clearance: float
-    spline: SplineSpec = SplineSpec()
+    spline: SplineSpec = field(default_factory=SplineSpec)
 
     @property
     def required(self) -> float:

@@ -34,7 +34,8 @@ class RunOut:
     @property
     def end(self) -> Floats:
         """Its far end [m], shape (d,)."""
-        return self.span[3]
+        end: Floats = self.span[3]
+        return end
 
     def reversed(self) -> RunOut:
         """The same cubic the other way: it runs in to where it started."""

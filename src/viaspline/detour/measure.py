@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from viaspline.detour.brief import Brief
-from viaspline.detour.ledger import Candidate
 from viaspline.detour.route import Floats
 from viaspline.kernels.clearance import tightest
 from viaspline.kernels.measure import length_and_curvature
@@ -12,8 +13,17 @@ from viaspline.world.world import World
 TOLERANCE = 1e-2  # of a candidate's clearance [m]; the path's own certificate is proven anew
 
 
-def measure(spans: Floats, world: World, brief: Brief) -> Candidate:
-    """What a curve costs; the caller gives it its side and via points.
+@dataclass(frozen=True)
+class Measured:
+    """What a curve costs: length [m], proven clearance of the body [m], sharpest bend [1/m]."""
+
+    length: float
+    clearance: float
+    max_curvature: float
+
+
+def measure(spans: Floats, world: World, brief: Brief) -> Measured:
+    """What a curve costs.
 
     Args:
         spans: A curve that is known to keep what the brief requires, shape (m, 4, d).
@@ -22,11 +32,4 @@ def measure(spans: Floats, world: World, brief: Brief) -> Candidate:
     """
     lower = float(tightest(world.packed, spans, TOLERANCE)[0])
     length, sharpest = length_and_curvature(spans)
-    return Candidate(
-        side="left",
-        vias=spans[1:, 0],
-        spans=spans,
-        length=float(length),
-        clearance=max(lower - brief.radius, brief.clearance),
-        max_curvature=float(sharpest),
-    )
+    return Measured(float(length), max(lower - brief.radius, brief.clearance), float(sharpest))

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.curve.certificate import certify
+from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.brief import Brief
@@ -21,6 +21,7 @@ from viaspline.detour.course import Course, Leg, RouteVia, span_slack
 from viaspline.detour.detoured import Detoured
 from viaspline.detour.fit import CLEAR, too_close
 from viaspline.detour.join import RunOut, run_out
+from viaspline.detour.ledger import LedgerEntry
 from viaspline.detour.search import clear_course, path_vias
 from viaspline.errors import NoPathError
 from viaspline.world.world import World
@@ -101,7 +102,7 @@ def from_rest(
     vias = (*_vias_until(path, u, len(head)), *path_vias(cleared, len(head)))
     new = Path(np.concatenate((head, spans)), vias)
     certificate = certify(PiecewiseCubic(spans), world, brief.clearance, radius=brief.radius)
-    return _result(new, certificate_from=at, certificate=certificate, ledger=ledger)
+    return _result(new, at, certificate, ledger)
 
 
 def _joined(path: Path, stretch: _Stretch, world: World, brief: Brief) -> Detoured:
@@ -140,24 +141,26 @@ def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: floa
     if tail is not None and back is not None:
         pieces += [back.span[None], path.spans[round(tail.u) :]]
         rejoin = ahead + 1
-        vias += [
-            replace(via, u=via.u - tail.u + rejoin) for via in path.vias if via.u >= tail.u
-        ]
+        vias += [replace(via, u=via.u - tail.u + rejoin) for via in path.vias if via.u >= tail.u]
     new = Path(np.concatenate(pieces), vias)
     leaving = float(new.distance(float(len(head))))
     certificate = certify(
         PiecewiseCubic(new.spans[len(head) :]), world, brief.clearance, radius=brief.radius
     )
-    return _result(
-        new, certificate_from=leaving, certificate=certificate, ledger=ledger,
-        rejoins_at=None if rejoin is None else float(new.distance(float(rejoin))),
-    )  # fmt: skip
+    back_at = None if rejoin is None else float(new.distance(float(rejoin)))
+    return _result(new, leaving, certificate, ledger, back_at)
 
 
-def _result(new: Path, *, certificate_from: float, certificate, ledger, rejoins_at=None) -> Detoured:  # type: ignore[no-untyped-def]
-    moved = replace(
-        certificate, tightest_distance=certificate.tightest_distance + certificate_from
-    )
+def _result(
+    new: Path,
+    certificate_from: float,
+    certificate: Certificate,
+    ledger: tuple[LedgerEntry, ...],
+    rejoins_at: float | None = None,
+) -> Detoured:
+    """A path whose certificate speaks of what lies ahead of ``certificate_from`` [m]."""
+    distance = certificate.tightest_distance + certificate_from
+    moved = replace(certificate, tightest_distance=distance)
     return Detoured(new, moved, ledger, certificate_from, rejoins_at)
 
 
@@ -209,12 +212,12 @@ def _course(
 ) -> Course:
     """A course without detours from a place under way through the via points ahead."""
     if not ahead:
-        raise NoPathError(
-            "nothing is left to go to", where=start.at, remedy="the route ends here"
-        )
+        raise NoPathError("nothing is left to go to", where=start.at, remedy="the route ends here")
     slack = _slack_by_leg(path, brief)
     vias = (start, *(RouteVia(v.name, np.array(v.at), v.index, v.dwell) for v in ahead))
-    legs = tuple(Leg.straight(slack[min((v.index or 1), len(slack)) - 1], len(start.at)) for v in ahead)
+    legs = tuple(
+        Leg.straight(slack[min((v.index or 1), len(slack)) - 1], len(start.at)) for v in ahead
+    )
     return Course(vias, legs, brief.spline)
 
 

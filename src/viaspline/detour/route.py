@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.corners import X, Y
+from viaspline.kernels.distance import mark_near_segment
 from viaspline.kernels.route import route_crosses, shortest_route
 from viaspline.kernels.taut import bends_of, detour_points, taut_length
 from viaspline.mission.model import Side
@@ -81,6 +82,13 @@ def find_way(
             bends = bends_of(corners)
             return Way(corners, bends, float(taut_length(corners, bends)))
     return None
+
+
+def on_the_line(world: World, start: Floats, goal: Floats, width: float) -> Flags:
+    """Which obstacles are nearer than ``width`` to the straight line, (n,)."""
+    found = np.zeros(len(world), np.bool_)
+    mark_near_segment(world.packed, start[0], start[1], goal[0], goal[1], width, found)
+    return found
 
 
 def barrier(world: World, index: int, side: Side, start: Floats, goal: Floats) -> Floats:

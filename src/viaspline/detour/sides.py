@@ -8,7 +8,7 @@ the spline is regenerated through each, proven and measured, and the shorter one
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,8 @@ from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course
 from viaspline.detour.fit import Fitted, fit
 from viaspline.detour.ledger import Candidate, LedgerEntry
-from viaspline.detour.measure import measure
-from viaspline.detour.route import NO_BARRIERS, Flags, Floats, Way, barrier, find_way
-from viaspline.kernels.distance import mark_near_segment
+from viaspline.detour.measure import Measured, measure
+from viaspline.detour.route import NO_BARRIERS, Flags, Floats, Way, barrier, find_way, on_the_line
 from viaspline.mission.model import Side
 from viaspline.world.world import World
 
@@ -43,15 +42,62 @@ class Passed:
     entries: tuple[LedgerEntry, ...]
 
 
+@dataclass(frozen=True)
+class _Curve:
+    """A way, the spline that was fitted to it, and what that costs."""
+
+    way: Way
+    fitted: Fitted
+    measured: Measured
+
+
+@dataclass(frozen=True)
+class _Leg:
+    """A leg in its course and world: what every search for a way past its groups needs."""
+
+    course: Course
+    index: int
+    world: World
+    brief: Brief
+
+    @property
+    def ends(self) -> tuple[Floats, Floats]:
+        start, goal = self.course.ends(self.index)
+        return start.at, goal.at
+
+    def way(self, barriers: Floats, active: Flags) -> Way | None:
+        return find_way(self.world, *self.ends, self.brief.required, barriers, active)
+
+    def curve(self, way: Way | None) -> _Curve | None:
+        """The spline along a way, or None where no slack makes it clear."""
+        if way is None:
+            return None
+        fitted = fit(self.course, self.index, way, self.world, self.brief.required)
+        if fitted is None:
+            return None
+        return _Curve(way, fitted, measure(fitted.spans, self.world, self.brief))
+
+    def barrier(self, group: Met, side: Side) -> Floats:
+        return barrier(self.world, group.foremost, side, *self.ends)
+
+    def side(self, way: Way, group: Met) -> Side:
+        """The side on which a way passes a group."""
+        return "right" if way.crosses(self.barrier(group, "right")) else "left"
+
+
 def pass_groups(
-    course: Course, leg: int, world: World, brief: Brief, hit: Sequence[int],
+    course: Course,
+    index: int,
+    world: World,
+    brief: Brief,
+    hit: Sequence[int],
     groups: NDArray[np.int64],
-) -> Passed:  # fmt: skip
+) -> Passed:
     """Lead one leg round everything, by the shorter side of each group.
 
     Args:
         course: What there is so far.
-        leg: The leg that comes too close to something.
+        index: The leg that comes too close to something.
         world: The known world.
         brief: What to keep.
         hit: Obstacles that the leg's curve comes too close to.
@@ -60,129 +106,115 @@ def pass_groups(
     Raises:
         NoPathError: When there is no way, with the least change that would serve.
     """
-    start, goal = (via.at for via in course.ends(leg))
-    active = np.zeros(len(world), np.bool_)
+    leg = _Leg(course, index, world, brief)
+    active = on_the_line(world, *leg.ends, brief.required)
     active[list(hit)] = True
-    barriers = _forced_barriers(world, np.flatnonzero(active), start, goal)
-    best = find_way(world, start, goal, brief.required, barriers, active)
-    mark_near_segment(world.packed, *start[:2], *goal[:2], brief.required, active)
-    while (more := _forced_barriers(world, np.flatnonzero(active), start, goal)).size != barriers.size:
-        barriers = more
-        best = find_way(world, start, goal, brief.required, barriers, active)
-    chosen = None if best is None else fit(course, leg, best, world, brief.required)
-    if best is None or chosen is None:
-        raise explain_blocked_leg(course, leg, world, brief, barriers)
-    met = _groups_met(world, groups, hit, start, goal, brief.required)
-    options = [
-        _Option(side, *_other_side(course, leg, world, brief, group, side, barriers, active))
-        for group in met
-        for side in (_other(_side_of(best, world, group, start, goal)),)
-    ]
-    return _choose(course, leg, world, brief, chosen, met, options)
-
-
-@dataclass(frozen=True)
-class _Option:
-    """The other side of a group: its fitted leg, or why there is none."""
-
-    side: Side
-    fitted: Fitted | None
-    impossible: str | None
-
-
-def _choose(
-    course: Course, leg: int, world: World, brief: Brief, best: Fitted, met: Sequence[Met],
-    options: Sequence[_Option],
-) -> Passed:  # fmt: skip
-    """Take the shortest of the measured curves, and write every candidate down."""
-    measured = measure(best.spans, world, brief)
-    names = course.ends(leg)[0].name, course.ends(leg)[1].name
-    winner, shortest, swapped = best, measured.length, None
-    rows: list[tuple[Candidate, Candidate]] = []
-    for k, option in enumerate(options):
-        here = _candidate(_other(option.side), best, leg, measured)
-        if option.fitted is None:
-            there = _impossible(option.side, option.impossible, len(best.spans[0, 0]))
-        else:
-            other = measure(option.fitted.spans, world, brief)
-            there = _candidate(option.side, option.fitted, leg, other)
-            if other.length < shortest - 1e-9:
-                winner, shortest, swapped = option.fitted, other.length, k
-        rows.append((here, there))
-    entries = []
-    for k, (group, (here, there)) in enumerate(zip(met, rows, strict=True)):
-        pair = (here, replace(there, chosen=True)) if k == swapped else (
-            replace(here, chosen=True), there)  # fmt: skip
-        ordered = tuple(sorted(pair, key=lambda c: SIDES.index(c.side)))
-        members = tuple(world.name(i) for i in group.members)
-        entries.append(LedgerEntry(members, names, ordered))
-    return Passed(winner, tuple(entries))
-
-
-def _candidate(side: Side, fitted: Fitted, leg: int, measured: Candidate) -> Candidate:
-    return replace(measured, side=side, vias=fitted.course.legs[leg].points, spans=fitted.spans)
-
-
-def _impossible(side: Side, why: str | None, dimension: int) -> Candidate:
-    return Candidate(
-        side, np.empty((0, dimension)), np.empty((0, 4, dimension)), impossible=why
+    met = _groups_met(world, groups, np.flatnonzero(active), *leg.ends)
+    way, barriers = _shortest_allowed(leg, active)
+    best = leg.curve(way)
+    if best is None:
+        raise explain_blocked_leg(course, index, world, brief, barriers)
+    curves = [best]
+    reasons: list[str] = []
+    for group in met:
+        side = _opposite(leg.side(best.way, group))
+        other, reason = _other_side(leg, group, side, barriers, active)
+        curves += [other] if other else []
+        reasons.append(reason)
+    winner = min(curves, key=lambda curve: curve.measured.length)
+    entries = tuple(
+        _entry(leg, group, curves, winner, reason)
+        for group, reason in zip(met, reasons, strict=True)
     )
+    return Passed(winner.fitted, entries)
+
+
+def _shortest_allowed(leg: _Leg, active: Flags) -> tuple[Way | None, Floats]:
+    """The shortest way that passes what it meets on the sides that the mission allows.
+
+    A way can meet obstacles with a side of their own that were not met before; each such round
+    adds at least one barrier, so there are no more rounds than obstacles.
+    """
+    barriers = _forced_barriers(leg, active)
+    while True:
+        way = leg.way(barriers, active)
+        needed = _forced_barriers(leg, active)
+        if len(needed) == len(barriers):
+            return way, barriers
+        barriers = needed
 
 
 def _other_side(
-    course: Course, leg: int, world: World, brief: Brief, group: Met, side: Side,
-    barriers: Floats, active: Flags,
-) -> tuple[Fitted | None, str | None]:  # fmt: skip
-    """The shortest way on the given side of a group, fitted."""
+    leg: _Leg, group: Met, side: Side, barriers: Floats, active: Flags
+) -> tuple[_Curve | None, str]:
+    """The shortest curve on the given side of a group, or why there is none."""
     for i in group.members:
-        forced = world.obstacles[i].forced_side
+        forced = leg.world.obstacles[i].forced_side
         if forced is not None and forced != side:
-            return None, f"the mission has {world.name(i)!r} passed on the {forced}"
-    start, goal = (via.at for via in course.ends(leg))
-    closed = barrier(world, group.foremost, _other(side), start, goal)
-    way = find_way(
-        world, start, goal, brief.required, np.vstack((barriers, closed)), active
+            return None, f"the mission has {leg.world.name(i)!r} passed on the {forced}"
+    closed = np.vstack((barriers, leg.barrier(group, _opposite(side))))
+    curve = leg.curve(leg.way(closed, active))
+    return curve, "" if curve else f"no way is wide enough on the {side}"
+
+
+def _entry(
+    leg: _Leg, group: Met, curves: Sequence[_Curve], winner: _Curve, reason: str
+) -> LedgerEntry:
+    """The shortest of all curves on either side of a group."""
+    candidates = []
+    for side in SIDES:
+        passing = [curve for curve in curves if leg.side(curve.way, group) == side]
+        best = min(passing, key=lambda curve: curve.measured.length, default=None)
+        candidates.append(_candidate(leg, side, best, reason, chosen=best is winner))
+    start, goal = leg.course.ends(leg.index)
+    members = tuple(leg.world.name(i) for i in group.members)
+    return LedgerEntry(members, (start.name, goal.name), tuple(candidates))
+
+
+def _candidate(
+    leg: _Leg, side: Side, curve: _Curve | None, reason: str, *, chosen: bool
+) -> Candidate:
+    if curve is None:
+        dimension = len(leg.ends[0])
+        none = np.empty((0, dimension))
+        return Candidate(side, none, none.reshape(0, 4, dimension), impossible=reason)
+    return Candidate(
+        side=side,
+        vias=curve.fitted.course.legs[leg.index].points,
+        spans=curve.fitted.spans,
+        length=curve.measured.length,
+        clearance=curve.measured.clearance,
+        max_curvature=curve.measured.max_curvature,
+        chosen=chosen,
     )
-    if way is None:
-        return None, f"no way is wide enough on the {side}"
-    fitted = fit(course, leg, way, world, brief.required)
-    return (fitted, None) if fitted else (None, "no spline along it is clear")
 
 
-def _side_of(way: Way, world: World, group: Met, start: Floats, goal: Floats) -> Side:
-    right = barrier(world, group.foremost, "right", start, goal)
-    return "right" if way.crosses(right) else "left"
-
-
-def _other(side: Side) -> Side:
+def _opposite(side: Side) -> Side:
     return "right" if side == "left" else "left"
 
 
-def _forced_barriers(
-    world: World, indices: NDArray[np.int64], start: Floats, goal: Floats
-) -> Floats:
+def _forced_barriers(leg: _Leg, active: Flags) -> Floats:
     """Barriers on the forbidden sides of those obstacles that may be passed on one side only."""
     rows = [
-        barrier(world, int(i), _other(forced), start, goal)
-        for i in indices
-        if (forced := world.obstacles[i].forced_side) is not None
+        barrier(leg.world, int(i), _opposite(forced), *leg.ends)
+        for i in np.flatnonzero(active)
+        if (forced := leg.world.obstacles[i].forced_side) is not None
     ]
     return np.vstack(rows) if rows else NO_BARRIERS
 
 
 def _groups_met(
-    world: World, groups: NDArray[np.int64], hit: Sequence[int], start: Floats, goal: Floats,
-    required: float,
-) -> list[Met]:  # fmt: skip
+    world: World,
+    groups: NDArray[np.int64],
+    indices: NDArray[np.intp],
+    start: Floats,
+    goal: Floats,
+) -> list[Met]:
     """The groups in the way of the straight line or of the curve, in the order of the leg."""
-    found = np.zeros(len(world), np.bool_)
-    mark_near_segment(world.packed, *start[:2], *goal[:2], required, found)
-    found[list(hit)] = True
-    indices = np.flatnonzero(found)
     along = goal[:2] - start[:2]
-    indices = indices[np.argsort([_centre(world, i) @ along for i in indices], kind="stable")]
+    order = np.argsort([_centre(world, int(i)) @ along for i in indices], kind="stable")
     met: dict[int, Met] = {}
-    for i in indices.tolist():
+    for i in indices[order].tolist():
         label = int(groups[i])
         if label not in met:
             met[label] = Met(tuple(np.flatnonzero(groups == label).tolist()), i)
@@ -193,4 +225,5 @@ def _centre(world: World, index: int) -> Floats:
     obstacle = world.obstacles[index]
     if obstacle.circle is not None:
         return np.array(obstacle.circle.center)
-    return np.mean(np.array(obstacle.polygon), axis=0)
+    mean: Floats = np.array(obstacle.polygon).mean(axis=0)
+    return mean

@@ -17,12 +17,13 @@ import numpy as np
 
 from viaspline.kernels.distance import nearest, nearest_to_segment, point_segment
 from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.packed import Floats, Ints, PackedWorld
 
 DEPTH = 64
 
 
 @inner
-def _halve(stack, top):  # type: ignore[no-untyped-def]
+def _halve(stack: Floats, top: int) -> None:
     """Replace the piece at ``top`` of the stack by its right half, its left half above it."""
     for axis in range(2):
         p0 = stack[top, axis]
@@ -50,7 +51,7 @@ def _halve(stack, top):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _load(stack, spans, span):  # type: ignore[no-untyped-def]
+def _load(stack: Floats, spans: Floats, span: int) -> None:
     for k in range(4):
         stack[0, 2 * k] = spans[span, k, 0]
         stack[0, 2 * k + 1] = spans[span, k, 1]
@@ -59,14 +60,14 @@ def _load(stack, spans, span):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _middle(piece):  # type: ignore[no-untyped-def]
+def _middle(piece: Floats) -> tuple[float, float]:
     x = (piece[0] + 3.0 * (piece[2] + piece[4]) + piece[6]) / 8.0
     y = (piece[1] + 3.0 * (piece[3] + piece[5]) + piece[7]) / 8.0
     return x, y
 
 
 @inner
-def _reach(piece, x, y):  # type: ignore[no-untyped-def]
+def _reach(piece: Floats, x: float, y: float) -> float:
     """Distance from (x, y) to the farthest control point."""
     squared = 0.0
     for k in range(4):
@@ -77,7 +78,7 @@ def _reach(piece, x, y):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _sag(piece):  # type: ignore[no-untyped-def]
+def _sag(piece: Floats) -> float:
     """Bound of the distance between a piece and its chord."""
     first = point_segment(piece[2], piece[3], piece[0], piece[1], piece[6], piece[7])
     second = point_segment(piece[4], piece[5], piece[0], piece[1], piece[6], piece[7])
@@ -85,7 +86,9 @@ def _sag(piece):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def tightest(world, spans, tolerance):  # type: ignore[no-untyped-def]
+def tightest(
+    world: PackedWorld, spans: Floats, tolerance: float
+) -> tuple[float, float, int, float, int]:
     """The smallest distance between a curve and a world, from both sides.
 
     Args:
@@ -143,7 +146,7 @@ def tightest(world, spans, tolerance):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def conflicts(world, spans, required):  # type: ignore[no-untyped-def]
+def conflicts(world: PackedWorld, spans: Floats, required: float) -> tuple[Ints, Floats]:
     """What each span comes too close to.
 
     Args:

@@ -13,6 +13,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.jit import inner
+from viaspline.kernels.packed import Floats, PackedWorld
 
 # columns of a corner
 X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, SLOPE = range(8)
@@ -20,9 +21,18 @@ COLUMNS = 8
 
 
 @inner
-def _fan(corners, count, x, y, radius, first, turn, step):  # type: ignore[no-untyped-def]
+def _fan(
+    corners: Floats,
+    count: int,
+    x: float,
+    y: float,
+    radius: float,
+    first: float,
+    turn: float,
+    step: float,
+) -> int:
     """Write the corners of one arc: ``turn`` [rad] from the direction ``first`` about (x, y)."""
-    parts = max(1, int(math.ceil(turn / step - 1e-9)))
+    parts = max(1, int(np.ceil(turn / step - 1e-9)))
     half = 0.5 * turn / parts
     reach = radius / math.cos(half)
     slope = math.tan(half)
@@ -44,7 +54,9 @@ def _fan(corners, count, x, y, radius, first, turn, step):  # type: ignore[no-un
 
 
 @inner
-def _polygon_corners(world, p, rho, step, corners, count):  # type: ignore[no-untyped-def]
+def _polygon_corners(
+    world: PackedWorld, p: int, rho: float, step: float, corners: Floats, count: int
+) -> int:
     """Corners of polygon p: its rings follow each other, each starting where the last closed."""
     first = world.block_edges[world.polygon_blocks[p]]
     last = world.block_edges[world.polygon_blocks[p + 1]]
@@ -69,7 +81,9 @@ def _polygon_corners(world, p, rho, step, corners, count):  # type: ignore[no-un
 
 
 @inner
-def obstacle_corners(world, i, rho, step, corners, count):  # type: ignore[no-untyped-def]
+def obstacle_corners(
+    world: PackedWorld, i: int, rho: float, step: float, corners: Floats, count: int
+) -> int:
     """Append the corners of obstacle i to ``corners`` from row ``count`` on.
 
     Args:
@@ -91,7 +105,7 @@ def obstacle_corners(world, i, rho, step, corners, count):  # type: ignore[no-un
 
 
 @inner
-def supports(corners, k, dx, dy):  # type: ignore[no-untyped-def]
+def supports(corners: Floats, k: int, dx: float, dy: float) -> bool:
     """Whether a line through corner k along (dx, dy) leaves its obstacle on one side.
 
     Only there can a taut route come in or go out.

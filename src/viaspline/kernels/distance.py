@@ -13,10 +13,11 @@ import math
 import numpy as np
 
 from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.packed import Flags, Floats, Ints, PackedWorld
 
 
 @inner
-def squared_point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+def squared_point_segment(x: float, y: float, ax: float, ay: float, bx: float, by: float) -> float:
     """Squared distance from (x, y) to the segment a-b [m²]."""
     dx = bx - ax
     dy = by - ay
@@ -31,18 +32,20 @@ def squared_point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
 
 
 @inner
-def point_segment(x, y, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+def point_segment(x: float, y: float, ax: float, ay: float, bx: float, by: float) -> float:
     """Distance from (x, y) to the segment a-b [m]."""
     return math.sqrt(squared_point_segment(x, y, ax, ay, bx, by))
 
 
 @inner
-def _orientation(ax, ay, bx, by, cx, cy):  # type: ignore[no-untyped-def]
+def _orientation(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> float:
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
 @inner
-def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):  # type: ignore[no-untyped-def]
+def segment_segment(
+    ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
+) -> float:
     """Distance between the segments a-b and c-d [m]; 0 where they cross."""
     if _orientation(ax, ay, bx, by, cx, cy) * _orientation(ax, ay, bx, by, dx, dy) < 0.0 and (
         _orientation(cx, cy, dx, dy, ax, ay) * _orientation(cx, cy, dx, dy, bx, by) < 0.0
@@ -55,7 +58,7 @@ def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):  # type: ignore[no-untyped-
 
 
 @inner
-def box_signed(boxes, b, x, y):  # type: ignore[no-untyped-def]
+def box_signed(boxes: Floats, b: int, x: float, y: float) -> float:
     """Signed distance from (x, y) to box b: a lower bound for all that lies in the box."""
     left = max(boxes[b, 0] - x, x - boxes[b, 2])
     down = max(boxes[b, 1] - y, y - boxes[b, 3])
@@ -65,7 +68,7 @@ def box_signed(boxes, b, x, y):  # type: ignore[no-untyped-def]
 
 
 @inner
-def box_gap(boxes, b, x0, y0, x1, y1):  # type: ignore[no-untyped-def]
+def box_gap(boxes: Floats, b: int, x0: float, y0: float, x1: float, y1: float) -> float:
     """Distance between box b and the box (x0, y0)-(x1, y1); 0 where they overlap."""
     gap_x = max(max(boxes[b, 0] - x1, x0 - boxes[b, 2]), 0.0)
     gap_y = max(max(boxes[b, 1] - y1, y0 - boxes[b, 3]), 0.0)
@@ -73,7 +76,7 @@ def box_gap(boxes, b, x0, y0, x1, y1):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _crosses(edges, e, x, y):  # type: ignore[no-untyped-def]
+def _crosses(edges: Floats, e: int, x: float, y: float) -> bool:
     """Whether the ray from (x, y) to the east crosses edge e."""
     y0 = edges[e, 1]
     y1 = edges[e, 3]
@@ -83,7 +86,7 @@ def _crosses(edges, e, x, y):  # type: ignore[no-untyped-def]
 
 
 @inner
-def polygon_signed(world, p, x, y, limit):  # type: ignore[no-untyped-def]
+def polygon_signed(world: PackedWorld, p: int, x: float, y: float, limit: float) -> float:
     """Signed distance from (x, y) to polygon p [m]; negative inside."""
     boxes = world.block_boxes
     inside = False
@@ -106,7 +109,7 @@ def polygon_signed(world, p, x, y, limit):  # type: ignore[no-untyped-def]
 
 
 @inner
-def fence_signed(world, f, x, y):  # type: ignore[no-untyped-def]
+def fence_signed(world: PackedWorld, f: int, x: float, y: float) -> float:
     """Signed distance from (x, y) to the outside of fence f [m]; positive inside the fence."""
     inside = False
     squared = np.inf
@@ -119,7 +122,7 @@ def fence_signed(world, f, x, y):  # type: ignore[no-untyped-def]
 
 
 @inner
-def inner_signed(world, x, y, limit):  # type: ignore[no-untyped-def]
+def inner_signed(world: PackedWorld, x: float, y: float, limit: float) -> tuple[float, int]:
     """Distance from (x, y) to what the robot stays inside of [m], and which (see ``nearest``)."""
     best = limit
     index = -1
@@ -137,7 +140,7 @@ def inner_signed(world, x, y, limit):  # type: ignore[no-untyped-def]
 
 
 @inner
-def obstacle_signed(world, i, x, y, limit):  # type: ignore[no-untyped-def]
+def obstacle_signed(world: PackedWorld, i: int, x: float, y: float, limit: float) -> float:
     """Signed distance from (x, y) to obstacle i [m]."""
     slot = world.slot[i]
     if world.kind[i] == 0:
@@ -149,7 +152,7 @@ def obstacle_signed(world, i, x, y, limit):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _descend(world, x, y):  # type: ignore[no-untyped-def]
+def _descend(world: PackedWorld, x: float, y: float) -> int:
     """The obstacle that is found by going to the nearest box on every level of the tree."""
     node = 0
     while world.leaf[node] < 0:
@@ -168,7 +171,7 @@ def _descend(world, x, y):  # type: ignore[no-untyped-def]
 
 
 @inner
-def nearest(world, x, y, limit):  # type: ignore[no-untyped-def]
+def nearest(world: PackedWorld, x: float, y: float, limit: float) -> tuple[float, int]:
     """Signed distance from (x, y) to the world, and what is nearest.
 
     The tree's nodes stand in depth-first order, so that a walk needs no stack: to the next node,
@@ -199,7 +202,9 @@ def nearest(world, x, y, limit):  # type: ignore[no-untyped-def]
 
 
 @inner
-def obstacle_segment(world, i, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
+def obstacle_segment(
+    world: PackedWorld, i: int, ax: float, ay: float, bx: float, by: float, limit: float
+) -> float:
     """Distance between obstacle i and the segment a-b [m].
 
     Signed for circles; for polygons 0 where the segment touches one, or lies inside it.
@@ -226,7 +231,7 @@ def obstacle_segment(world, i, ax, ay, bx, by, limit):  # type: ignore[no-untype
 
 
 @inner
-def fence_segment(world, f, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+def fence_segment(world: PackedWorld, f: int, ax: float, ay: float, bx: float, by: float) -> float:
     """Distance between the segment a-b and the outside of fence f [m]; 0 where it leaves it."""
     if fence_signed(world, f, ax, ay) <= 0.0:
         return 0.0
@@ -238,7 +243,9 @@ def fence_segment(world, f, ax, ay, bx, by):  # type: ignore[no-untyped-def]
 
 
 @inner
-def inner_segment(world, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
+def inner_segment(
+    world: PackedWorld, ax: float, ay: float, bx: float, by: float, limit: float
+) -> tuple[float, int]:
     """Distance of the segment a-b to what the robot stays inside of [m], and which."""
     best = limit
     index = -1
@@ -256,7 +263,9 @@ def inner_segment(world, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def nearest_to_segment(world, ax, ay, bx, by, limit):  # type: ignore[no-untyped-def]
+def nearest_to_segment(
+    world: PackedWorld, ax: float, ay: float, bx: float, by: float, limit: float
+) -> tuple[float, int]:
     """Distance of the segment a-b to the world [m] and what is nearest (see ``nearest``)."""
     best, index = inner_segment(world, ax, ay, bx, by, limit)
     x0 = min(ax, bx)
@@ -279,7 +288,9 @@ def nearest_to_segment(world, ax, ay, bx, by, limit):  # type: ignore[no-untyped
 
 
 @kernel
-def mark_near_segment(world, ax, ay, bx, by, width, found):  # type: ignore[no-untyped-def]
+def mark_near_segment(
+    world: PackedWorld, ax: float, ay: float, bx: float, by: float, width: float, found: Flags
+) -> int:
     """Mark every obstacle nearer than ``width`` to the segment a-b in ``found``, (n,) of bool.
 
     Returns:
@@ -304,7 +315,7 @@ def mark_near_segment(world, ax, ay, bx, by, width, found):  # type: ignore[no-u
 
 
 @kernel
-def distances(world, points):  # type: ignore[no-untyped-def]
+def distances(world: PackedWorld, points: Floats) -> tuple[Floats, Ints]:
     """Signed distance and index of what is nearest, for points (n, 2)."""
     count = points.shape[0]
     distance = np.empty(count)
@@ -315,7 +326,7 @@ def distances(world, points):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def obstacle_distances(world, i, points):  # type: ignore[no-untyped-def]
+def obstacle_distances(world: PackedWorld, i: int, points: Floats) -> Floats:
     """Signed distance of points (n, 2) to obstacle i."""
     distance = np.empty(points.shape[0])
     for k in range(points.shape[0]):

@@ -6,10 +6,11 @@ import numpy as np
 
 from viaspline.kernels.distance import box_gap, obstacle_segment, polygon_signed
 from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.packed import Ints, PackedWorld
 
 
 @inner
-def obstacle_gap(world, i, j, limit):  # type: ignore[no-untyped-def]
+def obstacle_gap(world: PackedWorld, i: int, j: int, limit: float) -> float:
     """Distance between the obstacles i and j [m]; not above 0 where they overlap."""
     if world.kind[i] == 0 or world.kind[j] == 0:
         disc = i if world.kind[i] == 0 else j
@@ -32,7 +33,7 @@ def obstacle_gap(world, i, j, limit):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _root(parent, i):  # type: ignore[no-untyped-def]
+def _root(parent: Ints, i: int) -> int:
     while parent[i] != i:
         parent[i] = parent[parent[i]]
         i = parent[i]
@@ -40,7 +41,7 @@ def _root(parent, i):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def group_labels(world, width):  # type: ignore[no-untyped-def]
+def group_labels(world: PackedWorld, width: float) -> Ints:
     """Label of every obstacle's group, (n,): the smallest index of its members.
 
     Two obstacles are of one group when a gap narrower than ``width`` [m] is between them.

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.packed import Floats, Ints
 
 BRANCHES = 4
 
 
 @kernel
-def hilbert_keys(boxes):  # type: ignore[no-untyped-def]
+def hilbert_keys(boxes: Floats) -> Ints:
     """Place of every box's centre on a Hilbert curve over all of them, (n,) of int64."""
     count = boxes.shape[0]
     keys = np.empty(count, np.int64)
@@ -44,7 +45,7 @@ def hilbert_keys(boxes):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def box_tree(boxes, order):  # type: ignore[no-untyped-def]
+def box_tree(boxes: Floats, order: Ints) -> tuple[Floats, Ints, Ints]:
     """A tree over boxes (n, 4) taken in ``order`` (n,), its nodes in depth-first order.
 
     Returns:
@@ -81,7 +82,7 @@ def box_tree(boxes, order):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _close(nodes, skip, leaf, boxes, size):  # type: ignore[no-untyped-def]
+def _close(nodes: Floats, skip: Ints, leaf: Ints, boxes: Floats, size: int) -> None:
     """Give every node its box and its skip, from the last one back."""
     for node in range(size - 1, -1, -1):
         if leaf[node] >= 0:
@@ -105,7 +106,7 @@ def _close(nodes, skip, leaf, boxes, size):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _leaves(skip, leaf, node):  # type: ignore[no-untyped-def]
+def _leaves(skip: Ints, leaf: Ints, node: int) -> int:
     count = 0
     for k in range(node, skip[node]):
         if leaf[k] >= 0:
@@ -114,7 +115,7 @@ def _leaves(skip, leaf, node):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def ring_boxes(edges, starts):  # type: ignore[no-untyped-def]
+def ring_boxes(edges: Floats, starts: Ints) -> Floats:
     """Box of every run ``starts[k]:starts[k + 1]`` of edges (e, 4), shape (k, 4)."""
     boxes = np.empty((starts.size - 1, 4))
     for k in range(starts.size - 1):

@@ -12,7 +12,7 @@ import os
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -47,10 +47,8 @@ def _candidates() -> Iterator[Path]:
         yield Path(chosen)
     if xdg := os.environ.get("XDG_CACHE_HOME"):
         yield Path(xdg) / "viaspline"
-    try:
+    with suppress(RuntimeError):  # no home folder
         yield Path.home() / ".cache" / "viaspline"
-    except RuntimeError:
-        pass  # no home folder
     user = os.getuid() if hasattr(os, "getuid") else "user"
     yield Path(tempfile.gettempdir()) / f"viaspline-{user}"
 
@@ -71,14 +69,18 @@ CACHE_FOLDER = cache_folder()
 
 
 def _compile(function: _Function, **options: bool) -> _Function:
-    kept = config.CACHE_DIR
+    settings: Any = config  # numba makes its settings as it reads them
+    kept = settings.CACHE_DIR
     if CACHE_FOLDER is not None:
-        config.CACHE_DIR = str(CACHE_FOLDER)
+        settings.CACHE_DIR = str(CACHE_FOLDER)
+    njit: Any = numba.njit
     try:
-        jit = numba.njit(cache=CACHE_FOLDER is not None, error_model="numpy", nogil=True, **options)
-        compiled: _Function = jit(function)
+        cache = CACHE_FOLDER is not None
+        compiled: _Function = njit(cache=cache, error_model="numpy", nogil=True, **options)(
+            function
+        )
     finally:
-        config.CACHE_DIR = kept
+        settings.CACHE_DIR = kept
     return compiled
 
 
@@ -99,7 +101,7 @@ def inner(function: _Function) -> _Function:
     return _compile(function, no_cpython_wrapper=True)
 
 
-class _CompileListener(event.Listener):  # type: ignore[misc]
+class _CompileListener(event.Listener):
     def __init__(self, tell: Callable[[str], None]) -> None:
         self._tell = tell
 

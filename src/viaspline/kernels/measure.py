@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.packed import Floats
 
 SAMPLES = 32  # of curvature on a span
 PARTS = 4  # Gauss-Legendre rules of five points on a span
@@ -19,8 +20,8 @@ WEIGHTS = np.array(
 
 
 @kernel
-def length_and_curvature(spans):  # type: ignore[no-untyped-def]
-    """Length [m] (to about 1e-7 of it) and largest sampled plane curvature [1/m] of spans (m, 4, d)."""
+def length_and_curvature(spans: Floats) -> tuple[float, float]:
+    """Length [m], to about 1e-7 of it, and largest sampled plane curvature [1/m] of (m, 4, d)."""
     dimension = spans.shape[2]
     length = 0.0
     sharpest = 0.0
@@ -42,7 +43,7 @@ def length_and_curvature(spans):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _curvature(spans, span, w):  # type: ignore[no-untyped-def]
+def _curvature(spans: Floats, span: int, w: float) -> float:
     ax = spans[span, 1, 0] - spans[span, 0, 0]
     ay = spans[span, 1, 1] - spans[span, 0, 1]
     bx = spans[span, 2, 0] - spans[span, 1, 0]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Flags = NDArray[np.bool_]
 
 
 class PackedWorld(NamedTuple):
@@ -25,7 +26,7 @@ class PackedWorld(NamedTuple):
         kind: (n,).
         slot: (n,).
         circles: Centre and radius [m], (c, 3).
-        polygon_blocks: Blocks of polygon p are ``polygon_blocks[p]:polygon_blocks[p + 1]``, (p + 1,).
+        polygon_blocks: Polygon p has blocks ``polygon_blocks[p]:polygon_blocks[p + 1]``, (p + 1,).
         block_edges: Edges of block b are ``block_edges[b]:block_edges[b + 1]``, (b + 1,).
         block_boxes: x_min, y_min, x_max, y_max [m], (b, 4).
         edges: x0, y0, x1, y1 [m]; outer rings run anticlockwise, holes clockwise, (e, 4).

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.packed import Floats, Ints
 
 BLOCK = 16  # consecutive edges that share a box
 
 
 @inner
-def _twice_area(vertices, first, last):  # type: ignore[no-untyped-def]
+def _twice_area(vertices: Floats, first: int, last: int) -> float:
     area = 0.0
     x0 = vertices[first, 0]
     y0 = vertices[first, 1]
@@ -22,7 +23,9 @@ def _twice_area(vertices, first, last):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def pack_polygons(vertices, ring_starts, polygon_rings):  # type: ignore[no-untyped-def]
+def pack_polygons(
+    vertices: Floats, ring_starts: Ints, polygon_rings: Ints
+) -> tuple[Floats, Ints, Ints]:
     """Turn polygons into edges that run anticlockwise outside and clockwise round holes.
 
     Args:

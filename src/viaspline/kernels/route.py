@@ -14,10 +14,11 @@ import numpy as np
 from viaspline.kernels.corners import X, Y, obstacle_corners, supports
 from viaspline.kernels.distance import inner_segment, mark_near_segment, obstacle_segment
 from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.packed import Flags, Floats, Ints, PackedWorld
 
 
 @inner
-def _crosses_barrier(barriers, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+def _crosses_barrier(barriers: Floats, ax: float, ay: float, bx: float, by: float) -> bool:
     for k in range(barriers.shape[0]):
         cx = barriers[k, 0]
         cy = barriers[k, 1]
@@ -35,13 +36,21 @@ def _crosses_barrier(barriers, ax, ay, bx, by):  # type: ignore[no-untyped-def]
 
 
 @inner
-def is_clear(world, members, barriers, ax, ay, bx, by, floor):  # type: ignore[no-untyped-def]
+def is_clear(
+    world: PackedWorld,
+    members: Floats,
+    barriers: Floats,
+    ax: float,
+    ay: float,
+    bx: float,
+    by: float,
+    floor: float,
+) -> bool:
     """Whether the segment a-b keeps ``floor`` from the given obstacles and crosses no barrier."""
     if barriers.shape[0] > 0 and _crosses_barrier(barriers, ax, ay, bx, by):
         return False
-    if world.bounds.shape[0] > 0 or world.fence_edges.size > 1:
-        if inner_segment(world, ax, ay, bx, by, floor)[0] < floor:
-            return False
+    if inner_segment(world, ax, ay, bx, by, floor)[0] < floor:
+        return False
     x0 = min(ax, bx) - floor
     x1 = max(ax, bx) + floor
     y0 = min(ay, by) - floor
@@ -49,13 +58,13 @@ def is_clear(world, members, barriers, ax, ay, bx, by, floor):  # type: ignore[n
     for k in range(members.shape[0]):
         if members[k, 1] > x1 or members[k, 3] < x0 or members[k, 2] > y1 or members[k, 4] < y0:
             continue
-        if obstacle_segment(world, np.int64(members[k, 0]), ax, ay, bx, by, floor) < floor:
+        if obstacle_segment(world, int(members[k, 0]), ax, ay, bx, by, floor) < floor:
             return False
     return True
 
 
 @inner
-def _members(world, active):  # type: ignore[no-untyped-def]
+def _members(world: PackedWorld, active: Flags) -> Floats:
     """Index and box of every active obstacle, (k, 5)."""
     count = 0
     for i in range(active.size):
@@ -74,7 +83,9 @@ def _members(world, active):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _corners(world, members, start, goal, rho, step):  # type: ignore[no-untyped-def]
+def _corners(
+    world: PackedWorld, members: Floats, start: Floats, goal: Floats, rho: float, step: float
+) -> Floats:
     """Start, goal, then the corners of all members, (n, 8)."""
     room = 64
     while True:
@@ -83,16 +94,18 @@ def _corners(world, members, start, goal, rho, step):  # type: ignore[no-untyped
         corners[0, Y] = start[1]
         corners[1, X] = goal[0]
         corners[1, Y] = goal[1]
-        count = np.int64(2)
+        count = 2
         for k in range(members.shape[0]):
-            count = obstacle_corners(world, np.int64(members[k, 0]), rho, step, corners, count)
+            count = obstacle_corners(world, int(members[k, 0]), rho, step, corners, count)
         if count <= room:
             return corners[:count]
         room = count
 
 
 @inner
-def _search(world, members, corners, barriers, floor):  # type: ignore[no-untyped-def]
+def _search(
+    world: PackedWorld, members: Floats, corners: Floats, barriers: Floats, floor: float
+) -> Ints:
     """A* from corner 0 to corner 1; returns each corner's predecessor, -1 where there is none."""
     count = corners.shape[0]
     cost = np.full(count, np.inf)
@@ -135,7 +148,16 @@ def _search(world, members, corners, barriers, floor):  # type: ignore[no-untype
 
 
 @kernel
-def shortest_route(world, start, goal, rho, floor, step, barriers, active):  # type: ignore[no-untyped-def]
+def shortest_route(
+    world: PackedWorld,
+    start: Floats,
+    goal: Floats,
+    rho: float,
+    floor: float,
+    step: float,
+    barriers: Floats,
+    active: Flags,
+) -> Floats:
     """The shortest route from start to goal as a list of corners.
 
     Args:
@@ -180,7 +202,7 @@ def shortest_route(world, start, goal, rho, floor, step, barriers, active):  # t
 
 
 @kernel
-def route_crosses(route, barriers):  # type: ignore[no-untyped-def]
+def route_crosses(route: Floats, barriers: Floats) -> bool:
     """Whether a route of corners crosses a barrier an odd number of times."""
     odd = False
     for k in range(route.shape[0] - 1):

@@ -8,6 +8,7 @@ import numpy as np
 
 from viaspline.kernels.corners import CENTER_X, CENTER_Y, RADIUS, X, Y
 from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.packed import Floats
 
 # columns of a bend: the arc's centre, radius and side (+1: it turns left), the headings with which
 # the route comes to it and leaves it
@@ -15,13 +16,13 @@ BEND_X, BEND_Y, BEND_RADIUS, SIDE, HEADING_IN, TURN = range(6)
 
 
 @inner
-def _nearest_turn(angle, about):  # type: ignore[no-untyped-def]
+def _nearest_turn(angle: float, about: float) -> float:
     """The angle plus whole turns that is nearest to ``about``: a route may wrap far round."""
     return angle - 2 * math.pi * math.floor((angle - about + math.pi) / (2 * math.pi))
 
 
 @inner
-def _tangent(bends, i, j):  # type: ignore[no-untyped-def]
+def _tangent(bends: Floats, i: int, j: int) -> float:
     """Heading of the line that leaves bend i and comes to bend j; NaN where there is none."""
     dx = bends[j, BEND_X] - bends[i, BEND_X]
     dy = bends[j, BEND_Y] - bends[i, BEND_Y]
@@ -33,7 +34,7 @@ def _tangent(bends, i, j):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _merge(route):  # type: ignore[no-untyped-def]
+def _merge(route: Floats) -> tuple[Floats, int]:
     """One row for every arc that the route wraps round; start and goal are arcs of radius 0."""
     bends = np.zeros((route.shape[0], 6))
     count = 0
@@ -65,7 +66,7 @@ def _merge(route):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def bends_of(route):  # type: ignore[no-untyped-def]
+def bends_of(route: Floats) -> Floats:
     """The arcs of a route of corners, with the headings of the tangents between them.
 
     Args:
@@ -99,7 +100,7 @@ def bends_of(route):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _touch(bends, k, heading):  # type: ignore[no-untyped-def]
+def _touch(bends: Floats, k: int, heading: float) -> tuple[float, float]:
     """Where a tangent of this heading touches bend k."""
     reach = bends[k, SIDE] * bends[k, BEND_RADIUS]
     return (
@@ -109,14 +110,16 @@ def _touch(bends, k, heading):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _append(points, count, x, y):  # type: ignore[no-untyped-def]
+def _append(points: Floats, count: int, x: float, y: float) -> int:
     points[count, 0] = x
     points[count, 1] = y
     return count + 1
 
 
 @inner
-def _helper_distance(bends, k, half, length, stretch, ease):  # type: ignore[no-untyped-def]
+def _helper_distance(
+    bends: Floats, k: int, half: float, length: float, stretch: float, ease: float
+) -> float:
     """How far from bend k its helper stands on a straight piece of this length [m].
 
     A span of length h whose end turns by a is longer than its chord by about h a²/15 (two
@@ -130,7 +133,9 @@ def _helper_distance(bends, k, half, length, stretch, ease):  # type: ignore[no-
 
 
 @inner
-def _straight(points, count, bends, k, halves, stretch, ease):  # type: ignore[no-untyped-def]
+def _straight(
+    points: Floats, count: int, bends: Floats, k: int, halves: Floats, stretch: float, ease: float
+) -> int:
     """Helper via points near the ends of the straight piece from bend k to bend k + 1."""
     heading = bends[k + 1, HEADING_IN]
     ax, ay = _touch(bends, k, heading)
@@ -156,7 +161,7 @@ def _straight(points, count, bends, k, halves, stretch, ease):  # type: ignore[n
 
 
 @kernel
-def detour_points(bends, step, excess, stretch, ease):  # type: ignore[no-untyped-def]
+def detour_points(bends: Floats, step: float, excess: float, stretch: float, ease: float) -> Floats:
     """Via points along taut bends, through which a cardinal spline follows them closely.
 
     On each arc, equal turns of at most ``step``; a helper on the straight piece before and after
@@ -177,17 +182,17 @@ def detour_points(bends, step, excess, stretch, ease):  # type: ignore[no-untype
     halves = np.zeros(count)
     room = 2 * count
     for k in range(1, count - 1):
-        parts = max(1, int(math.ceil(bends[k, TURN] / step)))
+        parts = max(1, int(np.ceil(bends[k, TURN] / step)))
         halves[k] = 0.5 * bends[k, TURN] / parts
         room += parts
     points = np.empty((room, 2))
-    size = np.int64(0)
+    size = 0
     for k in range(count - 1):
         size = _straight(points, size, bends, k, halves, stretch, ease)
         bend = k + 1
         if bend == count - 1:
             break
-        parts = max(1, int(math.ceil(bends[bend, TURN] / step)))
+        parts = max(1, int(np.ceil(bends[bend, TURN] / step)))
         half = halves[bend]
         reach = bends[bend, BEND_RADIUS] * (1.0 + excess * (1.0 / math.cos(half) - 1.0))
         for part in range(parts):
@@ -201,7 +206,7 @@ def detour_points(bends, step, excess, stretch, ease):  # type: ignore[no-untype
 
 
 @kernel
-def taut_length(route, bends):  # type: ignore[no-untyped-def]
+def taut_length(route: Floats, bends: Floats) -> float:
     """Length of the taut bends [m], or of the corners where there are no bends."""
     length = 0.0
     for k in range(bends.shape[0] - 1):

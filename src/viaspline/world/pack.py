@@ -103,7 +103,9 @@ def join(first: PackedWorld, second: PackedWorld) -> PackedWorld:
         fence_edges=first.fence_edges,
         fences=first.fences,
         boxes=np.concatenate((root, first.boxes, second.boxes)),
-        skip=np.concatenate(([1 + left + second.leaf.size], first.skip + 1, second.skip + 1 + left)),
+        skip=np.concatenate(
+            ([1 + left + second.leaf.size], first.skip + 1, second.skip + 1 + left)
+        ),
         leaf=np.concatenate(([-1], first.leaf, leaf)),
     )
 

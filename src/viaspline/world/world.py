@@ -105,8 +105,8 @@ class World:
         """Signed distance [m] and what is nearest.
 
         Returns:
-            (distance, index): the obstacle's index; -2 for the bounds, -3 - f for fence f (see ``name``);
-            -1 in an empty world.
+            (distance, index): the obstacle's index; -2 for the bounds, -3 - f for fence f (see
+            ``name``); -1 in an empty world.
         """
         flat, shape = _as_points(points)
         distance, index = kernels.distances(self.packed, flat)
