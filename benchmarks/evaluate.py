@@ -45,7 +45,7 @@ def side_by_side(
 def main() -> int:
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 15
     rng = np.random.default_rng(0)
-    vias = np.cumsum(rng.uniform(-1, 1, (SPANS + 1, 2)) + [1, 0], axis=0)
+    vias = np.cumsum(rng.uniform((0, -1), (2, 1), (SPANS + 1, 2)), axis=0)
     spline = CardinalSpline(vias)
     joints = np.arange(SPANS + 1.0)
     peer = CubicHermiteSpline(joints, vias, spline.evaluate(joints, 1))

@@ -50,7 +50,9 @@ class CardinalSpline(PiecewiseCubic):
     Example:
         >>> spline = CardinalSpline([(0, 0), (1, 1), (2, 0)], tension=0.0)
         >>> spline.evaluate([0, 0.5, 1])
-        array([[0.    , 0.    ], [0.5   , 0.5625], [1.    , 1.    ]])
+        array([[0.    , 0.    ],
+               [0.4375, 0.5625],
+               [1.    , 1.    ]])
         >>> round(float(spline.heading(1)), 3)
         0.0
     """

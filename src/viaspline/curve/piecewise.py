@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -69,7 +68,7 @@ class PiecewiseCubic(Measured):
         kind = "closed, " if self._closed else ""
         return f"<{type(self).__name__}: {len(self._spans)} spans, {kind}d = {self.dimension}>"
 
-    @cached_property
+    @property
     def spans(self) -> Floats:
         """The exact curve: Bézier control polygons [m], shape (m, 4, d), read-only."""
         return frozen(self._spans)

@@ -18,7 +18,7 @@ from viaspline.kernels.jit import kernel
 
 Floats = NDArray[np.float64]
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+_NODES, _WEIGHTS = (half[4:] for half in np.polynomial.legendre.leggauss(8))
 TOLERANCE = 1e-10  # of a span's longest possible length
 SMALLEST = 2.0**-36  # panel
 
@@ -41,8 +41,38 @@ def panel_length(rows: Floats, k: int, start: float, end: float) -> float:
     half = 0.5 * (end - start)
     total = 0.0
     for node in range(_NODES.shape[0]):
-        total += _WEIGHTS[node] * speed(rows, k, middle + half * _NODES[node])
+        step = half * _NODES[node]
+        pair = speed(rows, k, middle - step) + speed(rows, k, middle + step)
+        total += _WEIGHTS[node] * pair
     return half * total
+
+
+@kernel
+def _longest(rows: Floats, k: int, start: float, end: float) -> float:
+    """Upper bound of a panel's length where P' may turn by a right angle or more; else 0.
+
+    There the speed can have a kink that falls between the nodes. The control vectors of P' on the
+    panel bound its direction and its length.
+    """
+    half = 0.5 * (end - start)
+    products = np.zeros((3, 3))
+    for axis in range(rows.shape[2]):
+        bend = 2.0 * rows[k, 2, axis]
+        twist = 3.0 * rows[k, 3, axis]
+        first = rows[k, 1, axis] + start * (bend + start * twist)
+        last = rows[k, 1, axis] + end * (bend + end * twist)
+        middle = first + half * (bend + 2.0 * start * twist)
+        products[0, 0] += first * first
+        products[1, 1] += middle * middle
+        products[2, 2] += last * last
+        products[0, 1] += first * middle
+        products[0, 2] += first * last
+        products[1, 2] += middle * last
+    largest = max(products[0, 0], products[1, 1], products[2, 2])
+    least = min(products[0, 1], products[0, 2], products[1, 2])
+    if least >= -1e-14 * largest:
+        return 0.0
+    return 2.0 * half * math.sqrt(largest)
 
 
 @kernel
@@ -84,7 +114,8 @@ def length_table(rows: Floats) -> tuple[Floats, Floats]:
             middle = 0.5 * (start + end)
             left = panel_length(rows, k, start, middle)
             right = panel_length(rows, k, middle, end)
-            if abs(left + right - stack[top, 2]) <= allowed or end - start <= SMALLEST:
+            error = max(abs(left + right - stack[top, 2]), _longest(rows, k, start, end))
+            if error <= allowed or end - start <= SMALLEST:
                 if size + 2 > at.shape[0]:
                     at = _larger(at)
                     along = _larger(along)
@@ -148,26 +179,28 @@ def distances(rows: Floats, at: Floats, along: Floats, u: Floats, closed: bool, 
 
 
 @kernel
-def _along_panel(rows: Floats, k: int, start: float, end: float, step: float, part: float) -> float:
-    """Local parameter at which a panel has the length ``step``; ``part`` of it is a first guess."""
+def _along_panel(
+    rows: Floats, k: int, start: float, end: float, step: float, part: float, small: float
+) -> float:
+    """Local parameter at which a panel has the length ``step``, to within ``small`` [m].
+
+    Newton's steps inside a bracket, from a first guess at ``part`` of the panel.
+    """
     low = start
     high = end
     w = start + part * (end - start)
-    for _ in range(60):
+    for _ in range(80):
         excess = panel_length(rows, k, start, w) - step
-        if excess == 0.0:
+        if abs(excess) <= small:
             return w
         if excess > 0.0:
             high = w
         else:
             low = w
         rate = speed(rows, k, w)
-        better = w - excess / rate if rate > 0.0 else low
-        if not low < better < high:
-            better = 0.5 * (low + high)
-        if abs(better - w) <= 1e-8 * (better - start):  # the next step would be its square
-            return better
-        w = better
+        w = w - excess / rate if rate > 0.0 else low
+        if not low < w < high:
+            w = 0.5 * (low + high)
     return w
 
 
@@ -193,7 +226,7 @@ def parameters(
             step = x - along[panel]
             part = step / (along[panel + 1] - along[panel])
             end = at[panel + 1] - k
-            out[i] = k + _along_panel(rows, k, at[panel] - k, end, step, part)
+            out[i] = k + _along_panel(rows, k, at[panel] - k, end, step, part, 1e-15 * length)
     return -1
 
 

@@ -27,8 +27,7 @@ def knot_spacing(points: Floats, alpha: float, closed: bool) -> Floats:
         closed: Whether the last point is followed by the first.
 
     Returns:
-        (m,), m = n - 1 spans, or n when closed. 1 everywhere when uniform; otherwise 0 between a
-        point and its repetition.
+        (m,), m = n - 1, or n when closed; 0 at a repeated point, unless uniform.
     """
     count = points.shape[0]
     spans = count if closed else count - 1
@@ -36,32 +35,20 @@ def knot_spacing(points: Floats, alpha: float, closed: bool) -> Floats:
     if alpha == 0.0:
         return spacing
     for k in range(spans):
-        after = (k + 1) % count
         squared = 0.0
         for axis in range(points.shape[1]):
-            step = points[after, axis] - points[k, axis]
+            step = points[(k + 1) % count, axis] - points[k, axis]
             squared += step * step
         chord = math.sqrt(squared)
-        if alpha == 1.0:
-            spacing[k] = chord
-        elif alpha == 0.5:
-            spacing[k] = math.sqrt(chord)
-        else:
-            spacing[k] = chord**alpha
+        spacing[k] = chord if alpha == 1.0 else chord**alpha
     return spacing
 
 
 @kernel
 def slopes_of(points: Floats, spacing: Floats) -> tuple[NDArray[np.int64], Floats, Floats]:
-    """The spans that have a length, and the slopes of their chords.
+    """The spans that have a length: their numbers (p,), knot distances (p,) and slopes (p, d).
 
-    Args:
-        points: Via points, (n, d) [m].
-        spacing: Knot distances, (m,); 0 between a point and its repetition.
-
-    Returns:
-        (kept (p,), h (p,), slopes (p, d)): numbers of the spans with a spacing above 0, their
-        knot distances, and chord over knot distance.
+    A slope is chord over knot distance; ``spacing`` (m,) is that of ``knot_spacing``.
     """
     count, dimension = points.shape
     kept = np.empty(spacing.shape[0], np.int64)
@@ -133,9 +120,8 @@ def _solve(lower: Floats, upper: Floats, right: Floats) -> None:
 def _solve_cyclic(lower: Floats, upper: Floats, right: Floats) -> None:
     """The same with ``lower[0]`` in the last column and ``upper[-1]`` in the first.
 
-    The corners are a rank-one change of a tridiagonal matrix (Sherman and Morrison): A = B + p q',
-    p = (-1, 0, ..., 0, upper[-1]) and q = (1, 0, ..., 0, -lower[0]). ``right`` (n, r + 1) has
-    room for p in its last column; ``lower`` and ``upper`` are used up.
+    Sherman and Morrison: A = B + p q', B tridiagonal, p = (-1, 0, ..., 0, upper[-1]) and
+    q = (1, 0, ..., 0, -lower[0]). ``right`` (n, r + 1) has room for p; the rest is used up.
     """
     count, columns = right.shape
     last = count - 1
@@ -292,7 +278,7 @@ def continuous_spans(
     has_end: bool,
     closed: bool,
 ) -> Floats:
-    """The same through velocities that make curvature continuous; see ``cardinal_spans``."""
+    """The same by velocities that make curvature continuous; arguments as ``cardinal_spans``."""
     spacing = knot_spacing(points, knots_alpha, closed)
     kept, h, slopes = slopes_of(points, spacing)
     last = kept.shape[0] - 1
