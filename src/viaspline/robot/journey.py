@@ -23,9 +23,10 @@ SLIP = 1e-6
 
 @dataclass(frozen=True)
 class Dwell:
-    """A stay at a station: its name, and until when [s]."""
+    """A stay at a station: its name, where it is [m], and until when [s]."""
 
     name: str
+    at: tuple[float, ...]
     until: float
 
 

@@ -71,8 +71,7 @@ def _stay(journey: Journey) -> Journey:
     stay = journey.dwell
     if stay is None or journey.time < stay.until:
         return journey
-    where = journey.place(journey.distance)
-    leaves = Event("dwell", stay.until, where, f"the stay at '{stay.name}' is over")
+    leaves = Event("dwell", stay.until, stay.at, f"the stay at '{stay.name}' is over")
     return replace(journey.noted(leaves), dwell=None)
 
 
@@ -87,7 +86,7 @@ def _pass(journey: Journey, via: PathVia, distance: float) -> Journey:
     visit = Visit(via.name, via.at, "served", time, miss)
     journey = replace(journey, last=via.index, served=(*journey.served, (via.index, visit)))
     if via.dwell > 0.0:
-        stay = Dwell(via.name, time + via.dwell)
+        stay = Dwell(via.name, via.at, time + via.dwell)
         message = f"stops at '{via.name}' for {via.dwell:g} s"
         arrived = Event("arrived", time, via.at, message, {"dwell_s": via.dwell})
         return replace(journey.noted(arrived), dwell=stay)

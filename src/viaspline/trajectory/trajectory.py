@@ -104,8 +104,8 @@ class Trajectory:
     def state_at(self, time: ArrayLike) -> tuple[Floats, Floats, Floats]:
         """Distance [m], speed [m/s] and acceleration [m/s²] at any time [s].
 
-        Before its start and after its end the robot stands there (with the speed that the time
-        law has at that end, if it isn't 0). Scalar or array in, the same shape out.
+        Before its start and from its end on it stays as it is there, without acceleration.
+        Scalar or array in, the same shape out.
         """
         t = _within(np.asarray(time, dtype=float), self.times[0], self.times[-1])
         last = self.accelerations.shape[0] - 1
@@ -117,6 +117,7 @@ class Trajectory:
         speed = _within(
             first + acceleration * late, np.minimum(first, second), np.maximum(first, second)
         )
+        acceleration = acceleration * ((t == time) & (t < self.times[-1]))
         return (
             _within(distance, self.distances[i], self.distances[i + 1])[()],
             speed[()],

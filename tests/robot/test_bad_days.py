@@ -1,0 +1,228 @@
+"""What goes wrong under way ends with a robot that stands safely and says why, or goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from viaspline.errors import GeometryError
+from viaspline.mission.model import Circle, Mission, Obstacle
+from viaspline.robot import simulator
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.run import Run
+from viaspline.robot.simulator import simulate
+from viaspline.robot.state import RobotState
+
+Make = Callable[..., Mission]
+Shape = Callable[..., dict[str, Any]]
+
+
+def kinds(run: Run | Navigator) -> list[str]:
+    return [event.kind for event in run.events]
+
+
+def assert_it_stands_safely(run: Run) -> None:
+    assert not run.reached
+    assert run.reason
+    assert run.speeds[-1] == 0.0
+    assert run.certificate.clearance > 0.0
+    assert kinds(run)[-1] == "stopped"
+    assert run.reason in run.events[-1].message
+    assert run.visits[-1].status == "failed"
+    assert run.visits[-1].reason == run.reason
+
+
+def test_an_obstacle_covers_the_goal_while_the_robot_is_under_way(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    run = simulate(mission_of([0, 0], [50, 0], unseen=[disc_at(50, 0, 3, "boulder")]))
+    assert_it_stands_safely(run)
+    assert kinds(run) == ["started", "detected", "braked", "stopped"]
+    assert run.reason == "the goal 'goal' can't be reached any more: 'boulder' covers it"
+    assert run.certificate.holds
+
+
+def test_a_goal_that_only_lacks_clearance_is_told_by_how_much(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    run = simulate(mission_of([0, 0], [50, 0], unseen=[disc_at(50, 3, 2.2, "boulder")]))
+    assert_it_stands_safely(run)
+    assert run.reason is not None
+    assert "'boulder' leaves 0.30 m there, 0.5 m are needed" in run.reason
+
+
+def test_a_group_from_wall_to_wall_stops_the_robot(mission_of: Make, disc_at: Shape) -> None:
+    wall = [disc_at(30, y, 2.4, f"post {k}") for k, y in enumerate(range(-20, 21, 5))]
+    run = simulate(mission_of([0, 0], [50, 0], bounds=[-5, -20, 60, 20], unseen=wall))
+    assert_it_stands_safely(run)
+    assert run.certificate.holds
+
+
+def test_a_covered_via_point_is_skipped_and_the_rest_are_served(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    mission = mission_of(
+        [0, 0], {"at": [25, 0], "name": "pump"}, [35, 5], [50, 0],
+        unseen=[disc_at(25, 1, 3, "boulder")],
+    )  # fmt: skip
+    run = simulate(mission)
+    assert run.reached
+    assert run.certificate.holds
+    assert [visit.status for visit in run.visits] == ["served", "skipped", "served", "served"]
+    assert run.visits[1].reason == "'boulder' covers it"
+    skipped = next(event for event in run.events if event.kind == "skipped")
+    assert skipped.message == "gives up 'pump': 'boulder' covers it"
+    assert [replan.mode for replan in run.replans] == ["planned"]
+
+
+def test_a_via_point_that_is_walled_in_is_skipped(mission_of: Make, box_at: Shape) -> None:
+    ring = [
+        box_at(20, -6, 32, -5, "south"), box_at(20, 5, 32, 6, "north"),
+        box_at(20, -5, 21, 5, "west"), box_at(31, -5, 32, 5, "east"),
+    ]  # fmt: skip
+    mission = mission_of(
+        [0, 0], {"at": [26, 0], "name": "yard"}, [50, 0], unseen=ring, sensor={"range_m": 40}
+    )
+    run = simulate(mission)
+    assert run.certificate.holds
+    assert [visit.status for visit in run.visits] == ["served", "skipped", "served"], run.reason
+
+
+def test_a_trap_that_is_seen_late_is_left_by_turning_on_the_spot(mission_of: Make) -> None:
+    trap = {"name": "trap", "polygon": [[20, -10], [30, -10], [30, 10], [20, 10], [20, 9],
+                                        [29, 9], [29, -9], [20, -9]]}  # fmt: skip
+    run = simulate(mission_of([0, 0], [50, 0], unseen=[trap], sensor={"range_m": 2}))
+    assert run.reached
+    assert run.certificate.holds
+
+
+def test_a_short_sight_makes_it_slow_and_it_still_goes_round(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    mission = mission_of(
+        [0, 0], [50, 0], unseen=[disc_at(25, 0.3, 3, "boulder")], sensor={"range_m": 1.2}
+    )
+    run = simulate(mission)
+    assert run.reached
+    assert run.certificate.holds
+    assert run.speeds.max() < 0.6
+    assert "braked" in kinds(run)
+    assert run.replans[0].mode == "from_rest"
+
+
+def test_a_sight_inside_the_clearance_stops_it_before_it_touches(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    mission = mission_of(
+        [0, 0], [50, 0], unseen=[disc_at(25, 0.3, 3, "boulder")], sensor={"range_m": 0.8}
+    )
+    run = simulate(mission)
+    assert_it_stands_safely(run)
+    assert run.reason is not None
+    assert "'boulder' appeared inside the braking distance" in run.reason
+    assert "inside the clearance of 0.5 m" in run.reason
+
+
+def test_a_sight_inside_the_body_is_refused(mission_of: Make) -> None:
+    with pytest.raises(GeometryError, match="not past the robot's own body"):
+        simulate(mission_of([0, 0], [50, 0], sensor={"range_m": 0.4}))
+
+
+def test_an_obstacle_that_appears_inside_the_braking_distance_is_braked_for(
+    mission_of: Make,
+) -> None:
+    mission = mission_of([0, 0], [100, 0], max_speed_mps=4.0, sensor={"range_m": 40})
+    nav = Navigator(mission)
+    _, nav = nav.step(nav.reference(0.0), [], 0.0)
+    state = nav.reference(10.0)
+    assert state.speed == 4.0  # it needs 8 m to stop
+    x = state.position[0]
+    drop = Obstacle(circle=Circle(center=(x + 7.0, 0.0), radius=1.0), name="drop")
+    command, nav = nav.step(state, [drop], 10.0)
+    assert command.acceleration == -1.0
+    assert kinds(nav)[-2:] == ["detected", "braked"]
+    assert nav.reason is not None
+    assert "appeared inside the braking distance" in nav.reason
+    for time in np.arange(10.0, 15.0, 0.1):
+        command, nav = nav.step(nav.reference(time), [drop], time)
+    assert nav.finished
+    assert not nav.reached
+    assert command.stopped
+    assert command.finished
+    assert command.distance == pytest.approx(x + 8.0)
+    assert kinds(nav)[-1] == "stopped"
+
+
+def test_an_unseen_obstacle_at_the_start_keeps_the_robot_there(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    run = simulate(mission_of([0, 0], [50, 0], unseen=[disc_at(2, 0, 1.2, "near")]))
+    assert not run.reached
+    assert run.duration == 0.0
+    assert run.path.length == 0.0
+    assert run.reason is not None
+    assert "stands 0.30 m from 'near'" in run.reason
+
+
+def test_a_robot_without_a_sensor_touches_what_it_can_not_see(mission_of: Make) -> None:
+    mission = mission_of([0, 0], [50, 0])
+    blind = mission.robot.model_copy(update={"sensor": None})
+    rock = Obstacle(circle=Circle(center=(25, 0), radius=3), name="rock")
+    world = mission.world.model_copy(update={"unseen": (rock,)})
+    mission = mission.model_copy(update={"robot": blind, "world": world})
+    run = simulate(mission)
+    assert not run.reached
+    assert run.reason == "the robot touched 'rock'"
+    assert kinds(run)[-1] == "contact"
+    assert run.positions[-1][0] == pytest.approx(25 - 3 - 0.5, abs=0.02)
+    assert run.certificate.clearance == pytest.approx(0.0, abs=0.02)
+    assert run.visits[-1].status == "failed"
+
+
+def test_a_body_that_starts_in_something_unseen_has_touched_it(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    run = simulate(mission_of([0, 0], [50, 0], unseen=[disc_at(1, 0, 1.2)]))
+    assert run.reason == "the robot touched 'obstacle 1'"
+    assert run.duration == 0.0
+
+
+def test_a_drive_that_does_not_end_is_broken_off(
+    mission_of: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(simulator, "PATIENCE", 0.1)
+    monkeypatch.setattr(simulator, "GRACE", 0.0)
+    monkeypatch.setattr(simulator, "BLOCK", 20)
+    run = simulate(mission_of([0, 0], [50, 0]))
+    assert not run.reached
+    assert run.reason is not None
+    assert "broken off" in run.reason
+    assert run.visits[-1].reason == run.reason
+
+
+def test_a_thing_seen_after_the_end_changes_nothing(mission_of: Make) -> None:
+    nav = Navigator(mission_of([0, 0], [5, 0]))
+    _, nav = nav.step(nav.reference(0.0), [], 0.0)
+    _, nav = nav.step(nav.reference(60.0), [], 60.0)
+    assert nav.reached
+    late = Obstacle(circle=Circle(center=(5, 0), radius=1.0))
+    command, after = nav.step(nav.reference(61.0), [late], 61.0)
+    assert after.reached
+    assert after.events == nav.events
+    assert command.stopped
+
+
+def test_a_state_that_is_not_finite_or_in_the_past_is_refused(mission_of: Make) -> None:
+    nav = Navigator(mission_of([0, 0], [50, 0]))
+    with pytest.raises(GeometryError, match="2 finite coordinates"):
+        nav.step(RobotState((0.0, float("nan")), 0.0, 0.0), [], 0.0)
+    with pytest.raises(GeometryError, match="2 finite coordinates"):
+        nav.step(RobotState((0.0, 0.0, 0.0), 0.0, 0.0), [], 0.0)
+    _, nav = nav.step(RobotState((0.0, 0.0), 0.0, 0.0), [], 5.0)
+    with pytest.raises(GeometryError, match="before the last step's"):
+        nav.step(RobotState((0.0, 0.0), 0.0, 0.0), [], 4.0)
+    with pytest.raises(GeometryError, match="reaction is 0"):
+        Navigator(mission_of([0, 0], [50, 0]), reaction=0.0)
