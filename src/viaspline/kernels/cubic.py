@@ -138,6 +138,8 @@ def _evaluate_plane(rows: Floats, u: Floats, closed: bool, out: Floats) -> int:
             k = int(x)
             start = float(k)
             w = x - start
+            if k == count:  # nothing lies beyond the end
+                start = np.nan
             ax, ay = rows[k, 0, 0], rows[k, 0, 1]
             bx, by = rows[k, 1, 0], rows[k, 1, 1]
             cx, cy = rows[k, 2, 0], rows[k, 2, 1]
