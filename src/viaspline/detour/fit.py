@@ -7,7 +7,8 @@ is lowered only on the spans that need it, and only as far as they need it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,7 +60,13 @@ def fit(course: Course, index: int, way: Way, world: World, required: float) -> 
         spans = leg_spans(candidate, index)
         if (too_close(world, spans, required) == CLEAR).all():
             return Fitted(candidate, spans)
-    return tighten(candidate, index, world, required)
+    tightened = tighten(candidate, index, world, required)
+    if tightened is not None or way.is_direct:
+        return tightened
+    # Arcs that run into each other leave no clear polyline along them; the corners always have one.
+    points = lifted(way.turns, *(via.at for via in course.ends(index)))
+    leg = Leg(points, np.full(len(points) + 1, base))
+    return tighten(course.with_leg(index, leg), index, world, required)
 
 
 def tighten(course: Course, index: int, world: World, required: float) -> Fitted | None:
@@ -69,9 +76,31 @@ def tighten(course: Course, index: int, world: World, required: float) -> Fitted
         close = too_close(world, spans, required) != CLEAR
         if not close.any():
             return Fitted(course, spans)
-        leg = course.legs[index]
-        course = course.with_leg(index, Leg(leg.points, np.where(close, leg.slack / 2, leg.slack)))
+        course = _halved(course, index, close)
     return None
+
+
+def _halved(course: Course, index: int, close: NDArray[np.bool_]) -> Course:
+    """Half the slack on some of a leg's spans.
+
+    Tangents of continuous curvature take the mean slack of the two spans at a via point, so there
+    it is halved on the neighbours as well, be they of another leg.
+    """
+    leg = course.legs[index]
+    if course.spline.tangents != "continuous":
+        return course.with_leg(index, Leg(leg.points, np.where(close, leg.slack / 2, leg.slack)))
+    first = course.first_spans()
+    marked = np.zeros(first[-1] + 2, np.bool_)
+    marked[1 + first[index] + np.flatnonzero(close)] = True
+    near = marked[1:-1] | marked[:-2] | marked[2:]
+    if course.closed:
+        near[0] |= marked[-2]
+        near[-1] |= marked[1]
+    legs = [
+        Leg(other.points, np.where(near[a:b], other.slack / 2, other.slack))
+        for other, (a, b) in zip(course.legs, pairwise(first), strict=True)
+    ]
+    return replace(course, legs=tuple(legs))
 
 
 def leg_spans(course: Course, index: int) -> Floats:

@@ -44,10 +44,15 @@ class Way:
         """Whether nothing stands between the two places."""
         return len(self.corners) == 2
 
+    @property
+    def turns(self) -> Floats:
+        """The corners between start and goal [m], shape (n, 2): their polyline is clear."""
+        return np.ascontiguousarray(self.corners[1:-1, X : Y + 1])
+
     def points(self, step: float, excess: float, stretch: float, ease: float) -> Floats:
         """Detour via points along it [m], shape (n, 2); see ``kernels.taut.detour_points``."""
         if len(self.bends) == 0:
-            return np.ascontiguousarray(self.corners[1:-1, X : Y + 1])
+            return self.turns
         points: Floats = detour_points(self.bends, step, excess, stretch, ease)
         return points
 
