@@ -75,6 +75,9 @@ def test_every_order_of_parameters_gives_the_same_points():
     mixed = rng.permutation(2000)
     assert np.array_equal(ours.evaluate(u)[mixed], ours.evaluate(u[mixed]))
     assert ours.evaluate(-0.0) == pytest.approx(ours.spans[0, 0])
+    jumping = rng.integers(0, 40, 500) + np.linspace(0, 1, 500)
+    one_by_one = [ours.evaluate(u) for u in jumping]
+    assert np.array_equal(ours.evaluate(jumping), one_by_one)
 
 
 @pytest.mark.parametrize("value", [-1e-9, 6.000001, np.nan, np.inf, -np.inf])

@@ -91,3 +91,10 @@ def test_a_part_of_a_span_is_the_same_polynomial():
         assert bernstein(part, w) == pytest.approx(bernstein(SPAN, 0.2 + 0.5 * w))
     cubic.subspan(SPAN, 0.0, 1.0, part)
     assert np.array_equal(part, SPAN)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_parameter_just_beyond_the_end_is_told_after_one_at_the_end(dimension):
+    rows, _, _ = cubic.prepare(two_spans(dimension), False)
+    u = np.array([1.8, 1.9, 2.0, 2.1])
+    assert cubic.evaluate(rows, u, False, np.empty((4, dimension))) == 3
