@@ -7,6 +7,7 @@ is lowered only on the spans that need it, and only as far as they need it.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -23,6 +24,7 @@ Floats = NDArray[np.float64]
 # Largest turn from via point to via point [rad], how far out they stand, how far off the helpers,
 # and what part of the length may be spent on roundness. Rounder first, closer where it is tight.
 EFFORTS = ((0.2, 1.0, 1.0, 5e-5), (0.2, 1.0, 1.0, 0.0), (0.1, 1.0, 1.0, 0.0))
+LOWER = (0.7, 0.5)  # slack of a leg whose straight line is clear, before it gets helpers
 HALVINGS = 24
 CLEAR = -1
 HELPER = 0.1  # of a straight leg's length, where the spline would swing out into something
@@ -113,17 +115,18 @@ def _base_slack(course: Course, index: int) -> float:
     return float(course.legs[index].slack.max())
 
 
-def _attempts(course: Course, index: int, way: Way, slack: float) -> list[Leg]:
+def _attempts(course: Course, index: int, way: Way, slack: float) -> Iterator[Leg]:
+    """Legs along a way, the roundest first."""
     start, goal = (via.at for via in course.ends(index))
     if way.is_direct:
         helpers = np.array([start + w * (goal - start) for w in (HELPER, 1 - HELPER)])
-        lower = [Leg(np.empty((0, len(start))), np.array([slack * f])) for f in (0.7, 0.5)]
-        return [*lower, Leg(helpers, np.full(3, slack))]
-    legs = []
+        for factor in LOWER:
+            yield Leg(np.empty((0, len(start))), np.array([slack * factor]))
+        yield Leg(helpers, np.full(3, slack))
+        return
     for effort in EFFORTS:
         points = lifted(way.points(*effort), start, goal)
-        legs.append(Leg(points, np.full(len(points) + 1, slack)))
-    return legs
+        yield Leg(points, np.full(len(points) + 1, slack))
 
 
 def lifted(points: Floats, start: Floats, goal: Floats) -> Floats:

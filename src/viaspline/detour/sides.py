@@ -28,10 +28,25 @@ SIDES: tuple[Side, Side] = ("left", "right")
 
 @dataclass(frozen=True)
 class Met:
-    """A group that stands in the way of a leg: its members, and the one that is in the way."""
+    """A group that stands in the way of a leg.
+
+    Attributes:
+        members: Its obstacles.
+        left: A barrier that closes its left side, shape (1, 4).
+        right: A barrier that closes its right side, shape (1, 4).
+    """
 
     members: tuple[int, ...]
-    foremost: int
+    left: Floats
+    right: Floats
+
+    def barrier(self, side: Side) -> Floats:
+        """What closes a side of it."""
+        return self.left if side == "left" else self.right
+
+    def side_of(self, way: Way) -> Side:
+        """The side on which a way passes it."""
+        return "right" if way.crosses(self.right) else "left"
 
 
 @dataclass(frozen=True)
@@ -44,21 +59,22 @@ class Passed:
 
 @dataclass(frozen=True)
 class _Curve:
-    """A way, the spline that was fitted to it, and what that costs."""
+    """A spline that was fitted to a way, what it costs, and on which side it passes each group."""
 
-    way: Way
     fitted: Fitted
     measured: Measured
+    sides: tuple[Side, ...]
 
 
 @dataclass(frozen=True)
 class _Leg:
-    """A leg in its course and world: what every search for a way past its groups needs."""
+    """A leg in its course and world, and the groups in its way."""
 
     course: Course
     index: int
     world: World
     brief: Brief
+    met: tuple[Met, ...]
 
     @property
     def ends(self) -> tuple[Floats, Floats]:
@@ -75,14 +91,8 @@ class _Leg:
         fitted = fit(self.course, self.index, way, self.world, self.brief.required)
         if fitted is None:
             return None
-        return _Curve(way, fitted, measure(fitted.spans, self.world, self.brief))
-
-    def barrier(self, group: Met, side: Side) -> Floats:
-        return barrier(self.world, group.foremost, side, *self.ends)
-
-    def side(self, way: Way, group: Met) -> Side:
-        """The side on which a way passes a group."""
-        return "right" if way.crosses(self.barrier(group, "right")) else "left"
+        measured = measure(fitted.spans, self.world, self.brief)
+        return _Curve(fitted, measured, tuple(group.side_of(way) for group in self.met))
 
 
 def pass_groups(
@@ -106,25 +116,24 @@ def pass_groups(
     Raises:
         NoPathError: When there is no way, with the least change that would serve.
     """
-    leg = _Leg(course, index, world, brief)
-    active = on_the_line(world, *leg.ends, brief.required)
+    start, goal = (via.at for via in course.ends(index))
+    active = on_the_line(world, start, goal, brief.required)
     active[list(hit)] = True
-    met = _groups_met(world, groups, np.flatnonzero(active), *leg.ends)
+    met = _groups_met(world, groups, np.flatnonzero(active), start, goal)
+    leg = _Leg(course, index, world, brief, met)
     way, barriers = _shortest_allowed(leg, active)
     best = leg.curve(way)
     if best is None:
         raise explain_blocked_leg(course, index, world, brief, barriers)
     curves = [best]
     reasons: list[str] = []
-    for group in met:
-        side = _opposite(leg.side(best.way, group))
-        other, reason = _other_side(leg, group, side, barriers, active)
+    for group, side in zip(met, best.sides, strict=True):
+        other, reason = _other_side(leg, group, _opposite(side), barriers, active)
         curves += [other] if other else []
         reasons.append(reason)
     winner = min(curves, key=lambda curve: curve.measured.length)
     entries = tuple(
-        _entry(leg, group, curves, winner, reason)
-        for group, reason in zip(met, reasons, strict=True)
+        _entry(leg, place, curves, winner, reason) for place, reason in enumerate(reasons)
     )
     return Passed(winner.fitted, entries)
 
@@ -152,22 +161,22 @@ def _other_side(
         forced = leg.world.obstacles[i].forced_side
         if forced is not None and forced != side:
             return None, f"the mission has {leg.world.name(i)!r} passed on the {forced}"
-    closed = np.vstack((barriers, leg.barrier(group, _opposite(side))))
+    closed = np.vstack((barriers, group.barrier(_opposite(side))))
     curve = leg.curve(leg.way(closed, active))
     return curve, "" if curve else f"no way is wide enough on the {side}"
 
 
 def _entry(
-    leg: _Leg, group: Met, curves: Sequence[_Curve], winner: _Curve, reason: str
+    leg: _Leg, place: int, curves: Sequence[_Curve], winner: _Curve, reason: str
 ) -> LedgerEntry:
-    """The shortest of all curves on either side of a group."""
+    """The shortest of all curves on either side of one of the groups that were met."""
     candidates = []
     for side in SIDES:
-        passing = [curve for curve in curves if leg.side(curve.way, group) == side]
+        passing = [curve for curve in curves if curve.sides[place] == side]
         best = min(passing, key=lambda curve: curve.measured.length, default=None)
         candidates.append(_candidate(leg, side, best, reason, chosen=best is winner))
     start, goal = leg.course.ends(leg.index)
-    members = tuple(leg.world.name(i) for i in group.members)
+    members = tuple(leg.world.name(i) for i in leg.met[place].members)
     return LedgerEntry(members, (start.name, goal.name), tuple(candidates))
 
 
@@ -209,7 +218,7 @@ def _groups_met(
     indices: NDArray[np.intp],
     start: Floats,
     goal: Floats,
-) -> list[Met]:
+) -> tuple[Met, ...]:
     """The groups in the way of the straight line or of the curve, in the order of the leg."""
     along = goal[:2] - start[:2]
     order = np.argsort([_centre(world, int(i)) @ along for i in indices], kind="stable")
@@ -217,8 +226,12 @@ def _groups_met(
     for i in indices[order].tolist():
         label = int(groups[i])
         if label not in met:
-            met[label] = Met(tuple(np.flatnonzero(groups == label).tolist()), i)
-    return list(met.values())
+            met[label] = Met(
+                tuple(np.flatnonzero(groups == label).tolist()),
+                barrier(world, i, "left", start, goal),
+                barrier(world, i, "right", start, goal),
+            )
+    return tuple(met.values())
 
 
 def _centre(world: World, index: int) -> Floats:

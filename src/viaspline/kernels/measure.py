@@ -11,12 +11,7 @@ from viaspline.kernels.packed import Floats
 
 SAMPLES = 32  # of curvature on a span
 PARTS = 4  # Gauss-Legendre rules of five points on a span
-NODES = np.array(
-    [-0.906179845938664, -0.5384693101056831, 0.0, 0.5384693101056831, 0.906179845938664]
-)
-WEIGHTS = np.array(
-    [0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665, 0.2369268850561891]
-)  # fmt: skip
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 
 @kernel
