@@ -9,7 +9,9 @@ def main() -> None:
     """Run the command line; ends the process with its exit code."""
     try:
         from viaspline.cli import cli
+        from viaspline.report.interrupts import install
 
+        install()
         cli(prog_name="viaspline")
     except KeyboardInterrupt:
         sys.stderr.write("viaspline: interrupted\n")

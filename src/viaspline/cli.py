@@ -17,7 +17,8 @@ import click
 
 from viaspline import __version__
 from viaspline.errors import MissionError, NoPathError, ViasplineError
-from viaspline.report.messages import Terminated, no_path, say, tell, telling_warnings
+from viaspline.report.interrupts import Terminated, remembered
+from viaspline.report.messages import no_path, say, tell, telling_warnings
 
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
@@ -39,27 +40,33 @@ class Commands(click.Group):
                 return super().invoke(ctx)
         except (click.ClickException, click.exceptions.Exit, click.Abort):
             raise
-        except NoPathError as error:
-            tell(no_path(error))
-            ctx.exit(NO_PATH)
-        except MissionError as error:
-            tell(*(str(fault) for fault in error.faults), prefix="")
-            ctx.exit(WRONG)
-        except ViasplineError as error:
-            tell(str(error))
-            ctx.exit(WRONG)
-        except KeyboardInterrupt:
-            tell("interrupted; no file was left half written")
-            ctx.exit(INTERRUPTED)
-        except Terminated:
-            tell("terminated; no file was left half written")
-            ctx.exit(TERMINATED)
-        except Exception as error:
-            if os.environ.get("VIASPLINE_DEBUG"):
-                traceback.print_exc()
-            problem = " ".join(str(error).split())
-            tell(f"defect: {type(error).__name__}: {problem} (VIASPLINE_DEBUG=1 shows where)")
-            ctx.exit(DEFECT)
+        except (Exception, KeyboardInterrupt, Terminated) as error:
+            ctx.exit(told(error))
+
+
+def told(error: BaseException) -> int:
+    """Say what happened; returns the exit code."""
+    signalled = remembered()
+    if isinstance(error, KeyboardInterrupt) or signalled is KeyboardInterrupt:
+        tell("interrupted; no file was left half written")
+        return INTERRUPTED
+    if isinstance(error, Terminated) or signalled is Terminated:
+        tell("terminated; no file was left half written")
+        return TERMINATED
+    if isinstance(error, NoPathError):
+        tell(no_path(error))
+        return NO_PATH
+    if isinstance(error, MissionError):
+        tell(*(str(fault) for fault in error.faults), prefix="")
+        return WRONG
+    if isinstance(error, ViasplineError):
+        tell(str(error))
+        return WRONG
+    if os.environ.get("VIASPLINE_DEBUG"):
+        traceback.print_exception(error)
+    problem = " ".join(str(error).split())
+    tell(f"defect: {type(error).__name__}: {problem} (VIASPLINE_DEBUG=1 shows where)")
+    return DEFECT
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})

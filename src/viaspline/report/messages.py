@@ -14,10 +14,6 @@ import click
 from viaspline.errors import MissionWarning, NoPathError
 
 
-class Terminated(BaseException):
-    """The process was asked to end (SIGTERM)."""
-
-
 def say(*lines: str) -> None:
     """Lines on the output stream; nobody listening any more is no error."""
     try:

@@ -11,6 +11,8 @@ from threading import RLock, Timer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+from viaspline.report.interrupts import come_through
+
 PATIENCE = 1.0  # [s]
 
 
@@ -39,6 +41,7 @@ class Watch:
     @contextmanager
     def stage(self, name: str, text: str) -> Iterator[None]:
         """Within the block the stage ``name`` is going on, which is called ``text``."""
+        come_through()
         start = time.perf_counter()
         self._text, self._depth = text, self._depth + 1
         timer = Timer(PATIENCE, self._appear)
@@ -54,6 +57,7 @@ class Watch:
 
     def compiling(self, kernel: str) -> None:
         """Hear that a kernel is being compiled, which happens once on a machine."""
+        come_through()
         self._compiled += 1
         if self._bar is None and not self._console.is_terminal and "compile" not in self._told:
             self._told.add("compile")
@@ -62,6 +66,7 @@ class Watch:
 
     def fraction(self, done: float) -> None:
         """Hear how much of the stage is done, from 0 to 1."""
+        come_through()
         if self._bar is not None and self._task is not None:
             self._bar.update(self._task, completed=done, total=1.0, description=self._text)  # type: ignore[arg-type]
 

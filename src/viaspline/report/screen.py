@@ -17,11 +17,18 @@ from viaspline.robot.run import Run
 LINES = 12  # of a long list, before the rest is only counted
 
 
-def console(*, stderr: bool = False) -> Console:
-    """A console that takes names as they are, and never wraps when it is not a terminal."""
-    plain = Console(stderr=stderr, markup=False, highlight=False, emoji=False)
+class _Console(Console):
+    """A console that leaves it to us what happens when nobody is listening any more."""
+
+    def on_broken_pipe(self) -> None:
+        raise BrokenPipeError
+
+
+def console() -> Console:
+    """A console that takes names as they are, and hardly wraps when it is not a terminal."""
+    plain = _Console(markup=False, highlight=False, emoji=False)
     if not plain.is_terminal:
-        plain = Console(stderr=stderr, markup=False, highlight=False, emoji=False, width=160)
+        plain = _Console(markup=False, highlight=False, emoji=False, width=160)
     return plain
 
 

@@ -1,0 +1,106 @@
+from __future__ import annotations
+
+import io
+import math
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan, plan
+from viaspline.report import style
+from viaspline.report.plan_picture import plan_picture
+from viaspline.report.run_picture import run_picture
+from viaspline.robot.run import Run
+
+
+def pixels(picture: bytes) -> NDArray[np.uint8]:
+    return np.asarray(Image.open(io.BytesIO(picture)).convert("RGB"))
+
+
+def share_of(colour: str, picture: bytes) -> float:
+    """How much of a picture has about this colour."""
+    wanted = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
+    return float((np.abs(pixels(picture).astype(int) - wanted).max(axis=2) < 12).mean())
+
+
+def test_the_plan_is_on_its_picture(planned: Plan) -> None:
+    picture = plan_picture(planned, "yard")
+    height, width, _ = pixels(picture).shape
+    assert 900 < width < 2500
+    assert 600 < height < 2500
+    for colour in (style.PATH, style.OBSTACLE, style.LOSER, style.STATION, style.DETOUR):
+        assert share_of(colour, picture) > 1e-5, colour
+
+
+def test_the_run_is_on_its_picture(driven: Run) -> None:
+    picture = run_picture(driven, "yard")
+    for colour in (style.UNSEEN, style.UNSEEN_FILL, style.OBSTACLE, style.OLD_PATH):
+        assert share_of(colour, picture) > 1e-5, colour
+
+
+def test_the_same_plan_and_run_give_the_same_bytes(planned: Plan, driven: Run) -> None:
+    assert plan_picture(planned, "yard") == plan_picture(planned, "yard")
+    assert run_picture(driven, "yard") == run_picture(driven, "yard")
+
+
+def test_there_is_neither_a_date_nor_a_version_in_a_picture(planned: Plan) -> None:
+    assert set(Image.open(io.BytesIO(plan_picture(planned, "yard"))).info) <= {"dpi"}
+
+
+def test_pictures_change_no_global_setting(planned: Plan) -> None:
+    before = dict(mpl.rcParams)
+    plan_picture(planned, "yard")
+    assert dict(mpl.rcParams) == before
+
+
+def _mission(points: list[Any], **world: Any) -> Mission:
+    route = {"start": points[0], "via": points[1:-1], "goal": points[-1]}
+    return Mission.model_validate({"world": world, "route": route})
+
+
+def _wave(across: float, up: float, count: int = 20) -> list[list[float]]:
+    return [
+        [across * i / count, up * math.sin(3 * i), *([0.0] if not up else [])][:2]
+        for i in range(count)
+    ]
+
+
+SCENES = {
+    "five metres": _mission([[0, 0], [2, 1], [5, 0]], bounds=[-2, -2, 7, 3]),
+    "five kilometres": _mission(
+        [[0, 0], [2000, 900], [5000, 0]],
+        known=[{"name": "lake", "circle": {"center": [3000, 300], "radius": 200}}],
+    ),
+    "nothing in it": _mission([[0, 0], [10, 0]]),
+    "very wide": _mission(_wave(5000, 3)),
+    "very tall": _mission([[y, x] for x, y in _wave(5000, 3)]),
+    "a million metres away": _mission([[1e6, 2e6], [1e6 + 30, 2e6 + 9], [1e6 + 60, 2e6]]),
+    "with heights": _mission([[0, 0, 5], [30, 20, 12], [60, 0, 9]]),
+    "via points on a heap": _mission([[0, 0], *([30 + 1e-3 * i, 0] for i in range(9)), [60, 9]]),
+    "names that no font has": _mission(
+        [[0, 0], {"at": [30, 9], "name": "ポンプ $x_1$ \\frac [red]\n" * 4}, [60, 0]]
+    ),
+    "a fence": _mission([[0, 0], [30, 5]], fences=[[[-9, -9], [60, -9], [40, 30], [-9, 20]]]),
+}
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_scene_of_any_kind_gives_a_picture(scene: str) -> None:
+    picture = plan_picture(plan(SCENES[scene]), scene)
+    height, width, _ = pixels(picture).shape
+    assert 0.3 < width / height < 4
+    assert share_of(style.PATH, picture) > 1e-4
+
+
+def test_thousands_of_obstacles_are_drawn() -> None:
+    rng = np.random.default_rng(2)
+    centres = rng.uniform(0, 500, (4000, 2))
+    far = np.abs(centres[:, 1] - 250) > 20
+    known = [{"circle": {"center": list(c), "radius": 1.0}} for c in centres[far].tolist()]
+    planned = plan(_mission([[10, 250], [490, 250]], bounds=[0, 0, 500, 500], known=known))
+    assert share_of(style.OBSTACLE, plan_picture(planned, "many")) > 5e-3
