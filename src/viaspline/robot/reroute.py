@@ -148,14 +148,15 @@ def _answer(scene: _Scene) -> Journey:
 
 
 def _too_late(scene: _Scene) -> str:
-    place = scene.journey.path.at_distance(scene.stop)
-    gap = float(scene.new.distance(place)) - scene.journey.brief.radius
-    inside = f"inside the clearance of {scene.journey.brief.clearance:g} m that it has to keep"
+    distance, nearest = scene.new.nearest(scene.journey.path.at_distance(scene.stop))
+    name, brief = scene.names[int(nearest)], scene.journey.brief
+    gap = f"{float(distance) - brief.radius:.2f} m"
+    inside = f"inside the clearance of {brief.clearance:g} m that it has to keep"
     if scene.speed == 0.0:
-        return f"the robot stands {gap:.2f} m from {_list(scene.names)}, {inside}"
+        return f"the robot stands {gap} from '{name}', {inside}"
     return (
-        f"{_list(scene.names)} appeared inside the braking distance; the robot comes to stand "
-        f"{gap:.2f} m from it, {inside}"
+        f"'{name}' appeared inside the braking distance; the robot comes to stand {gap} from it, "
+        f"{inside}"
     )
 
 
