@@ -13,7 +13,7 @@ from PIL import Image
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.report import style
-from viaspline.report.plan_picture import plan_picture
+from viaspline.report.plan_picture import plan_picture, via_ticks
 from viaspline.report.run_picture import run_picture
 from viaspline.robot.run import Run
 
@@ -56,6 +56,14 @@ def test_pictures_change_no_global_setting(planned: Plan) -> None:
     before = dict(mpl.rcParams)
     plan_picture(planned, "yard")
     assert dict(mpl.rcParams) == before
+
+
+def test_a_closed_route_ends_where_it_starts() -> None:
+    route = {"start": [0, 0], "via": [[50, 0], [50, 40]], "closed": True}
+    mission = Mission.model_validate({"route": route})
+    path = plan(mission).path
+    assert [text for _, text in via_ticks(path, mission)] == ["S", "1", "2", "S"]
+    assert via_ticks(path, mission)[-1][0] == pytest.approx(path.length)
 
 
 def _mission(points: list[Any], **world: Any) -> Mission:

@@ -32,6 +32,12 @@ class Column:
         """Height that is left [inch]."""
         return self._top - self.bottom
 
+    @property
+    def map_width(self) -> float:
+        """Width of what the map shows [m]."""
+        x0, x1 = self._sheet.map.get_xlim()
+        return float(x1 - x0)
+
     def legend(self, handles: Sequence[Artist]) -> None:
         """The legend of the map."""
         figure = self._sheet.figure

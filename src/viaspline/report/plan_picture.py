@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
-from matplotlib.patches import Circle
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
@@ -14,6 +11,7 @@ from viaspline.detour.brief import Brief
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.report import strips, style
+from viaspline.report.close_up import close_up
 from viaspline.report.column import Column
 from viaspline.report.drawing import Floats, any_name, png, polyline
 from viaspline.report.labels import Labels
@@ -56,7 +54,7 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     _fill_strips(sheet, plan)
     column = Column(sheet)
     column.legend(handles)
-    close_up(column, scene, plan.path, plan.certificate, points, plan.mission.robot.radius_m)
+    close_up(column, scene, plan.path, plan.certificate, plan.mission.robot.radius_m)
     return png(sheet.figure)
 
 
@@ -79,16 +77,14 @@ def proof(certificate: Certificate) -> str:
     )
 
 
-def via_ticks(path: Path) -> list[tuple[float, str]]:
+def via_ticks(path: Path, mission: Mission) -> list[tuple[float, str]]:
     """Where the points of the route lie along a path, and their numbers."""
-    ticks = []
-    users = [
-        (via, d) for via, d in zip(path.vias, path.via_distances, strict=True) if via.kind == "user"
+    names = {0: "S", len(mission.route.via) + 1: "S" if mission.route.closed else "G"}
+    return [
+        (float(distance), names.get(via.index, str(via.index)))
+        for via, distance in zip(path.vias, path.via_distances, strict=True)
+        if via.index is not None
     ]
-    for number, (_, distance) in enumerate(users):
-        ends = {0: "S", len(users) - 1: "G"}
-        ticks.append((float(distance), ends.get(number, str(number))))
-    return ticks
 
 
 def losing(plan: Plan) -> list[Floats]:
@@ -150,52 +146,4 @@ def _fill_strips(sheet: Sheet, plan: Plan) -> None:
     values = [np.asarray(law.speed_at(distances)), np.asarray(path.curvature(u))]
     if len(sheet.strips) == 3:
         values.append(np.asarray(path.evaluate(u))[:, 2])
-    strips.fill(sheet.strips, distances, values, via_ticks(path), style.PATH)
-
-
-def close_up(
-    column: Column,
-    scene: Scene,
-    path: Path,
-    certificate: Certificate,
-    points: Floats,
-    radius: float,
-) -> None:
-    """The tightest place, large enough to see the clearance."""
-    tight = certificate.clearance < 10 * max(certificate.required, radius)
-    if certificate.obstacle is None or not tight or column.room < 2.75 or scene.required <= 0:
-        return
-    height = min(2.3, column.room - 0.5)
-    where = style.short(certificate.obstacle, 16)
-    title = f"tightest place: {down(certificate.clearance)} beside {where}"
-    axes = column.axes(height, title)
-    x, y = certificate.tightest_at[:2]
-    half = 5.0 * max(scene.required, 1.2 * certificate.clearance + radius)
-    box = axes.get_window_extent()
-    axes.set_xlim(x - half, x + half)
-    axes.set_ylim(y - half * box.height / box.width, y + half * box.height / box.width)
-    scale = box.width / (2 * half)
-    column.scale_bar(axes, scale)
-    scene.draw(axes, scale)
-    distance = certificate.tightest_distance
-    near = np.linspace(max(distance - 3 * half, 0), min(distance + 3 * half, path.length), 400)
-    line = np.asarray(path.at_distance(near))[:, :2]
-    draw_path(axes, line)
-    axes.add_artist(
-        Circle(
-            (x, y), radius, facecolor=style.SENSOR, edgecolor=style.INK, zorder=10, linewidth=0.7
-        )
-    )
-    nearest = scene.nearest_to(certificate.tightest_at)
-    if nearest is not None:
-        _gap(axes, (x, y), nearest, radius)
-
-
-def _gap(axes: Axes, robot: tuple[float, float], wall: tuple[float, float], radius: float) -> None:
-    """The clearance as a bar from the body to the obstacle."""
-    way = np.subtract(wall, robot)
-    distance = float(np.hypot(*way))
-    if distance <= radius:
-        return
-    body = np.array(robot) + way * (radius / distance)
-    axes.add_line(Line2D(*np.array([body, wall]).T, color=style.TIGHTEST, linewidth=2, zorder=15))
+    strips.fill(sheet.strips, distances, values, via_ticks(path, plan.mission), style.PATH)

@@ -12,11 +12,12 @@ from matplotlib.colors import Colormap, ListedColormap, Normalize
 from viaspline.curve.path import PathVia
 from viaspline.detour.brief import Brief
 from viaspline.report import strips, style
+from viaspline.report.close_up import ROOM, close_up
 from viaspline.report.column import Column
 from viaspline.report.drawing import Floats, any_name, png, polyline
 from viaspline.report.labels import Labels
 from viaspline.report.marks import draw_arrows, draw_tightest, draw_vias
-from viaspline.report.plan_picture import close_up, proof, subtitle, via_ticks
+from viaspline.report.plan_picture import proof, subtitle, via_ticks
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.units import metres, seconds
@@ -61,8 +62,8 @@ def run_picture(run: Run, name: str) -> bytes:
     column.colour_bar(colours, limits, "speed of the driven path [m/s]")
     column.legend(handles)
     column_notes = [note(event) for event in run.events if event.kind in NOTED]
-    if column.room > 2.75 + 0.155 * min(len(column_notes), 6):
-        close_up(column, scene, run.path, run.certificate, planned, mission.robot.radius_m)
+    if column.room > ROOM + 0.155 * min(len(column_notes), 6):
+        close_up(column, scene, run.path, run.certificate, mission.robot.radius_m)
     column.notes("Under way", column_notes)
     return png(sheet.figure)
 
@@ -180,6 +181,8 @@ def _fill_strips(sheet: Sheet, run: Run) -> None:
     values = [run.speeds[keep], run.curvatures[keep]]
     if len(sheet.strips) == 3:
         values.append(run.positions[keep, 2])
-    strips.fill(sheet.strips, distances[keep], values, via_ticks(run.path), style.PATH)
+    strips.fill(
+        sheet.strips, distances[keep], values, via_ticks(run.path, run.plan.mission), style.PATH
+    )
     for replan in run.replans:
         sheet.strips[0].axvline(replan.distance, color=style.UNSEEN, linewidth=0.9, linestyle=":")

@@ -1,0 +1,71 @@
+"""The tightest place of a path, close up, beside the map."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle
+
+from viaspline.curve.certificate import Certificate
+from viaspline.curve.path import Path
+from viaspline.report import style
+from viaspline.report.column import Column
+from viaspline.report.marks import draw_path
+from viaspline.report.scene import Scene
+from viaspline.report.units import down
+
+ROOM = 2.75  # in the column, at least [inch]
+
+
+def close_up(
+    column: Column,
+    scene: Scene,
+    path: Path,
+    certificate: Certificate,
+    radius: float,
+) -> None:
+    """The tightest place, large enough to see the clearance.
+
+    It is left out where nothing is tight, where there is no room for it in the column, and where
+    the map shows it as large.
+    """
+    tight = certificate.clearance < 10 * max(certificate.required, radius)
+    half = 5.0 * max(scene.required, 1.2 * certificate.clearance + radius)
+    if certificate.obstacle is None or not tight or scene.required <= 0:
+        return
+    if column.room < ROOM or 4 * half > column.map_width:
+        return
+    height = min(2.3, column.room - 0.5)
+    where = style.short(certificate.obstacle, 16)
+    title = f"tightest place: {down(certificate.clearance)} beside {where}"
+    axes = column.axes(height, title)
+    x, y = certificate.tightest_at[:2]
+    box = axes.get_window_extent()
+    axes.set_xlim(x - half, x + half)
+    axes.set_ylim(y - half * box.height / box.width, y + half * box.height / box.width)
+    scale = box.width / (2 * half)
+    column.scale_bar(axes, scale)
+    scene.draw(axes, scale)
+    distance = certificate.tightest_distance
+    near = np.linspace(max(distance - 3 * half, 0), min(distance + 3 * half, path.length), 400)
+    line = np.asarray(path.at_distance(near))[:, :2]
+    draw_path(axes, line)
+    axes.add_artist(
+        Circle(
+            (x, y), radius, facecolor=style.SENSOR, edgecolor=style.INK, zorder=10, linewidth=0.7
+        )
+    )
+    nearest = scene.nearest_to(certificate.tightest_at)
+    if nearest is not None:
+        _gap(axes, (x, y), nearest, radius)
+
+
+def _gap(axes: Axes, robot: tuple[float, float], wall: tuple[float, float], radius: float) -> None:
+    """The clearance as a bar from the body to the obstacle."""
+    way = np.subtract(wall, robot)
+    distance = float(np.hypot(*way))
+    if distance <= radius:
+        return
+    body = np.array(robot) + way * (radius / distance)
+    axes.add_line(Line2D(*np.array([body, wall]).T, color=style.TIGHTEST, linewidth=2, zorder=15))
