@@ -18,7 +18,7 @@ from worlds import GOAL, RADIUS, SIZE, START, clearance, inflated, length, missi
 
 import viaspline as vs
 
-ROUNDS = 15
+ROUNDS = 9
 SAFE = 0.0002  # resolution at which OMPL no longer cuts corners here
 util.setLogLevel(util.LogLevel.LOG_ERROR)
 

@@ -29,7 +29,7 @@ def _no_room(via: RouteVia, room: float, index: int, world: World, brief: Brief)
     free = room - brief.radius
     place = _nearest_free(via.at, world, brief.required)
     moves = [] if place is None else [f"move it to ({place[0]:.3f}, {place[1]:.3f})"]
-    if free >= 0:
+    if 0 <= free < brief.clearance:
         moves.append(f"set robot.clearance_m to at most {np.floor(free * 1000) / 1000:.3f}")
     missing = brief.required - room
     what = "outside" if index < -1 and room < 0 else f"{missing:.3f} m inside the clearance of"
@@ -174,5 +174,5 @@ def _narrowest(way: Way, world: World) -> tuple[tuple[float, float], int, float]
 
 def _walls(start: RouteVia, goal: RouteVia, world: World) -> tuple[str, ...]:
     """The obstacles that the straight line between two via points meets."""
-    found = on_the_line(world, start.at, goal.at, 0.0)
+    found = on_the_line(world, start.at, goal.at, SPARE)
     return tuple(world.name(int(i)) for i in np.flatnonzero(found))

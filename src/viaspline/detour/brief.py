@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 from viaspline.mission.model import Mission, SplineSpec
 
+LEAST = 1e-5  # what even a point without clearance keeps, so that touching is not crossing [m]
+
 
 @dataclass(frozen=True, kw_only=True)
 class Brief:
@@ -24,7 +26,7 @@ class Brief:
     @property
     def required(self) -> float:
         """Distance that the path itself keeps from every obstacle [m]."""
-        return self.radius + self.clearance
+        return max(self.radius + self.clearance, LEAST)
 
     @classmethod
     def of(cls, mission: Mission) -> Brief:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from viaspline.curve.piecewise import PiecewiseCubic
 
 Floats = NDArray[np.float64]
+RESTING = 1e-9  # derivative below which a curve has no curvature there [m]
 SHARPEST = 0.5  # largest turn of the heading while running out [rad]
 
 
@@ -60,9 +61,13 @@ def run_out(curve: PiecewiseCubic, u: float, length: float, *, sense: int = 1) -
     place = np.asarray(curve.evaluate(u))
     velocity = np.asarray(curve.evaluate(u, 1))
     speed = float(np.linalg.norm(velocity))
-    tangent = sense * velocity / speed
-    bend = np.asarray(curve.evaluate(u, 2)) / speed**2
-    bend = bend - (bend @ tangent) * tangent
+    if speed > RESTING:
+        tangent = sense * velocity / speed
+        bend = np.asarray(curve.evaluate(u, 2)) / speed**2
+        bend = bend - (bend @ tangent) * tangent
+    else:  # a polyline's corner
+        tangent = sense * np.asarray(curve.tangent(u))
+        bend = np.zeros_like(place)
     sharpness = float(np.linalg.norm(bend))
     reach = min(length, 2 * SHARPEST / sharpness) if sharpness > 0 else length
     first = place + reach / 3 * tangent

@@ -28,6 +28,7 @@ from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
 NEAR = 1e-6  # via points nearer along the path than this have been passed [m]
+ROOM = 0.4  # of the way to the next via point that a run-out may take
 REACHES = (2.0, 1.0, 0.3)  # lengths of a run-out, in required distances
 
 
@@ -47,7 +48,11 @@ class _Stretch:
 
 
 def reflex(path: Path, at: float, world: World, brief: Brief) -> Detoured:
-    """Lead only the blocked legs ahead round what stands in their way.
+    """Lead only the blocked spans ahead round what stands in their way.
+
+    The stretch from the last via point before them to the first one after them is laid anew,
+    detour via points of the old path counting too; where that can't be done, the legs between
+    the user via points.
 
     Args:
         path: What is being driven.
@@ -60,17 +65,30 @@ def reflex(path: Path, at: float, world: World, brief: Brief) -> Detoured:
     """
     u = float(path.parameter(at))
     blocked = _blocked_spans(path, u, world, brief)
-    users = [via for via in path.vias if via.kind == "user"]
     if not blocked.size:
         certificate = certify(_ahead(path, u), world, brief.clearance, radius=brief.radius)
         return Detoured(path, certificate, (), at, at)
-    before = [via for via in users if via.u <= blocked[0]]
-    leave = max(u, before[-1].u if before else 0.0)
-    after = [via for via in users if via.u >= blocked[-1] + 1]
-    tail = after[0] if after[0] is not users[-1] else None
-    last = after[0].u
-    ahead = tuple(via for via in users if leave + NEAR < via.u <= last)
-    return _joined(path, _Stretch(leave, ahead, tail), world, brief)
+    users = [via for via in path.vias if via.kind == "user"]
+    narrow = _stretch(path.vias, users, u, blocked)
+    wide = _stretch(users, users, u, blocked)
+    try:
+        return _joined(path, narrow, world, brief)
+    except NoPathError:
+        if wide == narrow:
+            raise
+    return _joined(path, wide, world, brief)
+
+
+def _stretch(
+    joints: Sequence[PathVia], users: Sequence[PathVia], u: float, blocked: NDArray[np.intp]
+) -> _Stretch:
+    """From the last of the joints before the blocked spans to the first one after them."""
+    leave = max([u, *(via.u for via in joints if via.u <= blocked[0])])
+    tail = next(via for via in joints if via.u >= blocked[-1] + 1)
+    within = tuple(via for via in users if leave + NEAR < via.u < tail.u)
+    if tail.u >= users[-1].u:
+        return _Stretch(leave, (*within, users[-1]), None)
+    return _Stretch(leave, within, tail)
 
 
 def planned(
@@ -94,9 +112,9 @@ def from_rest(
         NoPathError: When there is no way.
     """
     u = float(path.parameter(at))
-    ahead = _remaining(path, at, skip)
-    start = RouteVia("standstill", np.asarray(path.evaluate(u)), None)
-    course = _course(path, start, ahead, brief, u)
+    stretch = _Stretch(u, _remaining(path, at, skip), None)
+    start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
+    course = _course(path, start, stretch, brief)
     cleared, spans, ledger = clear_course(course, world, brief)
     head = _head(path, u)
     vias = (*_vias_until(path, u, len(head)), *path_vias(cleared, len(head)))
@@ -118,19 +136,21 @@ def _joined(path: Path, stretch: _Stretch, world: World, brief: Brief) -> Detour
 
 
 def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: float) -> Detoured:
-    out = run_out(path, stretch.u, reach)
-    _refuse_blocked(out, world, brief)
     tail = stretch.tail
-    back = None if tail is None else run_out(path, tail.u, reach, sense=-1).reversed()
-    if back is not None:
+    first_room, last_room = _room(path, stretch)
+    out = run_out(path, stretch.u, min(reach, first_room))
+    _refuse_blocked(out, world, brief)
+    back = None
+    if tail is not None:
+        back = run_out(path, tail.u, min(reach, last_room), sense=-1).reversed()
         _refuse_blocked(back, world, brief)
-    start = RouteVia("leave", out.end, None)
+    start = RouteVia("the robot", out.end, None)
+    meet = None if back is None else RouteVia("the old path", back.span[0], None)
     course = replace(
-        _course(path, start, stretch.ahead, brief, stretch.u), start_tangent=out.tangent
+        _course(path, start, stretch, brief, meet),
+        start_tangent=out.tangent,
+        end_tangent=None if back is None else -back.tangent,
     )
-    if back is not None:
-        meet = RouteVia("rejoin", back.span[0], None)
-        course = replace(course, vias=(*course.vias[:-1], meet), end_tangent=-back.tangent)
     cleared, spans, ledger = clear_course(course, world, brief)
     head = _head(path, stretch.u)
     first = len(head) + 1
@@ -151,6 +171,14 @@ def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: floa
     return _result(new, leaving, certificate, ledger, back_at)
 
 
+def _room(path: Path, stretch: _Stretch) -> tuple[float, float]:
+    """What a run-out may take on the first and on the last leg of a stretch [m]."""
+    targets = [*stretch.ahead, *([stretch.tail] if stretch.tail else [])]
+    at = np.asarray(path.distance(np.array([stretch.u, *(via.u for via in targets)])))
+    rooms = ROOM * np.diff(at)
+    return float(rooms[0]), float(rooms[-1])
+
+
 def _result(
     new: Path,
     certificate_from: float,
@@ -159,8 +187,10 @@ def _result(
     rejoins_at: float | None = None,
 ) -> Detoured:
     """A path whose certificate speaks of what lies ahead of ``certificate_from`` [m]."""
-    distance = certificate.tightest_distance + certificate_from
-    moved = replace(certificate, tightest_distance=distance)
+    distance = min(certificate.tightest_distance + certificate_from, new.length)
+    moved = replace(
+        certificate, tightest_distance=distance, tightest_u=float(new.parameter(distance))
+    )
     return Detoured(new, moved, ledger, certificate_from, rejoins_at)
 
 
@@ -184,7 +214,8 @@ def _blocked_spans(path: Path, u: float, world: World, brief: Brief) -> NDArray[
 
 
 def _ahead(path: Path, u: float) -> PiecewiseCubic:
-    return path.section(u, path.domain[1])
+    end = path.domain[1]
+    return path.section(min(u, end - NEAR), end)
 
 
 def _head(path: Path, u: float) -> Floats:
@@ -199,26 +230,36 @@ def _vias_until(path: Path, u: float, spans: int) -> Sequence[PathVia]:
 
 
 def _remaining(path: Path, at: float, skip: Collection[int]) -> tuple[PathVia, ...]:
-    distances = path.via_distances
-    return tuple(
+    remaining = tuple(
         via
-        for via, distance in zip(path.vias, distances, strict=True)
+        for via, distance in zip(path.vias, path.via_distances, strict=True)
         if via.kind == "user" and distance > at + NEAR and via.index not in skip
     )
+    if not remaining:
+        raise NoPathError(
+            "no via point is left to go to",
+            where=np.asarray(path.at_distance(min(at, path.length))),
+            remedy="the route ends here",
+        )
+    return remaining
 
 
 def _course(
-    path: Path, start: RouteVia, ahead: Sequence[PathVia], brief: Brief, u: float
+    path: Path, start: RouteVia, stretch: _Stretch, brief: Brief, meet: RouteVia | None = None
 ) -> Course:
-    """A course without detours from a place under way through the via points ahead."""
-    if not ahead:
-        raise NoPathError("nothing is left to go to", where=start.at, remedy="the route ends here")
+    """A course without detours through the via points of a stretch, to ``meet`` if it is given."""
+    targets = [RouteVia(v.name, np.array(v.at), v.index, v.dwell) for v in stretch.ahead]
+    legs = [via.index or 1 for via in stretch.ahead]
+    if meet is not None and stretch.tail is not None:
+        tail = stretch.tail.u
+        targets.append(meet)
+        legs.append(next(v.index or 1 for v in path.vias if v.index is not None and v.u >= tail))
     slack = _slack_by_leg(path, brief)
-    vias = (start, *(RouteVia(v.name, np.array(v.at), v.index, v.dwell) for v in ahead))
-    legs = tuple(
-        Leg.straight(slack[min((v.index or 1), len(slack)) - 1], len(start.at)) for v in ahead
+    return Course(
+        vias=(start, *targets),
+        legs=tuple(Leg.straight(slack[leg - 1], len(start.at)) for leg in legs),
+        spline=brief.spline,
     )
-    return Course(vias, legs, brief.spline)
 
 
 def _slack_by_leg(path: Path, brief: Brief) -> tuple[float, ...]:

@@ -101,23 +101,39 @@ def barrier(world: World, index: int, side: Side, start: Floats, goal: Floats) -
 
     Shape (1, 4). It reaches beyond everything that there is.
     """
-    inside = _place_in(world, index)
     along = goal[:2] - start[:2]
     length = float(np.hypot(*along))
     along = along / length if length > 0 else np.array([1.0, 0.0])
-    normal = np.array([-along[1], along[0]])
+    outward = np.array([-along[1], along[0]])
+    inside = _place_in(world, index, start[:2], goal[:2])
+    foot = float((inside - start[:2]) @ along)
+    if not 0.0 <= foot <= length:  # beyond an end of the leg: aslant, so that it still meets it
+        away = inside - start[:2] - np.clip(foot, 0.1 * length, 0.9 * length) * along
+        outward = away / np.hypot(*away) * (1.0 if away @ outward >= 0.0 else -1.0)
     if side == "right":
-        normal = -normal
-    return np.array([[*inside, *(inside + _extent(world, start, goal) * normal)]])
+        outward = -outward
+    return np.array([[*inside, *(inside + _extent(world, start, goal) * outward)]])
 
 
-def _place_in(world: World, index: int) -> Floats:
+def _place_in(world: World, index: int, start: Floats, goal: Floats) -> Floats:
+    """A place in an obstacle: on the straight line if that goes through it, else near to it."""
     circle = world.obstacles[index].circle
     if circle is not None:
         return np.array(circle.center)
-    polygon = world.obstacles[index].polygon
-    assert polygon is not None  # an obstacle without a shape is refused when a world is made
-    return np.array(polygon[0])
+    ring = np.array(world.obstacles[index].polygon)
+    along = goal - start
+    offset = ring - start
+    across = along[0] * offset[:, 1] - along[1] * offset[:, 0]
+    ahead = offset @ along / max(float(along @ along), 1e-300)
+    following = np.roll(across, -1)
+    meets = (across > 0.0) != (following > 0.0)
+    w = across[meets] / (across - following)[meets]
+    crossings = np.sort(ahead[meets] + w * (np.roll(ahead, -1) - ahead)[meets])
+    crossings = crossings[(crossings > 0.0) & (crossings < 1.0)]
+    if len(crossings) > 1:
+        return np.asarray(start + crossings[:2].mean() * along)
+    gaps = offset - np.clip(ahead, 0.0, 1.0)[:, None] * along
+    return np.asarray(ring[np.argmin(np.sum(gaps * gaps, axis=1))])
 
 
 def _extent(world: World, start: Floats, goal: Floats) -> float:

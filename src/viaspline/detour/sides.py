@@ -128,7 +128,7 @@ def pass_groups(
     curves = [best]
     reasons: list[str] = []
     for group, side in zip(met, best.sides, strict=True):
-        other, reason = _other_side(leg, group, _opposite(side), barriers, active)
+        other, reason = _other_side(leg, group, _opposite(side), active)
         curves += [other] if other else []
         reasons.append(reason)
     winner = min(curves, key=lambda curve: curve.measured.length)
@@ -138,7 +138,9 @@ def pass_groups(
     return Passed(winner.fitted, entries)
 
 
-def _shortest_allowed(leg: _Leg, active: Flags) -> tuple[Way | None, Floats]:
+def _shortest_allowed(
+    leg: _Leg, active: Flags, closed: Floats = NO_BARRIERS
+) -> tuple[Way | None, Floats]:
     """The shortest way that passes what it meets on the sides that the mission allows.
 
     A way can meet obstacles with a side of their own that were not met before; each such round
@@ -146,24 +148,21 @@ def _shortest_allowed(leg: _Leg, active: Flags) -> tuple[Way | None, Floats]:
     """
     barriers = _forced_barriers(leg, active)
     while True:
-        way = leg.way(barriers, active)
+        way = leg.way(np.vstack((closed, barriers)), active)
         needed = _forced_barriers(leg, active)
         if len(needed) == len(barriers):
             return way, barriers
         barriers = needed
 
 
-def _other_side(
-    leg: _Leg, group: Met, side: Side, barriers: Floats, active: Flags
-) -> tuple[_Curve | None, str]:
+def _other_side(leg: _Leg, group: Met, side: Side, active: Flags) -> tuple[_Curve | None, str]:
     """The shortest curve on the given side of a group, or why there is none."""
     for i in group.members:
         forced = leg.world.obstacles[i].forced_side
         if forced is not None and forced != side:
             return None, f"the mission has {leg.world.name(i)!r} passed on the {forced}"
-    closed = np.vstack((barriers, group.barrier(_opposite(side))))
-    curve = leg.curve(leg.way(closed, active))
-    return curve, "" if curve else f"no way is wide enough on the {side}"
+    way, _ = _shortest_allowed(leg, active, group.barrier(_opposite(side)))
+    return leg.curve(way), f"no way is wide enough on the {side}"
 
 
 def _entry(

@@ -183,9 +183,12 @@ def nearest(world: PackedWorld, x: float, y: float, limit: float) -> tuple[float
     """
     best, index = inner_signed(world, x, y, limit)
     nodes = world.leaf.size
-    if nodes > 64 and best == np.inf:
-        index = _descend(world, x, y)
-        best = obstacle_signed(world, index, x, y, np.inf)
+    if nodes > 64:
+        obstacle = _descend(world, x, y)
+        distance = obstacle_signed(world, obstacle, x, y, np.inf)
+        if distance < best:
+            best = distance
+            index = obstacle
     node = 0
     while node < nodes:
         if box_signed(world.boxes, node, x, y) >= best:
