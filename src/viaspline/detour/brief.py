@@ -17,11 +17,13 @@ class Brief:
         radius: The robot's body [m].
         clearance: Free space kept between the body and every obstacle [m].
         spline: Tension, knots and tangents.
+        goal_heading_deg: Heading with which the path arrives at the goal [deg]; None if it is free.
     """
 
     radius: float
     clearance: float
     spline: SplineSpec = field(default_factory=SplineSpec)
+    goal_heading_deg: float | None = None
 
     @property
     def required(self) -> float:
@@ -31,5 +33,10 @@ class Brief:
     @classmethod
     def of(cls, mission: Mission) -> Brief:
         """The brief of a mission."""
-        robot = mission.robot
-        return cls(radius=robot.radius_m, clearance=robot.clearance_m, spline=mission.spline)
+        robot, goal = mission.robot, mission.route.goal
+        return cls(
+            radius=robot.radius_m,
+            clearance=robot.clearance_m,
+            spline=mission.spline,
+            goal_heading_deg=None if goal is None else goal.heading_deg,
+        )

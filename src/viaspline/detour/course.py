@@ -135,8 +135,8 @@ def course_of(mission: Mission) -> Course:
         vias=vias,
         legs=tuple(Leg.straight(value, dimension) for value in slack),
         spline=mission.spline,
-        start_tangent=_direction(route.start.heading_deg, dimension),
-        end_tangent=None if goal is None else _direction(goal.heading_deg, dimension),
+        start_tangent=direction(route.start.heading_deg, dimension),
+        end_tangent=None if goal is None else direction(goal.heading_deg, dimension),
         closed=route.closed,
     )
 
@@ -165,7 +165,8 @@ def _default_name(key: str) -> str:
     return f"via {int(tail[4:-1]) + 1}" if tail.startswith("via[") else tail
 
 
-def _direction(heading_deg: float | None, dimension: int) -> Floats | None:
+def direction(heading_deg: float | None, dimension: int) -> Floats | None:
+    """The unit vector of a heading in the plane, shape (d,); None if it is free."""
     if heading_deg is None:
         return None
     angle = np.radians(heading_deg)

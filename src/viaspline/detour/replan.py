@@ -17,7 +17,7 @@ from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.brief import Brief
-from viaspline.detour.course import Course, Leg, RouteVia, span_slack
+from viaspline.detour.course import Course, Leg, RouteVia, direction, span_slack
 from viaspline.detour.detoured import Detoured
 from viaspline.detour.fit import CLEAR, too_close
 from viaspline.detour.join import RunOut, run_out
@@ -67,7 +67,7 @@ def reflex(path: Path, at: float, world: World, brief: Brief) -> Detoured:
     blocked = _blocked_spans(path, u, world, brief)
     if not blocked.size:
         certificate = certify(_ahead(path, u), world, brief.clearance, radius=brief.radius)
-        return Detoured(path, certificate, (), at, at)
+        return replace(_result(path, at, certificate, ()), rejoins_at=at)
     users = [via for via in path.vias if via.kind == "user"]
     narrow = _stretch(path.vias, users, u, blocked)
     wide = _stretch(users, users, u, blocked)
@@ -113,6 +113,7 @@ def from_rest(
     """
     u = float(path.parameter(at))
     stretch = _Stretch(u, _remaining(path, at, skip), None)
+    _refuse_the_end(path, stretch)
     start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
     course = _course(path, start, stretch, brief)
     cleared, spans, ledger = clear_course(course, world, brief)
@@ -125,6 +126,7 @@ def from_rest(
 
 def _joined(path: Path, stretch: _Stretch, world: World, brief: Brief) -> Detoured:
     """The new path with the first run-out, from long to short, that lets it be clear."""
+    _refuse_the_end(path, stretch)
     problem: NoPathError | None = None
     for reach in REACHES:
         try:
@@ -146,11 +148,9 @@ def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: floa
         _refuse_blocked(back, world, brief)
     start = RouteVia("the robot", out.end, None)
     meet = None if back is None else RouteVia("the old path", back.span[0], None)
-    course = replace(
-        _course(path, start, stretch, brief, meet),
-        start_tangent=out.tangent,
-        end_tangent=None if back is None else -back.tangent,
-    )
+    course = replace(_course(path, start, stretch, brief, meet), start_tangent=out.tangent)
+    if back is not None:
+        course = replace(course, end_tangent=back.tangent)
     cleared, spans, ledger = clear_course(course, world, brief)
     head = _head(path, stretch.u)
     first = len(head) + 1
@@ -192,6 +192,12 @@ def _result(
         certificate, tightest_distance=distance, tightest_u=float(new.parameter(distance))
     )
     return Detoured(new, moved, ledger, certificate_from, rejoins_at)
+
+
+def _refuse_the_end(path: Path, stretch: _Stretch) -> None:
+    if not stretch.ahead and stretch.tail is None:
+        where = np.asarray(path.evaluate(stretch.u))
+        raise NoPathError("nothing is left to go to", where=where, remedy="the route ends here")
 
 
 def _refuse_blocked(piece: RunOut, world: World, brief: Brief) -> None:
@@ -259,6 +265,7 @@ def _course(
         vias=(start, *targets),
         legs=tuple(Leg.straight(slack[leg - 1], len(start.at)) for leg in legs),
         spline=brief.spline,
+        end_tangent=direction(brief.goal_heading_deg, len(start.at)) if meet is None else None,
     )
 
 

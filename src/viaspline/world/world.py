@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -113,7 +114,13 @@ class World:
         return distance.reshape(shape), index.reshape(shape)
 
     def distances_to(self, index: int, points: ArrayLike) -> NDArray[np.float64]:
-        """Signed distance of points to one obstacle [m], shape (n,)."""
+        """Signed distance of points to one obstacle [m], shape (n,).
+
+        Raises:
+            GeometryError: When there is no such obstacle; for points see ``distance``.
+        """
+        if not 0 <= index < len(self):
+            raise GeometryError(f"there is no obstacle {index}; there are {len(self)}, from 0")
         flat, shape = _as_points(points)
         distance: NDArray[np.float64] = kernels.obstacle_distances(self.packed, index, flat)
         return distance.reshape(shape)
@@ -133,8 +140,10 @@ class World:
 
 
 def _checked(bounds: Sequence[float]) -> Bounds:
+    if len(bounds) != 4:
+        raise GeometryError(f"bounds have {len(bounds)} numbers; give x_min, y_min, x_max, y_max")
     x0, y0, x1, y1 = (float(value) for value in bounds)
-    if not (x0 < x1 and y0 < y1):
+    if not (-math.inf < x0 < x1 < math.inf and -math.inf < y0 < y1 < math.inf):
         raise GeometryError(f"bounds {tuple(bounds)} are empty; give x_min, y_min, x_max, y_max")
     return x0, y0, x1, y1
 
