@@ -20,6 +20,7 @@ from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Floats, Ints, PackedWorld
 
 DEPTH = 64
+MOST = 2_000_000  # pieces that a bound may take
 
 
 @inner
@@ -98,7 +99,8 @@ def tightest(
 
     Returns:
         (lower, upper, span, w, index): the bounds [m], where the upper one is reached, and what is
-        nearest there. Both are infinite in an empty world.
+        nearest there. Both are infinite in an empty world. The lower one is minus infinity where
+        so small a tolerance takes too many pieces: kilometres deep inside of something.
     """
     upper = np.inf
     lower = np.inf
@@ -116,10 +118,14 @@ def tightest(
     if upper == np.inf:
         return lower, upper, span_at, w_at, index_at
     stack = np.empty((DEPTH, 10))
+    pieces = 0
     for span in range(spans.shape[0]):
         _load(stack, spans, span)
         top = 0
         while top >= 0:
+            pieces += 1
+            if pieces > MOST:
+                return -np.inf, upper, span_at, w_at, index_at
             piece = stack[top]
             x, y = _middle(piece)
             reach = _reach(piece, x, y)

@@ -54,21 +54,19 @@ def _fan(
 
 
 @inner
-def _polygon_corners(
-    world: PackedWorld, p: int, rho: float, step: float, corners: Floats, count: int
+def _ring_corners(
+    edges: Floats, first: int, last: int, rho: float, step: float, corners: Floats, count: int
 ) -> int:
-    """Corners of polygon p: its rings follow each other, each starting where the last closed."""
-    first = world.block_edges[world.polygon_blocks[p]]
-    last = world.block_edges[world.polygon_blocks[p + 1]]
+    """Corners of rings that follow each other, each starting where the last closed."""
     ring = first
     for e in range(first, last):
-        edge = world.edges[e]
-        if edge[2] == world.edges[ring, 0] and edge[3] == world.edges[ring, 1]:
+        edge = edges[e]
+        if edge[2] == edges[ring, 0] and edge[3] == edges[ring, 1]:
             following = ring  # the ring is closed
             ring = e + 1
         else:
             following = e + 1
-        after = world.edges[following]
+        after = edges[following]
         ux = edge[2] - edge[0]
         uy = edge[3] - edge[1]
         vx = after[2] - after[0]
@@ -101,7 +99,20 @@ def obstacle_corners(
         circle = world.circles[world.slot[i]]
         radius = circle[2] + rho
         return _fan(corners, count, circle[0], circle[1], radius, 0.0, 2 * np.pi, 0.5 * step)
-    return _polygon_corners(world, world.slot[i], rho, step, corners, count)
+    slot = world.slot[i]
+    first = world.block_edges[world.polygon_blocks[slot]]
+    last = world.block_edges[world.polygon_blocks[slot + 1]]
+    return _ring_corners(world.edges, first, last, rho, step, corners, count)
+
+
+@inner
+def fence_corners(world: PackedWorld, rho: float, step: float, corners: Floats, count: int) -> int:
+    """Append the corners of all fences, where these are not convex; as ``obstacle_corners``."""
+    for f in range(world.fence_edges.size - 1):
+        first = world.fence_edges[f]
+        last = world.fence_edges[f + 1]
+        count = _ring_corners(world.fences, first, last, rho, step, corners, count)
+    return count
 
 
 @inner

@@ -32,7 +32,8 @@ class PackedWorld(NamedTuple):
         edges: x0, y0, x1, y1 [m]; outer rings run anticlockwise, holes clockwise, (e, 4).
         bounds: x_min, y_min, x_max, y_max [m], (1, 4), or (0, 4) where there are none.
         fence_edges: Edges of fence f are ``fence_edges[f]:fence_edges[f + 1]`` of ``fences``.
-        fences: x0, y0, x1, y1 [m], (g, 4).
+        fences: x0, y0, x1, y1 [m]; the rings run clockwise: as everywhere, free space lies to the
+            right of an edge, (g, 4).
         boxes: Boxes of the tree's nodes in depth-first order [m], (t, 4).
         skip: The node that comes after a node and all below it, (t,).
         leaf: The obstacle in a leaf, -1 in an inner node, (t,).

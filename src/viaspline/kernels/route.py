@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.corners import X, Y, obstacle_corners, supports
+from viaspline.kernels.corners import X, Y, fence_corners, obstacle_corners, supports
 from viaspline.kernels.distance import inner_segment, mark_near_segment, obstacle_segment
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Flags, Floats, Ints, PackedWorld
@@ -86,7 +86,7 @@ def _members(world: PackedWorld, active: Flags) -> Floats:
 def _corners(
     world: PackedWorld, members: Floats, start: Floats, goal: Floats, rho: float, step: float
 ) -> Floats:
-    """Start, goal, then the corners of all members, (n, 8)."""
+    """Start, goal, then the corners of all fences and members, (n, 8)."""
     room = 64
     while True:
         corners = np.zeros((room, 8))
@@ -94,7 +94,7 @@ def _corners(
         corners[0, Y] = start[1]
         corners[1, X] = goal[0]
         corners[1, Y] = goal[1]
-        count = 2
+        count = fence_corners(world, rho, step, corners, 2)
         for k in range(members.shape[0]):
             count = obstacle_corners(world, int(members[k, 0]), rho, step, corners, count)
         if count <= room:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -37,8 +38,7 @@ def pack(
             raise GeometryError(f"obstacle {i} has no shape: give it a circle or a polygon")
     discs = np.array(circles, np.float64).reshape(-1, 3)
     edges, polygon_blocks, block_edges = _edges(polygons)
-    fence_edges, _, _ = _edges([(ring,) for ring in fences])
-    fence_starts = np.cumsum([0, *(len(ring) for ring in fences)], dtype=np.int64)
+    fence_edges, fence_starts = _fences(fences)
     block_boxes = ring_boxes(edges, block_edges)
     boxes = np.empty((count, 4))
     boxes[kind == 0, :2] = discs[:, :2] - discs[:, 2:]
@@ -53,13 +53,31 @@ def pack(
     )  # fmt: skip
 
 
+def _fences(rings: Rings) -> tuple[Floats, Ints]:
+    """Edges of fences, which run clockwise, and where each fence starts among them."""
+    edges, polygon_blocks, block_edges = _edges([(ring,) for ring in rings])
+    starts = block_edges[polygon_blocks]
+    for first, last in pairwise(starts.tolist()):
+        edges[first:last] = edges[first:last][::-1, [2, 3, 0, 1]]
+    return edges, starts
+
+
+def _distinct(ring: Sequence[tuple[float, float]]) -> Sequence[tuple[float, float]]:
+    """A ring without vertices that repeat the one before."""
+    if len(set(ring)) == len(ring):
+        return ring
+    return [
+        vertex for vertex, before in zip(ring, (ring[-1], *ring), strict=False) if vertex != before
+    ]
+
+
 def _edges(polygons: Sequence[Rings]) -> tuple[Floats, Ints, Ints]:
     vertices: list[tuple[float, float]] = []
     ring_starts = [0]
     polygon_rings = [0]
     for rings in polygons:
         for ring in rings:
-            vertices.extend(ring)
+            vertices.extend(_distinct(ring))
             ring_starts.append(len(vertices))
         polygon_rings.append(len(ring_starts) - 1)
     packed: tuple[Floats, Ints, Ints] = pack_polygons(
