@@ -1,0 +1,60 @@
+"""One hypothesis profile for all tests, and an oracle for distances that shares nothing with us."""
+
+import os
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import HealthCheck, settings
+from numpy.typing import NDArray
+
+from viaspline.mission.model import Obstacle
+
+settings.register_profile(
+    "viaspline",
+    deadline=None,  # the first example may compile a kernel
+    derandomize="CI" in os.environ,
+    max_examples=40,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
+)
+settings.load_profile("viaspline")
+
+Floats = NDArray[np.float64]
+Oracle = Callable[..., Floats]
+
+
+def _ring(ring: Sequence[Any]) -> shapely.Polygon:
+    return shapely.Polygon(ring)
+
+
+def _signed(shape: shapely.Polygon, points: Any) -> Floats:
+    distance = shapely.distance(shape.boundary, points)
+    return np.where(shapely.contains(shape, points), -distance, distance)
+
+
+@pytest.fixture(scope="session")
+def shapely_distance() -> Oracle:
+    """Signed distance of points (n, 2) to obstacles, bounds and fences, by shapely."""
+
+    def distance(
+        xy: Any, obstacles: Sequence[Obstacle] = (), bounds: Any = None, fences: Any = ()
+    ) -> Floats:
+        points = shapely.points(np.asarray(xy, float))
+        found = np.full(len(points), np.inf)
+        for obstacle in obstacles:
+            if obstacle.circle is not None:
+                centre = shapely.Point(obstacle.circle.center)
+                one = shapely.distance(centre, points) - obstacle.circle.radius
+            else:
+                one = _signed(shapely.Polygon(obstacle.polygon, obstacle.holes), points)
+            found = np.minimum(found, one)
+        frames = [_ring(fence) for fence in fences]
+        if bounds is not None:
+            frames.append(shapely.box(*bounds))
+        for frame in frames:
+            found = np.minimum(found, -_signed(frame, points))
+        return found
+
+    return distance
