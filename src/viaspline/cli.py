@@ -278,7 +278,8 @@ def _watch(quiet: bool) -> Iterator[Watch]:
     watch = Watch(quiet=quiet)
     with watch.stage("start", "starting"):
         from viaspline.kernels.jit import compile_progress
-    with compile_progress(watch.compiling):
+        from viaspline.warm import second_compiler
+    with compile_progress(watch.compiling), second_compiler():
         yield watch
 
 

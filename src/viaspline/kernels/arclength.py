@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.cubic import wrapped
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 Floats = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ def speed(rows: Floats, k: int, w: float) -> float:
     return math.sqrt(squared)
 
 
-@kernel
+@inner
 def panel_length(rows: Floats, k: int, start: float, end: float) -> float:
     """Length of row k from local parameter ``start`` to ``end`` by eight nodes [m]."""
     middle = 0.5 * (start + end)
@@ -47,7 +47,7 @@ def panel_length(rows: Floats, k: int, start: float, end: float) -> float:
     return half * total
 
 
-@kernel
+@inner
 def _longest(rows: Floats, k: int, start: float, end: float) -> float:
     """Upper bound of a panel's length where P' may turn by a right angle or more; else 0.
 
@@ -75,7 +75,7 @@ def _longest(rows: Floats, k: int, start: float, end: float) -> float:
     return 2.0 * half * math.sqrt(largest)
 
 
-@kernel
+@inner
 def _larger(array: Floats) -> Floats:
     """The same numbers with as much room again."""
     larger = np.zeros(2 * array.shape[0])
@@ -135,7 +135,7 @@ def length_table(rows: Floats) -> tuple[Floats, Floats]:
     return at[:size].copy(), along[:size].copy()
 
 
-@kernel
+@inner
 def _panel_of(values: Floats, value: float) -> int:
     """The last panel that starts at or before a value, and is not the end of the table."""
     low = 0
@@ -178,7 +178,7 @@ def distances(rows: Floats, at: Floats, along: Floats, u: Floats, closed: bool, 
     return -1
 
 
-@kernel
+@inner
 def _along_panel(
     rows: Floats, k: int, start: float, end: float, step: float, part: float, small: float
 ) -> float:

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 Floats = NDArray[np.float64]
 
@@ -121,7 +121,7 @@ def evaluate(rows: Floats, u: Floats, closed: bool, out: Floats) -> int:
     return -1
 
 
-@kernel
+@inner
 def _in_runs(u: Floats) -> bool:
     """Whether neighbours mostly lie less than half a span apart, by a look at 64 of them."""
     step = max(1, u.shape[0] // 64)
@@ -131,7 +131,7 @@ def _in_runs(u: Floats) -> bool:
     return near > 0
 
 
-@kernel
+@inner
 def _evaluate_runs(rows: Floats, u: Floats, closed: bool, out: Floats) -> int:
     """``evaluate`` in two dimensions; the span stays in registers while parameters stay on it."""
     count = rows.shape[0] - 1

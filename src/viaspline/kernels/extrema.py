@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.cubic import speed_bound
 from viaspline.kernels.frame import curvature_at
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 Floats = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ NARROW = 2.0**-26
 DEPTH = 32
 
 
-@kernel
+@inner
 def _add_product(a: Floats, b: Floats, factor: float, out: Floats) -> None:
     """Add ``factor * a * b`` to ``out``; all in the scaled form."""
     for i in range(a.shape[0]):
@@ -32,7 +32,7 @@ def _add_product(a: Floats, b: Floats, factor: float, out: Floats) -> None:
             out[i + j] += factor * a[i] * b[j]
 
 
-@kernel
+@inner
 def _slope(a: Floats, out: Floats) -> None:
     """Derivative in the scaled form."""
     degree = a.shape[0] - 1
@@ -40,7 +40,7 @@ def _slope(a: Floats, out: Floats) -> None:
         out[i] = (i + 1) * a[i + 1] - (degree - i) * a[i]
 
 
-@kernel
+@inner
 def _to_bernstein(a: Floats) -> None:
     """From the scaled form to Bernstein coefficients, in place."""
     degree = a.shape[0] - 1
@@ -50,7 +50,7 @@ def _to_bernstein(a: Floats) -> None:
         binomial = binomial * (degree - i) / (i + 1)
 
 
-@kernel
+@inner
 def _changes_sign(coefficients: Floats) -> bool:
     low = coefficients[0]
     high = coefficients[0]
@@ -107,7 +107,7 @@ def roots(coefficients: Floats, stack: Floats, out: Floats) -> int:
     return found
 
 
-@kernel
+@inner
 def _moved(spans: Floats, k: int, point: Floats, out: Floats) -> float:
     """Control points of span k seen from a point into ``out``, and a bound: distance squared."""
     bound = 0.0
@@ -124,7 +124,7 @@ def _moved(spans: Floats, k: int, point: Floats, out: Floats) -> float:
     return bound
 
 
-@kernel
+@inner
 def _squared(control: Floats, w: float) -> float:
     """Squared distance of a span from the origin at w."""
     v = 1.0 - w
@@ -136,7 +136,7 @@ def _squared(control: Floats, w: float) -> float:
     return total
 
 
-@kernel
+@inner
 def _polished(control: Floats, w: float) -> float:
     """Newton steps on P . P' = 0 as long as they come nearer."""
     for _ in range(4):
@@ -219,7 +219,7 @@ def nearest_parameter(
     return at, math.sqrt(best)
 
 
-@kernel
+@inner
 def _curvature_slope(spans: Floats, k: int, scale: float, out: Floats) -> None:
     """Bernstein coefficients of Y' q - 3 Y q', whose sign is that of the slope of curvature.
 

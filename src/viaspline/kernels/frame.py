@@ -18,7 +18,7 @@ from viaspline.kernels.cubic import (
     third_derivative,
     wrapped,
 )
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 Floats = NDArray[np.float64]
 
@@ -67,7 +67,7 @@ def curvature_at(spans: Floats, k: int, w: float) -> float:
     return area / (aa * speed)
 
 
-@kernel
+@inner
 def _curvature_at_rest(spans: Floats, k: int, w: float, scale: float) -> float:
     """Limit of the curvature where P' vanishes: 0 when the two derivatives above are parallel."""
     squared = 0.0
@@ -102,7 +102,7 @@ def curvature(spans: Floats, u: Floats, closed: bool, left: bool, out: Floats) -
     return -1
 
 
-@kernel
+@inner
 def direction_at(spans: Floats, k: int, w: float, out: Floats) -> bool:
     """Unit tangent of span k at w into ``out`` (d,); its limit where P' vanishes.
 

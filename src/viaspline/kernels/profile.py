@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -20,7 +20,7 @@ _GAUSS_WEIGHT = np.array([0.23692688505618908, 0.47862867049936647, 0.5688888888
                           0.47862867049936647, 0.23692688505618908])  # fmt: skip
 
 
-@kernel
+@inner
 def _wedge(a: Floats, b: Floats) -> float:
     """|a × b| in any dimension."""
     total = 0.0
@@ -31,7 +31,7 @@ def _wedge(a: Floats, b: Floats) -> float:
     return float(np.sqrt(total))
 
 
-@kernel
+@inner
 def _hodograph(span: Floats, q: Floats) -> None:
     """Bézier control vectors of the derivative of a span, shape (3, d)."""
     for k in range(3):
@@ -39,7 +39,7 @@ def _hodograph(span: Floats, q: Floats) -> None:
             q[k, j] = 3.0 * (span[k + 1, j] - span[k, j])
 
 
-@kernel
+@inner
 def _restrict(q: Floats, a: float, b: float, r: Floats) -> None:
     """Control vectors of the quadratic ``q`` on [a, b], by blossoming."""
     for j in range(q.shape[1]):
@@ -53,12 +53,12 @@ def _restrict(q: Floats, a: float, b: float, r: Floats) -> None:
             )
 
 
-@kernel
+@inner
 def _cubed(square: float) -> float:
     return float(square * np.sqrt(square))
 
 
-@kernel
+@inner
 def _largest(values: Floats) -> float:
     largest = 0.0
     for row in range(values.shape[0]):
@@ -67,7 +67,7 @@ def _largest(values: Floats) -> float:
     return largest
 
 
-@kernel
+@inner
 def _curvature_bounds(r: Floats, width: float) -> tuple[float, float]:
     """Largest curvature that an arc can have, and the smallest of its ends and its middle.
 
@@ -101,7 +101,7 @@ def _curvature_bounds(r: Floats, width: float) -> tuple[float, float]:
     return max(w0, w1, w2) / _cubed(low), least
 
 
-@kernel
+@inner
 def _arc_length(q: Floats, a: float, b: float) -> float:
     half = 0.5 * (b - a)
     total = 0.0
@@ -115,7 +115,7 @@ def _arc_length(q: Floats, a: float, b: float) -> float:
     return half * total
 
 
-@kernel
+@inner
 def _end_tangent(span: Floats, at_end: bool, tangent: Floats) -> float:
     """Unit tangent at one end of a span; returns the length of the handle it was taken from."""
     length = 0.0
@@ -132,7 +132,7 @@ def _end_tangent(span: Floats, at_end: bool, tangent: Floats) -> float:
     return length
 
 
-@kernel
+@inner
 def _grown(distances: Floats, caps: Floats, rests: Flags) -> tuple[Floats, Floats, Flags]:
     """The same with twice the room."""
     size = caps.shape[0]
@@ -144,7 +144,7 @@ def _grown(distances: Floats, caps: Floats, rests: Flags) -> tuple[Floats, Float
     return more
 
 
-@kernel
+@inner
 def _turns(before: Floats, after: Floats, slip: float) -> bool:
     """Whether two unit tangents differ."""
     turn = 0.0
@@ -153,7 +153,7 @@ def _turns(before: Floats, after: Floats, slip: float) -> bool:
     return bool(np.sqrt(turn) > 1e-5 + slip)
 
 
-@kernel
+@inner
 def _arc_cap(
     r: Floats, width: float, lateral: float, accel: float, top: float, tolerance: float
 ) -> tuple[float, bool]:
@@ -171,7 +171,7 @@ def _arc_cap(
     return cap, accel * longest <= 0.5 * (tolerance - 1.0) * cap
 
 
-@kernel
+@inner
 def _next_arc(
     q: Floats,
     r: Floats,
@@ -269,7 +269,7 @@ def bend_caps(
     return distances[: count + 1], caps[:count], rests[: count + 1]
 
 
-@kernel
+@inner
 def _backward(distances: Floats, caps: Floats, rests: Flags, accel: float, last: float) -> Floats:
     """The largest v² at every end of a stretch from which all that follows can be kept."""
     n = distances.shape[0]
@@ -282,12 +282,12 @@ def _backward(distances: Floats, caps: Floats, rests: Flags, accel: float, last:
     return back
 
 
-@kernel
+@inner
 def _exceeds(square: float, limit: float, slip: float) -> bool:
     return square > limit * (1.0 + 1e-9) + slip
 
 
-@kernel
+@inner
 def _peak(
     left: float,
     right: float,

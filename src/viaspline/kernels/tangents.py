@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.jit import kernel
+from viaspline.kernels.jit import inner, kernel
 
 Floats = NDArray[np.float64]
 
@@ -66,7 +66,7 @@ def slopes_of(points: Floats, spacing: Floats) -> tuple[NDArray[np.int64], Float
     return kept[:size], h[:size], slopes[:size]
 
 
-@kernel
+@inner
 def cardinal_velocities(slopes: Floats, h: Floats, closed: bool, velocities: Floats) -> None:
     """Non-uniform Catmull-Rom velocities; the paper's when the knots are uniform.
 
@@ -97,7 +97,7 @@ def cardinal_velocities(slopes: Floats, h: Floats, closed: bool, velocities: Flo
             velocities[spans, axis] = 0.5 * slopes[spans - 1, axis]
 
 
-@kernel
+@inner
 def _solve(lower: Floats, upper: Floats, right: Floats) -> None:
     """Solve a tridiagonal system with ones on its diagonal, in place of its right side (n, r).
 
@@ -116,7 +116,7 @@ def _solve(lower: Floats, upper: Floats, right: Floats) -> None:
             right[i, c] -= above[i] * right[i + 1, c]
 
 
-@kernel
+@inner
 def _solve_cyclic(lower: Floats, upper: Floats, right: Floats) -> None:
     """The same with ``lower[0]`` in the last column and ``upper[-1]`` in the first.
 
@@ -145,7 +145,7 @@ def _solve_cyclic(lower: Floats, upper: Floats, right: Floats) -> None:
             right[i, c] -= factor * right[i, columns - 1]
 
 
-@kernel
+@inner
 def continuous_velocities(
     slopes: Floats, h: Floats, slack: Floats, velocities: Floats, fixed: int, closed: bool
 ) -> None:
@@ -193,7 +193,7 @@ def continuous_velocities(
         _solve(lower, upper, velocities)
 
 
-@kernel
+@inner
 def _aim(velocity: Floats, direction: Floats, slope: Floats, factor: float) -> None:
     """Set a velocity along a unit direction, ``factor`` times as long as a slope."""
     squared = 0.0
@@ -203,7 +203,7 @@ def _aim(velocity: Floats, direction: Floats, slope: Floats, factor: float) -> N
         velocity[axis] = direction[axis] * (factor * math.sqrt(squared))
 
 
-@kernel
+@inner
 def _assemble(
     points: Floats, spans: int, kept: NDArray[np.int64], gain: Floats, velocities: Floats
 ) -> Floats:
