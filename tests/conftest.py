@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from viaspline.mission.model import Obstacle
 
+# With the JIT off the kernels are a thousand times slower: fewer examples.
 settings.register_profile(
     "viaspline",
     deadline=None,  # the first example may compile a kernel
     derandomize="CI" in os.environ,
-    max_examples=40,
+    max_examples=8 if os.environ.get("NUMBA_DISABLE_JIT") == "1" else 40,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 settings.load_profile("viaspline")

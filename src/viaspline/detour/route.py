@@ -18,9 +18,10 @@ Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 SPARE = 1e-6  # what a proof may lack of the required distance [m]
-# How far off an obstacle a route turns, and how finely it wraps arcs: coarse first, and finer for
-# gaps that are hardly wider than the robot.
-RESOLUTIONS = ((1e-3, np.pi / 6), (1e-4, np.pi / 32), (2e-6, np.pi / 200))
+# How far off an obstacle a route turns beyond what is required, and how finely it wraps arcs:
+# coarse first, and finer for gaps that are hardly wider than the robot. Below nothing at last: a
+# via point may stand at just what is required, and a route turns only round what it is outside of.
+RESOLUTIONS = ((1e-3, np.pi / 6), (1e-4, np.pi / 32), (-0.25 * SPARE, np.pi / 200))
 NO_BARRIERS = np.empty((0, 4))
 
 
