@@ -251,7 +251,7 @@ def test_overlapping_obstacles_are_gone_round_as_one() -> None:
     [
         disc(50, 3, 8),
         polygon((90, -2), (45, 12), (40, -9)),
-        polygon((500, -2), (45, 12), (40, -9)),  # most of it lies beyond the goal
+        polygon((500, 300), (45, 12), (40, -9)),  # most of it lies beyond the goal
         polygon((-300, 60), (60, -8), (50, 20)),
     ],
 )
