@@ -23,7 +23,12 @@ Floats = NDArray[np.float64]
 
 # Largest turn from via point to via point [rad], how far out they stand, how far off the helpers,
 # and what part of the length may be spent on roundness. Rounder first, closer where it is tight.
-EFFORTS = ((0.2, 1.0, 1.0, 5e-5), (0.2, 1.0, 1.0, 0.0), (0.1, 1.0, 1.0, 0.0))
+EFFORTS = (
+    (0.2, 1.0, 1.0, 1e-4),
+    (0.2, 1.0, 1.0, 2e-5),
+    (0.2, 1.0, 1.0, 0.0),
+    (0.1, 1.0, 1.0, 0.0),
+)
 LOWER = (0.7, 0.5)  # slack of a leg whose straight line is clear, before it gets helpers
 HALVINGS = 24
 CLEAR = -1

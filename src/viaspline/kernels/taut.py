@@ -12,6 +12,7 @@ from viaspline.kernels.packed import Floats
 
 # columns of a bend: the arc's centre, radius and side (+1: it turns left), the headings with which
 # the route comes to it and leaves it
+WIDEST = 0.9  # turn at one via point [rad]
 BEND_X, BEND_Y, BEND_RADIUS, SIDE, HEADING_IN, TURN = range(6)
 
 
@@ -133,6 +134,31 @@ def _helper_distance(
 
 
 @inner
+def _straight_length(bends: Floats, k: int) -> float:
+    """Length of the straight piece from bend k to bend k + 1 [m]."""
+    heading = bends[k + 1, HEADING_IN]
+    ax, ay = _touch(bends, k, heading)
+    bx, by = _touch(bends, k + 1, heading)
+    return math.hypot(bx - ax, by - ay)
+
+
+@inner
+def _parts(bends: Floats, k: int, step: float, ease: float) -> int:
+    """In how many turns a bend is taken: the fewer, the rounder and the longer.
+
+    n circumscribed corners are longer than their arc by radius * turn³ / 12 n², for which the
+    same part of the straight pieces' length may be spent.
+    """
+    turn = bends[k, TURN]
+    most = np.ceil(turn / step)
+    spare = ease * (_straight_length(bends, k - 1) + _straight_length(bends, k))
+    longer = bends[k, BEND_RADIUS] * turn**3 / 12.0
+    if longer < spare * most * most:
+        most = np.ceil(math.sqrt(longer / spare))
+    return int(max(most, max(1.0, np.ceil(turn / WIDEST))))
+
+
+@inner
 def _straight(
     points: Floats, count: int, bends: Floats, k: int, halves: Floats, stretch: float, ease: float
 ) -> int:
@@ -182,7 +208,7 @@ def detour_points(bends: Floats, step: float, excess: float, stretch: float, eas
     halves = np.zeros(count)
     room = 2 * count
     for k in range(1, count - 1):
-        parts = max(1, int(np.ceil(bends[k, TURN] / step)))
+        parts = _parts(bends, k, step, ease)
         halves[k] = 0.5 * bends[k, TURN] / parts
         room += parts
     points = np.empty((room, 2))
@@ -192,7 +218,7 @@ def detour_points(bends: Floats, step: float, excess: float, stretch: float, eas
         bend = k + 1
         if bend == count - 1:
             break
-        parts = max(1, int(np.ceil(bends[bend, TURN] / step)))
+        parts = _parts(bends, bend, step, ease)
         half = halves[bend]
         reach = bends[bend, BEND_RADIUS] * (1.0 + excess * (1.0 / math.cos(half) - 1.0))
         for part in range(parts):
