@@ -1,6 +1,6 @@
 """How long the commands take as whole processes, on a warm cache and on none.
 
-    python benchmarks/startup.py [RUNS]
+python benchmarks/startup.py [RUNS]
 """
 
 from __future__ import annotations
