@@ -120,6 +120,8 @@ def pass_groups(
     active = on_the_line(world, start, goal, brief.required)
     active[list(hit)] = True
     met = _groups_met(world, groups, np.flatnonzero(active), start, goal)
+    for group in met:  # a group is passed as one: a side that one of its members asks for counts
+        active[[i for i in group.members if world.obstacles[i].forced_side is not None]] = True
     leg = _Leg(course, index, world, brief, met)
     way, barriers = _shortest_allowed(leg, active)
     best = leg.curve(way)
