@@ -88,7 +88,7 @@ def certify(
     while math.isinf(lower) and math.isfinite(upper):
         tolerance *= 10.0
         lower, upper, span, w, index = kernels.tightest(world.packed, spans, tolerance)
-    for tolerance in (0.01 * TOLERANCE, 0.5 * SPARE):
+    for tolerance in (0.01 * TOLERANCE, 0.1 * SPARE):
         if lower >= required - SPARE or upper < required - SPARE:
             break
         finer, upper, span, w, index = kernels.tightest(world.packed, spans, tolerance)

@@ -49,8 +49,11 @@ class Fitted:
 
 
 def too_close(world: World, spans: Floats, required: float) -> NDArray[np.int64]:
-    """What each span comes nearer to than ``required``: indices as in ``World.nearest``, or -1."""
-    found: NDArray[np.int64] = conflicts(world.packed, spans, required - SPARE)[0]
+    """What each span comes nearer to than ``required``: indices as in ``World.nearest``, or -1.
+
+    A little stricter than the certificate, which is never quite at the true distance.
+    """
+    found: NDArray[np.int64] = conflicts(world.packed, spans, required - 0.8 * SPARE)[0]
     return found
 
 
