@@ -23,6 +23,10 @@ from viaspline.detour.detoured import Detoured
 Oracle = Callable[..., Any]
 Floats = NDArray[np.float64]
 seeds = st.integers(0, 1_000_000)
+FENCES = [
+    [(-5, -5), (105, -5), (105, 45), (55, 50), (50, 105), (-5, 105)],
+    [(-5, -5), (60, 20), (105, -5), (90, 50), (105, 105), (-5, 105)],
+]
 MODES = ("reflex", "planned", "from_rest")
 
 
@@ -52,7 +56,9 @@ def random_mission(seed: int, most: int = 30, *, sides: bool = True) -> vs.Missi
         shapes = [{k: v for k, v in s.items() if "pass" not in k} for s in shapes]
     radius, clearance = rng.uniform(0, 1, 2) * (rng.random(2) < 0.9)
     bounds = [-5.0, -5.0, 105.0, 105.0]
-    world = vs.World([vs.Obstacle(**shape) for shape in shapes], bounds=bounds)
+    fences = FENCES[: seed % 3]
+    known = [vs.Obstacle(**shape) for shape in shapes]
+    world = vs.World(known, bounds=bounds, fences=fences)
     places = rng.uniform(0, 100, (60, 3 if rng.random() < 0.2 else 2))
     free = places[world.distance(places) >= radius + clearance]
     count = int(rng.integers(2, 7))
@@ -74,7 +80,7 @@ def random_mission(seed: int, most: int = 30, *, sides: bool = True) -> vs.Missi
                 route[end]["heading_deg"] = float(rng.uniform(-180, 180))
     return vs.Mission.model_validate(
         {
-            "world": {"bounds": bounds, "known": shapes},
+            "world": {"bounds": bounds, "known": shapes, "fences": fences},
             "robot": {"radius_m": radius, "clearance_m": clearance},
             "route": route,
             "spline": {
@@ -199,6 +205,8 @@ def test_where_shapely_sees_a_corridor_there_is_a_path(seed: int) -> None:
     ]
     x0, y0, x1, y1 = mission.world.bounds or (0, 0, 0, 0)
     inner = shapely.box(x0 + required, y0 + required, x1 - required, y1 - required)
+    for fence in world.fences:
+        inner = inner.intersection(shapely.Polygon(fence).buffer(-required - 0.01, quad_segs=64))
     free = inner.difference(shapely.union_all(shapes).buffer(1e-3))
     parts = getattr(free, "geoms", [free])
     stops = [shapely.Point(via.at[:2]) for _, via in mission.route.points()]
