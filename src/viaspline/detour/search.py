@@ -51,12 +51,11 @@ def clear_course(
             hit = hit[hit != CLEAR]
             if not hit.size:
                 continue
-            if leg in passed:
+            if leg in passed:  # a neighbour that was led round has turned its tangents
                 tightened = tighten(course, leg, world, brief.required)
-                if tightened is None:
-                    raise explain_tight_leg(course, leg, world, brief)
-                course = tightened.course
-                continue
+                if tightened is not None:
+                    course = tightened.course
+                    continue
             result = pass_groups(course, leg, world, brief, hit[hit >= 0].tolist(), groups)
             course = result.fitted.course
             passed[leg] = result.entries
