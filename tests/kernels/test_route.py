@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.corners import CENTER_X, RADIUS, X, Y
 from viaspline.kernels.packed import PackedWorld
-from viaspline.kernels.route import route_crosses, shortest_route
+from viaspline.kernels.route import barrier_crossings, shortest_route
 from viaspline.kernels.taut import SIDE, TURN, bends_of, detour_points, taut_length
 from viaspline.mission.model import Obstacle
 from viaspline.world.pack import pack
@@ -65,8 +65,8 @@ def test_a_barrier_sends_a_route_to_the_other_side() -> None:
     barrier = np.array([[0.0, -1.0, 0.0, 900.0]])
     found = route(packed, (-20, 0), (20, 0), barrier)
     assert (found[1:-1, Y] < 0).all()
-    assert not route_crosses(found, barrier)
-    assert route_crosses(found, np.array([[0.0, -1.0, 0.0, -900.0]]))
+    assert barrier_crossings(found, barrier) == (0, -1)
+    assert barrier_crossings(found, np.array([[0.0, -1.0, 0.0, -900.0]]))[0] == 1
     assert bends_of(found)[1, SIDE] == 1.0
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.corners import X, Y
 from viaspline.kernels.distance import mark_near_segment
-from viaspline.kernels.route import route_crosses, shortest_route
+from viaspline.kernels.route import barrier_crossings, shortest_route
 from viaspline.kernels.taut import bends_of, detour_points, taut_length
 from viaspline.mission.model import Side
 from viaspline.world.world import World
@@ -57,9 +57,26 @@ class Way:
         points: Floats = detour_points(self.bends, step, excess, stretch, ease)
         return points
 
+    @classmethod
+    def through(cls, corners: Floats) -> Way:
+        """The way along given corners."""
+        bends = bends_of(corners)
+        return cls(corners, bends, float(taut_length(corners, bends)))
+
     def crosses(self, barrier: Floats) -> bool:
-        """Whether it crosses a barrier, shape (1, 4)."""
-        return bool(route_crosses(self.corners, barrier))
+        """Whether it crosses a barrier, shape (1, 4), an odd number of times."""
+        return barrier_crossings(self.corners, barrier)[0] % 2 == 1
+
+    def window(self, barrier: Floats, reach: int) -> tuple[int, int]:
+        """The corners ``reach`` before and after the place where it crosses a barrier first."""
+        crossing = barrier_crossings(self.corners, barrier)[1]
+        return max(0, crossing - reach), min(len(self.corners) - 1, crossing + 1 + reach)
+
+    def spliced(self, first: int, last: int, part: Way) -> Way:
+        """The same with ``part`` between two of its corners."""
+        inner = part.corners[1:-1]
+        rows = (self.corners[: first + 1], inner, self.corners[last:])
+        return Way.through(np.concatenate(rows))
 
 
 def find_way(
@@ -85,8 +102,7 @@ def find_way(
             world.packed, a, b, required + margin, floor, step, barriers, active
         )
         if len(corners):
-            bends = bends_of(corners)
-            return Way(corners, bends, float(taut_length(corners, bends)))
+            return Way.through(corners)
     return None
 
 

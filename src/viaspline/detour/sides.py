@@ -20,10 +20,13 @@ from viaspline.detour.fit import Fitted, fit
 from viaspline.detour.ledger import Candidate, LedgerEntry
 from viaspline.detour.measure import Measured, measure
 from viaspline.detour.route import NO_BARRIERS, Flags, Floats, Way, barrier, find_way, on_the_line
+from viaspline.kernels.corners import X, Y
 from viaspline.mission.model import Side
 from viaspline.world.world import World
 
 SIDES: tuple[Side, Side] = ("left", "right")
+FEW = 12  # groups on a leg up to which each other side is sought along the whole leg
+NEAR = 4  # corners before and after a group between which it is sought otherwise
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,7 @@ class Passed:
 class _Curve:
     """A spline that was fitted to a way, what it costs, and on which side it passes each group."""
 
+    way: Way
     fitted: Fitted
     measured: Measured
     sides: tuple[Side, ...]
@@ -92,7 +96,7 @@ class _Leg:
         if fitted is None:
             return None
         measured = measure(fitted.spans, self.world, self.brief)
-        return _Curve(fitted, measured, tuple(group.side_of(way) for group in self.met))
+        return _Curve(way, fitted, measured, tuple(group.side_of(way) for group in self.met))
 
 
 def pass_groups(
@@ -130,7 +134,7 @@ def pass_groups(
     curves = [best]
     reasons: list[str] = []
     for group, side in zip(met, best.sides, strict=True):
-        other, reason = _other_side(leg, group, _opposite(side), active)
+        other, reason = _other_side(leg, group, _opposite(side), best.way, active)
         curves += [other] if other else []
         reasons.append(reason)
     winner = min(curves, key=lambda curve: curve.measured.length)
@@ -157,14 +161,36 @@ def _shortest_allowed(
         barriers = needed
 
 
-def _other_side(leg: _Leg, group: Met, side: Side, active: Flags) -> tuple[_Curve | None, str]:
-    """The shortest curve on the given side of a group, or why there is none."""
+def _other_side(
+    leg: _Leg, group: Met, side: Side, best: Way, active: Flags
+) -> tuple[_Curve | None, str]:
+    """The shortest curve on the given side of a group, or why there is none.
+
+    On a leg with many groups the way changes only near the group: there are then as many other
+    sides as groups, and each would be a search of the whole leg.
+    """
     for i in group.members:
         forced = leg.world.obstacles[i].forced_side
         if forced is not None and forced != side:
             return None, f"the mission has {leg.world.name(i)!r} passed on the {forced}"
-    way, _ = _shortest_allowed(leg, active, group.barrier(_opposite(side)))
+    closed = group.barrier(_opposite(side))
+    if len(leg.met) <= FEW:
+        way, _ = _shortest_allowed(leg, active, closed)
+    else:
+        way = _nearby(leg, group, closed, best)
     return leg.curve(way), f"no way is wide enough on the {side}"
+
+
+def _nearby(leg: _Leg, group: Met, closed: Floats, best: Way) -> Way | None:
+    """The best way, led past the other side of one group between corners near to it."""
+    first, last = best.window(closed, NEAR)
+    start, goal = (best.corners[k, X : Y + 1] for k in (first, last))
+    required = leg.brief.required
+    active = on_the_line(leg.world, start, goal, required)
+    active[list(group.members)] = True  # a way can only turn at what is active
+    barriers = np.vstack((closed, _forced_barriers(leg, active)))
+    part = find_way(leg.world, start, goal, required, barriers, active)
+    return None if part is None else best.spliced(first, last, part)
 
 
 def _entry(

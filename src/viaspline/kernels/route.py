@@ -36,6 +36,14 @@ def _crosses_barrier(barriers: Floats, ax: float, ay: float, bx: float, by: floa
 
 
 @inner
+def _bring_forward(members: Floats, k: int) -> None:
+    """Move a member half way to the front: what blocked one segment blocks others near it."""
+    forward = k // 2
+    for column in range(members.shape[1]):
+        members[k, column], members[forward, column] = members[forward, column], members[k, column]
+
+
+@inner
 def is_clear(
     world: PackedWorld,
     members: Floats,
@@ -59,6 +67,7 @@ def is_clear(
         if members[k, 1] > x1 or members[k, 3] < x0 or members[k, 2] > y1 or members[k, 4] < y0:
             continue
         if obstacle_segment(world, int(members[k, 0]), ax, ay, bx, by, floor) < floor:
+            _bring_forward(members, k)
             return False
     return True
 
@@ -202,10 +211,13 @@ def shortest_route(
 
 
 @kernel
-def route_crosses(route: Floats, barriers: Floats) -> bool:
-    """Whether a route of corners crosses a barrier an odd number of times."""
-    odd = False
+def barrier_crossings(route: Floats, barrier: Floats) -> tuple[int, int]:
+    """How often a route of corners crosses a barrier, and after which corner it does so first."""
+    count = 0
+    first = -1
     for k in range(route.shape[0] - 1):
-        if _crosses_barrier(barriers, route[k, X], route[k, Y], route[k + 1, X], route[k + 1, Y]):
-            odd = not odd
-    return odd
+        if _crosses_barrier(barrier, route[k, X], route[k, Y], route[k + 1, X], route[k + 1, Y]):
+            count += 1
+            if first < 0:
+                first = k
+    return count, first
