@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,8 @@ SPARE = 1e-6  # what a proof may lack of the required distance [m]
 # coarse first, and finer for gaps that are hardly wider than the robot. Below nothing at last: a
 # via point may stand at just what is required, and a route turns only round what it is outside of.
 RESOLUTIONS = ((1e-3, np.pi / 6), (1e-4, np.pi / 32), (-0.25 * SPARE, np.pi / 200))
+MANY = 32  # obstacles in the way of a leg beyond which it is sought piece by piece
+NEAR = 5  # corners of either piece that are sought again where two pieces meet
 NO_BARRIERS = np.empty((0, 4))
 
 
@@ -95,6 +98,10 @@ def find_way(
     Returns:
         The way, or None where there is none.
     """
+    if not len(barriers) and np.count_nonzero(active) > MANY:
+        way = _piecewise(world, start, goal, required, active)
+        if way is not None:
+            return way
     floor = required - 0.5 * SPARE
     a, b = np.ascontiguousarray(start[:2]), np.ascontiguousarray(goal[:2])
     for margin, step in RESOLUTIONS:
@@ -104,6 +111,62 @@ def find_way(
         if len(corners):
             return Way.through(corners)
     return None
+
+
+def _piecewise(
+    world: World, start: Floats, goal: Floats, required: float, active: Flags
+) -> Way | None:
+    """A way along a leg with very many obstacles, sought piece by piece.
+
+    The straight line is cut at places on it that are free, each piece is led round what it meets,
+    and where two pieces meet the way is sought again between corners on both of them. It is a
+    little longer than the shortest way, where the search for that would take minutes.
+    """
+    pieces = int(np.ceil(np.count_nonzero(active) / (0.5 * MANY)))
+    places = [start[:2], *_gates(world, start, goal, required, pieces), goal[:2]]
+    ways = [_part(world, a, b, required, active) for a, b in pairwise(places)]
+    if len(ways) < 2:
+        return None
+    corners = None
+    for way in ways:
+        if way is None:
+            return None
+        if corners is None:
+            corners = way.corners
+            continue
+        joint = len(corners) - 1
+        corners = np.concatenate((corners, way.corners[1:]))
+        first, last = max(0, joint - NEAR), min(len(corners) - 1, joint + NEAR)
+        ends = corners[first, X : Y + 1], corners[last, X : Y + 1]
+        part = _part(world, *ends, required, active)
+        if part is None:
+            return None
+        inner = part.corners[1:-1]
+        corners = np.concatenate((corners[: first + 1], inner, corners[last:]))
+    return None if corners is None else Way.through(corners)
+
+
+def _part(world: World, start: Floats, goal: Floats, required: float, active: Flags) -> Way | None:
+    """The shortest way on a part of a leg; what it meets is added to ``active``."""
+    near = on_the_line(world, start, goal, required)
+    if np.count_nonzero(near) > MANY:
+        return None
+    way = find_way(world, start, goal, required, NO_BARRIERS, near)
+    active |= near
+    return way
+
+
+def _gates(world: World, start: Floats, goal: Floats, required: float, pieces: int) -> list[Floats]:
+    """Free places on a straight line, about equally far apart; fewer where there are none."""
+    share = np.linspace(0.0, 1.0, 40 * pieces + 1)[1:-1]
+    places = start[None, :2] + share[:, None] * (goal[:2] - start[:2])[None, :]
+    free = world.distance(places) > 2 * required
+    gates = []
+    for k in range(1, pieces):
+        near = np.flatnonzero(free[40 * k - 20 : 40 * k + 20])
+        if near.size:
+            gates.append(places[40 * k - 20 + near[np.argmin(np.abs(near - 20))]])
+    return gates
 
 
 def on_the_line(world: World, start: Floats, goal: Floats, width: float) -> Flags:
