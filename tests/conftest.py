@@ -10,7 +10,7 @@ import shapely
 from hypothesis import HealthCheck, settings
 from numpy.typing import NDArray
 
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 
 # With the JIT off the kernels are a thousand times slower: fewer examples.
 settings.register_profile(

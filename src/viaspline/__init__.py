@@ -34,7 +34,8 @@ if TYPE_CHECKING:
         ViasplineError,
     )
     from viaspline.formats.load import load
-    from viaspline.mission.model import Mission, Obstacle
+    from viaspline.mission.model import Mission
+    from viaspline.mission.parts import Obstacle
     from viaspline.planner import Plan, plan
     from viaspline.robot.navigator import Navigator
     from viaspline.robot.run import Run
@@ -56,7 +57,7 @@ _HOMES = {
     "MissionWarning": "errors",
     "Navigator": "robot.navigator",
     "NoPathError": "errors",
-    "Obstacle": "mission.model",
+    "Obstacle": "mission.parts",
     "OutputError": "errors",
     "Path": "curve.path",
     "PiecewiseCubic": "curve.piecewise",

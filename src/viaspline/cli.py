@@ -235,9 +235,17 @@ def _default(mission: Path) -> Path:
 
 
 def _load(path: Path) -> Mission:
+    from threading import Timer
+
     from viaspline.formats.load import load
 
-    return load(path)
+    patience = Timer(1.0, tell, [f"reading {path} …"], {"prefix": ""})
+    patience.daemon = True
+    patience.start()
+    try:
+        return load(path)
+    finally:
+        patience.cancel()
 
 
 @contextmanager

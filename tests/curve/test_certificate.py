@@ -12,7 +12,7 @@ from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.certificate import SPARE, TOLERANCE, certify
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 from viaspline.world.world import World
 
 Oracle = Callable[..., Any]

@@ -12,7 +12,7 @@ from scipy import ndimage
 
 from viaspline.detour.route import NO_BARRIERS, Way, barrier, find_way
 from viaspline.kernels.corners import X, Y
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 from viaspline.world.world import World
 
 Oracle = Callable[..., Any]

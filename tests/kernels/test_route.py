@@ -12,7 +12,7 @@ from viaspline.kernels.corners import CENTER_X, RADIUS, X, Y
 from viaspline.kernels.packed import PackedWorld
 from viaspline.kernels.route import barrier_crossings, shortest_route
 from viaspline.kernels.taut import SIDE, TURN, bends_of, detour_points, taut_length
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 from viaspline.world.pack import pack
 
 Floats = NDArray[np.float64]

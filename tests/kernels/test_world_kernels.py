@@ -20,7 +20,7 @@ from viaspline.kernels.index import box_tree, hilbert_keys, ring_boxes
 from viaspline.kernels.measure import length_and_curvature
 from viaspline.kernels.packed import PackedWorld
 from viaspline.kernels.polygons import BLOCK, pack_polygons
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 from viaspline.world.pack import join, pack
 
 SQUARE = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]

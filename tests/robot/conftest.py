@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 import shapely
 
-from viaspline.mission.model import Mission, Obstacle
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import Obstacle
 
 Make = Callable[..., Mission]
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from viaspline.errors import GeometryError
-from viaspline.mission.model import Circle, Mission, Obstacle
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import Circle, Obstacle
 from viaspline.robot import simulator
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Run

@@ -12,7 +12,8 @@ import pytest
 from viaspline.detour import replan
 from viaspline.detour.detoured import Detoured
 from viaspline.errors import NoPathError
-from viaspline.mission.model import Circle, Mission, Obstacle
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import Circle, Obstacle
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.state import RobotState
 

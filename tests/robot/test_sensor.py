@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
-from viaspline.mission.model import Circle, Obstacle
+from viaspline.mission.parts import Circle, Obstacle
 from viaspline.robot.sensor import RangeSensor
 
 coordinates = st.floats(-50, 50)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.mission.model import RobotSpec, Sensor
+from viaspline.mission.parts import RobotSpec, Sensor
 from viaspline.trajectory.limits import Limits, Station, stopping_speed
 from viaspline.trajectory.retime import braking, retime
 
@@ -165,7 +165,9 @@ def test_no_limit_is_exceeded_anywhere(seed: int) -> None:
     speed = law.speed_at(path.distance(u))
     assert np.all(speed <= 3.0 + 1e-9)
     assert np.all(speed**2 * np.abs(path.curvature(u)) <= 0.5 * (1 + 1e-6))
-    assert np.all(np.abs(law.accelerations) <= 0.8 * (1 + 1e-6) + 1e-9)
+    steps = np.maximum(np.diff(law.distances), 1e-300)
+    rounding = 4 * np.spacing(law.distances[1:]) / steps  # near a cusp steps are nanometres
+    assert np.all(np.abs(law.accelerations) <= 0.8 * (1 + 1e-6 + rounding))
     assert law.speed_at([0.0, 0.4 * path.length, path.length]).tolist() == [0, 0, 0]
 
 

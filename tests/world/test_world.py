@@ -12,7 +12,8 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from viaspline.errors import GeometryError
-from viaspline.mission.model import Circle, Mission, Obstacle
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import Circle, Obstacle
 from viaspline.world.world import World
 
 Oracle = Callable[..., Any]

@@ -69,7 +69,7 @@ def certify(
 
     Example:
         >>> from viaspline.curve.cardinal import CardinalSpline
-        >>> from viaspline.mission.model import Obstacle
+        >>> from viaspline.mission.parts import Obstacle
         >>> world = World([Obstacle(circle={"center": (5, 3), "radius": 1})])
         >>> certificate = certify(CardinalSpline([(0, 0), (5, 0), (10, 0)]), world, 1.0, radius=0.5)
         >>> round(certificate.clearance, 3), certificate.tightest_at, certificate.holds

@@ -1,4 +1,4 @@
-"""A path: the exact curve that is drawn, checked, exported and driven, and where its via points lie."""
+"""A path: the curve that is drawn, checked, exported and driven, and where its via points lie."""
 
 from __future__ import annotations
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from viaspline.mission.model import Mission, SplineSpec
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import SplineSpec
 
 LEAST = 1e-5  # what even a point without clearance keeps, so that touching is not crossing [m]
 

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.kernels.tangents import cardinal_spans
-from viaspline.mission.model import Mission, SplineSpec
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import SplineSpec
 
 Floats = NDArray[np.float64]
 ALPHA = {"uniform": 0.0, "centripetal": 0.5, "chordal": 1.0}

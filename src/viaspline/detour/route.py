@@ -12,7 +12,7 @@ from viaspline.kernels.corners import X, Y
 from viaspline.kernels.distance import mark_near_segment
 from viaspline.kernels.route import barrier_crossings, shortest_route
 from viaspline.kernels.taut import bends_of, detour_points, taut_length
-from viaspline.mission.model import Side
+from viaspline.mission.parts import Side
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]

@@ -21,7 +21,7 @@ from viaspline.detour.ledger import Candidate, LedgerEntry
 from viaspline.detour.measure import Measured, measure
 from viaspline.detour.route import NO_BARRIERS, Flags, Floats, Way, barrier, find_way, on_the_line
 from viaspline.kernels.corners import X, Y
-from viaspline.mission.model import Side
+from viaspline.mission.parts import Side
 from viaspline.world.world import World
 
 SIDES: tuple[Side, Side] = ("left", "right")

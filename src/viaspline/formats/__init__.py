@@ -1,1 +1,1 @@
-"""formats."""
+"""Other people's mission files: QGroundControl plans and QGC WPL texts."""

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from viaspline.mission.draft import Draft
 from viaspline.mission.flaws import Flaw, Path, number, spell
-from viaspline.mission.model import Obstacle, SplineSpec, ViaPoint
+from viaspline.mission.parts import SplineSpec, ViaPoint
 
 SAME_PLACE = 1e-6
 """Points nearer to each other than this are one point [m]."""
@@ -200,8 +200,3 @@ def _tensions(draft: Draft, key: str, values: float | tuple[float, ...]) -> list
             problem = f"{number(value, 6)} is less than 0, which is already the polyline"
             flaws.append(Flaw(where, problem, "it should be 0 or more; 0.5 is Catmull-Rom"))
     return flaws
-
-
-def obstacle_label(path: Path, obstacle: Obstacle) -> str:
-    """What an obstacle is called in a message."""
-    return f"obstacle '{obstacle.name}'" if obstacle.name else f"obstacle {spell(path)}"

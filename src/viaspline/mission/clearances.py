@@ -6,11 +6,10 @@ import math
 from collections.abc import Collection
 from typing import NamedTuple
 
-from viaspline.mission.checks import obstacle_label
-from viaspline.mission.draft import Corners, Draft
+from viaspline.mission.draft import Corners, Draft, obstacle_label
 from viaspline.mission.flaws import Flaw, Path, number, spell
 from viaspline.mission.freespace import FreeSpace
-from viaspline.mission.model import Obstacle, RobotSpec, ViaPoint
+from viaspline.mission.parts import Obstacle, RobotSpec, ViaPoint
 
 TOLERANCE = 1e-9
 """A point may be this much too near [m]: round-off, not a fault."""

@@ -179,6 +179,10 @@ def read_document(path: str | FilePath) -> Document:
     return document
 
 
+LARGEST = 40_000_000
+"""Largest mission file [bytes]: half a million obstacles, minutes of reading."""
+
+
 def read_text(path: str | FilePath) -> str:
     """The text of a file in UTF-8, with or without a byte order mark.
 
@@ -188,6 +192,11 @@ def read_text(path: str | FilePath) -> str:
     source = str(path)
     remedy = "give the path of a mission file that can be read"
     try:
+        size = FilePath(path).stat().st_size
+        if size > LARGEST:
+            problem = f"has {size / 1e6:.0f} MB, more than the {LARGEST / 1e6:.0f} MB that are read"
+            remedy = "build so large a mission in Python: vs.Mission.model_validate({...})"
+            raise _fault(source, None, problem, remedy)
         data = FilePath(path).read_bytes()
     except FileNotFoundError:
         raise _fault(source, None, "there is no such file", remedy) from None

@@ -12,10 +12,10 @@ from typing import Any, TypeAlias
 
 from pydantic import TypeAdapter, ValidationError
 
-from viaspline.mission.flaws import Path, children
-from viaspline.mission.model import (
+from viaspline.mission.flaws import Path, children, spell
+from viaspline.mission.parts import (
     EndPoint,
-    Mission,
+    MissionParts,
     Obstacle,
     Ring,
     RobotSpec,
@@ -57,7 +57,7 @@ class Draft:
     spline: SplineSpec | None = None
 
     @classmethod
-    def of(cls, mission: Mission) -> Draft:
+    def of(cls, mission: MissionParts) -> Draft:
         """A whole mission as a draft."""
         world, route = mission.world, mission.route
         points: list[tuple[Path, ViaPoint | None]] = [(("route", "start"), route.start)]
@@ -147,3 +147,8 @@ def _all(adapter: TypeAdapter[Any], world: Any, key: str) -> list[Any]:
     items: Iterable[tuple[int, Any]] = parts(world.get(key))
     tried = ((("world", key, i), _validated(adapter, item)) for i, item in items)
     return [(path, value) for path, value in tried if value is not None]
+
+
+def obstacle_label(path: Path, obstacle: Obstacle) -> str:
+    """What an obstacle is called in a message."""
+    return f"obstacle '{obstacle.name}'" if obstacle.name else f"obstacle {spell(path)}"

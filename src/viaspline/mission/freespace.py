@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from viaspline.mission.draft import Corners
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 from viaspline.mission.shapes import Geometries, polygons_of
 
 Floats: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]

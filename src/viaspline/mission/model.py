@@ -1,232 +1,19 @@
-"""What the user asks for: frozen, validated types in the words of the mission file.
+"""What the user asks for.
 
-``Mission.model_validate(data)`` takes exactly what the YAML holds. Lengths are metres, angles in
-files are degrees (the key says so), the frame is ENU: x east, y north, headings anticlockwise
-from x.
+``Mission.model_validate(data)`` takes exactly what the YAML holds.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Annotated, Any, Final, Literal
+from typing import Any
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Field,
-    ModelWrapValidatorHandler,
-    ValidationInfo,
-    model_validator,
-)
+from pydantic import ModelWrapValidatorHandler, ValidationInfo, model_validator
 
-FAR: Final = 1e9
-"""The farthest coordinate and the greatest length [m]; beyond it a double loses the micrometre."""
-
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Coordinate = Annotated[Number, Field(ge=-FAR, le=FAR)]
-Positive = Annotated[Number, Field(gt=0)]
-NotNegative = Annotated[Number, Field(ge=0)]
-Name = Annotated[str, Field(strict=True, min_length=1)]
-Side = Literal["left", "right"]
+from viaspline.mission.parts import MissionParts
+from viaspline.mission.soundness import sound_mission
 
 
-def _plain(value: Any) -> Any:
-    """Arrays as lists; duck-typed, so that a mission can be read without loading numpy."""
-    return value.tolist() if hasattr(value, "tolist") else value
-
-
-def _open(ring: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
-    """Drop a last point that repeats the first, as other formats write rings."""
-    return ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring
-
-
-Point2 = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_plain)]
-Point = Annotated[
-    tuple[Coordinate, ...], Field(min_length=2, max_length=3), BeforeValidator(_plain)
-]
-Ring = Annotated[
-    tuple[Point2, ...], Field(min_length=3), BeforeValidator(_plain), AfterValidator(_open)
-]
-
-
-class Value(BaseModel):
-    """A frozen value that refuses keys it does not know."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class Circle(Value):
-    """A disc.
-
-    Attributes:
-        center: Its middle, ``[x, y]`` [m].
-        radius: Its radius [m].
-    """
-
-    center: Point2
-    radius: Annotated[Positive, Field(le=FAR)]
-
-
-class Obstacle(Value):
-    """Something to keep clear of: a circle, or a polygon that may have holes.
-
-    Attributes:
-        circle: The disc, if it is one.
-        polygon: The outer ring ``[[x, y], ...]`` [m], in either direction. A last point that
-            repeats the first is dropped.
-        holes: Free areas inside the polygon, each a ring of its own.
-        name: What it is called in reports and errors.
-        pass_on: Go past it on this side only, as seen by the robot along the leg: ``left`` leaves
-            the obstacle on the robot's right. It counts wherever the obstacle is in the way.
-        never_pass_on: The side that is forbidden; forbidding one is forcing the other.
-    """
-
-    circle: Circle | None = None
-    polygon: Ring | None = None
-    holes: tuple[Ring, ...] = ()
-    name: Name | None = None
-    pass_on: Side | None = None
-    never_pass_on: Side | None = None
-
-    @property
-    def forced_side(self) -> Side | None:
-        """The only side on which it may be passed, from either key."""
-        if self.pass_on is not None:
-            return self.pass_on
-        if self.never_pass_on is not None:
-            return "right" if self.never_pass_on == "left" else "left"
-        return None
-
-
-class WorldSpec(Value):
-    """The known map, and what is there but not on the map.
-
-    Attributes:
-        bounds: ``x_min, y_min, x_max, y_max`` [m]; the robot stays inside. None: no bounds.
-        fences: Polygons that the robot stays inside of, every one (inclusion fences).
-        known: Obstacles on the map.
-        unseen: Obstacles that only the sensor finds.
-    """
-
-    bounds: (
-        Annotated[tuple[Coordinate, Coordinate, Coordinate, Coordinate], BeforeValidator(_plain)]
-        | None
-    ) = None
-    fences: tuple[Ring, ...] = ()
-    known: tuple[Obstacle, ...] = ()
-    unseen: tuple[Obstacle, ...] = ()
-
-
-class Sensor(Value):
-    """A range sensor.
-
-    Attributes:
-        range_m: It sees every obstacle of which a part is within this distance [m].
-    """
-
-    range_m: Annotated[Positive, Field(le=FAR)]
-
-
-class RobotSpec(Value):
-    """A disc robot, its limits and its sensor.
-
-    Attributes:
-        radius_m: The radius of the body [m]; 0 is a point.
-        clearance_m: Free space kept between the body and every obstacle [m].
-        max_speed_mps: The greatest speed [m/s].
-        max_accel_mps2: The greatest acceleration and braking along the path [m/s²].
-        max_lateral_accel_mps2: The greatest acceleration across the path, v² times curvature
-            [m/s²]. None: no limit.
-        sensor: What finds the obstacles that are not on the map.
-    """
-
-    radius_m: Annotated[NotNegative, Field(le=FAR)] = 0.5
-    clearance_m: Annotated[NotNegative, Field(le=FAR)] = 0.5
-    max_speed_mps: Positive = 2.0
-    max_accel_mps2: Positive = 1.0
-    max_lateral_accel_mps2: Positive | None = None
-    sensor: Sensor | None = None
-
-
-def _as_mapping(value: Any) -> Any:
-    """The short form ``[x, y]`` of ``{at: [x, y]}``."""
-    value = _plain(value)
-    return {"at": value} if isinstance(value, list | tuple) else value
-
-
-class ViaPoint(Value):
-    """A place that the path runs through, exactly; a station if it has a dwell.
-
-    Attributes:
-        at: The place, ``[x, y]`` or ``[x, y, z]`` [m].
-        name: What it is called in reports and errors.
-        dwell_s: How long the robot stands there [s].
-    """
-
-    at: Point
-    name: Name | None = None
-    dwell_s: NotNegative = 0.0
-
-
-class EndPoint(ViaPoint):
-    """The start or the goal.
-
-    Attributes:
-        heading_deg: The heading of the path there [deg, anticlockwise from x]. None: free.
-    """
-
-    heading_deg: Number | None = None
-
-
-Via = Annotated[ViaPoint, BeforeValidator(_as_mapping, json_schema_input_type=Point | ViaPoint)]
-End = Annotated[EndPoint, BeforeValidator(_as_mapping, json_schema_input_type=Point | EndPoint)]
-
-
-class Route(Value):
-    """Start, via points in order, goal.
-
-    Attributes:
-        start: Where the robot stands at first.
-        via: The places that the path runs through, in this order.
-        goal: Where it ends. None: at the last via point, or at the start if the route is closed.
-        closed: Whether the path comes back to its start; then there is no goal.
-    """
-
-    start: End
-    via: tuple[Via, ...] = ()
-    goal: End | None = None
-    closed: Annotated[bool, Field(strict=True)] = False
-
-    def points(self) -> Iterator[tuple[str, ViaPoint]]:
-        """Every point of the route in order, with its key in the mission file."""
-        yield "route.start", self.start
-        for i, via in enumerate(self.via):
-            yield f"route.via[{i}]", via
-        if self.goal is not None:
-            yield "route.goal", self.goal
-
-
-class SplineSpec(Value):
-    """The curve's shape.
-
-    Attributes:
-        tension: Eq. (7)'s t: 1 is the polyline, 0 Catmull-Rom, -1 loose. One number, or one for
-            each span between the points of the route.
-        slack: The same by its other name, s = (1 - t) / 2. Give one of the two.
-        knots: How far apart the points are in parameter: equally, by the root of their distance,
-            by their distance.
-        tangents: ``cardinal``, or ``continuous`` for continuous curvature (Nielson's nu-spline).
-    """
-
-    tension: Number | Annotated[tuple[Number, ...], BeforeValidator(_plain)] | None = None
-    slack: Number | Annotated[tuple[Number, ...], BeforeValidator(_plain)] | None = None
-    knots: Literal["uniform", "centripetal", "chordal"] = "chordal"
-    tangents: Literal["cardinal", "continuous"] = "cardinal"
-
-
-class Mission(Value):
+class Mission(MissionParts):
     """A world, a robot, a route and how smooth its curve is.
 
     Every way to make one raises `viaspline.errors.MissionError` with every fault at once.
@@ -242,17 +29,9 @@ class Mission(Value):
     (9.0, 0.0)
     """
 
-    world: WorldSpec = WorldSpec()
-    robot: RobotSpec = RobotSpec()
-    route: Route
-    spline: SplineSpec = SplineSpec()
-
     @model_validator(mode="wrap")
     @classmethod
     def _sound(
         cls, data: Any, handler: ModelWrapValidatorHandler[Mission], info: ValidationInfo
     ) -> Mission:
-        # Imported late: the checks need these types.
-        from viaspline.mission.soundness import sound_mission
-
         return sound_mission(data, handler, info.context)

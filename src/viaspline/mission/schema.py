@@ -6,10 +6,10 @@ import inspect
 import re
 from typing import Any, Final
 
-from viaspline.mission.model import (
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import (
     Circle,
     EndPoint,
-    Mission,
     Obstacle,
     RobotSpec,
     Route,

@@ -10,7 +10,7 @@ import numpy as np
 
 from viaspline.mission.draft import Corners, Draft
 from viaspline.mission.flaws import Flaw, Path, number
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 
 Geometries: TypeAlias = np.ndarray[Any, np.dtype[np.object_]]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from pydantic import ModelWrapValidatorHandler, ValidationError
 
@@ -10,8 +10,10 @@ from viaspline.errors import MissionError
 from viaspline.mission.checks import semantic_flaws
 from viaspline.mission.draft import Draft
 from viaspline.mission.flaws import Flaw, Origin, located
-from viaspline.mission.model import Mission
+from viaspline.mission.parts import MissionParts
 from viaspline.mission.structure import structural_flaws
+
+Sound = TypeVar("Sound", bound=MissionParts)
 
 
 class Context:
@@ -22,8 +24,8 @@ class Context:
 
 
 def sound_mission(
-    data: Any, handler: ModelWrapValidatorHandler[Mission], context: Any = None
-) -> Mission:
+    data: Any, handler: ModelWrapValidatorHandler[Sound], context: Any = None
+) -> Sound:
     """The mission that ``data`` describes.
 
     Args:
@@ -34,11 +36,11 @@ def sound_mission(
     Raises:
         MissionError: The data has faults; all of them.
     """
-    if isinstance(data, Mission):
-        return data
+    if isinstance(data, MissionParts):
+        return cast(Sound, data)
     origin = context.origin if isinstance(context, Context) else None
     flaws: list[Flaw] = list(origin.flaws) if origin is not None else []
-    mission: Mission | None = None
+    mission: Sound | None = None
     try:
         mission = _validated(data, handler)
         draft = Draft.of(mission)
@@ -51,7 +53,7 @@ def sound_mission(
     return mission
 
 
-def _validated(data: Any, handler: ModelWrapValidatorHandler[Mission]) -> Mission:
+def _validated(data: Any, handler: ModelWrapValidatorHandler[Sound]) -> Sound:
     """Validate; if that fails because of numpy's numbers, once more with Python's."""
     try:
         return handler(data)

@@ -8,10 +8,10 @@ from typing import Final
 from pydantic import BaseModel
 
 from viaspline.mission.flaws import Path
-from viaspline.mission.model import (
+from viaspline.mission.parts import (
     Circle,
     EndPoint,
-    Mission,
+    MissionParts,
     Obstacle,
     RobotSpec,
     Route,
@@ -83,7 +83,7 @@ _ITEMS: Final[dict[tuple[str, int], str]] = {
 """What the items of a list, and the items of those, expect."""
 
 _MODELS: Final[dict[str, type[BaseModel]]] = {
-    "": Mission,
+    "": MissionParts,
     "world": WorldSpec,
     "known": Obstacle,
     "unseen": Obstacle,

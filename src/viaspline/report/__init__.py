@@ -1,1 +1,1 @@
-"""report."""
+"""Files, tables and pictures of plans and runs."""

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 from viaspline.report.style import DPI, MUTED, SMALL, TEXT
 
 Floats = NDArray[np.float64]

@@ -14,7 +14,7 @@ from matplotlib.patches import PathPatch, Rectangle
 from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 from viaspline.report import style
 from viaspline.report.drawing import Floats, outline, shapes_of
 from viaspline.report.labels import Labels

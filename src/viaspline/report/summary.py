@@ -6,7 +6,8 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
-from viaspline.mission.model import Mission, Obstacle
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import Obstacle
 from viaspline.report.units import metres
 
 

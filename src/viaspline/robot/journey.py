@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from viaspline.curve.path import Path, PathVia
 from viaspline.detour.brief import Brief
-from viaspline.mission.model import Mission, Obstacle
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import Obstacle
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime

@@ -9,7 +9,8 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.mission.model import Mission, Obstacle
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan, plan
 from viaspline.robot.journey import Journey, time_law
 from viaspline.robot.progress import advance, happened

@@ -15,7 +15,7 @@ from viaspline.detour import replan
 from viaspline.detour.detoured import Detoured
 from viaspline.detour.fit import CLEAR, too_close
 from viaspline.errors import NoPathError
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 from viaspline.robot.journey import SLIP, Journey, time_law
 from viaspline.robot.run import Event, Mode, Replan
 from viaspline.trajectory.retime import braking

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 from viaspline.world.world import World
 
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from viaspline.curve.certificate import certify
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.mission.model import Mission, Obstacle
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Event, Run, Visit

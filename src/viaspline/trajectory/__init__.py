@@ -1,1 +1,1 @@
-"""trajectory."""
+"""The time law along a path."""

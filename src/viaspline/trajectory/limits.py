@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from viaspline.errors import GeometryError
-from viaspline.mission.model import RobotSpec
+from viaspline.mission.parts import RobotSpec
 
 REACTION = 0.1
 """Longest time between two looks of the sensor for which speeds are planned [s]."""

@@ -11,7 +11,7 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.index import box_tree, hilbert_keys, ring_boxes
 from viaspline.kernels.packed import Floats, Ints, PackedWorld
 from viaspline.kernels.polygons import pack_polygons
-from viaspline.mission.model import Obstacle
+from viaspline.mission.parts import Obstacle
 
 Rings = Sequence[Sequence[tuple[float, float]]]
 

@@ -12,7 +12,8 @@ from viaspline.errors import GeometryError
 from viaspline.kernels import distance as kernels
 from viaspline.kernels.groups import group_labels
 from viaspline.kernels.packed import PackedWorld
-from viaspline.mission.model import Mission, Obstacle
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import Obstacle
 from viaspline.world.pack import join, pack
 
 Bounds = tuple[float, float, float, float]
