@@ -9,17 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from viaspline.kernels.clearance import conflicts, tightest
-from viaspline.kernels.distance import (
-    distances,
-    mark_near_segment,
-    nearest_to_segment,
-    obstacle_distances,
-)
+from viaspline.kernels.distance import distances, obstacle_distances
 from viaspline.kernels.groups import group_labels
 from viaspline.kernels.index import box_tree, hilbert_keys, ring_boxes
 from viaspline.kernels.measure import length_and_curvature
 from viaspline.kernels.packed import PackedWorld
 from viaspline.kernels.polygons import BLOCK, pack_polygons
+from viaspline.kernels.segment import mark_near_segment, nearest_to_segment
 from viaspline.mission.parts import Obstacle
 from viaspline.world.pack import join, pack
 

@@ -9,7 +9,7 @@ from viaspline.detour.course import Course, RouteVia
 from viaspline.detour.route import NO_BARRIERS, SPARE, Floats, Way, find_way, on_the_line
 from viaspline.errors import NoPathError
 from viaspline.kernels.corners import X, Y
-from viaspline.kernels.distance import nearest_to_segment
+from viaspline.kernels.segment import nearest_to_segment
 from viaspline.world.world import World
 
 BISECTIONS = 30
@@ -77,12 +77,14 @@ def explain_blocked_leg(
         return _forced(start, goal, world)
     opened = _widest(start, goal, world, brief.required)
     if opened is None:
+        walls = _walls(start, goal, world)
         return NoPathError(
-            f"nothing leads from {start.name!r} to {goal.name!r}: obstacles close it in",
+            f"nothing leads from {start.name!r} to {goal.name!r}: {_listed(walls)} shuts it off",
             where=goal.at,
-            remedy=f"move {goal.name!r} to the side of {start.name!r}, or open the wall",
+            remedy=f"move {goal.name!r} to the side of {start.name!r}, or open a gap of "
+            f"{2 * brief.required:.3f} m",
             via=goal.name,
-            obstacles=_walls(start, goal, world),
+            obstacles=walls,
         )
     required, way = opened
     place, index, width = _narrowest(way, world)
@@ -176,3 +178,11 @@ def _walls(start: RouteVia, goal: RouteVia, world: World) -> tuple[str, ...]:
     """The obstacles that the straight line between two via points meets."""
     found = on_the_line(world, start.at, goal.at, SPARE)
     return tuple(world.name(int(i)) for i in np.flatnonzero(found))
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    """The first few names, and how many more there are."""
+    if not names:
+        return "what stands there"
+    shown = " and ".join(map(repr, names[:2]))
+    return shown if len(names) <= 2 else f"{shown} and {len(names) - 2} more"

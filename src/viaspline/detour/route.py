@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.corners import X, Y
-from viaspline.kernels.distance import mark_near_segment
 from viaspline.kernels.route import barrier_crossings, shortest_route
+from viaspline.kernels.segment import mark_near_segment
 from viaspline.kernels.taut import bends_of, detour_points, taut_length
 from viaspline.mission.parts import Side
 from viaspline.world.world import World

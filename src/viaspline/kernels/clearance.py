@@ -15,9 +15,10 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.distance import nearest, nearest_to_segment, point_segment
+from viaspline.kernels.distance import nearest, point_segment
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Floats, Ints, PackedWorld
+from viaspline.kernels.segment import nearest_to_segment
 
 DEPTH = 64
 MOST = 2_000_000  # pieces that a bound may take

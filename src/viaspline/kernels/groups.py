@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.distance import box_gap, obstacle_segment, polygon_signed
+from viaspline.kernels.distance import polygon_signed
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Ints, PackedWorld
+from viaspline.kernels.segment import box_gap, obstacle_segment
 
 
 @inner

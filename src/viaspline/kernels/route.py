@@ -12,9 +12,9 @@ import math
 import numpy as np
 
 from viaspline.kernels.corners import X, Y, fence_corners, obstacle_corners, supports
-from viaspline.kernels.distance import inner_segment, mark_near_segment, obstacle_segment
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Flags, Floats, Ints, PackedWorld
+from viaspline.kernels.segment import inner_segment, mark_near_segment, obstacle_segment
 
 
 @inner
