@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from viaspline.detour.course import Course, lay
 from viaspline.detour.detoured import Detoured
 from viaspline.detour.fit import CLEAR, tighten, too_close
 from viaspline.detour.ledger import LedgerEntry
+from viaspline.detour.measure import measure
 from viaspline.detour.route import Floats
 from viaspline.detour.sides import pass_groups
 from viaspline.kernels.groups import group_labels
@@ -41,8 +42,7 @@ def clear_course(
         spans = lay(course)
         close = too_close(world, spans, brief.required)
         if (close == CLEAR).all():
-            ledger = tuple(entry for leg in sorted(passed) for entry in passed[leg])
-            return course, spans, ledger
+            return course, spans, _ledger(course, spans, passed, world, brief)
         if groups is None:
             groups = group_labels(world.packed, 2 * brief.required)
         first = course.first_spans()
@@ -60,6 +60,36 @@ def clear_course(
             course = result.fitted.course
             passed[leg] = result.entries
     raise explain_tight_leg(course, leg, world, brief)
+
+
+def _ledger(
+    course: Course,
+    spans: Floats,
+    passed: dict[int, tuple[LedgerEntry, ...]],
+    world: World,
+    brief: Brief,
+) -> tuple[LedgerEntry, ...]:
+    """All entries, with the chosen curves as they lie in the end.
+
+    A leg that was led round after its neighbour has turned the tangents at the via point between
+    them; what was not chosen stays as it was weighed.
+    """
+    first = course.first_spans()
+    entries: list[LedgerEntry] = []
+    for leg in sorted(passed):
+        laid = spans[first[leg] : first[leg + 1]]
+        for entry in passed[leg]:
+            chosen = entry.chosen
+            if chosen is not None and not np.array_equal(chosen.spans, laid):
+                cost = measure(laid, world, brief)
+                now = replace(
+                    chosen, spans=laid, vias=course.legs[leg].points, **asdict(cost)
+                )  # the costs of a curve are fields of its candidate
+                entry = replace(
+                    entry, candidates=tuple(now if c.chosen else c for c in entry.candidates)
+                )
+            entries.append(entry)
+    return tuple(entries)
 
 
 def find_path(course: Course, world: World, brief: Brief) -> Detoured:

@@ -17,6 +17,7 @@ from viaspline.mission.parts import Obstacle
 from viaspline.world.pack import join, pack
 
 Bounds = tuple[float, float, float, float]
+NOTHING = -1  # the index of what is nearest in an empty world
 BOUNDS = -2  # what stands for the bounds where an index names what is nearest; fences follow
 
 
@@ -80,6 +81,8 @@ class World:
 
     def name(self, index: int) -> str:
         """What an index of ``nearest`` is called."""
+        if index == NOTHING:
+            return "nothing"
         if index <= BOUNDS:
             return "bounds" if index == BOUNDS else f"fence {BOUNDS - index}"
         return self.obstacles[index].name or f"obstacle {index + 1}"
