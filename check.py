@@ -32,8 +32,13 @@ def run(*command: str | Path) -> None:
 
 def set_up() -> None:
     """A virtual environment with the package, editable, and the developer's tools."""
-    if not (HOME / "pyvenv.cfg").exists():
-        venv.create(HOME, with_pip=True)
+    if not (BIN / "pip").exists() and not (BIN / "pip.exe").exists():
+        try:
+            venv.create(HOME, with_pip=True)
+        except subprocess.CalledProcessError:
+            sys.exit(
+                "this Python can't make virtual environments; on Debian: apt install python3-venv"
+            )
     python = BIN / ("python.exe" if os.name == "nt" else "python")
     run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-e", ".[dev]")
 
