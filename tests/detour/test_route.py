@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import ndimage
 
-from viaspline.detour.route import NO_BARRIERS, Way, barrier, find_way
+from viaspline.detour.barrier import barriers_of
+from viaspline.detour.route import NO_BARRIERS, Way, find_way
 from viaspline.kernels.corners import X, Y
 from viaspline.mission.parts import Obstacle
 from viaspline.world.world import World
@@ -258,9 +259,9 @@ def test_overlapping_obstacles_are_gone_round_as_one() -> None:
 def test_a_barrier_closes_one_side(obstacle: Obstacle, side: Any) -> None:
     world = World([obstacle])
     start, goal = np.array([0.0, 0.0]), np.array([100.0, 0.0])
-    closed = barrier(world, 0, side, start, goal)
+    closed = barriers_of(world, 0, start, goal).closing(side)
     found = find_way(world, start, goal, 1.0, closed, np.zeros(1, np.bool_))
-    other = barrier(world, 0, "right" if side == "left" else "left", start, goal)
+    other = barriers_of(world, 0, start, goal).closing("right" if side == "left" else "left")
     assert found is not None
     assert not found.crosses(closed)
     assert found.crosses(other)

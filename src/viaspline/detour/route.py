@@ -12,7 +12,6 @@ from viaspline.kernels.corners import X, Y
 from viaspline.kernels.route import barrier_crossings, shortest_route
 from viaspline.kernels.segment import mark_near_segment
 from viaspline.kernels.taut import bends_of, detour_points, taut_length
-from viaspline.mission.parts import Side
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
@@ -174,54 +173,3 @@ def on_the_line(world: World, start: Floats, goal: Floats, width: float) -> Flag
     found = np.zeros(len(world), np.bool_)
     mark_near_segment(world.packed, start[0], start[1], goal[0], goal[1], width, found)
     return found
-
-
-def barrier(world: World, index: int, side: Side, start: Floats, goal: Floats) -> Floats:
-    """A segment from an obstacle outwards that closes one side of it, seen from start to goal.
-
-    Shape (1, 4). It reaches beyond everything that there is.
-    """
-    along = goal[:2] - start[:2]
-    length = float(np.hypot(*along))
-    along = along / length if length > 0 else np.array([1.0, 0.0])
-    outward = np.array([-along[1], along[0]])
-    inside = _place_in(world, index, start[:2], goal[:2])
-    foot = float((inside - start[:2]) @ along)
-    if not 0.0 <= foot <= length:  # beyond an end of the leg: aslant, so that it still meets it
-        away = inside - start[:2] - np.clip(foot, 0.1 * length, 0.9 * length) * along
-        outward = away / np.hypot(*away) * (1.0 if away @ outward >= 0.0 else -1.0)
-    if side == "right":
-        outward = -outward
-    return np.array([[*inside, *(inside + _extent(world, start, goal) * outward)]])
-
-
-def _place_in(world: World, index: int, start: Floats, goal: Floats) -> Floats:
-    """A place in an obstacle: on the straight line if that goes through it, else near to it."""
-    circle = world.obstacles[index].circle
-    if circle is not None:
-        return np.array(circle.center)
-    ring = np.array(world.obstacles[index].polygon)
-    along = goal - start
-    offset = ring - start
-    across = along[0] * offset[:, 1] - along[1] * offset[:, 0]
-    ahead = offset @ along / max(float(along @ along), 1e-300)
-    following = np.roll(across, -1)
-    meets = (across > 0.0) != (following > 0.0)
-    w = across[meets] / (across - following)[meets]
-    crossings = np.sort(ahead[meets] + w * (np.roll(ahead, -1) - ahead)[meets])
-    crossings = crossings[(crossings > 0.0) & (crossings < 1.0)]
-    if len(crossings) > 1:
-        return np.asarray(start + crossings[:2].mean() * along)
-    gaps = offset - np.clip(ahead, 0.0, 1.0)[:, None] * along
-    return np.asarray(ring[np.argmin(np.sum(gaps * gaps, axis=1))])
-
-
-def _extent(world: World, start: Floats, goal: Floats) -> float:
-    """A length beyond everything [m]."""
-    corners = [start[:2], goal[:2]]
-    if len(world.packed.boxes):
-        corners += [world.packed.boxes[0, :2], world.packed.boxes[0, 2:]]
-    if world.bounds is not None:
-        corners += [np.array(world.bounds[:2]), np.array(world.bounds[2:])]
-    stack = np.array(corners)
-    return 4.0 * float(np.linalg.norm(stack.max(axis=0) - stack.min(axis=0))) + 1.0

@@ -13,13 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.detour.barrier import Barriers, barriers_of
 from viaspline.detour.blocked import explain_blocked_leg
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course
 from viaspline.detour.fit import Fitted, fit
 from viaspline.detour.ledger import Candidate, LedgerEntry
 from viaspline.detour.measure import Measured, measure
-from viaspline.detour.route import NO_BARRIERS, Flags, Floats, Way, barrier, find_way, on_the_line
+from viaspline.detour.route import NO_BARRIERS, Flags, Floats, Way, find_way, on_the_line
 from viaspline.kernels.corners import X, Y
 from viaspline.mission.parts import Side
 from viaspline.world.world import World
@@ -35,21 +36,15 @@ class Met:
 
     Attributes:
         members: Its obstacles.
-        left: A barrier that closes its left side, shape (1, 4).
-        right: A barrier that closes its right side, shape (1, 4).
+        barriers: Of the one that is in the way first.
     """
 
     members: tuple[int, ...]
-    left: Floats
-    right: Floats
-
-    def barrier(self, side: Side) -> Floats:
-        """What closes a side of it."""
-        return self.left if side == "left" else self.right
+    barriers: Barriers
 
     def side_of(self, way: Way) -> Side:
         """The side on which a way passes it."""
-        return "right" if way.crosses(self.right) else "left"
+        return "right" if way.crosses(self.barriers.right) else "left"
 
 
 @dataclass(frozen=True)
@@ -173,7 +168,7 @@ def _other_side(
         forced = leg.world.obstacles[i].forced_side
         if forced is not None and forced != side:
             return None, f"the mission has {leg.world.name(i)!r} passed on the {forced}"
-    closed = group.barrier(_opposite(side))
+    closed = group.barriers.closing(_opposite(side))
     if len(leg.met) <= FEW:
         way, _ = _shortest_allowed(leg, active, closed)
     else:
@@ -232,7 +227,7 @@ def _opposite(side: Side) -> Side:
 def _forced_barriers(leg: _Leg, active: Flags) -> Floats:
     """Barriers on the forbidden sides of those obstacles that may be passed on one side only."""
     rows = [
-        barrier(leg.world, int(i), _opposite(forced), *leg.ends)
+        barriers_of(leg.world, int(i), *leg.ends).closing(_opposite(forced))
         for i in np.flatnonzero(active)
         if (forced := leg.world.obstacles[i].forced_side) is not None
     ]
@@ -255,8 +250,7 @@ def _groups_met(
         if label not in met:
             met[label] = Met(
                 tuple(np.flatnonzero(groups == label).tolist()),
-                barrier(world, i, "left", start, goal),
-                barrier(world, i, "right", start, goal),
+                barriers_of(world, i, start, goal),
             )
     return tuple(met.values())
 
