@@ -33,9 +33,12 @@ def _fingerprint() -> str:
     return digest.hexdigest()[:16]
 
 
-def _is_writable(folder: Path) -> bool:
+def _is_ours(folder: Path) -> bool:
+    """Whether the folder can be written, and by nobody else: what lies in it will be executed."""
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if hasattr(os, "getuid") and folder.stat().st_uid != os.getuid():
+            return False
         with tempfile.TemporaryFile(dir=folder):
             return True
     except OSError:
@@ -60,7 +63,7 @@ def cache_folder() -> Path | None:
     """
     name = _fingerprint()
     for root in _candidates():
-        if _is_writable(root / name):
+        if _is_ours(root) and _is_ours(root / name):
             return root / name
     return None
 

@@ -73,10 +73,11 @@ def _heading(run: Run, name: str) -> tuple[str, tuple[str, str]]:
     title = (
         f"{style.short(name, 48)}: {end}, {metres(run.path.length, 1)} in {seconds(run.duration)}"
     )
-    why = "" if run.reached else f"{run.reason}; "
     new = {0: "no new path under way", 1: "1 new path under way"}
     paths = new.get(len(run.replans), f"{len(run.replans)} new paths under way")
-    line = f"{why}{proof(run.certificate)}; {paths}"
+    line = f"{proof(run.certificate)}; {paths}"
+    if not run.reached:  # why is more to the point than the spline's tension
+        return title, (run.reason or "", line)
     return title, (line, subtitle(run.plan.mission))
 
 
