@@ -44,12 +44,16 @@ def second_compiler() -> Iterator[None]:
     if CACHE_FOLDER is None or (CACHE_FOLDER / MARK).exists() or cores < 2:
         yield
         return
-    process = subprocess.Popen(
-        [sys.executable, "-m", "viaspline.warm"],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
+    try:
+        process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "viaspline.warm"],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+    except OSError:  # no interpreter of its own, as in a frozen program: the run compiles all
+        yield
+        return
     try:
         yield
     finally:

@@ -1,0 +1,49 @@
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from viaspline import warm
+
+
+def test_compiling_the_curves_leaves_a_mark(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(warm, "CACHE_FOLDER", tmp_path)
+    warm.compile_curves()
+    assert (tmp_path / warm.MARK).exists()
+
+
+def test_the_second_process_is_started_once_and_ends_with_the_block(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[subprocess.Popen[bytes]] = []
+    real = subprocess.Popen
+
+    def recorded(*args: Any, **kwargs: Any) -> subprocess.Popen[bytes]:
+        started.append(real(*args, **kwargs))
+        return started[-1]
+
+    monkeypatch.setattr(warm, "CACHE_FOLDER", tmp_path)
+    monkeypatch.setattr(warm.os, "cpu_count", lambda: 2)
+    monkeypatch.setattr(warm.subprocess, "Popen", recorded)
+    with warm.second_compiler():
+        assert len(started) == 1
+    assert started[0].returncode is not None
+    (tmp_path / warm.MARK).touch()
+    with warm.second_compiler():
+        assert len(started) == 1
+
+
+def test_without_an_interpreter_the_run_goes_on_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuses(*args: Any, **kwargs: Any) -> None:
+        raise FileNotFoundError("no interpreter")
+
+    monkeypatch.setattr(warm, "CACHE_FOLDER", tmp_path)
+    monkeypatch.setattr(warm.os, "cpu_count", lambda: 2)
+    monkeypatch.setattr(warm.subprocess, "Popen", refuses)
+    with warm.second_compiler():
+        pass
