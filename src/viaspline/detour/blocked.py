@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from viaspline.curve.certificate import SPARE
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, RouteVia
-from viaspline.detour.route import NO_BARRIERS, SPARE, Floats, Way, find_way, on_the_line
+from viaspline.detour.route import NO_BARRIERS, Floats, Way, find_way, on_the_line
 from viaspline.errors import NoPathError
 from viaspline.kernels.corners import X, Y
 from viaspline.kernels.segment import nearest_to_segment

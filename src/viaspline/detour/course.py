@@ -8,14 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.curve.tangents import ALPHA, RULES
 from viaspline.errors import GeometryError
-from viaspline.kernels.tangents import cardinal_spans
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import SplineSpec
 
 Floats = NDArray[np.float64]
-ALPHA = {"uniform": 0.0, "centripetal": 0.5, "chordal": 1.0}
-NO_POINTS = 0
 
 
 @dataclass(frozen=True)
@@ -50,7 +48,7 @@ class Leg:
     @classmethod
     def straight(cls, slack: float, dimension: int) -> Leg:
         """A leg without detours."""
-        return cls(np.empty((NO_POINTS, dimension)), np.array([slack]))
+        return cls(np.empty((0, dimension)), np.array([slack]))
 
 
 @dataclass(frozen=True)
@@ -103,21 +101,12 @@ def lay(course: Course) -> Floats:
 def spline_spans(points: Floats, slack: Floats, course: Course) -> Floats:
     """Spans through points with the course's knots, tangents and end directions."""
     start, end = course.start_tangent, course.end_tangent
-    if course.spline.tangents == "continuous":
-        from viaspline.curve.cardinal import CardinalSpline
-
-        curve = CardinalSpline(
-            points, slack=slack, knots=course.spline.knots, closed=course.closed,
-            start_heading=start, end_heading=end, tangents="continuous",
-        )  # fmt: skip
-        return np.asarray(curve.spans)
     none = np.zeros(points.shape[1])
-    spans: Floats = cardinal_spans(
+    return RULES[course.spline.tangents](
         points, ALPHA[course.spline.knots], slack,
         none if start is None else start, none if end is None else end,
         start is not None, end is not None, course.closed,
     )  # fmt: skip
-    return spans
 
 
 def course_of(mission: Mission) -> Course:

@@ -14,8 +14,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.curve.certificate import SPARE
 from viaspline.detour.course import Course, Leg, lay
-from viaspline.detour.route import SPARE, Way
+from viaspline.detour.route import Way
 from viaspline.kernels.clearance import conflicts
 from viaspline.world.world import World
 
@@ -53,7 +54,8 @@ def too_close(world: World, spans: Floats, required: float) -> NDArray[np.int64]
 
     A little stricter than the certificate, which is never quite at the true distance.
     """
-    found: NDArray[np.int64] = conflicts(world.packed, spans, required - 0.8 * SPARE)[0]
+    writable = spans if spans.flags.writeable else spans.copy()  # numba compiles for one kind
+    found: NDArray[np.int64] = conflicts(world.packed, writable, required - 0.8 * SPARE)[0]
     return found
 
 

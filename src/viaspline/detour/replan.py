@@ -215,7 +215,7 @@ def _refuse_blocked(piece: RunOut, world: World, brief: Brief) -> None:
 def _blocked_spans(path: Path, u: float, world: World, brief: Brief) -> NDArray[np.intp]:
     """Indices of the path's spans from u on that come too close."""
     first = min(int(u), len(path.spans) - 1)
-    close = too_close(world, np.array(_ahead(path, u).spans), brief.required)
+    close = too_close(world, _ahead(path, u).spans, brief.required)
     return first + np.flatnonzero(close != CLEAR)
 
 

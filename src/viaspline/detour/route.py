@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.curve.certificate import SPARE
 from viaspline.kernels.corners import X, Y
 from viaspline.kernels.route import barrier_crossings, shortest_route
 from viaspline.kernels.segment import mark_near_segment
@@ -17,7 +18,6 @@ from viaspline.world.world import World
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-SPARE = 1e-6  # what a proof may lack of the required distance [m]
 # How far off an obstacle a route turns beyond what is required, and how finely it wraps arcs:
 # coarse first, and finer for gaps that are hardly wider than the robot. Below nothing at last: a
 # via point may stand at just what is required, and a route turns only round what it is outside of.

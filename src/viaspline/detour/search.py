@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,18 +79,20 @@ def _ledger(
     entries: list[LedgerEntry] = []
     for leg in sorted(passed):
         laid = spans[first[leg] : first[leg + 1]]
-        for entry in passed[leg]:
-            chosen = entry.chosen
-            if chosen is not None and not np.array_equal(chosen.spans, laid):
-                cost = measure(laid, world, brief)
-                now = replace(
-                    chosen, spans=laid, vias=course.legs[leg].points, **asdict(cost)
-                )  # the costs of a curve are fields of its candidate
-                entry = replace(
-                    entry, candidates=tuple(now if c.chosen else c for c in entry.candidates)
-                )
-            entries.append(entry)
+        chosen = passed[leg][0].chosen if passed[leg] else None  # all entries of a leg share it
+        if chosen is None or np.array_equal(chosen.spans, laid):
+            entries += passed[leg]
+            continue
+        cost = asdict(measure(laid, world, brief))  # fields of a candidate as well
+        points = course.legs[leg].points
+        entries += [_as_laid(entry, spans=laid, vias=points, **cost) for entry in passed[leg]]
     return tuple(entries)
+
+
+def _as_laid(entry: LedgerEntry, **curve: Any) -> LedgerEntry:
+    """The entry with other values for the curve that was chosen."""
+    candidates = (replace(c, **curve) if c.chosen else c for c in entry.candidates)
+    return replace(entry, candidates=tuple(candidates))
 
 
 def find_path(course: Course, world: World, brief: Brief) -> Detoured:

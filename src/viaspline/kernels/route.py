@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.corners import X, Y, fence_corners, obstacle_corners, supports
+from viaspline.kernels.corners import COLUMNS, X, Y, fence_corners, obstacle_corners, supports
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Flags, Floats, Ints, PackedWorld
 from viaspline.kernels.segment import inner_segment, mark_near_segment, obstacle_segment
@@ -98,7 +98,7 @@ def _corners(
     """Start, goal, then the corners of all fences and members, (n, 8)."""
     room = 64
     while True:
-        corners = np.zeros((room, 8))
+        corners = np.zeros((room, COLUMNS))
         corners[0, X] = start[0]
         corners[0, Y] = start[1]
         corners[1, X] = goal[0]

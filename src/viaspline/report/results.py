@@ -14,8 +14,6 @@ from viaspline.report.run_picture import run_picture
 from viaspline.report.tables import path_csv, run_csv, spacing
 from viaspline.robot.run import Run
 
-PLAN_FILES = ("plan.json", "path.csv", "plan.png")
-RUN_FILES = ("run.json", "run.csv", "run.png")
 TIMING = "timing.json"
 
 Contents = dict[str, bytes | str]

@@ -32,7 +32,6 @@ TEXT = 9.0
 SMALL = 7.5
 
 PATH_WIDTH = 2.0
-THIN = 0.8
 
 
 def short(name: str, length: int = 28) -> str:
