@@ -13,14 +13,15 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Columns = NDArray[np.int16]
 Flags = NDArray[np.bool_]
 
 
 class PackedWorld(NamedTuple):
     """A static planar world.
 
-    Obstacle ``i`` is a circle or a polygon: ``kind[i]`` is 0 or 1 and ``slot[i]`` its place among
-    its like. The robot stays inside the bounds and inside every fence.
+    Obstacle ``i`` is a circle, a polygon or a grid: ``kind[i]`` is 0, 1 or 2 and ``slot[i]`` its
+    place among its like. The robot stays inside the bounds and inside every fence.
 
     Attributes:
         kind: (n,).
@@ -30,6 +31,14 @@ class PackedWorld(NamedTuple):
         block_edges: Edges of block b are ``block_edges[b]:block_edges[b + 1]``, (b + 1,).
         block_boxes: x_min, y_min, x_max, y_max [m], (b, 4).
         edges: x0, y0, x1, y1 [m]; outer rings run anticlockwise, holes clockwise, (e, 4).
+        grid_frames: Of each grid x, y of its origin [m], cosine and sine of its yaw, side of a cell
+            [m], (g, 5).
+        grid_shapes: Of each grid its width and height in cells, and where its first cell stands in
+            the two tables, (g, 3).
+        to_right: Row by row, from each cell the columns to the next blocked cell to the right
+            (32767: there is none); of a blocked cell, 0 less the columns to the next free one
+            (-32768: there is none). (cells of all grids,) of int16.
+        to_left: The same to the left.
         bounds: x_min, y_min, x_max, y_max [m], (1, 4), or (0, 4) where there are none.
         fence_edges: Edges of fence f are ``fence_edges[f]:fence_edges[f + 1]`` of ``fences``.
         fences: x0, y0, x1, y1 [m]; the rings run clockwise: as everywhere, free space lies to the
@@ -46,6 +55,10 @@ class PackedWorld(NamedTuple):
     block_edges: Ints
     block_boxes: Floats
     edges: Floats
+    grid_frames: Floats
+    grid_shapes: Ints
+    to_right: Columns
+    to_left: Columns
     bounds: Floats
     fence_edges: Ints
     fences: Floats

@@ -15,7 +15,10 @@ from pydantic import (
     BeforeValidator,
     ConfigDict,
     Field,
+    InstanceOf,
 )
+
+from viaspline.maps.grid import Grid
 
 FAR: Final = 1e9
 """The farthest coordinate and the greatest length [m]; beyond it a double loses the micrometre."""
@@ -66,13 +69,14 @@ class Circle(Value):
 
 
 class Obstacle(Value):
-    """Something to keep clear of: a circle, or a polygon that may have holes.
+    """Something to keep clear of: a circle, a polygon that may have holes, or a map's squares.
 
     Attributes:
         circle: The disc, if it is one.
         polygon: The outer ring ``[[x, y], ...]`` [m], in either direction. A last point that
             repeats the first is dropped.
         holes: Free areas inside the polygon, each a ring of its own.
+        grid: The blocked squares of an occupancy grid.
         name: What it is called in reports and errors.
         pass_on: Go past it on this side only, as seen by the robot along the leg: ``left`` leaves
             the obstacle on the robot's right. It counts wherever the obstacle is in the way.
@@ -82,6 +86,7 @@ class Obstacle(Value):
     circle: Circle | None = None
     polygon: Ring | None = None
     holes: tuple[Ring, ...] = ()
+    grid: InstanceOf[Grid] | None = None
     name: Name | None = None
     pass_on: Side | None = None
     never_pass_on: Side | None = None

@@ -48,6 +48,7 @@ def pack(
     tree = box_tree(boxes, np.argsort(hilbert_keys(boxes), kind="stable"))
     return PackedWorld(
         kind, slot, discs, polygon_blocks, block_edges, block_boxes, edges,
+        np.empty((0, 5)), np.empty((0, 3), np.int64), np.empty(0, np.int16), np.empty(0, np.int16),
         np.array([] if bounds is None else bounds, np.float64).reshape(-1, 4),
         fence_starts, fence_edges, *tree,
     )  # fmt: skip
@@ -117,6 +118,10 @@ def join(first: PackedWorld, second: PackedWorld) -> PackedWorld:
         block_edges=_chain(first.block_edges, second.block_edges),
         block_boxes=np.concatenate((first.block_boxes, second.block_boxes)),
         edges=np.concatenate((first.edges, second.edges)),
+        grid_frames=first.grid_frames,
+        grid_shapes=first.grid_shapes,
+        to_right=first.to_right,
+        to_left=first.to_left,
         bounds=first.bounds,
         fence_edges=first.fence_edges,
         fences=first.fences,

@@ -1,0 +1,1 @@
+"""Other people's maps: occupancy grids and polygons, read into plain values."""
