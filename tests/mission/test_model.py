@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from viaspline.errors import Fault, MissionError
 from viaspline.mission.model import Mission
+from viaspline.mission.parts import Lidar, Sensor
 
 Make: TypeAlias = Callable[..., dict[str, Any]]
 
@@ -29,6 +30,10 @@ def test_a_good_mission_is_accepted(good: Make) -> None:
     assert Mission.model_validate(mission) is mission
 
 
+def lidar(**changes: Any) -> dict[str, Any]:
+    return {"range_m": 5, **changes}
+
+
 @pytest.mark.parametrize(
     ("path", "value", "key", "words"),
     [
@@ -39,7 +44,18 @@ def test_a_good_mission_is_accepted(good: Make) -> None:
         ("robot.clearance_m", math.inf, "robot.clearance_m", "infinity"),
         ("robot.clearence_m", 1, "robot.clearence_m", "did you mean 'clearance_m'?"),
         ("robot.tension", 1, "robot.tension", "belongs under spline"),
-        ("robot.sensor", {"lidar": {}}, "robot.sensor.lidar", "isn't supported by this version"),
+        ("robot.sensor", {}, "robot.sensor.range_m", "range_m: 40, or lidar: {range_m: 5}"),
+        ("robot.sensor.lidar", {"range_m": 5}, "robot.sensor.range_m", "keep one of range_m and"),
+        ("robot.sensor", {"lidar": {}}, "robot.sensor.lidar.range_m", "is missing"),
+        ("robot.sensor", {"lidar": 5}, "robot.sensor.lidar", "found 5"),
+        ("robot.sensor", {"lidar": lidar(range_m=0)}, "robot.sensor.lidar.range_m", "greater"),
+        ("robot.sensor", {"lidar": lidar(fov_deg=0)}, "robot.sensor.lidar.fov_deg", "greater"),
+        ("robot.sensor", {"lidar": lidar(fov_deg=361)}, "robot.sensor.lidar.fov_deg", "than 360"),
+        ("robot.sensor", {"lidar": lidar(beams=0)}, "robot.sensor.lidar.beams", "less than 1"),
+        ("robot.sensor", {"lidar": lidar(beams=9.5)}, "robot.sensor.lidar.beams", "whole number"),
+        ("robot.sensor", {"lidar": lidar(noise_m=-1)}, "robot.sensor.lidar.noise_m", "negative"),
+        ("robot.sensor", {"lidar": lidar(noise=1)}, "robot.sensor.lidar.noise", "'noise_m'"),
+        ("robot.sensor.fov_deg", 90, "robot.sensor.fov_deg", "'fov_deg' belongs under lidar"),
         ("robot.sensor", None, "world.unseen", "no sensor"),
         ("robot", None, "robot", "found nothing"),
         ("world.known.0", {"map": "a.yaml"}, "world.known[0].map", "isn't supported by this vers"),
@@ -115,6 +131,17 @@ def test_all_faults_come_at_once_in_the_order_of_the_data(spoiled: Make) -> None
     data["spline"]["tension"] = 2
     keys = [fault.split(": ")[1] for fault in faults_of(data)]
     assert keys == ["world.known[0]", "robot.radius_m", "route.via[0].at", "spline.tension"]
+
+
+def test_a_lidar_looks_all_round_without_noise_unless_told_otherwise() -> None:
+    data = {"start": [0, 0], "goal": [9, 0]}
+    mission = Mission.model_validate({"robot": {"sensor": {"lidar": lidar()}}, "route": data})
+    sensor = mission.robot.sensor
+    assert sensor is not None
+    assert sensor.range_m is None
+    assert sensor.reach == 5
+    assert sensor.lidar == Lidar(range_m=5, fov_deg=360, beams=360, noise_m=0)
+    assert hash(sensor) == hash(Sensor(lidar=Lidar(range_m=5)))
 
 
 def test_a_mistyped_required_key_is_one_fault(spoiled: Make) -> None:

@@ -84,12 +84,12 @@ class Grid:
     @property
     def width(self) -> int:
         """Cells in a row."""
-        return self.blocked.shape[1]
+        return int(self.blocked.shape[1])
 
     @property
     def height(self) -> int:
         """Rows."""
-        return self.blocked.shape[0]
+        return int(self.blocked.shape[0])
 
     def to_world(self, points: ArrayLike) -> NDArray[np.float64]:
         """From column and row as real numbers (a cell's outer corner is its index) to x, y [m].
@@ -106,7 +106,7 @@ class Grid:
         turned = np.column_stack(
             (cos * along[:, 0] - sin * along[:, 1], sin * along[:, 0] + cos * along[:, 1])
         )
-        return turned + (x, y)
+        return np.add(turned, (x, y))
 
     def center(self, row: int, column: int) -> tuple[float, float]:
         """Middle of a cell [m]."""

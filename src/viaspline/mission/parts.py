@@ -16,12 +16,18 @@ from pydantic import (
     ConfigDict,
     Field,
     InstanceOf,
+    model_validator,
 )
+from pydantic.json_schema import SkipJsonSchema
+from pydantic_core import PydanticCustomError
 
 from viaspline.maps.grid import Grid
 
 FAR: Final = 1e9
 """The farthest coordinate and the greatest length [m]; beyond it a double loses the micrometre."""
+
+MOST_BEAMS: Final = 100_000
+"""The most beams of a lidar."""
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Coordinate = Annotated[Number, Field(ge=-FAR, le=FAR)]
@@ -86,7 +92,7 @@ class Obstacle(Value):
     circle: Circle | None = None
     polygon: Ring | None = None
     holes: tuple[Ring, ...] = ()
-    grid: InstanceOf[Grid] | None = None
+    grid: SkipJsonSchema[InstanceOf[Grid] | None] = None
     name: Name | None = None
     pass_on: Side | None = None
     never_pass_on: Side | None = None
@@ -120,14 +126,53 @@ class WorldSpec(Value):
     unseen: tuple[Obstacle, ...] = ()
 
 
-class Sensor(Value):
-    """A range sensor.
+class Lidar(Value):
+    """A scanner that measures the distance along each of its beams.
 
     Attributes:
-        range_m: It sees every obstacle of which a part is within this distance [m].
+        range_m: The length of a beam [m].
+        fov_deg: The angle that the beams are spread over, half of it to each side of the robot's
+            heading [deg].
+        beams: How many there are, equally spaced.
+        noise_m: The standard deviation of a measured distance [m].
     """
 
     range_m: Annotated[Positive, Field(le=FAR)]
+    fov_deg: Annotated[Positive, Field(le=360)] = 360.0
+    beams: Annotated[int, Field(strict=True, ge=1, le=MOST_BEAMS)] = 360
+    noise_m: Annotated[NotNegative, Field(le=FAR)] = 0.0
+
+
+class Sensor(Value):
+    """What finds the obstacles that are not on the map: a range sensor or a lidar.
+
+    Attributes:
+        range_m: It sees every obstacle of which a part is within this distance [m]. None for a
+            lidar.
+        lidar: It sees what its beams hit.
+
+    >>> Sensor(range_m=40).reach, Sensor(lidar={"range_m": 5}).reach
+    (40.0, 5.0)
+    """
+
+    range_m: Annotated[Positive, Field(le=FAR)] | None = None
+    lidar: Lidar | None = None
+
+    @model_validator(mode="after")
+    def _one_range(self) -> Sensor:
+        if self.range_m is None and self.lidar is None:
+            raise PydanticCustomError("no_range", "give range_m or lidar")
+        if self.range_m is not None and self.lidar is not None:
+            raise PydanticCustomError("two_ranges", "give one of range_m and lidar")
+        return self
+
+    @property
+    def reach(self) -> float:
+        """How far it sees [m], whichever it is."""
+        if self.lidar is not None:
+            return self.lidar.range_m
+        assert self.range_m is not None
+        return self.range_m
 
 
 class RobotSpec(Value):

@@ -10,6 +10,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.parts import (
     Circle,
     EndPoint,
+    Lidar,
     Obstacle,
     RobotSpec,
     Route,
@@ -20,7 +21,8 @@ from viaspline.mission.parts import (
 )
 
 _DOCUMENTED: Final = (
-    Mission, WorldSpec, Obstacle, Circle, RobotSpec, Sensor, Route, ViaPoint, EndPoint, SplineSpec,
+    Mission, WorldSpec, Obstacle, Circle, RobotSpec, Sensor, Lidar, Route, ViaPoint, EndPoint,
+    SplineSpec,
 )  # fmt: skip
 
 _ATTRIBUTE: Final = re.compile(r"^    (\w+): (.*(?:\n        .*)*)", re.MULTILINE)
@@ -43,6 +45,8 @@ def json_schema() -> dict[str, Any]:
     obstacle = schema["$defs"]["Obstacle"]
     obstacle["oneOf"] = [{"required": ["circle"]}, {"required": ["polygon"]}]
     obstacle["dependentRequired"] = {"holes": ["polygon"]}
+    sensor = schema["$defs"]["Sensor"]
+    sensor["oneOf"] = [{"required": ["range_m"]}, {"required": ["lidar"]}]
     spline = schema["$defs"]["SplineSpec"]
     spline["not"] = {"required": ["tension", "slack"]}
     _limit(spline["properties"]["tension"], {"maximum": 1})

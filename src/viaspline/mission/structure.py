@@ -62,8 +62,6 @@ def _meant(detail: ErrorDetails) -> Path | None:
     if detail["type"] != "extra_forbidden":
         return None
     *parent, key = detail["loc"]
-    if (field_of(tuple(parent)), str(key)) == ("sensor", "lidar"):
-        return (*parent, "range_m")
     meant = suggestion(str(key), tuple(parent))[1]
     return None if meant is None else (*parent, meant)
 
@@ -78,6 +76,12 @@ def _flaw(detail: ErrorDetails, path: Path) -> Flaw:
         return Flaw((*path[:-1], str(key)), problem, "keys are words such as route", at_key=True)
     if kind == "missing":
         return _missing(path, found)
+    if kind == "no_range":
+        remedy = "give range_m: 40, or lidar: {range_m: 5}"
+        return Flaw((*path, "range_m"), "is missing", remedy)
+    if kind == "two_ranges":
+        problem = "the sensor has two ranges, range_m and a lidar's"
+        return Flaw((*path, "range_m"), problem, "keep one of range_m and lidar", at_key=True)
     if kind == "finite_number":
         problem = f"{describe(found)} is not a place or a size"
         return Flaw(path, problem, f"it should be {expectation(path)}")
@@ -109,8 +113,7 @@ def _unknown_key(path: Path) -> Flaw:
     parent, key = path[:-1], str(path[-1])
     later = LATER.get((field_of(parent), key))
     if later is not None:
-        kind = "obstacle" if key == "map" else "sensor"
-        problem = f"a `{key}:` {kind} isn't supported by this version"
+        problem = f"a `{key}:` obstacle isn't supported by this version"
         return Flaw(path, problem, later, at_key=True)
     return Flaw(path, "unknown key", suggestion(key, parent)[0], at_key=True)
 

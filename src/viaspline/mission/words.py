@@ -11,6 +11,7 @@ from viaspline.mission.flaws import Path
 from viaspline.mission.parts import (
     Circle,
     EndPoint,
+    Lidar,
     MissionParts,
     Obstacle,
     RobotSpec,
@@ -48,8 +49,12 @@ EXPECTED: Final[dict[str, str]] = {
     "max_speed_mps": "a number of metres per second greater than 0",
     "max_accel_mps2": "a number of m/s² greater than 0",
     "max_lateral_accel_mps2": "a number of m/s² greater than 0",
-    "sensor": "{range_m: 40}",
+    "sensor": "{range_m: 40} or {lidar: {range_m: 5}}",
     "range_m": "a number of metres greater than 0",
+    "lidar": "a mapping such as {range_m: 5, fov_deg: 270, beams: 720, noise_m: 0.01}",
+    "fov_deg": "a number of degrees greater than 0, up to 360",
+    "beams": "a whole number, 1 or more",
+    "noise_m": "a number of metres, 0 or more",
     "route": "a mapping with the keys start, via, goal and closed",
     "start": _STATION,
     "goal": _STATION,
@@ -90,6 +95,7 @@ _MODELS: Final[dict[str, type[BaseModel]]] = {
     "circle": Circle,
     "robot": RobotSpec,
     "sensor": Sensor,
+    "lidar": Lidar,
     "route": Route,
     "start": EndPoint,
     "goal": EndPoint,
@@ -100,7 +106,6 @@ _MODELS: Final[dict[str, type[BaseModel]]] = {
 LATER: Final[dict[tuple[str, str], str]] = {
     ("known", "map"): "describe it by circle or polygon",
     ("unseen", "map"): "describe it by circle or polygon",
-    ("sensor", "lidar"): "give sensor: {range_m: ...}",
 }
 """Keys that a later version will know, and what to write until then."""
 

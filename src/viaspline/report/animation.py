@@ -128,7 +128,7 @@ def _moving(
     size = max(robot_spec.radius_m, 5.0 / pixels_per_metre)
     robot = Circle((0, 0), size, facecolor=style.UNSEEN, edgecolor=style.INK, linewidth=0.8,
                    zorder=30, label="robot")  # fmt: skip
-    reach = robot_spec.sensor.range_m if robot_spec.sensor is not None else 0.0
+    reach = robot_spec.sensor.reach if robot_spec.sensor is not None else 0.0
     sight = Circle((0, 0), reach, facecolor=style.SENSOR, alpha=0.18, zorder=2.4)
     for patch in (robot, sight):
         axes.add_artist(patch)
@@ -141,7 +141,7 @@ def _found(axes: Axes, run: Run, scene: Scene) -> list[tuple[float, Artist]]:
     found: list[tuple[float, Artist]] = []
     points = shapely.points(run.positions[:, :2])
     for shape in scene.unseen:
-        reached = shapely.distance(points, shape) <= (sensor.range_m if sensor else -1.0)
+        reached = shapely.distance(points, shape) <= (sensor.reach if sensor else -1.0)
         if not reached.any():
             continue
         patch = PathPatch(

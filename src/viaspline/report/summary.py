@@ -90,7 +90,7 @@ def _robot(mission: Mission) -> str:
         f"at most {robot.max_speed_mps:g} m/s and {robot.max_accel_mps2:g} m/s²",
     ]
     if robot.sensor is not None:
-        words.append(f"sees {robot.sensor.range_m:g} m far")
+        words.append(f"sees {robot.sensor.reach:g} m far")
     return ", ".join(words)
 
 

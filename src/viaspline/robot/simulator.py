@@ -101,7 +101,7 @@ def _drive(nav: Navigator, world: World, step: float, progress: Progress | None)
     robot = nav.mission.robot
     sensor = None
     if robot.sensor is not None:
-        sensor = RangeSensor(_named_unseen(nav.mission, world), robot.sensor.range_m)
+        sensor = RangeSensor(_named_unseen(nav.mission, world), robot.sensor.reach)
     limit = PATIENCE * nav.trajectory.duration + GRACE
     laws: tuple[tuple[float, Trajectory], ...] = ()
     known: frozenset[Obstacle] = frozenset()

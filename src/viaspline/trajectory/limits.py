@@ -52,7 +52,7 @@ class Limits:
         """
         top = robot.max_speed_mps
         if robot.sensor is not None:
-            room = _room_to_stop(robot.sensor.range_m, robot.radius_m, robot.clearance_m)
+            room = _room_to_stop(robot.sensor.reach, robot.radius_m, robot.clearance_m)
             top = min(top, stopping_speed(room, robot.max_accel_mps2, reaction))
         return cls(
             max_speed=top,
