@@ -82,7 +82,7 @@ def _ring_corners(
 def obstacle_corners(
     world: PackedWorld, i: int, rho: float, step: float, corners: Floats, count: int
 ) -> int:
-    """Append the corners of obstacle i to ``corners`` from row ``count`` on.
+    """Append the corners of obstacle i to ``corners`` from row ``count`` on; a grid has none here.
 
     Args:
         world: PackedWorld.
@@ -99,6 +99,8 @@ def obstacle_corners(
         circle = world.circles[world.slot[i]]
         radius = circle[2] + rho
         return _fan(corners, count, circle[0], circle[1], radius, 0.0, 2 * np.pi, 0.5 * step)
+    if world.kind[i] == 2:
+        return count
     slot = world.slot[i]
     first = world.block_edges[world.polygon_blocks[slot]]
     last = world.block_edges[world.polygon_blocks[slot + 1]]

@@ -12,6 +12,7 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.grid import grid_signed
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Floats, Ints, PackedWorld
 
@@ -120,6 +121,8 @@ def obstacle_signed(world: PackedWorld, i: int, x: float, y: float, limit: float
         dx = x - circle[0]
         dy = y - circle[1]
         return math.sqrt(dx * dx + dy * dy) - circle[2]
+    if world.kind[i] == 2:
+        return grid_signed(world, slot, x, y, limit)
     return polygon_signed(world, slot, x, y, limit)
 
 
@@ -157,7 +160,7 @@ def nearest(world: PackedWorld, x: float, y: float, limit: float) -> tuple[float
     nodes = world.leaf.size
     if nodes > 64:
         obstacle = _descend(world, x, y)
-        distance = obstacle_signed(world, obstacle, x, y, np.inf)
+        distance = obstacle_signed(world, obstacle, x, y, best)
         if distance < best:
             best = distance
             index = obstacle
@@ -168,7 +171,7 @@ def nearest(world: PackedWorld, x: float, y: float, limit: float) -> tuple[float
             continue
         obstacle = world.leaf[node]
         if obstacle >= 0:
-            distance = obstacle_signed(world, obstacle, x, y, np.inf)
+            distance = obstacle_signed(world, obstacle, x, y, best)
             if distance < best:
                 best = distance
                 index = obstacle

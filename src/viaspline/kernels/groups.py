@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.distance import polygon_signed
+from viaspline.kernels.distance import obstacle_signed
+from viaspline.kernels.grid_gap import grid_gap
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Ints, PackedWorld
 from viaspline.kernels.segment import box_gap, obstacle_segment
@@ -17,10 +18,13 @@ def obstacle_gap(world: PackedWorld, i: int, j: int, limit: float) -> float:
         disc = i if world.kind[i] == 0 else j
         other = j if disc == i else i
         circle = world.circles[world.slot[disc]]
-        if world.kind[other] == 0:
-            second = world.circles[world.slot[other]]
-            return np.hypot(circle[0] - second[0], circle[1] - second[1]) - circle[2] - second[2]
-        return polygon_signed(world, world.slot[other], circle[0], circle[1], np.inf) - circle[2]
+        reach = limit + circle[2]
+        distance = obstacle_signed(world, other, circle[0], circle[1], reach)
+        return distance - circle[2] if distance < reach else limit
+    if world.kind[i] == 2:
+        return grid_gap(world, i, j, limit)
+    if world.kind[j] == 2:
+        return grid_gap(world, j, i, limit)
     best = limit
     for p, other in ((i, j), (j, i)):
         slot = world.slot[p]

@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.distance import box_signed, fence_signed, point_segment, polygon_signed
+from viaspline.kernels.grid_segment import grid_segment
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Flags, Floats, PackedWorld
 
@@ -49,12 +50,14 @@ def obstacle_segment(
 ) -> float:
     """Distance between obstacle i and the segment a-b [m].
 
-    Signed for circles; for polygons 0 where the segment touches one, or lies inside it.
+    Signed for circles; for polygons and grids 0 where the segment touches one, or lies inside it.
     """
     slot = world.slot[i]
     if world.kind[i] == 0:
         circle = world.circles[slot]
         return point_segment(circle[0], circle[1], ax, ay, bx, by) - circle[2]
+    if world.kind[i] == 2:
+        return grid_segment(world, slot, ax, ay, bx, by, limit)
     x0 = min(ax, bx)
     x1 = max(ax, bx)
     y0 = min(ay, by)

@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import accumulate, pairwise
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from viaspline.errors import GeometryError
+from viaspline.kernels.grid import row_tables
 from viaspline.kernels.index import box_tree, hilbert_keys, ring_boxes
-from viaspline.kernels.packed import Floats, Ints, PackedWorld
+from viaspline.kernels.packed import Columns, Floats, Ints, PackedWorld
 from viaspline.kernels.polygons import pack_polygons
+from viaspline.maps.grid import Grid
 from viaspline.mission.parts import Obstacle
 
 Rings = Sequence[Sequence[tuple[float, float]]]
+Grids = tuple[Floats, Ints, Columns, Columns]
+
+_TABLES: WeakKeyDictionary[Grid, tuple[Columns, Columns]] = WeakKeyDictionary()
+"""The tables of every grid that is still in use: worlds of the same map share them."""
 
 
 def pack(
@@ -25,6 +33,7 @@ def pack(
     slot = np.zeros(count, np.int64)
     circles: list[tuple[float, float, float]] = []
     polygons: list[Rings] = []
+    grids: list[Grid] = []
     for i, obstacle in enumerate(obstacles):
         circle = obstacle.circle
         if circle is not None:
@@ -34,8 +43,12 @@ def pack(
             kind[i] = 1
             slot[i] = len(polygons)
             polygons.append((obstacle.polygon, *obstacle.holes))
+        elif obstacle.grid is not None:
+            kind[i] = 2
+            slot[i] = len(grids)
+            grids.append(obstacle.grid)
         else:
-            raise GeometryError(f"obstacle {i} has no shape: give it a circle or a polygon")
+            raise GeometryError(f"obstacle {i} has no shape: give it a circle, polygon or grid")
     discs = np.array(circles, np.float64).reshape(-1, 3)
     edges, polygon_blocks, block_edges = _edges(polygons)
     fence_edges, fence_starts = _fences(fences)
@@ -45,13 +58,47 @@ def pack(
     boxes[kind == 0, 2:] = discs[:, :2] + discs[:, 2:]
     if polygons:
         boxes[kind == 1] = ring_boxes(edges, block_edges[polygon_blocks])
+    if grids:
+        boxes[kind == 2] = [grid.extent for grid in grids]
     tree = box_tree(boxes, np.argsort(hilbert_keys(boxes), kind="stable"))
     return PackedWorld(
         kind, slot, discs, polygon_blocks, block_edges, block_boxes, edges,
-        np.empty((0, 5)), np.empty((0, 3), np.int64), np.empty(0, np.int16), np.empty(0, np.int16),
+        *_grids(grids),
         np.array([] if bounds is None else bounds, np.float64).reshape(-1, 4),
         fence_starts, fence_edges, *tree,
     )  # fmt: skip
+
+
+def _grids(grids: Sequence[Grid]) -> Grids:
+    """Frames, shapes and tables of grids, as in PackedWorld."""
+    frames = [
+        (*grid.origin[:2], math.cos(grid.origin[2]), math.sin(grid.origin[2]), grid.resolution)
+        for grid in grids
+    ]
+    starts = accumulate((grid.width * grid.height for grid in grids), initial=0)
+    shapes = [(grid.width, grid.height, start) for grid, start in zip(grids, starts, strict=False)]
+    tables = [_tables(grid) for grid in grids]
+    return (
+        np.array(frames, np.float64).reshape(-1, 5),
+        np.array(shapes, np.int64).reshape(-1, 3),
+        _together([right for right, _ in tables]),
+        _together([left for _, left in tables]),
+    )
+
+
+def _tables(grid: Grid) -> tuple[Columns, Columns]:
+    found = _TABLES.get(grid)
+    if found is None:
+        found = _TABLES[grid] = row_tables(grid.blocked)
+    return found
+
+
+def _together(tables: Sequence[Columns]) -> Columns:
+    """Tables behind each other; one alone is not copied."""
+    tables = [table for table in tables if table.size]
+    if len(tables) == 1:
+        return tables[0]
+    return np.concatenate(tables) if tables else np.empty(0, np.int16)
 
 
 def _fences(rings: Rings) -> tuple[Floats, Ints]:
@@ -106,22 +153,21 @@ def join(first: PackedWorld, second: PackedWorld) -> PackedWorld:
     root[0, :2] = np.minimum(first.boxes[0, :2], second.boxes[0, :2])
     root[0, 2:] = np.maximum(first.boxes[0, 2:], second.boxes[0, 2:])
     leaf = np.where(second.leaf >= 0, second.leaf + obstacles, -1)
-    moved = np.where(
-        second.kind == 0, second.slot + len(first.circles),
-        second.slot + first.polygon_blocks.size - 1,
-    )  # fmt: skip
+    before = np.array((len(first.circles), first.polygon_blocks.size - 1, len(first.grid_frames)))
+    shapes = second.grid_shapes.copy()
+    shapes[:, 2] += first.to_right.size
     return PackedWorld(
         kind=np.concatenate((first.kind, second.kind)),
-        slot=np.concatenate((first.slot, moved)),
+        slot=np.concatenate((first.slot, second.slot + before[second.kind])),
         circles=np.concatenate((first.circles, second.circles)),
         polygon_blocks=_chain(first.polygon_blocks, second.polygon_blocks),
         block_edges=_chain(first.block_edges, second.block_edges),
         block_boxes=np.concatenate((first.block_boxes, second.block_boxes)),
         edges=np.concatenate((first.edges, second.edges)),
-        grid_frames=first.grid_frames,
-        grid_shapes=first.grid_shapes,
-        to_right=first.to_right,
-        to_left=first.to_left,
+        grid_frames=np.concatenate((first.grid_frames, second.grid_frames)),
+        grid_shapes=np.concatenate((first.grid_shapes, shapes)),
+        to_right=_together((first.to_right, second.to_right)),
+        to_left=_together((first.to_left, second.to_left)),
         bounds=first.bounds,
         fence_edges=first.fence_edges,
         fences=first.fences,

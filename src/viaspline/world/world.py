@@ -22,7 +22,7 @@ BOUNDS = -2  # what stands for the bounds where an index names what is nearest; 
 
 
 class World:
-    """Circles, polygons with holes, and the bounds and fences that the robot stays inside of.
+    """Circles, polygons, grids, and the bounds and fences that the robot stays inside of.
 
     The distance to the world is the smallest of the signed distances to all of them:
     exact outside of all of them, and inside the depth in the obstacle that is entered deepest.
@@ -85,7 +85,10 @@ class World:
             return "nothing"
         if index <= BOUNDS:
             return "bounds" if index == BOUNDS else f"fence {BOUNDS - index}"
-        return self.obstacles[index].name or f"obstacle {index + 1}"
+        obstacle = self.obstacles[index]
+        if obstacle.name is None and obstacle.grid is not None and obstacle.grid.source is not None:
+            return f"map '{obstacle.grid.source}'"
+        return obstacle.name or f"obstacle {index + 1}"
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -1,0 +1,227 @@
+"""Occupancy grids: tables of their rows, the signed distance of a point, and their corners.
+
+A grid is the union of its blocked cells, closed squares; what is outside of its rectangle is free.
+Queries are answered in the grid's own frame, in columns u and rows v as real numbers: cell (r, c)
+is the square from (c, r) to (c + 1, r + 1). The tables tell how far from a cell its row stays what
+it is, so a row costs the same however wide it is, and distances are exact to the squares.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.packed import Columns, Flags, Floats, PackedWorld
+
+NONE = 32767  # columns to where there is nothing: more than a grid may have
+
+
+@kernel
+def row_tables(blocked: Flags) -> tuple[Columns, Columns]:
+    """The tables of a grid, cells row by row.
+
+    Args:
+        blocked: (height, width).
+
+    Returns:
+        (to_right, to_left), (height * width,), as in PackedWorld.
+    """
+    height = blocked.shape[0]
+    width = blocked.shape[1]
+    to_right = np.empty(height * width, np.int16)
+    to_left = np.empty(height * width, np.int16)
+    for r in range(height):
+        first = r * width
+        start = 0
+        while start < width:
+            kind = blocked[r, start]
+            end = start + 1
+            while end < width and blocked[r, end] == kind:
+                end += 1
+            sign = -1 if kind else 1
+            for c in range(start, end):
+                to_right[first + c] = sign * (end - c)
+                to_left[first + c] = sign * (c - start + 1)
+            nowhere = -NONE - 1 if kind else NONE
+            if end == width:
+                for c in range(start, end):
+                    to_right[first + c] = nowhere
+            if start == 0:
+                for c in range(end):
+                    to_left[first + c] = nowhere
+            start = end
+    return to_right, to_left
+
+
+@inner
+def to_cells(world: PackedWorld, g: int, x: float, y: float) -> tuple[float, float]:
+    """From the world [m] to grid g's columns and rows."""
+    frame = world.grid_frames[g]
+    dx = x - frame[0]
+    dy = y - frame[1]
+    u = (frame[2] * dx + frame[3] * dy) / frame[4]
+    v = (frame[2] * dy - frame[3] * dx) / frame[4]
+    return u, v
+
+
+@inner
+def to_world(world: PackedWorld, g: int, u: float, v: float) -> tuple[float, float]:
+    """From grid g's columns and rows to the world [m]."""
+    frame = world.grid_frames[g]
+    x = frame[0] + frame[4] * (frame[2] * u - frame[3] * v)
+    y = frame[1] + frame[4] * (frame[3] * u + frame[2] * v)
+    return x, y
+
+
+@inner
+def is_blocked(world: PackedWorld, g: int, row: int, column: int) -> bool:
+    """Whether a cell of grid g is blocked; cells outside of the grid are not."""
+    width = world.grid_shapes[g, 0]
+    if row < 0 or row >= world.grid_shapes[g, 1] or column < 0 or column >= width:
+        return False
+    return world.to_right[world.grid_shapes[g, 2] + row * width + column] < 0
+
+
+@inner
+def _aside(world: PackedWorld, place: int, column: int, u: float, sign: int) -> float:
+    """How far to either side the nearest cell sought is, in the row of the cell at ``place``."""
+    right = sign * int(world.to_right[place])
+    if right < 0:
+        return max(max(column - u, u - column - 1.0), 0.0)
+    aside = np.inf
+    if right < NONE:
+        aside = column + right - u
+    left = sign * int(world.to_left[place])
+    if left < NONE:
+        aside = min(aside, u - (column - left + 1))
+    return aside
+
+
+@inner
+def nearest_cell(world: PackedWorld, g: int, u: float, v: float, sign: int, limit: float) -> float:
+    """Distance from (u, v) to the nearest cell of grid g that is blocked, or free [cells].
+
+    Rows are looked at in the order of their distance, until no other can be nearer.
+
+    Args:
+        world: PackedWorld.
+        g: The grid.
+        u: Column.
+        v: Row.
+        sign: 1 for blocked cells, -1 for free ones.
+        limit: The answer where none is nearer [cells].
+    """
+    width = world.grid_shapes[g, 0]
+    height = world.grid_shapes[g, 1]
+    column = int(min(max(u, 0.0), width - 1.0))
+    above = int(min(max(v, 0.0), height - 1.0))
+    below = above - 1
+    place = world.grid_shapes[g, 2] + column
+    squared = limit * limit
+    while True:
+        rise = max(max(above - v, v - above - 1.0), 0.0) if above < height else np.inf
+        fall = v - below - 1.0 if below >= 0 else np.inf
+        gap = min(rise, fall)
+        if gap * gap >= squared:
+            return math.sqrt(squared)
+        row = below
+        if rise <= fall:
+            row = above
+            above += 1
+        else:
+            below -= 1
+        aside = _aside(world, place + row * width, column, u, sign)
+        squared = min(squared, gap * gap + aside * aside)
+
+
+@inner
+def grid_signed(world: PackedWorld, g: int, x: float, y: float, limit: float) -> float:
+    """Signed distance from (x, y) to the blocked cells of grid g [m]; negative inside."""
+    u, v = to_cells(world, g, x, y)
+    side = world.grid_frames[g, 4]
+    if u >= 0.0 and v >= 0.0 and is_blocked(world, g, int(v), int(u)):
+        rim_u = min(u, world.grid_shapes[g, 0] - u)
+        rim_v = min(v, world.grid_shapes[g, 1] - v)
+        return -side * nearest_cell(world, g, u, v, -1, min(rim_u, rim_v))
+    within = limit / side
+    distance = nearest_cell(world, g, u, v, 1, within)
+    return min(limit, side * distance) if distance < within else limit
+
+
+@inner
+def _steps(world: PackedWorld, g: int, row: int, column: int) -> int:
+    """Columns from a cell to where its row changes; ``NONE`` in a row outside of the grid."""
+    width = world.grid_shapes[g, 0]
+    if row < 0 or row >= world.grid_shapes[g, 1]:
+        return NONE
+    steps = int(world.to_right[world.grid_shapes[g, 2] + row * width + column])
+    if steps > 0:
+        return steps
+    return min(-steps, width - column)
+
+
+@inner
+def _write_corner(
+    world: PackedWorld, g: int, u: int, v: int, east: int, north: int, out: Floats, count: int
+) -> int:
+    """Write one corner, free towards the quadrant (east, north)."""
+    if count < out.shape[0]:
+        frame = world.grid_frames[g]
+        half = math.sqrt(0.5)
+        out[count, 0], out[count, 1] = to_world(world, g, float(u), float(v))
+        out[count, 2] = half * (frame[2] * east - frame[3] * north)
+        out[count, 3] = half * (frame[3] * east + frame[2] * north)
+    return count + 1
+
+
+@inner
+def grid_corners_near(
+    world: PackedWorld, g: int, x: float, y: float, reach: float, out: Floats, count: int
+) -> int:
+    """Append the convex corners of grid g within ``reach`` of (x, y) [m] to ``out``.
+
+    A lattice point is a convex corner where one of the four cells round it is blocked, or two that
+    face each other diagonally; the latter are two corners, free on either side.
+
+    Args:
+        world: PackedWorld.
+        g: The grid.
+        x: Where to look [m].
+        y: The same.
+        reach: How far [m].
+        out: Room for them: x, y [m] and the unit vector that points away from what is blocked, or
+            into the free quadrant, (size, 4).
+        count: Rows that are taken.
+
+    Returns:
+        The new count; where it is more than the room there is, call again with more.
+    """
+    u, v = to_cells(world, g, x, y)
+    width = world.grid_shapes[g, 0]
+    far = reach / world.grid_frames[g, 4]
+    top = math.floor(min(v + far, float(world.grid_shapes[g, 1])))
+    for line in range(math.ceil(max(v - far, 0.0)), top + 1):
+        across = math.sqrt(max(far * far - (line - v) * (line - v), 0.0))
+        column = math.ceil(max(u - across, 0.0))
+        last = math.floor(min(u + across, float(width)))
+        while column <= last:
+            nw = is_blocked(world, g, line, column - 1)
+            ne = is_blocked(world, g, line, column)
+            sw = is_blocked(world, g, line - 1, column - 1)
+            se = is_blocked(world, g, line - 1, column)
+            blocked = int(nw) + int(ne) + int(sw) + int(se)
+            if blocked == 1:
+                east = -1 if ne or se else 1
+                north = -1 if nw or ne else 1
+                count = _write_corner(world, g, column, line, east, north, out, count)
+            elif blocked == 2 and nw == se:
+                turn = -1 if nw else 1
+                count = _write_corner(world, g, column, line, -turn, 1, out, count)
+                count = _write_corner(world, g, column, line, turn, -1, out, count)
+            if column >= width:
+                break
+            lower = _steps(world, g, line - 1, column)
+            column += min(lower, _steps(world, g, line, column))
+    return count
