@@ -1,0 +1,98 @@
+"""What a robot with a lidar knows: its map, the surfaces it has seen, and where it has looked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viaspline.mission.parts import Obstacle, RobotSpec
+from viaspline.robot.echoes import Echoes
+from viaspline.robot.lidar import Scan
+from viaspline.robot.seen_area import SeenArea
+from viaspline.world.world import World
+
+GRAIN = 1.0 / 12.0  # radius of the discs on surfaces, of the distance that the path keeps
+FINEST, COARSEST = 0.005, 0.1  # and its limits [m]
+CELLS = 6.0  # cells that the body's radius is divided into
+ON_MAP = 1e-6  # a hit nearer than this to what is on the map shows just that [m]
+
+
+@dataclass(frozen=True)
+class News:
+    """What a scan changed in what is known.
+
+    Attributes:
+        new: Discs that were not there before, or not in these places.
+        gone: How many discs have gone.
+    """
+
+    new: tuple[Obstacle, ...]
+    gone: int
+
+
+@dataclass(frozen=True, eq=False)
+class Belief:
+    """What is known, seen and looked at; a new one for every scan.
+
+    Attributes:
+        map: What is known without being seen: it stays, whatever the beams say.
+        echoes: The surfaces that beams have hit.
+        area: Where beams have passed.
+        body: The robot's radius [m].
+        world: The map and the surfaces.
+    """
+
+    map: World
+    echoes: Echoes
+    area: SeenArea
+    body: float
+    world: World
+
+    @classmethod
+    def at_start(cls, world: World, robot: RobotSpec, position: ArrayLike) -> Belief:
+        """What a robot that has just been put down knows.
+
+        It looks as far ahead as it needs to stop from its full speed and a little more.
+
+        Raises:
+            AssertionError: When the robot has no lidar.
+        """
+        assert robot.sensor is not None and robot.sensor.lidar is not None  # noqa: PT018
+        lidar = robot.sensor.lidar
+        required = robot.radius_m + robot.clearance_m
+        grain = float(np.clip(GRAIN * required, FINEST, COARSEST)) + lidar.noise_m
+        side = max((robot.radius_m or required) / CELLS, FINEST)
+        stop = robot.max_speed_mps**2 / (2.0 * robot.max_accel_mps2)
+        reach = min(lidar.range_m, 1.3 * stop + 2.0 * robot.radius_m + 4.0 * side)
+        area = SeenArea.around(position, side=side, reach=reach)
+        area = area.with_disc(position, robot.radius_m + side)
+        return cls(world, Echoes.none(grain, lidar.noise_m), area, robot.radius_m, world)
+
+    def with_scan(self, scan: Scan) -> tuple[Belief, News]:
+        """What is known after one more scan, and what is new about it."""
+        hits, before = scan.hits, self.echoes.hits
+        echoes = self.echoes
+        strange = np.ones(len(hits), np.bool_)
+        if len(self.world) and len(hits):
+            distance, index = self.world.nearest(hits)
+            seen = index >= len(self.map)
+            strange = distance > np.where(seen, 0.0, ON_MAP) + echoes.tolerance
+            known = seen & ~strange
+            echoes = echoes.confirmed(hits[known], index[known] - len(self.map))
+        echoes, moved = echoes.put_right(before)
+        echoes, new = echoes.with_hits(hits[strange])
+        echoes, gone = echoes.without_seen_through(scan)
+        world = self.world
+        if new or moved or gone:
+            world = self.map.with_obstacles(echoes.obstacles)
+        area = self.area.with_scan(scan, echoes.tolerance)
+        area = area.with_disc(scan.position, self.body)
+        return replace(self, echoes=echoes, area=area, world=world), News(moved + new, gone)
+
+    def told(self, obstacles: Iterable[Obstacle]) -> Belief:
+        """The same with more obstacles on the map."""
+        known = self.map.with_obstacles(obstacles)
+        return replace(self, map=known, world=known.with_obstacles(self.echoes.obstacles))
