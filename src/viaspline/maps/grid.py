@@ -11,8 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
+from viaspline.maps.reading import Reading
 
 MOST_CELLS_ASIDE = 32_000  # kernels count columns in 16 bits
+COARSEST = 1e4  # side of a square [m]; the largest map is then about as wide as a mission may be
 Origin = tuple[float, float, float]
 
 
@@ -28,10 +30,15 @@ class Grid:
         resolution: Side of a square [m].
         origin: x, y [m] of the outer corner of cell (0, 0), and yaw [rad] of the rows.
         source: The file it was read from, as the mission names it; None for one made in memory.
+        unknown: True where a square is blocked only because nothing is known of it, shape
+            (height, width), read-only; None if there is no such square.
+        reading: How it was read; None for one made in memory.
+
+    Arrays that are read-only already are kept as they are; others are copied.
 
     Raises:
-        GeometryError: For an empty grid, one of more than 32,000 cells aside, or numbers that
-            make no plane.
+        GeometryError: For an empty grid, one of more than 32,000 cells aside, numbers that make
+            no plane, or unknown squares that aren't blocked.
 
     Example:
         >>> grid = Grid(np.eye(3, dtype=bool), resolution=0.5, origin=(1.0, 2.0, 0.0))
@@ -45,10 +52,12 @@ class Grid:
     resolution: float
     origin: Origin = (0.0, 0.0, 0.0)
     source: str | None = None
+    unknown: NDArray[np.bool_] | None = field(default=None, repr=False)
+    reading: Reading | None = field(default=None, repr=False)
     digest: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        cells = np.array(self.blocked, dtype=np.bool_)
+        cells = _frozen(self.blocked)
         if cells.ndim != 2 or not cells.size:
             raise GeometryError(f"a grid has shape (height, width), not {cells.shape}")
         if max(cells.shape) > MOST_CELLS_ASIDE:
@@ -59,11 +68,14 @@ class Grid:
         if not 0.0 < self.resolution < math.inf:
             raise GeometryError(f"resolution is {self.resolution}; give a side above 0 m")
         origin = _origin(self.origin)
-        cells.flags.writeable = False
+        unknown = None if self.unknown is None else _frozen(self.unknown)
+        if unknown is not None and not (unknown.shape == cells.shape and (unknown <= cells).all()):
+            raise GeometryError("unknown squares have to be blocked: give unknown <= blocked")
         numbers = np.array((*cells.shape, self.resolution, *origin), dtype="<f8")
         digest = hashlib.blake2b(np.packbits(cells).tobytes(), digest_size=16)
         digest.update(numbers.tobytes())
         object.__setattr__(self, "blocked", cells)
+        object.__setattr__(self, "unknown", unknown)
         object.__setattr__(self, "resolution", float(self.resolution))
         object.__setattr__(self, "origin", origin)
         object.__setattr__(self, "digest", digest.digest())
@@ -108,6 +120,22 @@ class Grid:
         )
         return np.add(turned, (x, y))
 
+    def to_cells(self, points: ArrayLike) -> NDArray[np.float64]:
+        """From x, y [m] to column and row as real numbers, the inverse of `to_world`.
+
+        Args:
+            points: Shape (n, 2).
+
+        Returns:
+            Shape (n, 2).
+        """
+        x, y, yaw = self.origin
+        away = np.subtract(np.asarray(points, np.float64), (x, y)) / self.resolution
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        return np.column_stack(
+            (cos * away[:, 0] + sin * away[:, 1], cos * away[:, 1] - sin * away[:, 0])
+        )
+
     def center(self, row: int, column: int) -> tuple[float, float]:
         """Middle of a cell [m]."""
         x, y = self.to_world([(column + 0.5, row + 0.5)])[0].tolist()
@@ -126,8 +154,18 @@ class Grid:
         return float(x0), float(y0), float(x1), float(y1)
 
 
+def _frozen(cells: ArrayLike) -> NDArray[np.bool_]:
+    """The cells as an array that nobody can write to, without a copy if nobody can already."""
+    given = np.asarray(cells)
+    if given.dtype == np.bool_ and given.flags.c_contiguous and not given.flags.writeable:
+        return given
+    copy = np.array(given, dtype=np.bool_, order="C")
+    copy.flags.writeable = False
+    return copy
+
+
 def _origin(given: Sequence[float]) -> Origin:
     if len(given) != 3 or not all(math.isfinite(value) for value in given):
         raise GeometryError(f"a grid's origin is x, y [m] and yaw [rad], not {given}")
-    x, y, yaw = (float(value) for value in given)
+    x, y, yaw = (float(value) + 0.0 for value in given)
     return x, y, yaw

@@ -1,0 +1,25 @@
+"""How a map was read from its file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal, TypeAlias
+
+Unknown: TypeAlias = Literal["blocked", "free"]
+"""What to make of squares that nobody has seen."""
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What it takes to read a grid once more; a mission is written with it.
+
+    Attributes:
+        path: The file, absolute.
+        unknown: What was made of squares that nobody has seen.
+        resolution: The side of a square [m] that was asked for; None: what the file says.
+    """
+
+    path: Path
+    unknown: Unknown = "blocked"
+    resolution: float | None = None
