@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viaspline.curve.path import Path
 from viaspline.mission.parts import Obstacle, RobotSpec
 from viaspline.robot.echoes import Echoes
 from viaspline.robot.lidar import Scan
@@ -17,6 +18,7 @@ from viaspline.world.world import World
 GRAIN = 1.0 / 12.0  # radius of the discs on surfaces, of the distance that the path keeps
 FINEST, COARSEST = 0.005, 0.1  # and its limits [m]
 CELLS = 6.0  # cells that the body's radius is divided into
+SLACK = 1e-4  # by which samples of a path may miss the distance that it was proven to keep [m]
 ON_MAP = 1e-6  # a hit nearer than this to what is on the map shows just that [m]
 
 
@@ -91,6 +93,29 @@ class Belief:
         area = self.area.with_scan(scan, echoes.tolerance)
         area = area.with_disc(scan.position, self.body)
         return replace(self, echoes=echoes, area=area, world=world), News(moved + new, gone)
+
+    def certain_until(self, path: Path, distance: float, floor: float) -> float:
+        """How far along a path the robot can go inside of what it has seen [m].
+
+        Up to there its whole body has only been where beams have passed, and the path keeps its
+        distance from everything known.
+
+        Args:
+            path: What is driven.
+            distance: Where the robot is on it [m].
+            floor: Distance to keep from what is known [m].
+        """
+        step = 0.5 * self.area.side
+        ahead = self.area.reach - self.body - self.area.side
+        first, last = np.ceil(distance / step), np.floor((distance + ahead) / step)
+        places = step * np.arange(first, last + 1.0)
+        places = np.append(places[places < path.length], min(path.length, distance + ahead))
+        points = np.asarray(path.at_distance(places))
+        count = self.area.count(points, self.body)
+        if len(self.world) and count:
+            near = np.flatnonzero(self.world.distance(points[:count]) < floor - SLACK)
+            count = int(near[0]) if near.size else count
+        return float(places[count - 1]) if count else distance
 
     def told(self, obstacles: Iterable[Obstacle]) -> Belief:
         """The same with more obstacles on the map."""

@@ -12,6 +12,7 @@ from viaspline.curve.path import Path, PathVia
 from viaspline.detour.brief import Brief
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
+from viaspline.robot.belief import Belief
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
@@ -32,6 +33,21 @@ class Dwell:
 
 
 @dataclass(frozen=True)
+class Wait:
+    """A robot that looks and doesn't know how to go on yet.
+
+    Attributes:
+        since: When it began [s].
+        again: When it tries again [s].
+        reason: Why it can't go on; None if it only sees too little.
+    """
+
+    since: float
+    again: float
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
 class Journey:
     """A robot's way so far and the way it means to go on; a new one for every step.
 
@@ -40,12 +56,15 @@ class Journey:
         limits: Of the robot, with what its sensor allows.
         reaction: Longest time between two steps [s].
         world: All that is known by now.
-        seen: The obstacles that are in that world.
+        seen: The obstacles in that world that were told one by one.
         plan_path: The path before the robot set off.
         path: The path; all that was driven is its beginning.
         law: The time law along it.
         turns: Distances along the path where it has a corner to turn on the spot [m].
         time: Of the last step [s].
+        belief: What a lidar has shown; None without one.
+        floor: Distance that the path keeps from everything known [m].
+        wait: Since when and why the robot waits, if it does.
         distance: Progress along the path at that time [m].
         off: How far beside the path the robot was then [m].
         last: Index in the route of the last via point that was passed; -1 before the start.
@@ -68,6 +87,9 @@ class Journey:
     path: Path
     law: Trajectory
     time: float
+    belief: Belief | None = None
+    floor: float = 0.0
+    wait: Wait | None = None
     distance: float = 0.0
     off: float = 0.0
     turns: tuple[float, ...] = ()
@@ -123,10 +145,24 @@ def time_law(
     distance: float,
     speed: float,
     time: float,
+    sure: float = 0.0,
 ) -> Trajectory:
     """The time law of the rest of a path, with the stops that are still to come.
 
-    A stay that is under way goes on.
+    A stay that is under way goes on. With a lidar the law ends, at rest, where the robot is not
+    certain to be free any more.
+
+    Args:
+        journey: The robot's way so far.
+        path: What is driven.
+        turns: Distances along the path where it turns on the spot [m].
+        distance: Where the law begins [m].
+        speed: There [m/s].
+        time: Then [s].
+        sure: Up to this distance the robot goes in any case [m].
+
+    Raises:
+        GeometryError: When the robot is too fast to stop where it has to.
     """
     stops = [Station(turn) for turn in turns if turn > distance + SLIP]
     stops += [
@@ -137,7 +173,12 @@ def time_law(
     if journey.dwell is not None:
         stops.append(Station(distance, max(journey.dwell.until - time, 0.0), journey.dwell.name))
         speed = 0.0
-    return retime(
+    end = path.length
+    if journey.belief is not None:
+        end = min(max(journey.belief.certain_until(path, distance, journey.floor), sure), end)
+        if end < path.length:
+            stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
+    law = retime(
         path,
         journey.limits,
         stops,
@@ -145,3 +186,4 @@ def time_law(
         start_speed=speed,
         start_time=time,
     )
+    return law if end >= path.length else law.until(end)

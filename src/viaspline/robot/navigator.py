@@ -8,11 +8,15 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import Path
+from viaspline.detour.brief import Brief
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan, plan
+from viaspline.robot.belief import Belief
 from viaspline.robot.journey import Journey, time_law
+from viaspline.robot.lidar import Scan
+from viaspline.robot.look import look
 from viaspline.robot.progress import advance, happened
 from viaspline.robot.reroute import notice
 from viaspline.robot.run import Event, Replan, Visit
@@ -79,18 +83,20 @@ class Navigator:
             path=self._plan.path,
             law=self._plan.trajectory,
             time=0.0,
+            floor=Brief.of(mission).required,
         )
         law = time_law(journey, journey.path, (), distance=0.0, speed=0.0, time=0.0)
-        self._journey = replace(journey, law=law)
+        self._journey = replace(journey, law=law, belief=_belief(journey))
 
     def step(
-        self, state: RobotState, sensed: Iterable[Obstacle], time: float
+        self, state: RobotState, sensed: Iterable[Obstacle] | Scan, time: float
     ) -> tuple[Command, Navigator]:
         """What to do from now on until the next step.
 
         Args:
             state: Where the robot is, as measured.
-            sensed: Every obstacle that is seen now; those already known make no difference.
+            sensed: What is seen now: a lidar's scan, or every obstacle in sight; those already
+                known make no difference.
             time: Now [s], never less than in the step before.
 
         Returns:
@@ -106,9 +112,12 @@ class Navigator:
             journey = _started(journey, time)
         if not journey.finished:
             journey = advance(journey, state, time)
-        new = tuple(dict.fromkeys(o for o in sensed if o not in journey.seen))
-        if new and not journey.finished:
-            journey = happened(notice(journey, new))
+        if isinstance(sensed, Scan):
+            journey = happened(look(journey, sensed))
+        else:
+            new = tuple(dict.fromkeys(o for o in sensed if o not in journey.seen))
+            if new and not journey.finished:
+                journey = happened(notice(journey, new))
         return steer(journey, state), self._with(journey)
 
     def _with(self, journey: Journey) -> Navigator:
@@ -190,6 +199,13 @@ class Navigator:
 
 
 _planned = plan
+
+
+def _belief(journey: Journey) -> Belief | None:
+    robot = journey.mission.robot
+    if robot.sensor is None or robot.sensor.lidar is None:
+        return None
+    return Belief.at_start(journey.world, robot, journey.place(0.0))
 
 
 def _started(journey: Journey, time: float) -> Journey:

@@ -98,7 +98,8 @@ def _pass(journey: Journey, via: PathVia, distance: float) -> Journey:
 def _end(journey: Journey) -> Journey:
     end = float(journey.law.distances[-1])
     over = journey.time >= journey.law.end_time and journey.distance >= end - SLIP
-    if journey.finished or journey.dwell is not None or not over:
+    waits = journey.giving_up is None and end < journey.path.length - SLIP
+    if journey.finished or journey.dwell is not None or waits or not over:
         return journey
     time, where = journey.law.end_time, journey.place(end)
     if journey.giving_up is not None:

@@ -14,6 +14,7 @@ from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan
+from viaspline.robot.lidar import LidarSensor
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Event, Run, Visit
 from viaspline.robot.sensor import RangeSensor
@@ -79,12 +80,11 @@ def simulate(
         >>> run.reached, run.certificate.holds, len(run.replans)
         (True, True, 1)
     """
-    del seed
     if not 0.0 < step < float("inf"):
         raise GeometryError(f"step is {step}; give a time above 0 s")
     world = World.everything(mission)
     nav = Navigator(mission, plan, reaction=max(step, REACTION))
-    drive = _drive(nav, world, step, progress)
+    drive = _drive(nav, world, step, progress, seed)
     return _run(drive, world, step)
 
 
@@ -97,35 +97,43 @@ def _named_unseen(mission: Mission, world: World) -> tuple[Obstacle, ...]:
     )
 
 
-def _drive(nav: Navigator, world: World, step: float, progress: Progress | None) -> _Drive:
+def _drive(
+    nav: Navigator, world: World, step: float, progress: Progress | None, seed: int
+) -> _Drive:
     robot = nav.mission.robot
     sensor = None
-    if robot.sensor is not None:
+    lidar = None
+    if robot.sensor is not None and robot.sensor.lidar is not None:
+        lidar = LidarSensor(world.obstacles, robot.sensor.lidar, seed)
+    elif robot.sensor is not None:
         sensor = RangeSensor(_named_unseen(nav.mission, world), robot.sensor.reach)
     limit = PATIENCE * nav.trajectory.duration + GRACE
-    laws: tuple[tuple[float, Trajectory], ...] = ()
+    laws: list[tuple[float, Trajectory]] = []
     known: frozenset[Obstacle] = frozenset()
     tick = 0
     touched = _contact(nav, world, np.zeros(1))
     while touched is None:
         time = tick * step
         state = nav.reference(time)
-        sensed = () if sensor is None else sensor.seen(state.position)
-        known = known.union(sensed)
-        _, nav = nav.step(state, sensed, time)
+        if lidar is not None:
+            _, nav = nav.step(state, lidar.scan(state.position, state.heading, tick), time)
+        else:
+            sensed = () if sensor is None else sensor.seen(state.position)
+            known = known.union(sensed)
+            _, nav = nav.step(state, sensed, time)
         if not laws or nav.trajectory is not laws[-1][1]:
-            laws = (*laws, (time, nav.trajectory))
+            laws.append((time, nav.trajectory))
         if progress is not None:
             progress(time, nav.distance, nav.path.length)
         if nav.finished:
-            return _Drive(nav, laws, tick, nav.trajectory.end_time, None, None)
+            return _Drive(nav, tuple(laws), tick, nav.trajectory.end_time, None, None)
         if time > limit:
             reason = f"the drive was broken off after {time:.0f} s, its limit"
-            return _Drive(nav, laws, tick, time, None, reason)
-        skipped = _quiet(nav, sensor, known, tick, step)
+            return _Drive(nav, tuple(laws), tick, time, None, reason)
+        skipped = 1 if lidar is not None else _quiet(nav, sensor, known, tick, step)
         touched = _contact(nav, world, step * np.arange(tick, tick + skipped + 1, dtype=float))
         tick += skipped
-    return _Drive(nav, laws, tick, touched.time, touched, None)
+    return _Drive(nav, tuple(laws), tick, touched.time, touched, None)
 
 
 def _quiet(

@@ -101,6 +101,21 @@ class Trajectory:
         """The same, so much later [s]."""
         return replace(self, times=self.times + seconds)
 
+    def until(self, distance: float) -> Trajectory:
+        """The same as far as the first rest at a distance along the path [m] or beyond it."""
+        rests = np.flatnonzero((self.speeds == 0.0) & (self.distances >= distance))
+        if not rests.size:
+            return self
+        last = max(int(rests[0]), 1)
+        return replace(
+            self,
+            distances=self.distances[: last + 1],
+            speeds=self.speeds[: last + 1],
+            times=self.times[: last + 1],
+            accelerations=self.accelerations[:last],
+            stations=tuple(s for s in self.stations if s.distance <= self.distances[last]),
+        )
+
     def state_at(self, time: ArrayLike) -> tuple[Floats, Floats, Floats]:
         """Distance [m], speed [m/s] and acceleration [m/s²] at any time [s].
 

@@ -1,0 +1,76 @@
+"""A way on for a robot whose path is blocked: from the least change to the greatest."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from viaspline.detour import replan
+from viaspline.detour.detoured import Detoured
+from viaspline.errors import GeometryError, NoPathError
+from viaspline.robot.journey import SLIP, time_law
+from viaspline.robot.run import Mode
+from viaspline.robot.scene import Scene
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.world import World
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A way on: how it was found, where the robot turns on the spot, and when it is where."""
+
+    mode: Mode
+    found: Detoured
+    turns: tuple[float, ...]
+    law: Trajectory
+
+
+def find(scene: Scene, world: World, skip: Collection[int] = frozenset()) -> Choice:
+    """The first of: reflex, planned, from rest.
+
+    Args:
+        scene: The robot under way.
+        world: What the way keeps clear of.
+        skip: Points of the route that are left out.
+
+    Raises:
+        NoPathError: If there is no way to the goal.
+    """
+    path, brief = scene.journey.path, scene.brief
+    leaves = [leave for leave in scene.leaves if scene.may_leave(leave)]
+    modes: tuple[Mode, ...] = ("planned",) if skip else ("reflex", "planned")
+    for mode in modes:
+        for leave in leaves:
+            try:
+                if mode == "reflex":
+                    found = replan.reflex(path, leave, world, brief)
+                else:
+                    found = replan.planned(path, leave, world, brief, skip=skip)
+            except NoPathError:
+                continue  # a robot that leaves later, or that stands, may find a way
+            choice = timed(scene, mode, found)
+            if choice is not None:
+                return choice
+    found = replan.from_rest(path, scene.stop, world, brief, skip=skip)
+    choice = timed(scene, "from_rest", found)
+    assert choice is not None  # a robot that stands can go any way on
+    return choice
+
+
+def timed(scene: Scene, mode: Mode, found: Detoured) -> Choice | None:
+    """A way with its time law; None if the robot is too fast to go over to it."""
+    journey = scene.journey
+    turns = tuple(turn for turn in journey.turns if turn <= found.changed_from + SLIP)
+    stands = mode == "from_rest"
+    if stands:
+        turns = (*turns, scene.stop)
+    try:
+        law = time_law(
+            journey, found.path, turns, distance=journey.distance, speed=scene.speed,
+            time=journey.time, sure=scene.stop if stands else 0.0,
+        )  # fmt: skip
+    except GeometryError:
+        return None  # it could not stop within what it has seen of it
+    if law.over_limit_until is not None and not stands:
+        return None
+    return Choice(mode, found, turns, law)
