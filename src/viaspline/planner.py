@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
+from viaspline.detour.account import Account
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import course_of
 from viaspline.detour.ledger import LedgerEntry
@@ -26,7 +27,7 @@ class Plan:
         world: The known world it was planned in.
         path: The exact curve with its via points.
         certificate: The proven clearance of the body against everything known.
-        ledger: Every group met and every side tried.
+        account: What the search did; its ledger is drawn up when it is read.
         trajectory: The time law along the path.
     """
 
@@ -34,8 +35,13 @@ class Plan:
     world: World
     path: Path
     certificate: Certificate
-    ledger: tuple[LedgerEntry, ...]
+    account: Account | None
     trajectory: Trajectory
+
+    @property
+    def ledger(self) -> tuple[LedgerEntry, ...]:
+        """Every group met and every side tried."""
+        return () if self.account is None else self.account.ledger
 
 
 def plan(mission: Mission) -> Plan:
@@ -58,7 +64,7 @@ def plan(mission: Mission) -> Plan:
     brief = Brief.of(mission)
     found = find_path(course_of(mission), world, brief)
     trajectory = retime(found.path, Limits.of(mission.robot), stations(found.path))
-    return Plan(mission, world, found.path, found.certificate, found.ledger, trajectory)
+    return Plan(mission, world, found.path, found.certificate, found.account, trajectory)
 
 
 def stations(path: Path) -> tuple[Station, ...]:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from viaspline.detour.barrier import barriers_of
-from viaspline.detour.route import NO_BARRIERS, Way, find_way
+from viaspline.detour.route import NO_BARRIERS, Router, Way
 from viaspline.kernels.corners import X, Y
 from viaspline.mission.parts import Obstacle
 from viaspline.world.world import World
@@ -30,10 +30,9 @@ def polygon(*ring: tuple[float, float]) -> Obstacle:
 
 
 def way(world: World, start: Any, goal: Any, required: float = 1.0) -> Way | None:
+    places = np.array([start, goal], float)
     active = np.zeros(len(world), np.bool_)
-    return find_way(
-        world, np.array(start, float), np.array(goal, float), required, NO_BARRIERS, active
-    )
+    return Router(world, required, places).find(*places, NO_BARRIERS, active)
 
 
 def random_obstacles(rng: np.random.Generator, count: int, size: float) -> list[Obstacle]:
@@ -260,7 +259,8 @@ def test_a_barrier_closes_one_side(obstacle: Obstacle, side: Any) -> None:
     world = World([obstacle])
     start, goal = np.array([0.0, 0.0]), np.array([100.0, 0.0])
     closed = barriers_of(world, 0, start, goal).closing(side)
-    found = find_way(world, start, goal, 1.0, closed, np.zeros(1, np.bool_))
+    places = np.array([start, goal])
+    found = Router(world, 1.0, places).find(start, goal, closed, np.zeros(1, np.bool_))
     other = barriers_of(world, 0, start, goal).closing("right" if side == "left" else "left")
     assert found is not None
     assert not found.crosses(closed)

@@ -32,11 +32,15 @@ class Barriers(NamedTuple):
 
 def barriers_of(world: World, index: int, start: Floats, goal: Floats) -> Barriers:
     """The barriers of an obstacle on the leg from start to goal."""
+    return barriers_at(world, _place_in(world, index, start[:2], goal[:2]), start, goal)
+
+
+def barriers_at(world: World, inside: Floats, start: Floats, goal: Floats) -> Barriers:
+    """The barriers of what a place lies in, on the leg from start to goal."""
     along = goal[:2] - start[:2]
     length = math.hypot(along[0], along[1])
     along = along / length if length > 0 else np.array([1.0, 0.0])
     outward = np.array([-along[1], along[0]])
-    inside = _place_in(world, index, start[:2], goal[:2])
     foot = float((inside - start[:2]) @ along)
     if not 0.0 <= foot <= length:  # beyond an end of the leg: aslant, so that it still meets it
         away = inside - start[:2] - np.clip(foot, 0.1 * length, 0.9 * length) * along

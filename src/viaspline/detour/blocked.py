@@ -7,7 +7,7 @@ import numpy as np
 from viaspline.curve.certificate import SPARE
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, RouteVia
-from viaspline.detour.route import NO_BARRIERS, Floats, Way, find_way, on_the_line
+from viaspline.detour.route import NO_BARRIERS, Floats, Router, Way, on_the_line
 from viaspline.errors import NoPathError
 from viaspline.kernels.corners import X, Y
 from viaspline.kernels.segment import nearest_to_segment
@@ -138,8 +138,9 @@ def _forced(start: RouteVia, goal: RouteVia, world: World) -> NoPathError:
 def _way(
     start: RouteVia, goal: RouteVia, world: World, required: float, barriers: Floats
 ) -> Way | None:
-    active = np.zeros(len(world), np.bool_)
-    return find_way(world, start.at, goal.at, required, barriers, active)
+    router = Router(world, required, np.array([start.at[:2], goal.at[:2]]))
+    active = on_the_line(world, start.at, goal.at, required)
+    return router.find(start.at, goal.at, barriers, active)
 
 
 def _widest(

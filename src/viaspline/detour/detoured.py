@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
+from viaspline.detour.account import Account
 from viaspline.detour.ledger import LedgerEntry
 
 
@@ -16,13 +17,19 @@ class Detoured:
     Attributes:
         path: The curve with its via points.
         certificate: Its proven clearance.
-        ledger: Every group that was met and the sides that were tried.
+        account: Of the groups that were met and the sides that were tried; None where nothing
+            was laid.
         changed_from: Distance along the path from which it differs from the one it replaces [m].
         rejoins_at: Distance along this path from which it is the old one again [m], or None.
     """
 
     path: Path
     certificate: Certificate
-    ledger: tuple[LedgerEntry, ...]
+    account: Account | None
     changed_from: float = 0.0
     rejoins_at: float | None = None
+
+    @property
+    def ledger(self) -> tuple[LedgerEntry, ...]:
+        """Every group that was met and the sides that were tried."""
+        return () if self.account is None else self.account.ledger

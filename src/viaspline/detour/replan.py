@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.detour.account import Account
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, Leg, RouteVia, direction, span_slack
 from viaspline.detour.detoured import Detoured
 from viaspline.detour.fit import CLEAR, too_close
 from viaspline.detour.join import RunOut, run_out
-from viaspline.detour.ledger import LedgerEntry
 from viaspline.detour.search import clear_course, path_vias
 from viaspline.errors import NoPathError
 from viaspline.world.world import World
@@ -67,7 +67,7 @@ def reflex(path: Path, at: float, world: World, brief: Brief) -> Detoured:
     blocked = _blocked_spans(path, u, world, brief)
     if not blocked.size:
         certificate = certify(_ahead(path, u), world, brief.clearance, radius=brief.radius)
-        return replace(_result(path, at, certificate, ()), rejoins_at=at)
+        return replace(_result(path, at, certificate, None), rejoins_at=at)
     users = [via for via in path.vias if via.kind == "user"]
     narrow = _stretch(path.vias, users, u, blocked)
     wide = _stretch(users, users, u, blocked)
@@ -116,12 +116,12 @@ def from_rest(
     _refuse_the_end(path, stretch)
     start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
     course = _course(path, start, stretch, brief)
-    cleared, spans, ledger = clear_course(course, world, brief)
+    cleared, spans, account = clear_course(course, world, brief)
     head = _head(path, u)
     vias = (*_vias_until(path, u, len(head)), *path_vias(cleared, len(head)))
     new = Path(np.concatenate((head, spans)), vias)
     certificate = certify(PiecewiseCubic(spans), world, brief.clearance, radius=brief.radius)
-    return _result(new, at, certificate, ledger)
+    return _result(new, at, certificate, account)
 
 
 def _joined(path: Path, stretch: _Stretch, world: World, brief: Brief) -> Detoured:
@@ -151,7 +151,7 @@ def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: floa
     course = replace(_course(path, start, stretch, brief, meet), start_tangent=out.tangent)
     if back is not None:
         course = replace(course, end_tangent=back.tangent)
-    cleared, spans, ledger = clear_course(course, world, brief)
+    cleared, spans, account = clear_course(course, world, brief)
     head = _head(path, stretch.u)
     first = len(head) + 1
     pieces = [head, out.span[None], spans]
@@ -168,7 +168,7 @@ def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: floa
         PiecewiseCubic(new.spans[len(head) :]), world, brief.clearance, radius=brief.radius
     )
     back_at = None if rejoin is None else float(new.distance(float(rejoin)))
-    return _result(new, leaving, certificate, ledger, back_at)
+    return _result(new, leaving, certificate, account, back_at)
 
 
 def _room(path: Path, stretch: _Stretch) -> tuple[float, float]:
@@ -183,7 +183,7 @@ def _result(
     new: Path,
     certificate_from: float,
     certificate: Certificate,
-    ledger: tuple[LedgerEntry, ...],
+    account: Account | None,
     rejoins_at: float | None = None,
 ) -> Detoured:
     """A path whose certificate speaks of what lies ahead of ``certificate_from`` [m]."""
@@ -191,7 +191,7 @@ def _result(
     moved = replace(
         certificate, tightest_distance=distance, tightest_u=float(new.parameter(distance))
     )
-    return Detoured(new, moved, ledger, certificate_from, rejoins_at)
+    return Detoured(new, moved, account, certificate_from, rejoins_at)
 
 
 def _refuse_the_end(path: Path, stretch: _Stretch) -> None:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
+from functools import cached_property
+from itertools import chain, islice, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.certificate import SPARE
+from viaspline.detour.lattice import Lattice, lattices
 from viaspline.kernels.corners import X, Y
 from viaspline.kernels.route import barrier_crossings, shortest_route
 from viaspline.kernels.segment import mark_near_segment
-from viaspline.kernels.taut import bends_of, detour_points, taut_length
+from viaspline.kernels.string import TAUT, is_clear_polyline, pulled_taut
+from viaspline.kernels.taut import bends_of, corners_round, detour_points, taut_length
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
@@ -22,8 +26,8 @@ Flags = NDArray[np.bool_]
 # coarse first, and finer for gaps that are hardly wider than the robot. Below nothing at last: a
 # via point may stand at just what is required, and a route turns only round what it is outside of.
 RESOLUTIONS = ((1e-3, np.pi / 6), (1e-4, np.pi / 32), (-0.25 * SPARE, np.pi / 200))
-MANY = 32  # obstacles in the way of a leg beyond which it is sought piece by piece
-NEAR = 5  # corners of either piece that are sought again where two pieces meet
+MANY = 32  # obstacles in the way of a leg beyond which it is sought on a lattice
+GAPS = 1000  # gaps that may prove too narrow before a finer lattice is tried
 NO_BARRIERS = np.empty((0, 4))
 
 
@@ -60,6 +64,15 @@ class Way:
         return points
 
     @classmethod
+    def round(cls, bends: Floats, world: World, floor: float) -> Way:
+        """The way along taut bends, its corners so fine that they keep ``floor`` as well."""
+        for _, step in RESOLUTIONS:
+            corners = corners_round(bends, step)
+            if is_clear_polyline(world.packed, corners, floor):
+                break
+        return cls(corners, bends, float(taut_length(corners, bends)))
+
+    @classmethod
     def through(cls, corners: Floats) -> Way:
         """The way along given corners."""
         bends = bends_of(corners)
@@ -81,26 +94,113 @@ class Way:
         return Way.through(np.concatenate(rows))
 
 
-def find_way(
+@dataclass(frozen=True)
+class Router:
+    """Finds the shortest ways in a world for a robot that needs a certain room.
+
+    With few obstacles in the way the search is exact among them alone. Among many, and on maps,
+    a guide through a lattice of free cells is pulled taut.
+
+    Attributes:
+        world: What to keep clear of.
+        required: Distance to keep [m].
+        places: Where ways may begin and end [m], (n, 2).
+    """
+
+    world: World
+    required: float
+    places: Floats
+
+    @cached_property
+    def has_maps(self) -> bool:
+        """Whether there are occupancy grids in the world."""
+        return bool(len(self.world.packed.grid_shapes))
+
+    @cached_property
+    def lattice(self) -> Lattice:
+        """The coarsest lattice."""
+        return next(lattices(self.world, self.required, self.places))
+
+    def find(self, start: Floats, goal: Floats, barriers: Floats, active: Flags) -> Way | None:
+        """The shortest way that keeps the distance from everything and crosses no barrier.
+
+        Args:
+            start: [m], at least (2,).
+            goal: [m], at least (2,).
+            barriers: Segments not to cross, (b, 4).
+            active: (n,): obstacles to begin with; those met are added in place.
+
+        Returns:
+            The way, or None where there is none.
+        """
+        if self.is_dense(active):
+            way = self._guided(start, goal, barriers)
+            if way is not None:
+                self._mark(way, active)
+            return way
+        return _exact(self.world, start, goal, self.required, barriers, active)
+
+    def is_dense(self, active: Flags) -> bool:
+        """Whether ways are sought on a lattice: on maps, and among many obstacles."""
+        return self.has_maps or bool(np.count_nonzero(active) > MANY)
+
+    def _mark(self, way: Way, active: Flags) -> None:
+        """Mark what a way goes round in ``active``."""
+        width = self.required + 2 * RESOLUTIONS[0][0]
+        for a, b in pairwise(way.corners[:, X : Y + 1].tolist()):
+            mark_near_segment(self.world.packed, *a, *b, width, active)
+
+    def _guided(self, start: Floats, goal: Floats, barriers: Floats) -> Way | None:
+        """The first of ever finer lattices that leads to a way."""
+        closed = barriers
+        for lattice in chain((self.lattice,), self._finer):
+            way, closed = self._along(lattice, start, goal, closed)
+            if way is not None:
+                return way
+            if lattice.is_open and len(closed) == len(barriers):
+                return None
+        return None
+
+    def _along(
+        self, lattice: Lattice, start: Floats, goal: Floats, closed: Floats
+    ) -> tuple[Way | None, Floats]:
+        """The way along the guides of a lattice, and what is closed once it has been sought."""
+        if len(closed):
+            lattice = lattice.without(closed)
+        for _ in range(GAPS):
+            guide = lattice.guide(start, goal)
+            if guide is None:
+                return None, closed
+            bends, gap = self._taut(guide, lattice.side)
+            if len(bends):
+                return Way.round(bends, self.world, self._floor), closed
+            closed = np.vstack((closed, gap))
+            lattice = lattice.without(gap)
+        return None, closed
+
+    def _taut(self, guide: Floats, side: float) -> tuple[Floats, Floats]:
+        """The guide pulled taut, or no bends and the gap that it can't go through."""
+        for margin, _ in RESOLUTIONS:
+            status, bends, gap = pulled_taut(
+                self.world.packed, guide, self.required + margin, self._floor, side
+            )
+            if status == TAUT:
+                break
+        return bends, gap
+
+    @property
+    def _floor(self) -> float:
+        """What a way keeps, a little less than what is asked for, as the certificate does."""
+        return self.required - 0.5 * SPARE
+
+    @property
+    def _finer(self) -> Iterator[Lattice]:
+        return islice(lattices(self.world, self.required, self.places), 1, None)
+
+
+def _exact(
     world: World, start: Floats, goal: Floats, required: float, barriers: Floats, active: Flags
 ) -> Way | None:
-    """The shortest way that keeps ``required`` from everything and crosses no barrier.
-
-    Args:
-        world: What to keep clear of.
-        start: [m], at least (2,).
-        goal: [m], at least (2,).
-        required: Distance to keep [m].
-        barriers: Segments not to cross, (b, 4).
-        active: (n,): obstacles to begin with; those met are added in place.
-
-    Returns:
-        The way, or None where there is none.
-    """
-    if not len(barriers) and np.count_nonzero(active) > MANY:
-        way = _piecewise(world, start, goal, required, active)
-        if way is not None:
-            return way
     floor = required - 0.5 * SPARE
     a, b = np.ascontiguousarray(start[:2]), np.ascontiguousarray(goal[:2])
     for margin, step in RESOLUTIONS:
@@ -110,62 +210,6 @@ def find_way(
         if len(corners):
             return Way.through(corners)
     return None
-
-
-def _piecewise(
-    world: World, start: Floats, goal: Floats, required: float, active: Flags
-) -> Way | None:
-    """A way along a leg with very many obstacles, sought piece by piece.
-
-    The straight line is cut at places on it that are free, each piece is led round what it meets,
-    and where two pieces meet the way is sought again between corners on both of them. It is a
-    little longer than the shortest way, where the search for that would take minutes.
-    """
-    pieces = int(np.ceil(np.count_nonzero(active) / (0.5 * MANY)))
-    places = [start[:2], *_gates(world, start, goal, required, pieces), goal[:2]]
-    ways = [_part(world, a, b, required, active) for a, b in pairwise(places)]
-    if len(ways) < 2:
-        return None
-    corners = None
-    for way in ways:
-        if way is None:
-            return None
-        if corners is None:
-            corners = way.corners
-            continue
-        joint = len(corners) - 1
-        corners = np.concatenate((corners, way.corners[1:]))
-        first, last = max(0, joint - NEAR), min(len(corners) - 1, joint + NEAR)
-        ends = corners[first, X : Y + 1], corners[last, X : Y + 1]
-        part = _part(world, *ends, required, active)
-        if part is None:
-            return None
-        inner = part.corners[1:-1]
-        corners = np.concatenate((corners[: first + 1], inner, corners[last:]))
-    return None if corners is None else Way.through(corners)
-
-
-def _part(world: World, start: Floats, goal: Floats, required: float, active: Flags) -> Way | None:
-    """The shortest way on a part of a leg; what it meets is added to ``active``."""
-    near = on_the_line(world, start, goal, required)
-    if np.count_nonzero(near) > MANY:
-        return None
-    way = find_way(world, start, goal, required, NO_BARRIERS, near)
-    active |= near
-    return way
-
-
-def _gates(world: World, start: Floats, goal: Floats, required: float, pieces: int) -> list[Floats]:
-    """Free places on a straight line, about equally far apart; fewer where there are none."""
-    share = np.linspace(0.0, 1.0, 40 * pieces + 1)[1:-1]
-    places = start[None, :2] + share[:, None] * (goal[:2] - start[:2])[None, :]
-    free = world.distance(places) > 2 * required
-    gates = []
-    for k in range(1, pieces):
-        near = np.flatnonzero(free[40 * k - 20 : 40 * k + 20])
-        if near.size:
-            gates.append(places[40 * k - 20 + near[np.argmin(np.abs(near - 20))]])
-    return gates
 
 
 def on_the_line(world: World, start: Floats, goal: Floats, width: float) -> Flags:

@@ -2,50 +2,42 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from dataclasses import replace
 
 from viaspline.curve.certificate import certify
 from viaspline.curve.path import Path, PathVia, ViaKind
+from viaspline.detour.account import Account
 from viaspline.detour.blocked import explain_tight_leg, refuse_blocked_vias
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, lay
 from viaspline.detour.detoured import Detoured
 from viaspline.detour.fit import CLEAR, tighten, too_close
-from viaspline.detour.ledger import LedgerEntry
-from viaspline.detour.measure import measure
+from viaspline.detour.passing import Passed, Task
 from viaspline.detour.route import Floats
-from viaspline.detour.sides import pass_groups
-from viaspline.kernels.groups import group_labels
 from viaspline.world.world import World
 
 ROUNDS = 40  # every round lowers the slack of the legs that are still too close
 
 
-def clear_course(
-    course: Course, world: World, brief: Brief
-) -> tuple[Course, Floats, tuple[LedgerEntry, ...]]:
+def clear_course(course: Course, world: World, brief: Brief) -> tuple[Course, Floats, Account]:
     """Lead every blocked leg round what stands in its way; leave the others alone.
 
     Returns:
-        (course, spans (m, 4, d), ledger).
+        (course, spans (m, 4, d), account of the groups that were met).
 
     Raises:
         NoPathError: When a via point has no room, or there is no way between two of them.
     """
     refuse_blocked_vias(course, world, brief)
-    groups: NDArray[np.int64] | None = None
-    passed: dict[int, tuple[LedgerEntry, ...]] = {}
+    task: Task | None = None
+    passed: dict[int, Passed] = {}
     for _ in range(ROUNDS):
         spans = lay(course)
         close = too_close(world, spans, brief.required)
         if (close == CLEAR).all():
-            return course, spans, _ledger(course, spans, passed, world, brief)
-        if groups is None:
-            groups = group_labels(world.packed, 2 * brief.required)
+            return course, spans, Account(course, spans, world, brief, passed)
+        if task is None:
+            task = Task.of(course, world, brief)
         first = course.first_spans()
         for leg in range(len(course.legs)):
             hit = close[first[leg] : first[leg + 1]]
@@ -57,42 +49,9 @@ def clear_course(
                 if tightened is not None:
                     course = tightened.course
                     continue
-            result = pass_groups(course, leg, world, brief, hit[hit >= 0].tolist(), groups)
-            course = result.fitted.course
-            passed[leg] = result.entries
+            passed[leg] = task.lead_round(course, leg, hit[hit >= 0].tolist())
+            course = passed[leg].fitted.course
     raise explain_tight_leg(course, leg, world, brief)
-
-
-def _ledger(
-    course: Course,
-    spans: Floats,
-    passed: dict[int, tuple[LedgerEntry, ...]],
-    world: World,
-    brief: Brief,
-) -> tuple[LedgerEntry, ...]:
-    """All entries, with the chosen curves as they lie in the end.
-
-    A leg that was led round after its neighbour has turned the tangents at the via point between
-    them; what was not chosen stays as it was weighed.
-    """
-    first = course.first_spans()
-    entries: list[LedgerEntry] = []
-    for leg in sorted(passed):
-        laid = spans[first[leg] : first[leg + 1]]
-        chosen = passed[leg][0].chosen if passed[leg] else None  # all entries of a leg share it
-        if chosen is None or np.array_equal(chosen.spans, laid):
-            entries += passed[leg]
-            continue
-        cost = asdict(measure(laid, world, brief))  # fields of a candidate as well
-        points = course.legs[leg].points
-        entries += [_as_laid(entry, spans=laid, vias=points, **cost) for entry in passed[leg]]
-    return tuple(entries)
-
-
-def _as_laid(entry: LedgerEntry, **curve: Any) -> LedgerEntry:
-    """The entry with other values for the curve that was chosen."""
-    candidates = (replace(c, **curve) if c.chosen else c for c in entry.candidates)
-    return replace(entry, candidates=tuple(candidates))
 
 
 def find_path(course: Course, world: World, brief: Brief) -> Detoured:
@@ -101,10 +60,10 @@ def find_path(course: Course, world: World, brief: Brief) -> Detoured:
     Raises:
         NoPathError: When there is none, with the least change that would serve.
     """
-    cleared, spans, ledger = clear_course(course, world, brief)
+    cleared, spans, account = clear_course(course, world, brief)
     path = Path(spans, path_vias(cleared))
     certificate = certify(path, world, brief.clearance, radius=brief.radius)
-    return Detoured(path, certificate, ledger)
+    return Detoured(path, certificate, account)
 
 
 def path_vias(course: Course, first_span: int = 0) -> tuple[PathVia, ...]:

@@ -6,7 +6,17 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.corners import CENTER_X, CENTER_Y, RADIUS, X, Y
+from viaspline.kernels.corners import (
+    CENTER_X,
+    CENTER_Y,
+    COLUMNS,
+    NORMAL_X,
+    NORMAL_Y,
+    RADIUS,
+    SLOPE,
+    X,
+    Y,
+)
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Floats
 
@@ -244,3 +254,44 @@ def taut_length(route: Floats, bends: Floats) -> float:
         for k in range(route.shape[0] - 1):
             length += math.hypot(route[k + 1, X] - route[k, X], route[k + 1, Y] - route[k, Y])
     return length
+
+
+@kernel
+def corners_round(bends: Floats, step: float) -> Floats:
+    """The corners of taut bends: every arc in circumscribed turns of at most ``step``.
+
+    Args:
+        bends: (m, 6), start and goal among them.
+        step: Largest turn at one corner [rad].
+
+    Returns:
+        Corners from start to goal, (k, 8), see ``corners``.
+    """
+    count = bends.shape[0]
+    room = count
+    for k in range(1, count - 1):
+        room += int(np.ceil(bends[k, TURN] / step))
+    corners = np.zeros((room, COLUMNS))
+    size = 0
+    for k in range(count):
+        if k == 0 or k == count - 1:
+            corners[size, X] = bends[k, BEND_X]
+            corners[size, Y] = bends[k, BEND_Y]
+            size += 1
+            continue
+        parts = max(1, int(np.ceil(bends[k, TURN] / step)))
+        half = 0.5 * bends[k, TURN] / parts
+        for part in range(parts):
+            heading = bends[k, HEADING_IN] + bends[k, SIDE] * (2 * part + 1) * half
+            nx = bends[k, SIDE] * math.sin(heading)
+            ny = -bends[k, SIDE] * math.cos(heading)
+            corners[size, X] = bends[k, BEND_X] + bends[k, BEND_RADIUS] / math.cos(half) * nx
+            corners[size, Y] = bends[k, BEND_Y] + bends[k, BEND_RADIUS] / math.cos(half) * ny
+            corners[size, CENTER_X] = bends[k, BEND_X]
+            corners[size, CENTER_Y] = bends[k, BEND_Y]
+            corners[size, RADIUS] = bends[k, BEND_RADIUS]
+            corners[size, NORMAL_X] = nx
+            corners[size, NORMAL_Y] = ny
+            corners[size, SLOPE] = math.tan(half)
+            size += 1
+    return corners[:size].copy()

@@ -1,0 +1,73 @@
+"""Leading legs round what stands in their way: by groups where they are few, else by islands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.detour.blocked import explain_blocked_leg
+from viaspline.detour.brief import Brief
+from viaspline.detour.course import Course
+from viaspline.detour.islands import PassedIslands
+from viaspline.detour.leg_search import LegSearch
+from viaspline.detour.route import Router, on_the_line
+from viaspline.detour.sides import PassedGroups, groups_met, pass_groups
+from viaspline.kernels.groups import group_labels
+from viaspline.world.world import World
+
+Passed = PassedGroups | PassedIslands
+
+
+@dataclass(frozen=True)
+class Task:
+    """A world to find ways in.
+
+    Attributes:
+        world: The known world.
+        brief: What to keep.
+        router: Of both.
+    """
+
+    world: World
+    brief: Brief
+    router: Router
+
+    @classmethod
+    def of(cls, course: Course, world: World, brief: Brief) -> Task:
+        """The task of a course."""
+        places = np.array([via.at[:2] for via in course.vias])
+        return cls(world, brief, Router(world, brief.required, places))
+
+    @cached_property
+    def groups(self) -> NDArray[np.int64]:
+        """Label of every obstacle's group, (n,)."""
+        labels: NDArray[np.int64] = group_labels(self.world.packed, 2 * self.brief.required)
+        return labels
+
+    def lead_round(self, course: Course, index: int, hit: Sequence[int]) -> Passed:
+        """Lead one leg round everything, by the shorter side of each group.
+
+        Args:
+            course: What there is so far.
+            index: The leg that comes too close to something.
+            hit: Obstacles that its curve comes too close to.
+
+        Raises:
+            NoPathError: When there is no way, with the least change that would serve.
+        """
+        leg = LegSearch(course, index, self.world, self.brief, self.router)
+        active = on_the_line(self.world, *leg.ends, self.brief.required)
+        active[list(hit)] = True
+        dense = self.router.is_dense(active)
+        met = () if dense else groups_met(leg, self.groups, active)
+        way, barriers = leg.shortest_allowed(active)
+        best = leg.curve(way)
+        if best is None:
+            raise explain_blocked_leg(course, index, self.world, self.brief, barriers)
+        if dense:
+            return PassedIslands(leg, best)
+        return pass_groups(leg, met, best, active)
