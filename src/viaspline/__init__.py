@@ -34,6 +34,8 @@ if TYPE_CHECKING:
         ViasplineError,
     )
     from viaspline.formats.load import load
+    from viaspline.maps.grid import Grid
+    from viaspline.mission.load_map import load_map
     from viaspline.mission.model import Mission
     from viaspline.mission.parts import Obstacle
     from viaspline.planner import Plan, plan
@@ -51,6 +53,7 @@ _HOMES = {
     "Certificate": "curve.certificate",
     "Command": "robot.state",
     "GeometryError": "errors",
+    "Grid": "maps.grid",
     "Limits": "trajectory.limits",
     "Mission": "mission.model",
     "MissionError": "errors",
@@ -70,6 +73,7 @@ _HOMES = {
     "World": "world.world",
     "certify": "curve.certificate",
     "load": "formats.load",
+    "load_map": "mission.load_map",
     "plan": "planner",
     "retime": "trajectory.retime",
     "simulate": "robot.simulator",

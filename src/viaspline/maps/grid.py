@@ -86,6 +86,11 @@ class Grid:
     def __hash__(self) -> int:
         return hash(self.digest)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        # Arrays forget on the way that they are read-only.
+        given = (self.blocked, self.resolution, self.origin, self.source, self.unknown)
+        return Grid, (*given, self.reading)
+
     def __repr__(self) -> str:
         height, width = self.blocked.shape
         return (

@@ -14,7 +14,7 @@ from viaspline.maps.occupancy import MODES, Meaning, Mode
 
 _KEYS: Final = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 _REMEDY: Final = "it should be a mapping with the keys " + ", ".join(_KEYS) + " (and mode)"
-_FARTHEST: Final = 1e9  # [m], as everywhere in a mission
+_FARTHEST: Final = 5e8  # [m]; all of the largest map is then where a mission may be
 
 T = TypeVar("T")
 

@@ -51,7 +51,13 @@ def _bounds(draft: Draft) -> list[Flaw]:
 
 
 def _sides(draft: Draft) -> list[Flaw]:
-    return [
+    flaws = [
+        Flaw((*path, key), "a map of squares has no sides", "leave it out", at_key=True)
+        for path, obstacle in draft.known + draft.unseen
+        for key in ("pass_on", "never_pass_on")
+        if obstacle.grid is not None and getattr(obstacle, key) is not None
+    ]
+    return flaws + [
         Flaw(
             (*path, "never_pass_on"),
             f"contradicts pass_on: {obstacle.pass_on}",

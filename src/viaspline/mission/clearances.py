@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection
 from typing import NamedTuple
 
+from viaspline.maps.squares import is_unknown
 from viaspline.mission.draft import Corners, Draft, obstacle_label
 from viaspline.mission.flaws import Flaw, Path, number, spell
 from viaspline.mission.freespace import FreeSpace
@@ -36,18 +37,26 @@ def clearance_flaws(draft: Draft, misshapen: Collection[Path]) -> list[Flaw]:
     space = FreeSpace(bounds, [ring for _, ring in fences], [item for _, item in known], margin)
     return [
         Flaw((*points[i][0], "at"), _problem(points[i], near, margin), remedy)
-        for i, nears in _too_near(space, points, known, fences).items()
-        for remedy in [_remedy(points[i][1], min(near.distance for near in nears), robot, space)]
+        for i, nears in _too_near(space, points, known, fences, draft.edge).items()
+        for remedy in [_remedy(points[i][1], nears, robot, space)]
         for near in nears
     ]
 
 
 class _Near(NamedTuple):
-    """Something that a point is too near to, its signed distance [m], and its wrong side."""
+    """Something that a point is too near to.
+
+    Attributes:
+        thing: What it is called.
+        distance: The signed distance [m].
+        wrong_side: Where a point with a negative distance lies.
+        is_unknown: Whether the point is there because nothing is known of the place.
+    """
 
     thing: str
     distance: float
-    wrong_side: str
+    wrong_side: str = "inside"
+    is_unknown: bool = False
 
 
 def _too_near(
@@ -55,22 +64,32 @@ def _too_near(
     points: list[tuple[Path, ViaPoint]],
     known: list[tuple[Path, Obstacle]],
     fences: list[tuple[Path, Corners]],
+    edge: Collection[Path],
 ) -> dict[int, list[_Near]]:
     """For each point in trouble, what it is too near to."""
     places = [point.at[:2] for _, point in points]
     found: dict[int, list[_Near]] = {}
 
-    def note(i: int, thing: str, distance: float, wrong_side: str) -> None:
-        if distance < space.margin - TOLERANCE:
-            found.setdefault(i, []).append(_Near(thing, distance, wrong_side))
+    def note(i: int, near: _Near) -> None:
+        if near.distance < space.margin - TOLERANCE:
+            found.setdefault(i, []).append(near)
 
     for i, distance in space.near_bounds(places):
-        note(i, "the bounds", distance, "outside")
+        note(i, _Near(_edge_label(("world", "bounds"), edge, "the bounds"), distance, "outside"))
     for i, j, distance in space.near_fences(places):
-        note(i, f"fence {spell(fences[j][0])}", distance, "outside")
+        path = fences[j][0]
+        note(i, _Near(_edge_label(path, edge, f"fence {spell(path)}"), distance, "outside"))
     for i, j, distance in space.near_obstacles(places):
-        note(i, obstacle_label(*known[j]), distance, "inside")
+        path, obstacle = known[j]
+        unknown = obstacle.grid is not None and is_unknown(obstacle.grid, places[i])
+        side = "inside unknown space of" if unknown else "inside"
+        note(i, _Near(obstacle_label(path, obstacle), distance, side, unknown))
     return found
+
+
+def _edge_label(path: Path, edge: Collection[Path], label: str) -> str:
+    """Bounds and fences that nobody gave are the map's."""
+    return "the edge of the map" if path in edge else label
 
 
 def _problem(where: tuple[Path, ViaPoint], near: _Near, margin: float) -> str:
@@ -84,11 +103,14 @@ def _metres(length: float) -> str:
     return f"{number(length)} m" if length >= 5e-4 else "less than 1 mm"
 
 
-def _remedy(point: ViaPoint, tightest: float, robot: RobotSpec, space: FreeSpace) -> str:
+def _remedy(point: ViaPoint, nears: list[_Near], robot: RobotSpec, space: FreeSpace) -> str:
     remedies = []
     place = space.nearest(point.at[:2])
     if place is not None:
         remedies.append(f"move it to ({', '.join(number(x, 6) for x in place)})")
+    if all(near.is_unknown for near in nears):
+        remedies.append("set unknown: free for the map")
+    tightest = min(near.distance for near in nears)
     # Rounded down, so that what is said is enough.
     clearance = math.floor((tightest - robot.radius_m - 1e-6) * 1e3) / 1e3
     if clearance >= 0:

@@ -6,7 +6,7 @@ run on the rest, so that the user hears of every fault at once.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -24,6 +24,7 @@ from viaspline.mission.parts import (
     WorldSpec,
 )
 from viaspline.mission.structure import parts
+from viaspline.mission.unfold import Unfolded
 
 Corners: TypeAlias = tuple[tuple[float, float], ...]
 
@@ -43,6 +44,7 @@ class Draft:
         has_goal: Whether there is a goal, sound or not.
         has_route: Whether the number of points is known.
         spline: None if it is faulty.
+        edge: Paths of the bounds or the fence that maps brought.
     """
 
     bounds: tuple[float, float, float, float] | None = None
@@ -55,10 +57,11 @@ class Draft:
     has_goal: bool = False
     has_route: bool = True
     spline: SplineSpec | None = None
+    edge: frozenset[Path] = frozenset()
 
     @classmethod
-    def of(cls, mission: MissionParts) -> Draft:
-        """A whole mission as a draft."""
+    def of(cls, mission: MissionParts, unfolded: Unfolded) -> Draft:
+        """A whole mission as a draft; obstacles of maps have the path of their map."""
         world, route = mission.world, mission.route
         points: list[tuple[Path, ViaPoint | None]] = [(("route", "start"), route.start)]
         points += [(("route", "via", i), via) for i, via in enumerate(route.via)]
@@ -67,19 +70,20 @@ class Draft:
         return cls(
             bounds=world.bounds,
             fences=[(("world", "fences", i), ring) for i, ring in enumerate(world.fences)],
-            known=[(("world", "known", i), obstacle) for i, obstacle in enumerate(world.known)],
-            unseen=[(("world", "unseen", i), obstacle) for i, obstacle in enumerate(world.unseen)],
+            known=_placed(enumerate(world.known), "known", unfolded),
+            unseen=_placed(enumerate(world.unseen), "unseen", unfolded),
             robot=mission.robot,
             points=points,
             closed=route.closed,
             has_goal=route.goal is not None,
             spline=mission.spline,
+            edge=unfolded.edge,
         )
 
     @classmethod
-    def salvage(cls, data: Any) -> Draft:
+    def salvage(cls, unfolded: Unfolded) -> Draft:
         """What is sound in data that is not."""
-        top = children(data) or {}
+        top = children(unfolded.data) or {}
         world = children(top.get("world")) or {}
         route = children(top.get("route")) or {}
         bounds = _attempt(WorldSpec, {"bounds": world.get("bounds")})
@@ -93,15 +97,16 @@ class Draft:
         closed = route.get("closed", False)
         return cls(
             bounds=bounds.bounds if bounds is not None else None,
-            fences=_all(TypeAdapter(Ring), world, "fences"),
-            known=_all(TypeAdapter(Obstacle), world, "known"),
-            unseen=_all(TypeAdapter(Obstacle), world, "unseen"),
+            fences=_placed(_sound(TypeAdapter(Ring), world, "fences"), "fences", unfolded),
+            known=_placed(_sound(TypeAdapter(Obstacle), world, "known"), "known", unfolded),
+            unseen=_placed(_sound(TypeAdapter(Obstacle), world, "unseen"), "unseen", unfolded),
             robot=_robot(top.get("robot", {})),
             points=points,
             closed=closed if isinstance(closed, bool) else None,
             has_goal=route.get("goal") is not None,
             has_route=bool(route) and (isinstance(via, list | tuple) or hasattr(via, "tolist")),
             spline=_attempt(SplineSpec, top.get("spline", {})),
+            edge=unfolded.edge,
         )
 
 
@@ -143,12 +148,21 @@ def _validated(adapter: TypeAdapter[Any], value: Any) -> Any:
         return None
 
 
-def _all(adapter: TypeAdapter[Any], world: Any, key: str) -> list[Any]:
-    items: Iterable[tuple[int, Any]] = parts(world.get(key))
-    tried = ((("world", key, i), _validated(adapter, item)) for i, item in items)
-    return [(path, value) for path, value in tried if value is not None]
+def _sound(adapter: TypeAdapter[Any], world: Any, key: str) -> Iterator[tuple[int, Any]]:
+    tried = ((i, _validated(adapter, item)) for i, item in parts(world.get(key)))
+    return ((i, value) for i, value in tried if value is not None)
+
+
+def _placed(items: Iterable[tuple[int, Any]], key: str, unfolded: Unfolded) -> list[Any]:
+    """Items of a list under ``world``, each with its path in the mission as it was given."""
+    return [(unfolded.original(("world", key, i)), value) for i, value in items]
 
 
 def obstacle_label(path: Path, obstacle: Obstacle) -> str:
     """What an obstacle is called in a message."""
-    return f"obstacle '{obstacle.name}'" if obstacle.name else f"obstacle {spell(path)}"
+    kind = "obstacle" if obstacle.grid is None else "map"
+    if obstacle.name:
+        return f"{kind} '{obstacle.name}'"
+    if obstacle.grid is not None and obstacle.grid.source is not None:
+        return f"map '{obstacle.grid.source}'"
+    return f"{kind} {spell(path)}"

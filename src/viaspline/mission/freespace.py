@@ -9,10 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from functools import cached_property
+from itertools import chain
 from typing import Any, TypeAlias
 
 import numpy as np
 
+from viaspline.maps.grid import Grid
+from viaspline.maps.squares import blocked_ground, signed_distance
 from viaspline.mission.draft import Corners
 from viaspline.mission.parts import Obstacle
 from viaspline.mission.shapes import Geometries, polygons_of
@@ -23,6 +26,8 @@ Indices: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
 _CROWD = 2000  # Obstacles round a point beyond which no nearest free place is looked for.
 _QUARTER = 64  # Corners of a quarter circle where outlines are moved outwards.
 _OUTWARD = 1 / math.cos(math.pi / (4 * _QUARTER))  # Chords cut corners; so much farther, none.
+_COARSE = 8  # The same for squares, which have so many corners.
+_OUTWARD_COARSE = 1 / math.cos(math.pi / (4 * _COARSE))
 
 
 class FreeSpace:
@@ -48,9 +53,12 @@ class FreeSpace:
         self._pack(obstacles)
 
     def _pack(self, obstacles: Sequence[Obstacle]) -> None:
-        """Centres and radii of the circles, polygons, and the boxes round all of them."""
+        """Centres and radii of the circles, polygons, the boxes round all of them; the grids."""
         import shapely
 
+        self.grids = [(j, item.grid) for j, item in enumerate(obstacles) if item.grid is not None]
+        self.order = np.array([j for j, item in enumerate(obstacles) if item.grid is None], np.intp)
+        obstacles = [obstacles[j] for j in self.order]
         self.is_circle = np.array([item.circle is not None for item in obstacles], dtype=bool)
         discs = [item.circle for item in obstacles if item.circle is not None]
         shapes = [(item.polygon, item.holes) for item in obstacles if item.polygon is not None]
@@ -88,6 +96,20 @@ class FreeSpace:
 
     def near_obstacles(self, places: Sequence[Sequence[float]]) -> Iterator[tuple[int, int, float]]:
         """Points nearer to an obstacle than the margin: point, nearest obstacle, distance."""
+        nearest: dict[int, tuple[float, int]] = {}
+        for i, j, distance in chain(self._near_shapes(places), self._near_squares(places)):
+            nearest[i] = min(nearest.get(i, (math.inf, -1)), (distance, j))
+        for i, (distance, j) in sorted(nearest.items()):
+            yield i, j, distance
+
+    def _near_squares(self, places: Sequence[Sequence[float]]) -> Iterator[tuple[int, int, float]]:
+        for j, grid in self.grids:
+            for i, place in enumerate(places):
+                distance = signed_distance(grid, place[:2], self.margin)
+                if distance < self.margin:
+                    yield i, j, distance
+
+    def _near_shapes(self, places: Sequence[Sequence[float]]) -> Iterator[tuple[int, int, float]]:
         import shapely
 
         if not len(self.geometries):
@@ -101,7 +123,7 @@ class FreeSpace:
         _, first = np.unique(point[order], return_index=True)
         for k in order[first]:
             if distances[k] < self.margin:
-                yield int(point[k]), int(which[k]), float(distances[k])
+                yield int(point[k]), int(self.order[which[k]]), float(distances[k])
 
     def _distances(self, points: Geometries, which: Indices) -> Floats:
         """Signed distances of points to obstacles, pair by pair."""
@@ -160,7 +182,23 @@ class FreeSpace:
         grown = shapely.buffer(
             self.geometries[around], (self.radii[around] + margin) * _OUTWARD, quad_segs=_QUARTER
         )
-        return shapely.difference(window, shapely.union_all(grown))
+        free = shapely.difference(window, shapely.union_all(grown))
+        for _, grid in self.grids:
+            free = shapely.difference(free, self._grown_squares(grid, free, margin))
+        return free
+
+    def _grown_squares(self, grid: Grid, window: Any, margin: float) -> Any:
+        """A grid's blocked ground, moved outwards; all of it that reaches into a window."""
+        import shapely
+
+        if window.is_empty:
+            return window
+        x_min, y_min, x_max, y_max = window.bounds
+        reach = 2 * margin
+        box = (x_min - reach, y_min - reach, x_max + reach, y_max + reach)
+        return shapely.buffer(
+            blocked_ground(grid, box), margin * _OUTWARD_COARSE, quad_segs=_COARSE
+        )
 
     @cached_property
     def _inner_fences(self) -> Geometries:
@@ -179,6 +217,8 @@ class FreeSpace:
         decimals = round(-math.log10(self._step))
         xy = (round(place[0], decimals), round(place[1], decimals))
         if any(self.near_bounds([xy])) or any(self.near_fences([xy])):
+            return None
+        if any(self._near_squares([xy])):
             return None
         if len(self.boxes):
             around = self._tree.query(_window(xy, self.margin))

@@ -6,7 +6,8 @@ y north, headings anticlockwise from x. What one part means to another is held i
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Final, Literal
 
 from pydantic import (
@@ -21,7 +22,8 @@ from pydantic import (
 from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import PydanticCustomError
 
-from viaspline.maps.grid import Grid
+from viaspline.maps.grid import COARSEST, Grid
+from viaspline.maps.reading import Reading, Unknown
 
 FAR: Final = 1e9
 """The farthest coordinate and the greatest length [m]; beyond it a double loses the micrometre."""
@@ -45,6 +47,20 @@ def _plain(value: Any) -> Any:
 def _open(ring: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
     """Drop a last point that repeats the first, as other formats write rings."""
     return ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring
+
+
+def _as_grid(value: Any) -> Any:
+    """The grid that ``model_dump`` took apart."""
+    if not isinstance(value, Mapping) or not hasattr(value.get("blocked"), "dtype"):
+        return value
+    reading = value["reading"]
+    parts = {key: item for key, item in value.items() if key != "digest"}
+    return Grid(**{**parts, "reading": None if reading is None else Reading(**reading)})
+
+
+def _as_text(value: Any) -> Any:
+    """Paths as texts."""
+    return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 
 Point2 = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_plain)]
@@ -82,7 +98,7 @@ class Obstacle(Value):
         polygon: The outer ring ``[[x, y], ...]`` [m], in either direction. A last point that
             repeats the first is dropped.
         holes: Free areas inside the polygon, each a ring of its own.
-        grid: The blocked squares of an occupancy grid.
+        grid: The blocked squares of an occupancy grid. In a file, ``map`` asks for it.
         name: What it is called in reports and errors.
         pass_on: Go past it on this side only, as seen by the robot along the leg: ``left`` leaves
             the obstacle on the robot's right. It counts wherever the obstacle is in the way.
@@ -92,7 +108,7 @@ class Obstacle(Value):
     circle: Circle | None = None
     polygon: Ring | None = None
     holes: tuple[Ring, ...] = ()
-    grid: SkipJsonSchema[InstanceOf[Grid] | None] = None
+    grid: Annotated[SkipJsonSchema[InstanceOf[Grid] | None], BeforeValidator(_as_grid)] = None
     name: Name | None = None
     pass_on: Side | None = None
     never_pass_on: Side | None = None
@@ -107,11 +123,35 @@ class Obstacle(Value):
         return None
 
 
+class MapSpec(Value):
+    """Obstacles that have a file of their own, as a mission asks for them.
+
+    Attributes:
+        map: The file, relative to the mission's: a map of squares (ROS's map_server YAML,
+            MovingAI's ``.map``) becomes one obstacle, and if ``bounds`` aren't given, the robot
+            stays inside of it; each polygon of a drawing (``.svg``) or of GeoJSON becomes one.
+        unknown: What to make of squares that nobody has seen. None: they are blocked.
+        resolution_m: Side of a square of a MovingAI map, or length of a unit of a drawing [m].
+            None: 1 m.
+        name: What it is called in reports and errors; several polygons are numbered.
+        pass_on: Go past each of its polygons on this side only.
+        never_pass_on: The side that is forbidden.
+    """
+
+    map: Annotated[Name, BeforeValidator(_as_text)]
+    unknown: Unknown | None = None
+    resolution_m: Annotated[Positive, Field(le=COARSEST)] | None = None
+    name: Name | None = None
+    pass_on: Side | None = None
+    never_pass_on: Side | None = None
+
+
 class WorldSpec(Value):
     """The known map, and what is there but not on the map.
 
     Attributes:
-        bounds: ``x_min, y_min, x_max, y_max`` [m]; the robot stays inside. None: no bounds.
+        bounds: ``x_min, y_min, x_max, y_max`` [m]; the robot stays inside. None: no bounds, or
+            the edge of the maps of squares that are known.
         fences: Polygons that the robot stays inside of, every one (inclusion fences).
         known: Obstacles on the map.
         unseen: Obstacles that only the sensor finds.

@@ -11,6 +11,7 @@ from viaspline.mission.parts import (
     Circle,
     EndPoint,
     Lidar,
+    MapSpec,
     Obstacle,
     RobotSpec,
     Route,
@@ -21,8 +22,8 @@ from viaspline.mission.parts import (
 )
 
 _DOCUMENTED: Final = (
-    Mission, WorldSpec, Obstacle, Circle, RobotSpec, Sensor, Lidar, Route, ViaPoint, EndPoint,
-    SplineSpec,
+    Mission, WorldSpec, Obstacle, Circle, MapSpec, RobotSpec, Sensor, Lidar, Route, ViaPoint,
+    EndPoint, SplineSpec,
 )  # fmt: skip
 
 _ATTRIBUTE: Final = re.compile(r"^    (\w+): (.*(?:\n        .*)*)", re.MULTILINE)
@@ -38,6 +39,7 @@ def json_schema() -> dict[str, Any]:
     ['route']
     """
     schema = Mission.model_json_schema(mode="validation")
+    _add_maps(schema)
     for model in _DOCUMENTED:
         target = schema if model is Mission else schema["$defs"].get(model.__name__)
         if target is not None:
@@ -56,6 +58,14 @@ def json_schema() -> dict[str, Any]:
         **schema,
         "title": "A mission of viaspline",
     }
+
+
+def _add_maps(schema: dict[str, Any]) -> None:
+    """Maps may stand where obstacles stand."""
+    schema["$defs"]["MapSpec"] = MapSpec.model_json_schema(mode="validation")
+    kinds = [{"$ref": "#/$defs/Obstacle"}, {"$ref": "#/$defs/MapSpec"}]
+    for key in ("known", "unseen"):
+        schema["$defs"]["WorldSpec"]["properties"][key]["items"] = {"anyOf": kinds}
 
 
 def _limit(prop: dict[str, Any], limit: dict[str, float]) -> None:

@@ -79,16 +79,19 @@ def shape_flaws(draft: Draft) -> list[Flaw]:
 
 def _one_shape(path: Path, obstacle: Obstacle) -> list[Flaw]:
     flaws = []
-    if obstacle.circle is None and obstacle.polygon is None:
+    shapes = {"circle": obstacle.circle, "polygon": obstacle.polygon, "grid": obstacle.grid}
+    given = [name for name, shape in shapes.items() if shape is not None]
+    if not given:
         flaws.append(
             Flaw(
                 path,
                 "the obstacle has no shape",
-                "give circle: {center: [x, y], radius: 5} or polygon: [[x, y], [x, y], [x, y]]",
+                "give circle: {center: [x, y], radius: 5}, polygon: [[x, y], [x, y], [x, y]] or "
+                "map: FILE",
             )
         )
-    if obstacle.circle is not None and obstacle.polygon is not None:
-        problem = "the obstacle has two shapes, a circle and a polygon"
+    if len(given) > 1:
+        problem = f"the obstacle has two shapes, a {given[0]} and a {given[1]}"
         flaws.append(Flaw(path, problem, "keep one, or make it two obstacles"))
     if obstacle.holes and obstacle.polygon is None:
         problem = "there are holes, but no polygon that has them"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from pydantic import ModelWrapValidatorHandler, ValidationError
@@ -12,6 +13,7 @@ from viaspline.mission.draft import Draft
 from viaspline.mission.flaws import Flaw, Origin, located
 from viaspline.mission.parts import MissionParts
 from viaspline.mission.structure import structural_flaws
+from viaspline.mission.unfold import unfold_maps
 
 Sound = TypeVar("Sound", bound=MissionParts)
 
@@ -29,7 +31,8 @@ def sound_mission(
     """The mission that ``data`` describes.
 
     Args:
-        data: A mapping with what a mission file holds, or a mission.
+        data: A mapping with what a mission file holds, or a mission. Files of maps are read; they
+            are looked for beside the mission file, or from the working directory if there is none.
         handler: Pydantic's own validation.
         context: A `Context` if the data came from a file.
 
@@ -40,13 +43,16 @@ def sound_mission(
         return cast(Sound, data)
     origin = context.origin if isinstance(context, Context) else None
     flaws: list[Flaw] = list(origin.flaws) if origin is not None else []
+    unfolded = unfold_maps(data, Path(origin.source).parent if origin is not None else Path())
+    flaws += unfolded.flaws
     mission: Sound | None = None
     try:
-        mission = _validated(data, handler)
-        draft = Draft.of(mission)
+        mission = _validated(unfolded.data, handler)
+        draft = Draft.of(mission, unfolded)
     except ValidationError as error:
-        flaws += structural_flaws(error)
-        draft = Draft.salvage(data)
+        found = structural_flaws(error)
+        flaws += (flaw._replace(path=unfolded.original(flaw.path)) for flaw in found)
+        draft = Draft.salvage(unfolded)
     flaws += semantic_flaws(draft)
     if flaws or mission is None:
         raise MissionError(located(flaws, data, origin)) from None

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from viaspline.mission.flaws import Flaw, Path, describe, number
-from viaspline.mission.words import LATER, expectation, field_of, suggestion
+from viaspline.mission.parts import MapSpec, Obstacle
+from viaspline.mission.words import expectation, field_of, suggestion
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
@@ -21,9 +22,16 @@ _LIMITS = {
 }
 
 
-def structural_flaws(error: ValidationError) -> list[Flaw]:
-    """Every error of pydantic's as a flaw; one for each place and mistake."""
+def structural_flaws(error: ValidationError, at: Path = ()) -> list[Flaw]:
+    """Every error of pydantic's as a flaw; one for each place and mistake.
+
+    Args:
+        error: What pydantic says.
+        at: Where in the mission what it was about stands.
+    """
     details = error.errors(include_url=False)
+    for detail in details:
+        detail["loc"] = (*at, *detail["loc"])
     meant = {key for detail in details if (key := _meant(detail)) is not None}
     flaws: dict[Path, Flaw] = {}
     short: set[Path] = set()
@@ -68,7 +76,7 @@ def _meant(detail: ErrorDetails) -> Path | None:
 
 def _flaw(detail: ErrorDetails, path: Path) -> Flaw:
     kind, found = detail["type"], detail["input"]
-    if kind == "extra_forbidden":
+    if kind == "extra_forbidden" or path[-1:] == ("grid",):
         return _unknown_key(path)
     if kind == "invalid_key":
         key = path[-1] if path else ""
@@ -111,10 +119,13 @@ def _remedy(path: Path, found: Any) -> str:
 
 def _unknown_key(path: Path) -> Flaw:
     parent, key = path[:-1], str(path[-1])
-    later = LATER.get((field_of(parent), key))
-    if later is not None:
-        problem = f"a `{key}:` obstacle isn't supported by this version"
-        return Flaw(path, problem, later, at_key=True)
+    if field_of(parent) in ("known", "unseen"):
+        if key in MapSpec.model_fields:
+            remedy = "give map, or leave it out"
+            return Flaw(path, "goes with a map only", remedy, at_key=True)
+        if key in Obstacle.model_fields and key != "grid":
+            remedy = "keep one of the two, or make it two obstacles"
+            return Flaw(path, "doesn't go with a map", remedy, at_key=True)
     return Flaw(path, "unknown key", suggestion(key, parent)[0], at_key=True)
 
 

@@ -25,7 +25,9 @@ from viaspline.mission.parts import (
 _POINT = "[x, y] or [x, y, z] in metres"
 _STATION = "[x, y] or {at: [x, y], name: ..., dwell_s: ...}"
 _RING = "at least three points [[x, y], [x, y], [x, y]] in metres"
-_OBSTACLES = "a list of obstacles such as - circle: {center: [x, y], radius: 5}"
+_OBSTACLES = (
+    "a list of obstacles such as - circle: {center: [x, y], radius: 5} or - map: depot.yaml"
+)
 _TENSION = "one number up to 1, or a list with one for each span"
 
 EXPECTED: Final[dict[str, str]] = {
@@ -39,6 +41,9 @@ EXPECTED: Final[dict[str, str]] = {
     "center": "[x, y] in metres",
     "radius": "a number of metres greater than 0",
     "polygon": _RING,
+    "map": "the path of a map such as depot.yaml",
+    "unknown": "blocked or free",
+    "resolution_m": "a number of metres greater than 0",
     "holes": "a list of polygons, each " + _RING,
     "name": "a text of at least one letter",
     "pass_on": "left or right",
@@ -103,12 +108,6 @@ _MODELS: Final[dict[str, type[BaseModel]]] = {
     "spline": SplineSpec,
 }
 
-LATER: Final[dict[tuple[str, str], str]] = {
-    ("known", "map"): "describe it by circle or polygon",
-    ("unseen", "map"): "describe it by circle or polygon",
-}
-"""Keys that a later version will know, and what to write until then."""
-
 
 def field_of(path: Path) -> str:
     """The last key of a path, without indices; empty for the mission itself."""
@@ -130,7 +129,10 @@ def expectation(path: Path) -> str:
 
 def keys_at(path: Path) -> tuple[str, ...]:
     """The keys that the mapping at a path may have."""
-    model = _MODELS.get(field_of(path))
+    field = field_of(path)
+    if field in ("known", "unseen"):
+        return tuple(key for key in (*Obstacle.model_fields, "map") if key != "grid")
+    model = _MODELS.get(field)
     return tuple(model.model_fields) if model is not None else ()
 
 
