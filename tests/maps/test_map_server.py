@@ -1,4 +1,5 @@
 import math
+import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -308,3 +309,22 @@ def test_a_grid_remembers_how_it_was_read(described: Write, tmp_path: Path) -> N
     assert grid.source == "maps/map.yaml"
     assert grid.reading is not None
     assert (grid.reading.path, grid.reading.unknown) == (file, "free")
+
+
+def test_a_large_map_is_read_in_little_more_memory_than_its_squares_and_its_picture_take(
+    described: Write, tmp_path: Path
+) -> None:
+    size = 3000
+    pixels = np.random.default_rng(3).integers(0, 256, size * size, np.uint8)
+    (tmp_path / "a.pgm").write_bytes(b"P5 %d %d 255\n" % (size, size) + pixels.tobytes())
+    del pixels
+    spec = described()
+    tracemalloc.start()
+    try:
+        grid = read_map_server(spec)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    # Two bytes a square that stay, one that the picture has; the rest is two bands of it.
+    assert grid.blocked.size == size * size
+    assert peak < 3.3 * size * size + 15e6

@@ -55,7 +55,7 @@ class _Near(NamedTuple):
 
     thing: str
     distance: float
-    wrong_side: str = "inside"
+    wrong_side: str
     is_unknown: bool = False
 
 
@@ -82,8 +82,7 @@ def _too_near(
     for i, j, distance in space.near_obstacles(places):
         path, obstacle = known[j]
         unknown = obstacle.grid is not None and is_unknown(obstacle.grid, places[i])
-        side = "inside unknown space of" if unknown else "inside"
-        note(i, _Near(obstacle_label(path, obstacle), distance, side, unknown))
+        note(i, _Near(obstacle_label(path, obstacle), distance, "inside", unknown))
     return found
 
 
@@ -94,6 +93,8 @@ def _edge_label(path: Path, edge: Collection[Path], label: str) -> str:
 
 def _problem(where: tuple[Path, ViaPoint], near: _Near, margin: float) -> str:
     name = _label(*where)
+    if near.is_unknown:
+        return f"{name} lies in unknown space of {near.thing}"
     if near.distance < 0:
         return f"{name} lies {_metres(-near.distance)} {near.wrong_side} {near.thing}"
     return f"{name} lies {_metres(margin - near.distance)} inside the clearance of {near.thing}"

@@ -12,6 +12,7 @@ from viaspline.mission.parts import (
     Circle,
     EndPoint,
     Lidar,
+    MapSpec,
     MissionParts,
     Obstacle,
     RobotSpec,
@@ -131,7 +132,8 @@ def keys_at(path: Path) -> tuple[str, ...]:
     """The keys that the mapping at a path may have."""
     field = field_of(path)
     if field in ("known", "unseen"):
-        return tuple(key for key in (*Obstacle.model_fields, "map") if key != "grid")
+        both = dict.fromkeys((*Obstacle.model_fields, *MapSpec.model_fields))
+        return tuple(key for key in both if key != "grid")
     model = _MODELS.get(field)
     return tuple(model.model_fields) if model is not None else ()
 
