@@ -12,12 +12,12 @@ from typing import Any, TypeAlias
 
 from pydantic import TypeAdapter, ValidationError
 
+from viaspline.mission.fields import Ring
 from viaspline.mission.flaws import Path, children, spell
 from viaspline.mission.parts import (
     EndPoint,
     MissionParts,
     Obstacle,
-    Ring,
     RobotSpec,
     SplineSpec,
     ViaPoint,

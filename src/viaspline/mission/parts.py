@@ -6,47 +6,34 @@ y north, headings anticlockwise from x. What one part means to another is held i
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Field,
-    InstanceOf,
-    model_validator,
-)
+from pydantic import BeforeValidator, Field, InstanceOf, model_validator
 from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import PydanticCustomError
 
 from viaspline.maps.grid import COARSEST, Grid
 from viaspline.maps.reading import Reading, Unknown
+from viaspline.mission.fields import (
+    FAR,
+    Coordinate,
+    Name,
+    NotNegative,
+    Number,
+    Point,
+    Point2,
+    Positive,
+    Ring,
+    Value,
+    as_text,
+    plain,
+)
 
-FAR: Final = 1e9
-"""The farthest coordinate and the greatest length [m]; beyond it a double loses the micrometre."""
+Side = Literal["left", "right"]
 
 MOST_BEAMS: Final = 100_000
 """The most beams of a lidar."""
-
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Coordinate = Annotated[Number, Field(ge=-FAR, le=FAR)]
-Positive = Annotated[Number, Field(gt=0)]
-NotNegative = Annotated[Number, Field(ge=0)]
-Name = Annotated[str, Field(strict=True, min_length=1)]
-Side = Literal["left", "right"]
-
-
-def _plain(value: Any) -> Any:
-    """Arrays as lists; duck-typed, so that a mission can be read without loading numpy."""
-    return value.tolist() if hasattr(value, "tolist") else value
-
-
-def _open(ring: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
-    """Drop a last point that repeats the first, as other formats write rings."""
-    return ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring
 
 
 def _as_grid(value: Any) -> Any:
@@ -56,26 +43,6 @@ def _as_grid(value: Any) -> Any:
     reading = value["reading"]
     parts = {key: item for key, item in value.items() if key != "digest"}
     return Grid(**{**parts, "reading": None if reading is None else Reading(**reading)})
-
-
-def _as_text(value: Any) -> Any:
-    """Paths as texts."""
-    return os.fspath(value) if isinstance(value, os.PathLike) else value
-
-
-Point2 = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_plain)]
-Point = Annotated[
-    tuple[Coordinate, ...], Field(min_length=2, max_length=3), BeforeValidator(_plain)
-]
-Ring = Annotated[
-    tuple[Point2, ...], Field(min_length=3), BeforeValidator(_plain), AfterValidator(_open)
-]
-
-
-class Value(BaseModel):
-    """A frozen value that refuses keys it does not know."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
 
 class Circle(Value):
@@ -138,7 +105,7 @@ class MapSpec(Value):
         never_pass_on: The side that is forbidden.
     """
 
-    map: Annotated[Name, BeforeValidator(_as_text)]
+    map: Annotated[Name, BeforeValidator(as_text)]
     unknown: Unknown | None = None
     resolution_m: Annotated[Positive, Field(le=COARSEST)] | None = None
     name: Name | None = None
@@ -158,7 +125,7 @@ class WorldSpec(Value):
     """
 
     bounds: (
-        Annotated[tuple[Coordinate, Coordinate, Coordinate, Coordinate], BeforeValidator(_plain)]
+        Annotated[tuple[Coordinate, Coordinate, Coordinate, Coordinate], BeforeValidator(plain)]
         | None
     ) = None
     fences: tuple[Ring, ...] = ()
@@ -238,7 +205,7 @@ class RobotSpec(Value):
 
 def _as_mapping(value: Any) -> Any:
     """The short form ``[x, y]`` of ``{at: [x, y]}``."""
-    value = _plain(value)
+    value = plain(value)
     return {"at": value} if isinstance(value, list | tuple) else value
 
 
@@ -306,8 +273,8 @@ class SplineSpec(Value):
         tangents: ``cardinal``, or ``continuous`` for continuous curvature (Nielson's nu-spline).
     """
 
-    tension: Number | Annotated[tuple[Number, ...], BeforeValidator(_plain)] | None = None
-    slack: Number | Annotated[tuple[Number, ...], BeforeValidator(_plain)] | None = None
+    tension: Number | Annotated[tuple[Number, ...], BeforeValidator(plain)] | None = None
+    slack: Number | Annotated[tuple[Number, ...], BeforeValidator(plain)] | None = None
     knots: Literal["uniform", "centripetal", "chordal"] = "chordal"
     tangents: Literal["cardinal", "continuous"] = "cardinal"
 
