@@ -12,12 +12,14 @@ from viaspline.curve.path import Path
 from viaspline.mission.parts import Obstacle, RobotSpec
 from viaspline.robot.echoes import Echoes
 from viaspline.robot.lidar import Scan
-from viaspline.robot.seen_area import SeenArea
+from viaspline.robot.views import Views
 from viaspline.world.world import World
 
 GRAIN = 1.0 / 12.0  # radius of the discs on surfaces, of the distance that the path keeps
 FINEST, COARSEST = 0.005, 0.1  # and its limits [m]
-CELLS = 6.0  # cells that the body's radius is divided into
+AHEAD = 1.3  # distances to stop in that a robot looks ahead
+GAP = 0.7  # from place to place that has to have been seen, of the discs' radius
+RIM = 0.3  # by which the body is taken for larger where it has to be seen free, of the same
 SLACK = 1e-4  # by which samples of a path may miss the distance that it was proven to keep [m]
 ON_MAP = 1e-6  # a hit nearer than this to what is on the map shows just that [m]
 
@@ -42,22 +44,23 @@ class Belief:
     Attributes:
         map: What is known without being seen: it stays, whatever the beams say.
         echoes: The surfaces that beams have hit.
-        area: Where beams have passed.
+        views: The looks round that are remembered.
         body: The robot's radius [m].
+        ahead: How far along its path the robot looks [m]: as far as it needs to stop from its full
+            speed, and a little more.
         world: The map and the surfaces.
     """
 
     map: World
     echoes: Echoes
-    area: SeenArea
+    views: Views
     body: float
+    ahead: float
     world: World
 
     @classmethod
     def at_start(cls, world: World, robot: RobotSpec, position: ArrayLike) -> Belief:
         """What a robot that has just been put down knows.
-
-        It looks as far ahead as it needs to stop from its full speed and a little more.
 
         Raises:
             AssertionError: When the robot has no lidar.
@@ -66,12 +69,10 @@ class Belief:
         lidar = robot.sensor.lidar
         required = robot.radius_m + robot.clearance_m
         grain = float(np.clip(GRAIN * required, FINEST, COARSEST)) + lidar.noise_m
-        side = max((robot.radius_m or required) / CELLS, FINEST)
         stop = robot.max_speed_mps**2 / (2.0 * robot.max_accel_mps2)
-        reach = min(lidar.range_m, 1.3 * stop + 2.0 * robot.radius_m + 4.0 * side)
-        area = SeenArea.around(position, side=side, reach=reach)
-        area = area.with_disc(position, robot.radius_m + side)
-        return cls(world, Echoes.none(grain, lidar.noise_m), area, robot.radius_m, world)
+        ahead = AHEAD * stop + 2.0 * required
+        views = Views(near=2.0 * ahead, apart=max(required, 4.0 * grain), noise=lidar.noise_m)
+        return cls(world, Echoes.none(grain, lidar.noise_m), views, robot.radius_m, ahead, world)
 
     def with_scan(self, scan: Scan) -> tuple[Belief, News]:
         """What is known after one more scan, and what is new about it."""
@@ -90,9 +91,8 @@ class Belief:
         world = self.world
         if new or moved or gone:
             world = self.map.with_obstacles(echoes.obstacles)
-        area = self.area.with_scan(scan, echoes.tolerance)
-        area = area.with_disc(scan.position, self.body)
-        return replace(self, echoes=echoes, area=area, world=world), News(moved + new, gone)
+        views = self.views.with_scan(scan)
+        return replace(self, echoes=echoes, views=views, world=world), News(moved + new, gone)
 
     def certain_until(self, path: Path, distance: float, floor: float) -> float:
         """How far along a path the robot can go inside of what it has seen [m].
@@ -105,17 +105,19 @@ class Belief:
             distance: Where the robot is on it [m].
             floor: Distance to keep from what is known [m].
         """
-        step = 0.5 * self.area.side
-        ahead = self.area.reach - self.body - self.area.side
-        first, last = np.ceil(distance / step), np.floor((distance + ahead) / step)
-        places = step * np.arange(first, last + 1.0)
-        places = np.append(places[places < path.length], min(path.length, distance + ahead))
-        points = np.asarray(path.at_distance(places))
-        count = self.area.count(points, self.body)
+        step = GAP * self.echoes.grain
+        first, last = np.ceil(distance / step), np.floor((distance + self.ahead) / step)
+        along = step * np.arange(first, last + 1.0)
+        along = np.append(along[along < path.length], min(path.length, distance + self.ahead))
+        u = np.asarray(path.parameter(along))
+        places = np.asarray(path.evaluate(u))[:, :2]
+        tangents = np.asarray(path.tangent(u))[:, :2]
+        rim = self.body + RIM * self.echoes.grain
+        count = self.views.count(places, tangents, rim, step)
         if len(self.world) and count:
-            near = np.flatnonzero(self.world.distance(points[:count]) < floor - SLACK)
+            near = np.flatnonzero(self.world.distance(places[:count]) < floor - SLACK)
             count = int(near[0]) if near.size else count
-        return float(places[count - 1]) if count else distance
+        return float(along[count - 1]) if count else distance
 
     def told(self, obstacles: Iterable[Obstacle]) -> Belief:
         """The same with more obstacles on the map."""

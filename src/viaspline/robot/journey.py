@@ -59,11 +59,13 @@ class Journey:
         seen: The obstacles in that world that were told one by one.
         plan_path: The path before the robot set off.
         path: The path; all that was driven is its beginning.
+        laid: What was known when the path was laid.
         law: The time law along it.
         turns: Distances along the path where it has a corner to turn on the spot [m].
         time: Of the last step [s].
         belief: What a lidar has shown; None without one.
         floor: Distance that the path keeps from everything known [m].
+        dared: Up to this distance along the path the robot goes though it sees too little [m].
         wait: Since when and why the robot waits, if it does.
         distance: Progress along the path at that time [m].
         off: How far beside the path the robot was then [m].
@@ -85,10 +87,12 @@ class Journey:
     seen: frozenset[Obstacle]
     plan_path: Path
     path: Path
+    laid: World
     law: Trajectory
     time: float
     belief: Belief | None = None
     floor: float = 0.0
+    dared: float = 0.0
     wait: Wait | None = None
     distance: float = 0.0
     off: float = 0.0
@@ -175,6 +179,7 @@ def time_law(
         speed = 0.0
     end = path.length
     if journey.belief is not None:
+        sure = max(sure, journey.dared)
         end = min(max(journey.belief.certain_until(path, distance, journey.floor), sure), end)
         if end < path.length:
             stops = [*(stop for stop in stops if stop.distance < end), Station(end)]

@@ -72,7 +72,12 @@ class Scan:
         """Direction of the first beam, anticlockwise from x [rad]."""
         return self.heading + self.angle_min
 
-    @property
+    def has_beams_of(self, other: Scan) -> bool:
+        """Whether both have equally many beams, equally far apart."""
+        same = self.angle_increment == other.angle_increment
+        return same and len(self.ranges) == len(other.ranges)
+
+    @cached_property
     def free(self) -> Floats:
         """How far each beam met nothing [m], shape (beams,)."""
         return np.where(np.isnan(self.ranges), 0.0, np.minimum(self.ranges, self.range_max))

@@ -41,7 +41,7 @@ def look(journey: Journey, scan: Scan) -> Journey:
     speed = speed_now(journey)
     free = free_until(journey, journey.world, journey.floor)
     if free is not None:
-        journey = _round(journey, free)
+        journey = _round(replace(journey, dared=0.0), free)
     elif journey.wait is not None and journey.wait.reason is not None:
         journey = replace(journey, wait=None)
     if journey.giving_up is not None:
@@ -149,11 +149,9 @@ def _unless_blind(journey: Journey) -> Journey:
 
 def _stare(journey: Journey) -> Journey:
     """A robot that has seen nothing in its way for a while trusts that it can take a step."""
-    assert journey.belief is not None
     wait = journey.wait or Wait(journey.time, journey.time + STARE)
     if journey.time < wait.again:
         return replace(journey, wait=wait)
-    area, body = journey.belief.area, journey.belief.body
-    ahead = min(journey.distance + area.side, journey.path.length)
-    area = area.with_disc(journey.place(ahead), body + area.side)
-    return replace(journey, belief=replace(journey.belief, area=area), wait=None)
+    assert journey.belief is not None
+    dared = min(journey.distance + journey.belief.echoes.grain, journey.path.length)
+    return replace(journey, dared=dared, wait=None)

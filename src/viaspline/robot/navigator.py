@@ -81,6 +81,7 @@ class Navigator:
             seen=frozenset(self._plan.world.obstacles),
             plan_path=self._plan.path,
             path=self._plan.path,
+            laid=self._plan.world,
             law=self._plan.trajectory,
             time=0.0,
             floor=Brief.of(mission).required,

@@ -34,6 +34,8 @@ def take(scene: Scene, choice: Choice, skip: Mapping[int, str]) -> Journey:
     return replace(
         journey.noted(*events),
         path=path,
+        laid=journey.world,
+        dared=0.0,
         law=choice.law,
         turns=choice.turns,
         skipped=journey.skipped + tuple(sorted(skip.items())),

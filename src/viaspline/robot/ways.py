@@ -5,14 +5,19 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
+import numpy as np
+
 from viaspline.detour import replan
 from viaspline.detour.detoured import Detoured
 from viaspline.errors import GeometryError, NoPathError
 from viaspline.robot.journey import SLIP, time_law
 from viaspline.robot.run import Mode
 from viaspline.robot.scene import Scene
+from viaspline.robot.sides import changed_side, is_better
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
+
+SAMPLES = 257  # of a way, to see whether it leads back
 
 
 @dataclass(frozen=True)
@@ -26,7 +31,11 @@ class Choice:
 
 
 def find(scene: Scene, world: World, skip: Collection[int] = frozenset()) -> Choice:
-    """The first of: reflex, planned, from rest.
+    """The first of: reflex, planned, from rest. It keeps the sides of the path that is driven.
+
+    A robot under way doesn't turn back on the spot: a way that leads behind it is left for a
+    robot that has come to rest. And it passes nothing that it knew on another side than it meant
+    to, unless that is clearly better.
 
     Args:
         scene: The robot under way.
@@ -36,6 +45,27 @@ def find(scene: Scene, world: World, skip: Collection[int] = frozenset()) -> Cho
     Raises:
         NoPathError: If there is no way to the goal.
     """
+    choice = _first_way(scene, world, skip)
+    journey = scene.journey
+    changed = changed_side(
+        journey.path, choice.found.path, choice.found.changed_from, journey.last, journey.laid,
+        scene.brief.required,
+    )  # fmt: skip
+    if changed is None:
+        return choice
+    place, side = changed
+    now = int(world.nearest(place)[1])
+    if now < 0 or world.obstacles[now].forced_side is not None:
+        return choice
+    try:
+        kept = _first_way(scene, world.with_side(now, side), skip)
+    except NoPathError:
+        return choice
+    rest, other = (c.found.path.length - journey.distance for c in (choice, kept))
+    return choice if is_better(rest, other) else kept
+
+
+def _first_way(scene: Scene, world: World, skip: Collection[int]) -> Choice:
     path, brief = scene.journey.path, scene.brief
     leaves = [leave for leave in scene.leaves if scene.may_leave(leave)]
     modes: tuple[Mode, ...] = ("planned",) if skip else ("reflex", "planned")
@@ -49,12 +79,23 @@ def find(scene: Scene, world: World, skip: Collection[int] = frozenset()) -> Cho
             except NoPathError:
                 continue  # a robot that leaves later, or that stands, may find a way
             choice = timed(scene, mode, found)
-            if choice is not None:
+            if choice is not None and not _turns_back(scene, found):
                 return choice
     found = replan.from_rest(path, scene.stop, world, brief, skip=skip)
     choice = timed(scene, "from_rest", found)
     assert choice is not None  # a robot that stands can go any way on
     return choice
+
+
+def _turns_back(scene: Scene, found: Detoured) -> bool:
+    """Whether a way leads farther behind the place where it begins than the old path does."""
+    at, old, new = found.changed_from, scene.journey.path, found.path
+    place, ahead = np.asarray(old.at_distance(at)), old.tangent(float(old.parameter(at)))
+    depths = [
+        float(((line.at_distance(np.linspace(at, line.length, SAMPLES)) - place) @ ahead).min())
+        for line in (old, new)
+    ]
+    return depths[1] < depths[0] - scene.brief.required
 
 
 def timed(scene: Scene, mode: Mode, found: Detoured) -> Choice | None:

@@ -13,7 +13,7 @@ from viaspline.kernels import distance as kernels
 from viaspline.kernels.groups import group_labels
 from viaspline.kernels.packed import PackedWorld
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.parts import Obstacle, Side
 from viaspline.world.pack import join, pack
 
 Bounds = tuple[float, float, float, float]
@@ -71,6 +71,14 @@ class World:
         world.bounds = self.bounds
         world.fences = self.fences
         world.packed = join(self.packed, pack(new, None, ()))
+        return world
+
+    def with_side(self, index: int, side: Side) -> World:
+        """The same with one obstacle that may be passed on this side only."""
+        asked = self.obstacles[index].model_copy(update={"pass_on": side, "never_pass_on": None})
+        world = object.__new__(World)
+        world.obstacles = (*self.obstacles[:index], asked, *self.obstacles[index + 1 :])
+        world.bounds, world.fences, world.packed = self.bounds, self.fences, self.packed
         return world
 
     def __len__(self) -> int:
