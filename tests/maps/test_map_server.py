@@ -32,7 +32,7 @@ def nav2(pixel: tuple[int, ...], mode: str, negate: bool, occupied: float, free:
     channels = [*colours, alpha] if mode == "trinary" and len(pixel) in (2, 4) else [*colours]
     mean = sum(channels) / len(channels)
     if mode == "raw":
-        return round(mean) if mean <= 100 else -1
+        return math.floor(mean + 0.5) if mean < 100.5 else -1
     p = mean / 255 if negate else (255 - mean) / 255
     if mode == "scale" and alpha < 255:
         return -1

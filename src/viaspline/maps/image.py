@@ -33,8 +33,8 @@ _DEEP: Final = ("I;16", "I")
 def read_picture(path: Path) -> Picture:
     """A picture of any kind that is understood.
 
-    A PNG of several channels takes four bytes a pixel while it is read, everything else what it
-    takes in its file, unpacked.
+    It takes one byte a pixel for 8 bits of grey, two for 16 (of plain text too), four for several
+    channels, and as much as its file while that is unpacked.
 
     Raises:
         MissionError: There is no such file, it is no picture, it is broken or too large.

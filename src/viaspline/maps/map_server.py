@@ -22,8 +22,9 @@ def read_map_server(
 ) -> Grid:
     """Read a map of ROS's map_server or Nav2, in any of its modes.
 
-    While it is read, a map takes at most six bytes a square: two that stay, and the picture (one
-    byte a pixel for 8 bits of grey, four for several channels).
+    While it is read, a map takes two bytes a square that stay, and its picture: one byte a pixel
+    for 8 bits of grey, two for 16, four for several channels. Most maps take little more than 3
+    bytes a square, none much more than 6.
 
     Args:
         path: The YAML file; it names the picture, relative to itself.

@@ -6,7 +6,7 @@ there are polygons. What comes after sees obstacles only.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from typing import Any
@@ -70,9 +70,12 @@ def unfold_maps(data: Any, folder: FilePath) -> Unfolded:
     places: dict[str, list[int]] = {}
     unfolded = dict(world)
     for key, items in lists.items():
-        pairs = list(_unfolded(items, ("world", key), folder, taken, flaws))
-        places[key] = [i for i, _ in pairs]
-        unfolded[key] = [item for _, item in pairs]
+        places[key], unfolded[key] = [], []
+        for i, item in enumerate(items):
+            obstacles, faulty = _of_item(item, ("world", key, i), folder, taken)
+            places[key] += [i] * len(obstacles)
+            unfolded[key] += obstacles
+            flaws += faulty
     edge = frozenset[Path]() if flaws else _bring_edge(unfolded)
     return Unfolded({**top, "world": unfolded}, tuple(flaws), places, edge)
 
@@ -95,27 +98,23 @@ def _name_of(item: Any) -> Any:
     return name if isinstance(name, str) else None
 
 
-def _unfolded(
-    items: Sequence[Any], at: Path, folder: FilePath, taken: set[Any], flaws: list[Flaw]
-) -> Iterator[tuple[int, Any]]:
-    """The items with obstacles for maps, each with its place in the list."""
-    for i, item in enumerate(items):
-        if not _is_map(item):
-            yield i, item
-            continue
-        path = (*at, i)
-        try:
-            spec = MapSpec.model_validate(dict(item))
-            yield from ((i, obstacle) for obstacle in obstacles_of(spec, folder, taken))
-        except ValidationError as error:
-            flaws += structural_flaws(error, path)
-        except MissionError as error:
-            flaws += (_flaw(path, fault) for fault in error.faults)
+def _of_item(
+    item: Any, path: Path, folder: FilePath, taken: set[Any]
+) -> tuple[Sequence[Any], Sequence[Flaw]]:
+    """The obstacles of an item that may be a map, or what is wrong with it."""
+    if not _is_map(item):
+        return [item], ()
+    try:
+        return obstacles_of(MapSpec.model_validate(dict(item)), folder, taken), ()
+    except ValidationError as error:
+        return (), structural_flaws(error, path)
+    except MissionError as error:
+        return (), [_flaw(path, fault) for fault in error.faults]
 
 
 def _flaw(path: Path, fault: Fault) -> Flaw:
     """A fault of a map as a flaw of the key that asks for it."""
-    if fault.key in MapSpec.model_fields:
+    if fault.line is None and fault.key in ("unknown", "resolution_m"):
         return Flaw((*path, fault.key), fault.problem, fault.remedy, at_key=True)
     place = fault.source if fault.line is None else f"{fault.source}:{fault.line}:{fault.column}"
     key = f"{fault.key}: " if fault.key else ""
