@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,8 +63,7 @@ def islands_met(leg: LegSearch) -> Iterator[Met]:
     from scipy.ndimage import label
 
     lattice = leg.router.lattice
-    labels: NDArray[np.int32]
-    labels, _ = label(lattice.cells, structure=np.ones((3, 3)))
+    labels: NDArray[Any] = label(lattice.cells, structure=np.ones((3, 3)))[0]
     start, goal = leg.ends
     size = float(np.hypot(*(goal - start)[:2]))
     share = np.linspace(0.0, 1.0, int(2 * size / lattice.side) + 2)

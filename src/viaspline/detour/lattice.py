@@ -101,7 +101,9 @@ def lattices(world: World, required: float, places: Floats) -> Iterator[Lattice]
         finest = min(grid.resolution for grid in grids)
         side = finest / max(1.0, math.ceil(finest / wanted - 1e-9))
         side = max(side, math.sqrt(area / MOST))
-        x0, y0 = (_snapped(low, at, side) for low, at in zip((x0, y0), grids[0].origin, strict=False))
+        x0, y0 = (
+            _snapped(low, at, side) for low, at in zip((x0, y0), grids[0].origin, strict=False)
+        )
     else:
         side = min(wanted, math.sqrt(area / FINE))
         side = max(side, math.sqrt(area / COARSE))
@@ -112,9 +114,7 @@ def lattices(world: World, required: float, places: Floats) -> Iterator[Lattice]
         side *= 0.5
 
 
-def _rasterized(
-    world: World, required: float, box: Box, side: float
-) -> Lattice:
+def _rasterized(world: World, required: float, box: Box, side: float) -> Lattice:
     x0, y0, x1, y1 = box
     height, width = math.ceil((y1 - y0) / side - 1e-9), math.ceil((x1 - x0) / side - 1e-9)
     reach = max(required - HALF_DIAGONAL * side, HALF_DIAGONAL * side)
@@ -140,9 +140,7 @@ def _snapped(low: float, at: float, side: float) -> float:
     return at + math.floor((low - at) / side + 1e-9) * side
 
 
-def _box(
-    world: World, required: float, places: Floats
-) -> Box:
+def _box(world: World, required: float, places: Floats) -> Box:
     """What the lattice has to cover [m]: the bounds, or everything with a way round it."""
     if world.bounds is not None:
         return world.bounds

@@ -111,9 +111,7 @@ class LegSearch:
             return None
         return Curve(way, fitted, measure(fitted.spans, self.world, self.brief))
 
-    def entry(
-        self, group: Met, curves: Sequence[Curve], winner: Curve, reason: str
-    ) -> LedgerEntry:
+    def entry(self, group: Met, curves: Sequence[Curve], winner: Curve, reason: str) -> LedgerEntry:
         """The shortest of some curves on either side of a group."""
         candidates = []
         for side in SIDES:

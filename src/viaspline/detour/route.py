@@ -13,21 +13,22 @@ from numpy.typing import NDArray
 from viaspline.curve.certificate import SPARE
 from viaspline.detour.lattice import Lattice, lattices
 from viaspline.kernels.corners import X, Y
-from viaspline.kernels.route import barrier_crossings, shortest_route
+from viaspline.kernels.route import barrier_crossings, has_narrow_gap, shortest_route
 from viaspline.kernels.segment import mark_near_segment
-from viaspline.kernels.string import TAUT, is_clear_polyline, pulled_taut
+from viaspline.kernels.string import TAUT, is_clear_polyline, narrow_places, pulled_taut
 from viaspline.kernels.taut import bends_of, corners_round, detour_points, taut_length
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# How far off an obstacle a route turns beyond what is required, and how finely it wraps arcs:
-# coarse first, and finer for gaps that are hardly wider than the robot. Below nothing at last: a
-# via point may stand at just what is required, and a route turns only round what it is outside of.
-RESOLUTIONS = ((1e-3, np.pi / 6), (1e-4, np.pi / 32), (-0.25 * SPARE, np.pi / 200))
-MANY = 32  # obstacles in the way of a leg beyond which it is sought on a lattice
-GAPS = 1000  # gaps that may prove too narrow before a finer lattice is tried
+# How far off an obstacle a route turns beyond what is required, for gaps that are ever less wider
+# than the robot. Below nothing at last: a via point may stand at just what is required, and a route
+# turns only round what it is outside of.
+MARGINS = (1e-3, 1e-4, -0.25 * SPARE)
+STEPS = (np.pi / 6, np.pi / 32, np.pi / 200)  # largest turn at one corner [rad]
+MANY = 16  # obstacles in the way of a leg beyond which it is sought on a lattice
+GAPS = 200  # gaps that may prove too narrow before a finer lattice is tried
 NO_BARRIERS = np.empty((0, 4))
 
 
@@ -66,7 +67,7 @@ class Way:
     @classmethod
     def round(cls, bends: Floats, world: World, floor: float) -> Way:
         """The way along taut bends, its corners so fine that they keep ``floor`` as well."""
-        for _, step in RESOLUTIONS:
+        for step in STEPS:
             corners = corners_round(bends, step)
             if is_clear_polyline(world.packed, corners, floor):
                 break
@@ -133,12 +134,26 @@ class Router:
         Returns:
             The way, or None where there is none.
         """
-        if self.is_dense(active):
-            way = self._guided(start, goal, barriers)
-            if way is not None:
-                self._mark(way, active)
+        way = None
+        if not self.is_dense(active):
+            way = self._exact(start, goal, barriers, active)
+        if way is not None and self._is_surely_shortest(active):
             return way
-        return _exact(self.world, start, goal, self.required, barriers, active)
+        guided = self._guided(start, goal, barriers)
+        if guided is None or (way is not None and way.length <= guided.length):
+            return way
+        self._mark(guided, active)
+        return guided
+
+    def _is_surely_shortest(self, active: Flags) -> bool:
+        """Whether circumscribed corners close no gap that the arcs themselves leave open."""
+        if self.world.fences and active.any():
+            return False
+        met = (self.world.obstacles[i].circle for i in np.flatnonzero(active))
+        radius = max((circle.radius for circle in met if circle is not None), default=0.0)
+        excess = (radius + self.required) * (1.0 / np.cos(0.25 * STEPS[0]) - 1.0)
+        low, high = 2.0 * self._floor, 2.0 * (self.required + MARGINS[0] + excess)
+        return not has_narrow_gap(self.world.packed, active, low, high)
 
     def is_dense(self, active: Flags) -> bool:
         """Whether ways are sought on a lattice: on maps, and among many obstacles."""
@@ -146,9 +161,18 @@ class Router:
 
     def _mark(self, way: Way, active: Flags) -> None:
         """Mark what a way goes round in ``active``."""
-        width = self.required + 2 * RESOLUTIONS[0][0]
-        for a, b in pairwise(way.corners[:, X : Y + 1].tolist()):
-            mark_near_segment(self.world.packed, *a, *b, width, active)
+        width = self.required + 2 * MARGINS[0]
+        for (ax, ay), (bx, by) in pairwise(way.corners[:, X : Y + 1].tolist()):
+            mark_near_segment(self.world.packed, ax, ay, bx, by, width, active)
+
+    def _exact(self, start: Floats, goal: Floats, barriers: Floats, active: Flags) -> Way | None:
+        """The shortest among few obstacles; None too where they prove to be many."""
+        a, b = np.ascontiguousarray(start[:2]), np.ascontiguousarray(goal[:2])
+        corners = shortest_route(
+            self.world.packed, a, b, self.required + MARGINS[0], self._floor, STEPS[0], barriers,
+            active, MANY,
+        )  # fmt: skip
+        return Way.through(corners) if len(corners) else None
 
     def _guided(self, start: Floats, goal: Floats, barriers: Floats) -> Way | None:
         """The first of ever finer lattices that leads to a way."""
@@ -174,13 +198,14 @@ class Router:
             bends, gap = self._taut(guide, lattice.side)
             if len(bends):
                 return Way.round(bends, self.world, self._floor), closed
+            gap = np.vstack((gap, narrow_places(self.world.packed, guide, self._floor)))
             closed = np.vstack((closed, gap))
             lattice = lattice.without(gap)
         return None, closed
 
     def _taut(self, guide: Floats, side: float) -> tuple[Floats, Floats]:
         """The guide pulled taut, or no bends and the gap that it can't go through."""
-        for margin, _ in RESOLUTIONS:
+        for margin in MARGINS:
             status, bends, gap = pulled_taut(
                 self.world.packed, guide, self.required + margin, self._floor, side
             )
@@ -196,20 +221,6 @@ class Router:
     @property
     def _finer(self) -> Iterator[Lattice]:
         return islice(lattices(self.world, self.required, self.places), 1, None)
-
-
-def _exact(
-    world: World, start: Floats, goal: Floats, required: float, barriers: Floats, active: Flags
-) -> Way | None:
-    floor = required - 0.5 * SPARE
-    a, b = np.ascontiguousarray(start[:2]), np.ascontiguousarray(goal[:2])
-    for margin, step in RESOLUTIONS:
-        corners = shortest_route(
-            world.packed, a, b, required + margin, floor, step, barriers, active
-        )
-        if len(corners):
-            return Way.through(corners)
-    return None
 
 
 def on_the_line(world: World, start: Floats, goal: Floats, width: float) -> Flags:

@@ -67,9 +67,7 @@ def groups_met(leg: LegSearch, labels: NDArray[np.int64], active: Flags) -> tupl
     return tuple(met.values())
 
 
-def pass_groups(
-    leg: LegSearch, met: Sequence[Group], best: Curve, active: Flags
-) -> PassedGroups:
+def pass_groups(leg: LegSearch, met: Sequence[Group], best: Curve, active: Flags) -> PassedGroups:
     """Weigh the other side of every group as well.
 
     Args:
@@ -87,8 +85,7 @@ def pass_groups(
         reasons.append(reason)
     winner = min(curves, key=lambda curve: curve.measured.length)
     entries = tuple(
-        leg.entry(group, curves, winner, reason)
-        for group, reason in zip(met, reasons, strict=True)
+        leg.entry(group, curves, winner, reason) for group, reason in zip(met, reasons, strict=True)
     )
     return PassedGroups(winner.fitted, entries)
 

@@ -112,9 +112,7 @@ def rasterized(
 
 
 @kernel
-def mark_segments(
-    segments: Floats, x: float, y: float, side: float, cells: Cells
-) -> None:
+def mark_segments(segments: Floats, x: float, y: float, side: float, cells: Cells) -> None:
     """Block every cell that one of some segments x0, y0, x1, y1 [m] (n, 4) passes through."""
     height, width = cells.shape
     for s in range(segments.shape[0]):

@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.corners import COLUMNS, X, Y, fence_corners, obstacle_corners, supports
+from viaspline.kernels.groups import obstacle_gap
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Flags, Floats, Ints, PackedWorld
 from viaspline.kernels.segment import inner_segment, mark_near_segment, obstacle_segment
@@ -166,6 +167,7 @@ def shortest_route(
     step: float,
     barriers: Floats,
     active: Flags,
+    most: int,
 ) -> Floats:
     """The shortest route from start to goal as a list of corners.
 
@@ -178,13 +180,17 @@ def shortest_route(
         step: Largest turn at one corner [rad]: how closely arcs are wrapped.
         barriers: Segments x0, y0, x1, y1 that the route must not cross, (b, 4).
         active: (n,) of bool: obstacles to begin with; those met are added in place.
+        most: Active obstacles beyond which the search is given up.
 
     Returns:
-        Corners from start to goal, (k, 8); no rows when there is no route.
+        Corners from start to goal, (k, 8); no rows when there is no route, or when more than
+        ``most`` obstacles are active.
     """
     mark_near_segment(world, start[0], start[1], goal[0], goal[1], floor, active)
     while True:
         members = _members(world, active)
+        if members.shape[0] > most:
+            return np.empty((0, COLUMNS))
         corners = _corners(world, members, start, goal, rho, step)
         before = _search(world, members, corners, barriers, floor)
         if before[1] < 0:
@@ -208,6 +214,34 @@ def shortest_route(
             k = before[k]
         if new == 0:
             return route
+
+
+@kernel
+def has_narrow_gap(world: PackedWorld, active: Flags, low: float, high: float) -> bool:
+    """Whether two active obstacles, or one and the bounds, stand between low and high apart [m].
+
+    Circumscribed corners may close such a gap although a robot fits through.
+    """
+    members = _members(world, active)
+    for k in range(members.shape[0]):
+        i = int(members[k, 0])
+        if world.bounds.shape[0] > 0:
+            gap = min(members[k, 1] - world.bounds[0, 0], members[k, 2] - world.bounds[0, 1])
+            gap = min(gap, world.bounds[0, 2] - members[k, 3])
+            gap = min(gap, world.bounds[0, 3] - members[k, 4])
+            if low <= gap <= high:
+                return True
+        for other in range(k):
+            x0 = members[k, 1] - members[other, 3]
+            y0 = members[k, 2] - members[other, 4]
+            x1 = members[other, 1] - members[k, 3]
+            y1 = members[other, 2] - members[k, 4]
+            if max(max(x0, x1), max(y0, y1)) > high:
+                continue
+            gap = obstacle_gap(world, i, int(members[other, 0]), high)
+            if low <= gap < high:
+                return True
+    return False
 
 
 @kernel

@@ -142,13 +142,16 @@ def _begin(
     _write(rows, 0, guide[0, 0], guide[0, 1], 0.0, 0.0, 0.0)
     count = 1
     for k in range(1, corners - 1):
-        turn = 1.0 if _left_of(guide, k - 1, guide[k + 1, 0], guide[k + 1, 1]) > 0.0 else -1.0
         ux = guide[k, 0] - guide[k - 1, 0]
         uy = guide[k, 1] - guide[k - 1, 1]
         vx = guide[k + 1, 0] - guide[k, 0]
         vy = guide[k + 1, 1] - guide[k, 1]
         long_u = math.hypot(ux, uy)
         long_v = math.hypot(vx, vy)
+        area = ux * vy - uy * vx
+        if abs(area) <= SMALL * long_u * long_v:
+            continue  # straight on
+        turn = 1.0 if area > 0.0 else -1.0
         # towards the inside of the turn
         nx = -turn * (uy / long_u + vy / long_v)
         ny = turn * (ux / long_u + vx / long_v)
@@ -281,7 +284,7 @@ def _most_in_the_way(
     ax = rows[k, BEND_X] + reach * dy
     ay = rows[k, BEND_Y] - reach * dx
     first = int(rows[k, PLACE])
-    last = min(int(math.ceil(rows[k + 1, PLACE])), guide.shape[0] - 1)
+    last = min(math.ceil(rows[k + 1, PLACE]), guide.shape[0] - 1)
     best = 1e-9 * (1.0 + rho)
     chosen = -1
     side = 0.0
@@ -362,7 +365,9 @@ def _conflict(
 
 
 @inner
-def _chord(world: PackedWorld, x: float, y: float, reach: float) -> tuple[float, float, float, float]:
+def _chord(
+    world: PackedWorld, x: float, y: float, reach: float
+) -> tuple[float, float, float, float]:
     """From (x, y) to the nearest obstacle and straight back to what is opposite [m]."""
     distance, _ = nearest(world, x, y, np.inf)
     step = 1e-3 * reach + SMALL
@@ -509,6 +514,49 @@ def pulled_taut(
     bends[0, TURN] = 0.0
     bends[count - 1, TURN] = 0.0
     return TAUT, bends, gap
+
+
+@kernel
+def narrow_places(world: PackedWorld, guide: Floats, rho: float) -> Floats:
+    """Segments across a guide where it goes between two things less than 2 rho apart.
+
+    No path that keeps ``rho`` crosses such a segment: every place on it is nearer to one of its
+    two ends.
+
+    Args:
+        world: PackedWorld.
+        guide: (k, 2) [m].
+        rho: Distance to keep [m].
+
+    Returns:
+        Segments x0, y0, x1, y1 [m], (n, 4).
+    """
+    rows = np.empty((16, 4))
+    count = 0
+    for k in range(guide.shape[0] - 1):
+        dx = guide[k + 1, 0] - guide[k, 0]
+        dy = guide[k + 1, 1] - guide[k, 1]
+        size = math.hypot(dx, dy)
+        travelled = 0.0
+        while travelled < size:
+            x = guide[k, 0] + travelled / size * dx
+            y = guide[k, 1] + travelled / size * dy
+            distance, _ = nearest(world, x, y, 4.0 * rho)
+            travelled += 0.25 * rho + max(distance - rho, 0.0)
+            if distance >= rho:
+                continue
+            ax, ay, bx, by = _chord(world, x, y, rho)
+            if math.hypot(bx - ax, by - ay) >= 2.0 * rho * (1.0 - 1e-6):
+                continue
+            if count == rows.shape[0]:
+                rows = _grown(rows)
+            rows[count, 0] = ax
+            rows[count, 1] = ay
+            rows[count, 2] = bx
+            rows[count, 3] = by
+            count += 1
+            travelled += 0.75 * rho
+    return rows[:count].copy()
 
 
 @kernel
