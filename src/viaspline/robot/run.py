@@ -107,6 +107,8 @@ class Run:
         events: Everything that happened, in order.
         replans: Every new path, in order.
         compute_times: Wall-clock time of every re-plan [s]; it differs from run to run.
+        known: What the robot knew at the end: its map, then what its sensor had shown; None: just
+            its map.
     """
 
     plan: Plan
@@ -125,3 +127,4 @@ class Run:
     events: tuple[Event, ...]
     replans: tuple[Replan, ...]
     compute_times: tuple[float, ...] = ()
+    known: World | None = None

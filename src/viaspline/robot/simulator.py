@@ -205,6 +205,7 @@ def _run(drive: _Drive, world: World, step: float) -> Run:
         events=events,
         replans=nav.replans,
         compute_times=nav.compute_times,
+        known=nav.world,
     )
 
 
