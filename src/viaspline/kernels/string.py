@@ -382,9 +382,10 @@ def _chord(
     dy /= size
     ahead = 0.0
     here = max(distance, 0.0)
-    while here > 1e-6 * reach and ahead < 4.0 * reach:
+    while here > 1e-3 * reach and ahead < 4.0 * reach:
         ahead += here
         here, _ = nearest(world, x + ahead * dx, y + ahead * dy, np.inf)
+    ahead += here  # at least as far as what is opposite
     return x - distance * dx, y - distance * dy, x + ahead * dx, y + ahead * dy
 
 
