@@ -108,14 +108,12 @@ def tightest(
     span_at = 0
     w_at = 0.0
     index_at = -1
-    for span in range(spans.shape[0]):
-        distance, index = nearest(world, spans[span, 0, 0], spans[span, 0, 1], upper)
+    for joint in range(spans.shape[0] + 1):
+        span = min(joint, spans.shape[0] - 1)
+        end = 3 * (joint - span)  # the last joint is the last control point, the others first ones
+        distance, index = nearest(world, spans[span, end, 0], spans[span, end, 1], upper)
         if distance < upper:
-            upper, span_at, w_at, index_at = distance, span, 0.0, index
-    last = spans.shape[0] - 1
-    distance, index = nearest(world, spans[last, 3, 0], spans[last, 3, 1], upper)
-    if distance < upper:
-        upper, span_at, w_at, index_at = distance, last, 1.0, index
+            upper, span_at, w_at, index_at = distance, span, float(joint - span), index
     if upper == np.inf:
         return lower, upper, span_at, w_at, index_at
     stack = np.empty((DEPTH, 10))

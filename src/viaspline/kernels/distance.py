@@ -158,25 +158,22 @@ def nearest(world: PackedWorld, x: float, y: float, limit: float) -> tuple[float
     """
     best, index = inner_signed(world, x, y, limit)
     nodes = world.leaf.size
-    if nodes > 64:
-        obstacle = _descend(world, x, y)
-        distance = obstacle_signed(world, obstacle, x, y, best)
-        if distance < best:
-            best = distance
-            index = obstacle
+    obstacle = _descend(world, x, y) if nodes > 64 else -1
     node = 0
-    while node < nodes:
-        if box_signed(world.boxes, node, x, y) >= best:
-            node = world.skip[node]
-            continue
-        obstacle = world.leaf[node]
+    while True:
         if obstacle >= 0:
             distance = obstacle_signed(world, obstacle, x, y, best)
             if distance < best:
                 best = distance
                 index = obstacle
-        node += 1
-    return best, index
+            obstacle = -1
+        elif node == nodes:
+            return best, index
+        elif box_signed(world.boxes, node, x, y) >= best:
+            node = world.skip[node]
+        else:
+            obstacle = world.leaf[node]
+            node += 1
 
 
 @kernel

@@ -85,55 +85,68 @@ def is_blocked(world: PackedWorld, g: int, row: int, column: int) -> bool:
 
 
 @inner
-def _aside(world: PackedWorld, place: int, column: int, u: float, sign: int) -> float:
+def _aside(
+    to_right: Columns, to_left: Columns, place: int, column: int, u: float, sign: int
+) -> float:
     """How far to either side the nearest cell sought is, in the row of the cell at ``place``."""
-    right = sign * int(world.to_right[place])
+    right = sign * int(to_right[place])
     if right < 0:
         return max(max(column - u, u - column - 1.0), 0.0)
     aside = np.inf
     if right < NONE:
         aside = column + right - u
-    left = sign * int(world.to_left[place])
+    left = sign * int(to_left[place])
     if left < NONE:
         aside = min(aside, u - (column - left + 1))
     return aside
 
 
 @inner
-def nearest_cell(world: PackedWorld, g: int, u: float, v: float, sign: int, limit: float) -> float:
-    """Distance from (u, v) to the nearest cell of grid g that is blocked, or free [cells].
+def nearest_cell(
+    to_right: Columns,
+    to_left: Columns,
+    first: int,
+    width: int,
+    height: int,
+    u: float,
+    v: float,
+    sign: int,
+    limit: float,
+) -> float:
+    """Distance from (u, v) to the nearest cell of a grid that is blocked, or free [cells].
 
-    Rows are looked at in the order of their distance, until no other can be nearer.
+    Rows are looked at from the nearest to either side, until no other can be nearer.
 
     Args:
-        world: PackedWorld.
-        g: The grid.
+        to_right: As in PackedWorld.
+        to_left: The same.
+        first: Where the grid's first cell stands in the tables.
+        width: Columns.
+        height: Rows.
         u: Column.
         v: Row.
         sign: 1 for blocked cells, -1 for free ones.
         limit: The answer where none is nearer [cells].
     """
-    width = world.grid_shapes[g, 0]
-    height = world.grid_shapes[g, 1]
     column = int(min(max(u, 0.0), width - 1.0))
     above = int(min(max(v, 0.0), height - 1.0))
     below = above - 1
-    place = world.grid_shapes[g, 2] + column
     squared = limit * limit
     while True:
-        rise = max(max(above - v, v - above - 1.0), 0.0) if above < height else np.inf
-        fall = v - below - 1.0 if below >= 0 else np.inf
-        gap = min(rise, fall)
-        if gap * gap >= squared:
+        rise = max(max(above - v, v - above - 1.0), 0.0)
+        fall = v - below - 1.0
+        up = above < height and rise * rise < squared
+        down = below >= 0 and fall * fall < squared
+        if up:
+            aside = _aside(to_right, to_left, first + above * width + column, column, u, sign)
+            squared = min(squared, rise * rise + aside * aside)
+        if down:
+            aside = _aside(to_right, to_left, first + below * width + column, column, u, sign)
+            squared = min(squared, fall * fall + aside * aside)
+        if not (up or down):
             return math.sqrt(squared)
-        row = below
-        if rise <= fall:
-            row = above
-            above += 1
-        else:
-            below -= 1
-        aside = _aside(world, place + row * width, column, u, sign)
-        squared = min(squared, gap * gap + aside * aside)
+        above += 1
+        below -= 1
 
 
 @inner
@@ -141,12 +154,20 @@ def grid_signed(world: PackedWorld, g: int, x: float, y: float, limit: float) ->
     """Signed distance from (x, y) to the blocked cells of grid g [m]; negative inside."""
     u, v = to_cells(world, g, x, y)
     side = world.grid_frames[g, 4]
-    if u >= 0.0 and v >= 0.0 and is_blocked(world, g, int(v), int(u)):
-        rim_u = min(u, world.grid_shapes[g, 0] - u)
-        rim_v = min(v, world.grid_shapes[g, 1] - v)
-        return -side * nearest_cell(world, g, u, v, -1, min(rim_u, rim_v))
+    width = world.grid_shapes[g, 0]
+    height = world.grid_shapes[g, 1]
+    first = world.grid_shapes[g, 2]
+    to_right = world.to_right
+    to_left = world.to_left
+    sign = 1
     within = limit / side
-    distance = nearest_cell(world, g, u, v, 1, within)
+    rim = min(min(u, width - u), min(v, height - v))
+    if rim > 0.0 and to_right[first + int(v) * width + int(u)] < 0:
+        sign = -1
+        within = rim
+    distance = nearest_cell(to_right, to_left, first, width, height, u, v, sign, within)
+    if sign < 0:
+        return -side * distance
     return min(limit, side * distance) if distance < within else limit
 
 

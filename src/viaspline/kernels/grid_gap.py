@@ -1,4 +1,4 @@
-"""Distance between an occupancy grid and a polygon or another grid."""
+"""Distance between an occupancy grid and a disc, a polygon or another grid."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.distance import obstacle_signed
-from viaspline.kernels.grid import to_cells, to_world
+from viaspline.kernels.grid import grid_signed, to_cells, to_world
 from viaspline.kernels.grid_segment import grid_segment
 from viaspline.kernels.jit import inner
 from viaspline.kernels.packed import PackedWorld
@@ -99,9 +99,13 @@ def _runs_gap(world: PackedWorld, i: int, j: int, sides: bool, limit: float) -> 
 
 @inner
 def grid_gap(world: PackedWorld, i: int, j: int, limit: float) -> float:
-    """Distance between the grid i and the polygon or grid j [m]; 0 where they touch."""
+    """Distance between the grid i and obstacle j [m], at most ``limit``; not above 0 on touch."""
     g = world.slot[i]
     slot = world.slot[j]
+    if world.kind[j] == 0:
+        circle = world.circles[slot]
+        distance = grid_signed(world, g, circle[0], circle[1], limit + circle[2])
+        return distance - circle[2] if distance < limit + circle[2] else limit
     if world.kind[j] == 2:
         best = _runs_gap(world, i, j, True, limit)
         return _runs_gap(world, j, i, False, best)

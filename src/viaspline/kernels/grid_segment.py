@@ -13,18 +13,9 @@ import numpy as np
 from viaspline.kernels.distance import squared_point_segment
 from viaspline.kernels.grid import nearest_cell, to_cells
 from viaspline.kernels.jit import inner
-from viaspline.kernels.packed import PackedWorld
+from viaspline.kernels.packed import Columns, PackedWorld
 
 NARROW = 4.0  # cells; within so little no time is lost by looking everywhere
-
-
-@inner
-def _squared_point_box(
-    x: float, y: float, left: float, low: float, right: float, high: float
-) -> float:
-    dx = max(max(left - x, x - right), 0.0)
-    dy = max(max(low - y, y - high), 0.0)
-    return dx * dx + dy * dy
 
 
 @inner
@@ -45,19 +36,19 @@ def squared_segment_box(
         return 0.0
     corner_x = right if (dy > 0.0) == (middle > 0.0) else left
     corner_y = low if (dx > 0.0) == (middle > 0.0) else high
-    return min(
-        squared_point_segment(corner_x, corner_y, ax, ay, bx, by),
-        min(
-            _squared_point_box(ax, ay, left, low, right, high),
-            _squared_point_box(bx, by, left, low, right, high),
-        ),
-    )
+    corner = squared_point_segment(corner_x, corner_y, ax, ay, bx, by)
+    a_x = max(max(left - ax, ax - right), 0.0)
+    a_y = max(max(low - ay, ay - high), 0.0)
+    b_x = max(max(left - bx, bx - right), 0.0)
+    b_y = max(max(low - by, by - high), 0.0)
+    return min(corner, min(a_x * a_x + a_y * a_y, b_x * b_x + b_y * b_y))
 
 
 @inner
 def _row_gap(
-    world: PackedWorld,
-    g: int,
+    to_right: Columns,
+    first: int,
+    width: int,
     row: int,
     au: float,
     av: float,
@@ -70,8 +61,9 @@ def _row_gap(
     """Distance between the segment a-b and the blocked cells of one row [cells], at most ``best``.
 
     Args:
-        world: PackedWorld.
-        g: The grid.
+        to_right: As in PackedWorld.
+        first: Where the row's first cell stands in it.
+        width: Columns.
         row: The row.
         au: Column of a.
         av: Row of a.
@@ -88,12 +80,10 @@ def _row_gap(
         leaves = au + (min(row + 1.0 + best, bv) - av) * slope
         west = min(enters, leaves)
         east = max(enters, leaves)
-    width = world.grid_shapes[g, 0]
-    first = world.grid_shapes[g, 2] + row * width
     column = int(max(west - best - spare, 0.0))
     last = math.floor(min(east + best + spare, width - 1.0))
     while column <= last:
-        steps = int(world.to_right[first + column])
+        steps = int(to_right[first + column])
         if steps > 0:
             column += steps
             continue
@@ -118,27 +108,25 @@ def grid_segment(
         au, av, bu, bv = bu, bv, au, av
     within = limit / world.grid_frames[g, 4]
     best = within
+    to_right = world.to_right
+    width = world.grid_shapes[g, 0]
+    height = world.grid_shapes[g, 1]
+    first = world.grid_shapes[g, 2]
     if best > NARROW:
-        best = nearest_cell(world, g, 0.5 * (au + bu), 0.5 * (av + bv), 1, best)
+        u = 0.5 * (au + bu)
+        v = 0.5 * (av + bv)
+        best = nearest_cell(to_right, world.to_left, first, width, height, u, v, 1, best)
         if best == np.inf:
             return limit
     slope = 0.0
     if bv - av > 1.0:
         slope = (bu - au) / (bv - av)
     spare = 1e-9 + 1e-15 * (max(abs(au), abs(bu)) + abs(slope) * max(abs(av), abs(bv)))
-    height = world.grid_shapes[g, 1]
-    low = math.floor(min(max(av, 0.0), float(height)))
-    high = math.floor(min(max(bv, -1.0), height - 1.0))
-    for row in range(low, high + 1):
-        if best <= 0.0:
-            break
-        best = _row_gap(world, g, row, au, av, bu, bv, slope, spare, best)
-    for row in range(high + 1, height):
-        if row - bv >= best:
-            break
-        best = _row_gap(world, g, row, au, av, bu, bv, slope, spare, best)
-    for row in range(low - 1, -1, -1):
-        if av - row - 1.0 >= best:
-            break
-        best = _row_gap(world, g, row, au, av, bu, bv, slope, spare, best)
+    low = int(min(max(av, 0.0), float(height)))
+    for step in range(1, -2, -2):  # the segment's rows and on upwards, then those below
+        row = low if step > 0 else low - 1
+        while 0 <= row < height and max(max(row - bv, av - row - 1.0), 0.0) < best:
+            start = first + row * width
+            best = _row_gap(to_right, start, width, row, au, av, bu, bv, slope, spare, best)
+            row += step
     return min(limit, best * world.grid_frames[g, 4]) if best < within else limit

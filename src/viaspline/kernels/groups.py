@@ -4,35 +4,31 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.distance import obstacle_signed
+from viaspline.kernels.distance import polygon_signed
 from viaspline.kernels.grid_gap import grid_gap
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Ints, PackedWorld
-from viaspline.kernels.segment import box_gap, obstacle_segment
+from viaspline.kernels.segment import box_gap, polygon_segment
 
 
 @inner
 def obstacle_gap(world: PackedWorld, i: int, j: int, limit: float) -> float:
-    """Distance between the obstacles i and j [m]; not above 0 where they overlap."""
+    """Distance between the discs or polygons i and j [m]; not above 0 where they overlap."""
     if world.kind[i] == 0 or world.kind[j] == 0:
         disc = i if world.kind[i] == 0 else j
         other = j if disc == i else i
         circle = world.circles[world.slot[disc]]
-        reach = limit + circle[2]
-        distance = obstacle_signed(world, other, circle[0], circle[1], reach)
-        return distance - circle[2] if distance < reach else limit
-    if world.kind[i] == 2:
-        return grid_gap(world, i, j, limit)
-    if world.kind[j] == 2:
-        return grid_gap(world, j, i, limit)
+        if world.kind[other] == 0:
+            second = world.circles[world.slot[other]]
+            return np.hypot(circle[0] - second[0], circle[1] - second[1]) - circle[2] - second[2]
+        return polygon_signed(world, world.slot[other], circle[0], circle[1], np.inf) - circle[2]
     best = limit
-    for p, other in ((i, j), (j, i)):
-        slot = world.slot[p]
-        first = world.block_edges[world.polygon_blocks[slot]]
-        last = world.block_edges[world.polygon_blocks[slot + 1]]
+    for p, other in ((world.slot[i], world.slot[j]), (world.slot[j], world.slot[i])):
+        first = world.block_edges[world.polygon_blocks[p]]
+        last = world.block_edges[world.polygon_blocks[p + 1]]
         for e in range(first, last):
             edge = world.edges[e]
-            gap = obstacle_segment(world, other, edge[0], edge[1], edge[2], edge[3], best)
+            gap = polygon_segment(world, other, edge[0], edge[1], edge[2], edge[3], best)
             best = min(best, gap)
     return best
 
@@ -46,16 +42,13 @@ def _root(parent: Ints, i: int) -> int:
 
 
 @kernel
-def group_labels(world: PackedWorld, width: float) -> Ints:
-    """Label of every obstacle's group, (n,): the smallest index of its members.
-
-    Two obstacles are of one group when a gap narrower than ``width`` [m] is between them.
-    """
+def _labels(world: PackedWorld, width: float) -> Ints:
+    """Labels of discs and polygons; every grid is by itself."""
     count = world.kind.size
     parent = np.arange(count)
     for leaf in range(world.leaf.size):
         i = world.leaf[leaf]
-        if i < 0:
+        if i < 0 or world.kind[i] == 2:
             continue
         box = world.boxes[leaf]
         node = 0
@@ -65,7 +58,7 @@ def group_labels(world: PackedWorld, width: float) -> Ints:
                 continue
             j = world.leaf[node]
             node += 1
-            if j <= i:
+            if j <= i or world.kind[j] == 2:
                 continue
             first = _root(parent, i)
             second = _root(parent, j)
@@ -74,3 +67,43 @@ def group_labels(world: PackedWorld, width: float) -> Ints:
     for i in range(count):
         parent[i] = _root(parent, i)
     return parent
+
+
+@kernel
+def _join_grids(world: PackedWorld, width: float, parent: Ints) -> None:
+    """Join the group of every grid in ``parent`` with those of the obstacles that are near to it.
+
+    A kernel by itself, which those who have no grids need not wait for to be compiled.
+    """
+    count = world.kind.size
+    for leaf in range(world.leaf.size):
+        i = world.leaf[leaf]
+        if i < 0 or world.kind[i] != 2:
+            continue
+        box = world.boxes[leaf]
+        node = 0
+        while node < world.leaf.size:
+            if box_gap(world.boxes, node, box[0], box[1], box[2], box[3]) >= width:
+                node = world.skip[node]
+                continue
+            j = world.leaf[node]
+            node += 1
+            if j < 0:
+                continue
+            first = _root(parent, i)
+            second = _root(parent, j)
+            if first != second and grid_gap(world, i, j, width) < width:
+                parent[max(first, second)] = min(first, second)
+    for i in range(count):
+        parent[i] = _root(parent, i)
+
+
+def group_labels(world: PackedWorld, width: float) -> Ints:
+    """Label of every obstacle's group, (n,): the smallest index of its members.
+
+    Two obstacles are of one group when a gap narrower than ``width`` [m] is between them.
+    """
+    labels = _labels(world, width)
+    if world.grid_frames.shape[0]:
+        _join_grids(world, width, labels)
+    return labels

@@ -114,18 +114,12 @@ def _leaves(skip: Ints, leaf: Ints, node: int) -> int:
     return count
 
 
-@kernel
 def ring_boxes(edges: Floats, starts: Ints) -> Floats:
     """Box of every run ``starts[k]:starts[k + 1]`` of edges (e, 4), shape (k, 4)."""
-    boxes = np.empty((starts.size - 1, 4))
-    for k in range(starts.size - 1):
-        boxes[k, 0] = np.inf
-        boxes[k, 1] = np.inf
-        boxes[k, 2] = -np.inf
-        boxes[k, 3] = -np.inf
-        for e in range(starts[k], starts[k + 1]):
-            boxes[k, 0] = min(boxes[k, 0], min(edges[e, 0], edges[e, 2]))
-            boxes[k, 1] = min(boxes[k, 1], min(edges[e, 1], edges[e, 3]))
-            boxes[k, 2] = max(boxes[k, 2], max(edges[e, 0], edges[e, 2]))
-            boxes[k, 3] = max(boxes[k, 3], max(edges[e, 1], edges[e, 3]))
+    boxes = np.tile((np.inf, np.inf, -np.inf, -np.inf), (starts.size - 1, 1))
+    some = starts[1:] > starts[:-1]
+    if some.any():
+        first = starts[:-1][some]
+        boxes[some, :2] = np.minimum.reduceat(np.minimum(edges[:, :2], edges[:, 2:]), first)
+        boxes[some, 2:] = np.maximum.reduceat(np.maximum(edges[:, :2], edges[:, 2:]), first)
     return boxes
