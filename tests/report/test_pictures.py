@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
+from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.report import style
@@ -112,3 +113,40 @@ def test_thousands_of_obstacles_are_drawn() -> None:
     known = [{"circle": {"center": list(c), "radius": 1.0}} for c in centres[far].tolist()]
     planned = plan(_mission([[10, 250], [490, 250]], bounds=[0, 0, 500, 500], known=known))
     assert share_of(style.OBSTACLE, plan_picture(planned, "many")) > 5e-3
+
+
+def _hall(yaw: float = 0.0, resolution: float = 0.25, size: int = 80) -> Grid:
+    """A square room with a wall across and unknown ground in two corners."""
+    blocked = np.zeros((size, size), bool)
+    blocked[[0, -1]] = blocked[:, [0, -1]] = True
+    blocked[: size * 5 // 8, size // 2 : size // 2 + max(size // 40, 1)] = True
+    unknown = np.zeros_like(blocked)
+    unknown[-size // 6 :, : size // 6] = unknown[-size // 6 :, -size // 6 :] = True
+    return Grid(blocked | unknown, resolution, (3.0, -2.0, yaw), "hall.yaml", unknown)
+
+
+def _across(grid: Grid, *more: dict[str, Any]) -> Mission:
+    size = grid.width
+    start, goal = grid.to_world([(0.2 * size, 0.2 * size), (0.8 * size, 0.2 * size)]).tolist()
+    return Mission.model_validate(
+        {
+            "world": {"known": [{"grid": grid}, *more]},
+            "robot": {"radius_m": 0.3, "clearance_m": 0.1},
+            "route": {"start": start, "goal": goal},
+        }
+    )
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.5])
+def test_a_map_is_on_the_picture_of_a_plan(yaw: float) -> None:
+    picture = plan_picture(plan(_across(_hall(yaw))), "hall")
+    assert share_of(style.UNKNOWN, picture) > 0.005
+    assert share_of(style.OBSTACLE_EDGE, picture) > 4e-4
+    assert share_of(style.PATH, picture) > 1e-3
+
+
+def test_several_maps_differ_in_colour() -> None:
+    mask = np.zeros((80, 80), bool)
+    mask[50:60, 10:30] = True
+    mission = _across(_hall(), {"grid": Grid(mask, 0.25, (3.0, -2.0, 0.0)), "name": "keep out"})
+    assert share_of(style.OBSTACLES[1][0], plan_picture(plan(mission), "hall")) > 0.002

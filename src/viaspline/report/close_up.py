@@ -37,8 +37,8 @@ def close_up(
     if column.room < ROOM or 4 * half > column.map_width:
         return
     height = min(2.3, column.room - 0.5)
-    where = style.short(certificate.obstacle, 16)
-    title = f"tightest place: {down(certificate.clearance)} beside {where}"
+    where = style.short(style.without_folder(certificate.obstacle), 20)
+    title = f"tightest: {down(certificate.clearance)} beside {where}"
     axes = column.axes(height, title)
     x, y = certificate.tightest_at[:2]
     box = axes.get_window_extent()

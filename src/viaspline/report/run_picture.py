@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import shapely
 from matplotlib import colormaps
 from matplotlib.artist import Artist
 from matplotlib.collections import LineCollection
@@ -18,7 +17,7 @@ from viaspline.report.drawing import Floats, any_name, png, polyline
 from viaspline.report.labels import Labels
 from viaspline.report.marks import draw_arrows, draw_tightest, draw_vias
 from viaspline.report.plan_picture import proof, subtitle, via_ticks
-from viaspline.report.scene import Scene
+from viaspline.report.scene import Scene, nearest_on
 from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.units import metres, seconds
 from viaspline.robot.run import Event, Run
@@ -53,7 +52,7 @@ def run_picture(run: Run, name: str) -> bytes:
     draw_driven(sheet, run, colours, limits)
     vias, places = draw_vias(sheet.map, labels, _all_vias(run), mission)
     draw_arrows(sheet.map, thinned(driven), style.INK, avoid=places, every=150)
-    handles += vias + _draw_events(sheet, labels, run, scene)
+    handles += vias + _draw_events(sheet, labels, run)
     handles += draw_tightest(sheet.map, labels, run.certificate)
     noted = [event.at[:2] for event in run.events if event.kind in NOTED]
     labels.place(np.vstack([planned, thinned(driven)]), np.vstack([places, *noted]))
@@ -131,7 +130,7 @@ def _all_vias(run: Run) -> list[PathVia]:
     return [*users, *(via for via in run.path.vias if via.kind == "detour")]
 
 
-def _draw_events(sheet: Sheet, labels: Labels, run: Run, scene: Scene) -> list[Artist]:
+def _draw_events(sheet: Sheet, labels: Labels, run: Run) -> list[Artist]:
     handles: dict[str, Artist] = {}
     for event in run.events:
         if event.kind not in MARKED:
@@ -143,7 +142,7 @@ def _draw_events(sheet: Sheet, labels: Labels, run: Run, scene: Scene) -> list[A
             markeredgewidth=1.8 if marker == "x" else 0.6, zorder=15, label=words,
         )  # fmt: skip
         if event.kind == "detected":
-            _draw_sight(sheet, run, scene, event)
+            _draw_sight(sheet, run, event)
         else:
             at = event.at[0], event.at[1]
             labels.add(f"{words}, {event.time:.0f} s", at, rank=2, colour=style.UNSEEN)
@@ -160,15 +159,17 @@ def _draw_events(sheet: Sheet, labels: Labels, run: Run, scene: Scene) -> list[A
     return [*handles.values()]
 
 
-def _draw_sight(sheet: Sheet, run: Run, scene: Scene, event: Event) -> None:
+def _draw_sight(sheet: Sheet, run: Run, event: Event) -> None:
     """A line from where the robot was to what it saw."""
-    shapes = dict(zip(run.world.names, [*scene.known, *scene.unseen], strict=True))
-    seen = shapes.get(str(event.data.get("name")))
+    names = run.world.names
+    name = str(event.data.get("name"))
+    if name not in names:
+        return
+    seen = nearest_on(run.world.obstacles[names.index(name)], event.at)
     if seen is None:
         return
-    line = shapely.shortest_line(shapely.Point(event.at[:2]), seen)
     sheet.map.plot(
-        *shapely.get_coordinates(line).T, color=style.UNSEEN, linewidth=0.8, linestyle=":",
+        *np.array([event.at[:2], seen]).T, color=style.UNSEEN, linewidth=0.8, linestyle=":",
         zorder=14, scalex=False, scaley=False,
     )  # fmt: skip
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import PurePath
 
 import numpy as np
 import shapely
@@ -14,9 +16,11 @@ from matplotlib.patches import PathPatch, Rectangle
 from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
+from viaspline.maps.grid import Grid
 from viaspline.mission.parts import Obstacle
 from viaspline.report import style
-from viaspline.report.drawing import Floats, outline, shapes_of
+from viaspline.report.drawing import Floats, outline, shape_of, shapes_of
+from viaspline.report.ground import UNKNOWN_LABEL, Ground, Tone, nearest_point, too_near, view_of
 from viaspline.report.labels import Labels
 from viaspline.report.sheet import Box
 from viaspline.world.world import World
@@ -29,9 +33,11 @@ class Scene:
     """What stands in a world, ready to be drawn as often as one likes.
 
     Attributes:
-        known: Polygons of the obstacles on the map.
-        unseen: Polygons of the obstacles that only the sensor finds.
-        names: Of the known ones, then of the unseen ones; None for those without.
+        known: Polygons of the circles and polygons on the map.
+        unseen: Polygons of those that only the sensor finds.
+        grids: The occupancy grids on the map.
+        unseen_grids: Those that only the sensor finds.
+        names: Of the known polygons, then of the unseen ones; None for those without.
         free: Where the robot may be as far as bounds and fences say; None without.
         required: Distance that the path keeps from everything [m].
         frame: What ``free`` is made of: bounds, fences or both.
@@ -39,6 +45,8 @@ class Scene:
 
     known: NDArray[np.object_]
     unseen: NDArray[np.object_]
+    grids: tuple[Ground, ...]
+    unseen_grids: tuple[Ground, ...]
     names: tuple[str | None, ...]
     free: BaseGeometry | None
     required: float
@@ -51,17 +59,24 @@ class Scene:
         if world.bounds is not None:
             parts.append(shapely.box(*world.bounds))
         free = shapely.intersection_all(np.array(parts, object)) if parts else None
-        names = tuple(obstacle.name for obstacle in (*world.obstacles, *unseen))
+        known = [obstacle for obstacle in world.obstacles if obstacle.grid is None]
+        hidden = [obstacle for obstacle in unseen if obstacle.grid is None]
+        names = tuple(obstacle.name for obstacle in (*known, *hidden))
         frame = {(True, False): "bounds", (False, True): "fence"}.get(
             (world.bounds is not None, bool(world.fences)), "bounds and fences"
         )
-        return cls(shapes_of(world.obstacles), shapes_of(unseen), names, free, required, frame)
+        return cls(
+            shapes_of(known), shapes_of(hidden), _grounds(world.obstacles), _hidden(unseen), names,
+            free, required, frame,
+        )  # fmt: skip
 
     @property
     def corners(self) -> Floats:
         """Corners of the boxes of all obstacles and of the free area [m], shape (n, 2)."""
         shapes = [*self.known, *self.unseen] + ([] if self.free is None else [self.free])
         boxes = shapely.bounds(np.array(shapes, object)).reshape(-1, 4)
+        extents = [ground.grid.extent for ground in (*self.grids, *self.unseen_grids)]
+        boxes = np.vstack([boxes, np.array(extents).reshape(-1, 4)])
         corners: Floats = boxes[np.isfinite(boxes).all(1)].reshape(-1, 2)
         return corners
 
@@ -73,31 +88,36 @@ class Scene:
         x0, y0, x1, y1 = self.free.bounds
         return x0, y0, x1, y1
 
-    def draw(self, axes: Axes, pixels_per_metre: float, *, reveal: bool = True) -> list[Artist]:
+    def draw(
+        self, axes: Axes, pixels_per_metre: float, *, reveal: bool = True, faint: bool = False
+    ) -> list[Artist]:
         """Draw it below everything else.
 
         Args:
             axes: Its limits say what can be seen.
             pixels_per_metre: The scale; a clearance of less than a pixel is not drawn.
             reveal: Whether to draw the unseen obstacles.
+            faint: Whether the unseen ones are to stay in the background.
 
         Returns:
             What belongs in a legend.
         """
-        (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
-        view: Box = (x0, y0, x1, y1)
+        view = view_of(axes)
         artists: list[Artist] = []
         if self.free is not None:
             artists += _draw_outside(axes, view, self.free, self.frame)
+        grids = (*self.grids, *(self.unseen_grids if reveal else ()))
+        artists += _draw_grids(axes, grids)
         known, unseen = _within(self.known, view), _within(self.unseen, view)
         if not reveal:
             unseen = unseen[:0]
         if known.size:
-            artists.append(_draw_known(axes, known, pixels_per_metre))
+            words = _how_many(len(self.known), "obstacle")
+            artists.append(_draw_known(axes, known, pixels_per_metre, words))
         if unseen.size:
-            artists.append(_draw_unseen(axes, unseen))
+            artists.append(_draw_unseen(axes, unseen, len(self.unseen), faint))
         if self.required * pixels_per_metre >= 1.0:
-            ring = self._ring(np.concatenate([known, unseen]), view)
+            ring = self._ring(np.concatenate([known, unseen]), grids, view, pixels_per_metre)
             if not ring.is_empty:
                 patch = PathPatch(
                     outline(ring), facecolor="none", edgecolor=style.RING, linewidth=0.6,
@@ -107,18 +127,20 @@ class Scene:
                 artists.append(patch)
         return artists
 
-    def _ring(self, shapes: NDArray[np.object_], view: Box) -> BaseGeometry:
+    def _ring(
+        self, shapes: NDArray[np.object_], grids: Sequence[Ground], view: Box, scale: float
+    ) -> BaseGeometry:
         """Where the path may not be, as far as its edge can be seen."""
         if self.required <= 0:
             return shapely.Polygon()
         segments = 16 if len(shapes) < 400 else 4
-        ring = shapely.union_all(shapely.buffer(shapes, self.required, quad_segs=segments))
+        areas = [*shapely.buffer(shapes, self.required, quad_segs=segments)]
+        dots = round((view[3] - view[1]) * scale), round((view[2] - view[0]) * scale)
+        areas += [too_near(ground.grid, view, dots, self.required) for ground in grids]
         if self.free is not None:
-            outside = shapely.box(*_grown(view, 2 * self.required)).difference(
-                self.free.buffer(-self.required)
-            )
-            ring = ring.union(outside)
-        return ring
+            inner = self.free.buffer(-self.required)
+            areas.append(shapely.box(*_grown(view, 2 * self.required)).difference(inner))
+        return shapely.union_all(np.array(areas, object))
 
     def name(self, labels: Labels) -> None:
         """Ask for the names of the obstacles, if they are few."""
@@ -137,17 +159,54 @@ class Scene:
 
     def nearest_to(self, point: tuple[float, ...]) -> tuple[float, float] | None:
         """The nearest point of any obstacle or of the edge of the free area [m]."""
-        here = shapely.Point(point[:2])
+        here = point[0], point[1]
         shapes = [*self.known, *self.unseen]
         if self.free is not None:
             shapes.append(shapely.boundary(self.free))
-        if not shapes:
-            return None
-        distances = shapely.distance(np.array(shapes, object), here)
-        nearest = shapes[int(np.argmin(distances))]
-        line = shapely.shortest_line(nearest, here)
-        x, y = shapely.get_coordinates(line)[0]
-        return float(x), float(y)
+        places = []
+        if shapes:
+            distances = shapely.distance(np.array(shapes, object), shapely.Point(here))
+            places.append(_on_shape(shapes[int(np.argmin(distances))], here))
+        for ground in (*self.grids, *self.unseen_grids):
+            place = nearest_point(ground.grid, here)
+            places += [] if place is None else [place]
+        return min(places, key=lambda place: math.dist(place, here), default=None)
+
+
+def nearest_on(obstacle: Obstacle, point: tuple[float, ...]) -> tuple[float, float] | None:
+    """The point of an obstacle that is nearest to a place [m]; None for a free grid."""
+    here = point[0], point[1]
+    if obstacle.grid is not None:
+        return nearest_point(obstacle.grid, here)
+    return _on_shape(shape_of(obstacle), here)
+
+
+def _on_shape(shape: shapely.Geometry, here: tuple[float, float]) -> tuple[float, float]:
+    x, y = shapely.get_coordinates(shapely.shortest_line(shape, shapely.Point(here)))[0].tolist()
+    return x, y
+
+
+def _grounds(obstacles: Sequence[Obstacle]) -> tuple[Ground, ...]:
+    """The grids on the map: one is just what is blocked, several have their names and colours."""
+    grids = [obstacle for obstacle in obstacles if obstacle.grid is not None]
+    if len(grids) == 1:
+        return tuple(Ground(o.grid, o.name or "blocked on the map") for o in grids if o.grid)
+    tones = [Tone(*colours) for colours in style.OBSTACLES]
+    return tuple(
+        Ground(o.grid, style.short(o.name or _file_of(o.grid)), tones[i % len(tones)])
+        for i, o in enumerate(grids)
+        if o.grid is not None
+    )
+
+
+def _file_of(grid: Grid) -> str:
+    return "occupancy grid" if grid.source is None else PurePath(grid.source).name
+
+
+def _hidden(obstacles: Sequence[Obstacle]) -> tuple[Ground, ...]:
+    tone = Tone(style.UNSEEN_FILL, style.UNSEEN)
+    label = "blocked, but not on the map"
+    return tuple(Ground(o.grid, label, tone) for o in obstacles if o.grid is not None)
 
 
 def _centred(shape: BaseGeometry) -> bool:
@@ -176,7 +235,22 @@ def _draw_outside(axes: Axes, view: Box, free: BaseGeometry, name: str) -> list[
     return [edge]
 
 
-def _draw_known(axes: Axes, shapes: NDArray[np.object_], scale: float) -> Artist:
+def _draw_grids(axes: Axes, grids: Sequence[Ground]) -> list[Artist]:
+    """The first on top; each kind has one entry in the legend."""
+    handles: dict[str, Artist] = {}
+    for i, ground in enumerate(grids):
+        for handle in ground.draw(axes, zorder=2.4 - 0.01 * i):
+            handles.setdefault(str(handle.get_label()), handle)
+    unknown = handles.pop(UNKNOWN_LABEL, None)
+    return [*handles.values(), *([] if unknown is None else [unknown])]
+
+
+def _how_many(number: int, what: str) -> str:
+    """So many that nobody wants to read their names are counted."""
+    return f"{number} {what}s" if number > NAMED else what
+
+
+def _draw_known(axes: Axes, shapes: NDArray[np.object_], scale: float, label: str) -> Artist:
     sizes = np.sqrt(shapely.area(shapes)) * scale
     width = 0.8 if np.median(sizes) > 8 else 0.3
     axes.add_collection(
@@ -188,20 +262,25 @@ def _draw_known(axes: Axes, shapes: NDArray[np.object_], scale: float) -> Artist
     )  # fmt: skip
     return Rectangle(
         (0, 0), 1, 1, facecolor=style.OBSTACLE, edgecolor=style.OBSTACLE_EDGE, linewidth=0.8,
-        label="obstacle",
+        label=label,
     )  # fmt: skip
 
 
-def _draw_unseen(axes: Axes, shapes: NDArray[np.object_]) -> Artist:
+def _draw_unseen(axes: Axes, shapes: NDArray[np.object_], number: int, faint: bool) -> Artist:
     look = {"facecolor": style.UNSEEN_FILL, "edgecolor": style.UNSEEN, "hatch": "////"}
+    if faint:
+        look = {"facecolor": style.FAINT_FILL, "edgecolor": style.FAINT, "hatch": ""}
+    width = 0.5 if faint else 0.9
     axes.add_collection(
         PathCollection(
             [outline(shape) for shape in shapes], facecolors=look["facecolor"],
-            edgecolors=look["edgecolor"], hatch=look["hatch"], linewidths=0.9, zorder=2.6,
+            edgecolors=look["edgecolor"], hatch=look["hatch"], linewidths=width, zorder=2.6,
         ),
         autolim=False,
     )  # fmt: skip
+    many = number > NAMED
+    label = f"{number} obstacles, none on the map" if many else "obstacle that was not on the map"
     return Rectangle(
         (0, 0), 1, 1, facecolor=look["facecolor"], edgecolor=look["edgecolor"],
-        hatch=look["hatch"], linewidth=0.9, label="obstacle that was not on the map",
+        hatch=look["hatch"], linewidth=width, label=label,
     )  # fmt: skip

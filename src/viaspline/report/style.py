@@ -6,12 +6,21 @@ matters differs in shape or dash as well.
 
 from __future__ import annotations
 
+import re
+
 DPI = 135
 
 INK = "#1b1f24"
 MUTED = "#6a737d"
 OBSTACLE = "#aeb5bf"
 OBSTACLE_EDGE = "#4d5661"
+OBSTACLES = (  # further maps: fill and edge
+    (OBSTACLE, OBSTACLE_EDGE),
+    ("#d3c3dd", "#7d6590"),
+    ("#c5d3b8", "#64784f"),
+)
+UNKNOWN = "#dfe3e8"
+UNKNOWN_STRIPE = "#b9c1ca"
 OUTSIDE = "#e9ebee"
 RING = "#6f7985"
 PATH = "#0072b2"
@@ -21,6 +30,8 @@ LOSER = "#a0468c"
 TIGHTEST = "#d55e00"
 UNSEEN = "#d55e00"
 UNSEEN_FILL = "#fbe3d3"
+FAINT = "#e5b595"
+FAINT_FILL = "#fdf3ec"
 START = "#009e73"
 GOAL = "#1b1f24"
 STATION = "#f0e442"
@@ -32,6 +43,16 @@ TEXT = 9.0
 SMALL = 7.5
 
 PATH_WIDTH = 2.0
+
+
+def without_folder(name: str) -> str:
+    """What a thing is called, with just the file of the map that it is on.
+
+    Example:
+        >>> without_folder("map 'sites/north/depot.yaml' at (7.50, 4.39)")
+        "map 'depot.yaml' at (7.50, 4.39)"
+    """
+    return re.sub(r"map '[^']*[/\\\\]([^'/\\\\]+)'", r"map '\1'", name)
 
 
 def short(name: str, length: int = 28) -> str:
