@@ -31,7 +31,15 @@ def world(*obstacles: Obstacle, **frame: Any) -> PackedWorld:
 def route(packed: PackedWorld, start: Any, goal: Any, barriers: Floats = NONE) -> Floats:
     active = np.zeros(packed.kind.size, np.bool_)
     return shortest_route(
-        packed, np.array(start, float), np.array(goal, float), 1.001, 1.0, STEP, barriers, active
+        packed,
+        np.array(start, float),
+        np.array(goal, float),
+        1.001,
+        1.0,
+        STEP,
+        barriers,
+        active,
+        100,
     )
 
 
@@ -79,7 +87,7 @@ def test_obstacles_on_the_way_round_become_active() -> None:
     packed = world(disc(0, -1, 5), disc(0, 8, 4), disc(0, 60, 4))
     active = np.zeros(3, np.bool_)
     shortest_route(
-        packed, np.array([-20.0, 0.0]), np.array([20.0, 0.0]), 1.001, 1.0, STEP, NONE, active
+        packed, np.array([-20.0, 0.0]), np.array([20.0, 0.0]), 1.001, 1.0, STEP, NONE, active, 100
     )
     assert active.tolist() == [True, True, False]
 

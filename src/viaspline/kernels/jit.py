@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 
 import numba
 from llvmlite import binding
-from numba.core import config, event
+from numba.core import config, event, types
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -71,6 +71,17 @@ def cache_folder() -> Path | None:
 CACHE_FOLDER = cache_folder()
 
 
+def _take_literals_as_values(dispatcher: Any) -> None:
+    """Let ``f(0)`` and ``f(n)`` be one to numba, which would compile a kernel for each literal."""
+    plain = dispatcher.get_call_template
+    value: Callable[[Any], Any] = types.unliteral
+
+    def template(args: Any, kws: Any) -> Any:
+        return plain(tuple(map(value, args)), {name: value(kind) for name, kind in kws.items()})
+
+    dispatcher.get_call_template = template
+
+
 def _compile(function: _Function, **options: bool) -> _Function:
     settings: Any = config  # numba makes its settings as it reads them
     kept = settings.CACHE_DIR
@@ -79,11 +90,13 @@ def _compile(function: _Function, **options: bool) -> _Function:
     njit: Any = numba.njit
     try:
         cache = CACHE_FOLDER is not None
-        compiled: _Function = njit(cache=cache, error_model="numpy", nogil=True, **options)(
-            function
-        )
+        compiled: _Function = njit(
+            cache=cache, error_model="numpy", nogil=True, no_cfunc_wrapper=True, **options
+        )(function)
     finally:
         settings.CACHE_DIR = kept
+    if hasattr(compiled, "get_call_template"):  # else the JIT is off
+        _take_literals_as_values(compiled)
     return compiled
 
 
