@@ -5,25 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
-import shapely
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, PathPatch
+from matplotlib.patches import Circle
 from matplotlib.text import Text
 
 from viaspline.detour.brief import Brief
 from viaspline.report import style
 from viaspline.report.column import Column
-from viaspline.report.drawing import any_name, outline, polyline
+from viaspline.report.drawing import any_name, polyline
 from viaspline.report.film import Frame, write_film
 from viaspline.report.film_file import FilmFile
 from viaspline.report.labels import Labels
 from viaspline.report.marks import draw_vias
-from viaspline.report.run_picture import thinned
+from viaspline.report.run_picture import has_lidar, thinned
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Sheet, new_sheet, view_of
+from viaspline.report.sight import sight_of
 from viaspline.robot.run import Run
 
 FRAMES = 180
@@ -63,13 +62,13 @@ class _Stage:
         view = view_of(seen, scene.corners, scene.box, scene.required)
         self._sheet = sheet = new_sheet(view, (), style.short(name, 48), (), dpi=DPI)
         labels = Labels(sheet.map)
-        handles = scene.draw(sheet.map, sheet.pixels_per_metre, reveal=False)
+        scans = has_lidar(run)
+        handles = scene.draw(sheet.map, sheet.pixels_per_metre, reveal=scans, faint=scans)
         vias, places = draw_vias(sheet.map, labels, run.plan.path.vias, mission)
         labels.place(planned, places)
         self._moving = _moving(sheet.map, sheet.pixels_per_metre, run)
-        self._found = _found(sheet.map, run, scene)
-        legend = [*handles, *vias, *(m for m in self._moving[:4] if isinstance(m, Artist))]
-        Column(sheet).legend([*legend, *(patch for _, patch in self._found[:1])])
+        self._sight = sight_of(run, sheet)
+        Column(sheet).legend([*handles, *vias, *self._moving, *self._sight.handles])
         # the few markers of the route are drawn over the trail again
         self._over = [a for a in (*sheet.map.lines, *sheet.map.texts) if a.get_zorder() >= 11][:120]
         self._clock = _clock(sheet)
@@ -78,14 +77,14 @@ class _Stage:
         canvas = sheet.figure.canvas
         assert isinstance(canvas, FigureCanvasAgg)
         self._canvas = canvas
-        for artist in (*self._moving, *(patch for _, patch in self._found), self._clock):
+        for artist in (*self._moving, *self._sight.artists, self._clock):
             artist.set_animated(True)
         canvas.draw()  # type: ignore[no-untyped-call]
         self._still = canvas.copy_from_bbox(sheet.figure.bbox)  # type: ignore[no-untyped-call]
 
     def frame(self, time: float) -> Frame:
         """The picture at a time [s]."""
-        run, (old, path, trail, robot, sight) = self._run, self._moving
+        run, (old, path, trail, robot) = self._run, self._moving
         x, y = (float(np.interp(time, run.times, run.positions[:, axis])) for axis in (0, 1))
         now = max(i for i, (start, _) in enumerate(self._paths) if start <= time)
         path.set_data(*self._paths[now][1].T)
@@ -93,12 +92,12 @@ class _Stage:
         driven = run.positions[: int(np.searchsorted(run.times, time, side="right")), :2]
         trail.set_data(*np.vstack([thinned(driven, 1500), [[x, y]]]).T)
         robot.set_center((x, y))
-        sight.set_center((x, y))
+        heading = float(np.interp(time, run.times, np.unwrap(run.headings)))
+        sight = self._sight.at(time, (x, y), heading)
         speed = float(np.interp(time, run.times, run.speeds))
         self._clock.set_text(f"{time:7.1f} s   {speed:5.2f} m/s")
         self._canvas.restore_region(self._still)  # type: ignore[no-untyped-call]
-        found = [patch for start, patch in self._found if start <= time]
-        for artist in (sight, *found, old, path, trail, *self._over, robot):
+        for artist in (*sight, old, path, trail, *self._over, robot):
             self._sheet.map.draw_artist(artist)
         self._sheet.figure.draw_artist(self._clock)
         pixels = np.asarray(self._canvas.buffer_rgba())[..., :3]  # type: ignore[no-untyped-call]
@@ -115,39 +114,15 @@ def _clock(sheet: Sheet) -> Text:
     )  # fmt: skip
 
 
-def _moving(
-    axes: Axes, pixels_per_metre: float, run: Run
-) -> tuple[Line2D, Line2D, Line2D, Circle, Circle]:
-    """Old path, path, trail, robot, what the sensor reaches."""
+def _moving(axes: Axes, pixels_per_metre: float, run: Run) -> tuple[Line2D, Line2D, Line2D, Circle]:
+    """Old path, path, trail, robot."""
     (old,) = axes.plot([], [], color=style.OLD_PATH, linewidth=1.2, linestyle=(0, (5, 2)),
                        zorder=7, label="path before")  # fmt: skip
     (path,) = axes.plot([], [], color=style.SENSOR, linewidth=1.8, zorder=8, label="path")
     (trail,) = axes.plot([], [], color=style.PATH, linewidth=2.8, zorder=9, label="driven",
                          solid_capstyle="round")  # fmt: skip
-    robot_spec = run.plan.mission.robot
-    size = max(robot_spec.radius_m, 5.0 / pixels_per_metre)
+    size = max(run.plan.mission.robot.radius_m, 5.0 / pixels_per_metre)
     robot = Circle((0, 0), size, facecolor=style.UNSEEN, edgecolor=style.INK, linewidth=0.8,
                    zorder=30, label="robot")  # fmt: skip
-    reach = robot_spec.sensor.reach if robot_spec.sensor is not None else 0.0
-    sight = Circle((0, 0), reach, facecolor=style.SENSOR, alpha=0.18, zorder=2.4)
-    for patch in (robot, sight):
-        axes.add_artist(patch)
-    return old, path, trail, robot, sight
-
-
-def _found(axes: Axes, run: Run, scene: Scene) -> list[tuple[float, Artist]]:
-    """Unseen obstacles, and when the sensor first reaches each [s]."""
-    sensor = run.plan.mission.robot.sensor
-    found: list[tuple[float, Artist]] = []
-    points = shapely.points(run.positions[:, :2])
-    for shape in scene.unseen:
-        reached = shapely.distance(points, shape) <= (sensor.reach if sensor else -1.0)
-        if not reached.any():
-            continue
-        patch = PathPatch(
-            outline(shape), facecolor=style.UNSEEN_FILL, edgecolor=style.UNSEEN, hatch="////",
-            linewidth=0.9, zorder=5, label="found under way",
-        )  # fmt: skip
-        axes.add_artist(patch)
-        found.append((float(run.times[int(np.argmax(reached))]), patch))
-    return found
+    axes.add_artist(robot)
+    return old, path, trail, robot

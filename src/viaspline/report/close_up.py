@@ -11,7 +11,8 @@ from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.report import style
 from viaspline.report.column import Column
-from viaspline.report.marks import draw_path
+from viaspline.report.drawing import Floats
+from viaspline.report.marks import draw_echoes, draw_path
 from viaspline.report.scene import Scene
 from viaspline.report.units import down
 
@@ -24,8 +25,11 @@ def close_up(
     path: Path,
     certificate: Certificate,
     radius: float,
+    seen: Floats | None = None,
 ) -> None:
     """The tightest place, large enough to see the clearance.
+
+    What a lidar has ``seen`` are points [m], shape (n, 2); what was there stays in the background.
 
     It is left out where nothing is tight, where there is no room for it in the column, and where
     the map shows it as large.
@@ -46,7 +50,9 @@ def close_up(
     axes.set_ylim(y - half * box.height / box.width, y + half * box.height / box.width)
     scale = box.width / (2 * half)
     column.scale_bar(axes, scale)
-    scene.draw(axes, scale)
+    scene.draw(axes, scale, faint=seen is not None)
+    if seen is not None:
+        draw_echoes(axes, seen, 5.0)
     distance = certificate.tightest_distance
     near = np.linspace(max(distance - 3 * half, 0), min(distance + 3 * half, path.length), 400)
     line = np.asarray(path.at_distance(near))[:, :2]

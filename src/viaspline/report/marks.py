@@ -168,3 +168,16 @@ def draw_tightest(axes: Axes, labels: Labels, certificate: Certificate) -> list[
         f"{down(certificate.clearance)} clear", (x, y), rank=1, colour=style.TIGHTEST, gap=14
     )
     return [ring]
+
+
+def draw_echoes(axes: Axes, points: Floats, size: float = 2.2) -> list[Artist]:
+    """What a lidar has shown, as dots [m], shape (n, 2).
+
+    Returns:
+        What belongs in a legend.
+    """
+    if not len(points):
+        return []
+    look = {"marker": ".", "color": style.UNSEEN, "markeredgewidth": 0, "linestyle": "none"}
+    axes.plot(*points.T, markersize=size, zorder=5, scalex=False, scaley=False, **look)  # type: ignore[arg-type]
+    return [Line2D([], [], markersize=5, label="seen by the lidar", **look)]  # type: ignore[arg-type]

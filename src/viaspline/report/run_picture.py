@@ -15,14 +15,15 @@ from viaspline.report.close_up import ROOM, close_up
 from viaspline.report.column import Column
 from viaspline.report.drawing import Floats, any_name, png, polyline
 from viaspline.report.labels import Labels
-from viaspline.report.marks import draw_arrows, draw_tightest, draw_vias
+from viaspline.report.marks import draw_arrows, draw_echoes, draw_tightest, draw_vias
 from viaspline.report.plan_picture import proof, subtitle, via_ticks
 from viaspline.report.scene import Scene, nearest_on
 from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.units import metres, seconds
-from viaspline.robot.run import Event, Run
+from viaspline.robot.run import Event, Replan, Run
 
 PIECES = 4000  # of the coloured line, at most
+REPLANS_NAMED = 4  # with a lidar, at most
 NOTED = ("detected", "replanned", "skipped", "braked", "stopped", "contact")
 MARKED = {"detected": ("x", "detected"), "braked": ("v", "braked"), "stopped": ("X", "stopped"),
           "skipped": ("P", "gave up a via point"), "contact": ("*", "contact")}  # fmt: skip
@@ -45,8 +46,12 @@ def run_picture(run: Run, name: str) -> bytes:
     view = view_of(seen, scene.corners, scene.box, required)
     sheet = new_sheet(view, strips.names(run.positions), *_heading(run, name))
     labels = Labels(sheet.map)
-    handles = scene.draw(sheet.map, sheet.pixels_per_metre)
-    scene.name(labels)
+    scans = has_lidar(run)
+    handles = scene.draw(sheet.map, sheet.pixels_per_metre, faint=scans)
+    if scans:
+        handles += draw_echoes(sheet.map, echoes(run))
+    else:
+        scene.name(labels)
     handles.append(_draw_planned(sheet, planned))
     colours, limits = speed_colours(run.speeds)
     draw_driven(sheet, run, colours, limits)
@@ -54,15 +59,22 @@ def run_picture(run: Run, name: str) -> bytes:
     draw_arrows(sheet.map, thinned(driven), style.INK, avoid=places, every=150)
     handles += vias + _draw_events(sheet, labels, run)
     handles += draw_tightest(sheet.map, labels, run.certificate)
-    noted = [event.at[:2] for event in run.events if event.kind in NOTED]
+    noted = [event.at[:2] for event in run.events if event.kind in _told(run)]
     labels.place(np.vstack([planned, thinned(driven)]), np.vstack([places, *noted]))
     _fill_strips(sheet, run)
     column = Column(sheet)
     column.colour_bar(colours, limits, "speed of the driven path [m/s]")
     column.legend(handles)
-    column_notes = [note(event) for event in run.events if event.kind in NOTED]
+    column_notes = _notes(run)
     if column.room > ROOM + 0.155 * min(len(column_notes), 6):
-        close_up(column, scene, run.path, run.certificate, mission.robot.radius_m)
+        close_up(
+            column,
+            scene,
+            run.path,
+            run.certificate,
+            mission.robot.radius_m,
+            echoes(run) if scans else None,
+        )
     column.notes("Under way", column_notes)
     return png(sheet.figure)
 
@@ -78,6 +90,40 @@ def _heading(run: Run, name: str) -> tuple[str, tuple[str, str]]:
     if not run.reached:  # why is more to the point than the spline's tension
         return title, (run.reason or "", line)
     return title, (line, subtitle(run.plan.mission))
+
+
+def has_lidar(run: Run) -> bool:
+    """Whether the robot saw surfaces, not obstacles."""
+    sensor = run.plan.mission.robot.sensor
+    return sensor is not None and sensor.lidar is not None
+
+
+def echoes(run: Run) -> Floats:
+    """The points of surfaces that a lidar had shown at the end [m], shape (n, 2)."""
+    if run.known is None or not has_lidar(run):
+        return np.zeros((0, 2))
+    shown = run.known.obstacles[len(run.plan.world) :]
+    return np.array([o.circle.center for o in shown if o.circle is not None]).reshape(-1, 2)
+
+
+def _told(run: Run) -> tuple[str, ...]:
+    """The kinds of events that are told; what a lidar shows is more than anybody wants to read."""
+    return tuple(kind for kind in NOTED if kind != "detected" or not has_lidar(run))
+
+
+def _notes(run: Run) -> list[str]:
+    """What happened, line by line."""
+    events = [event for event in run.events if event.kind in _told(run)]
+    if not has_lidar(run):
+        return [note(event) for event in events]
+    lines = [(e.time, note(e)) for e in events if e.kind != "replanned"]
+    lines += [(replan.time, _new_path(replan)) for replan in run.replans]
+    return [line for _, line in sorted(lines, key=lambda line: line[0])]
+
+
+def _new_path(replan: Replan) -> str:
+    mode, length = replan.mode.replace("_", " "), metres(replan.path.length)
+    return f"{replan.time:.1f} s  new path of {length} ({mode})"
 
 
 def note(event: Event) -> str:
@@ -133,7 +179,7 @@ def _all_vias(run: Run) -> list[PathVia]:
 def _draw_events(sheet: Sheet, labels: Labels, run: Run) -> list[Artist]:
     handles: dict[str, Artist] = {}
     for event in run.events:
-        if event.kind not in MARKED:
+        if event.kind not in MARKED or event.kind not in _told(run):
             continue
         marker, words = MARKED[event.kind]
         (handles[event.kind],) = sheet.map.plot(
@@ -146,12 +192,16 @@ def _draw_events(sheet: Sheet, labels: Labels, run: Run) -> list[Artist]:
         else:
             at = event.at[0], event.at[1]
             labels.add(f"{words}, {event.time:.0f} s", at, rank=2, colour=style.UNSEEN)
+    size = 4.0 if has_lidar(run) else 6.0
     for replan in run.replans:
         (handles["replanned"],) = sheet.map.plot(
-            *replan.at[:2], marker="D", markersize=6, markerfacecolor="white",
-            markeredgecolor=style.UNSEEN, markeredgewidth=1.4, linestyle="none", zorder=14.5,
+            *replan.at[:2], marker="D", markersize=size, markerfacecolor="white",
+            markeredgecolor=style.UNSEEN, markeredgewidth=0.23 * size, linestyle="none",
+            zorder=10 if has_lidar(run) else 14.5,
             label="new path from here",
         )  # fmt: skip
+        if has_lidar(run) and len(run.replans) > REPLANS_NAMED:
+            continue
         labels.add(
             f"new path, {replan.time:.0f} s ({replan.mode.replace('_', ' ')})",
             (replan.at[0], replan.at[1]), rank=4, colour=style.UNSEEN,

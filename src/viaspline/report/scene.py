@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
 from viaspline.maps.grid import Grid
+from viaspline.mission.edge import edge_of
 from viaspline.mission.parts import Obstacle
 from viaspline.report import style
 from viaspline.report.drawing import Floats, outline, shape_of, shapes_of
@@ -62,12 +63,9 @@ class Scene:
         known = [obstacle for obstacle in world.obstacles if obstacle.grid is None]
         hidden = [obstacle for obstacle in unseen if obstacle.grid is None]
         names = tuple(obstacle.name for obstacle in (*known, *hidden))
-        frame = {(True, False): "bounds", (False, True): "fence"}.get(
-            (world.bounds is not None, bool(world.fences)), "bounds and fences"
-        )
         return cls(
             shapes_of(known), shapes_of(hidden), _grounds(world.obstacles), _hidden(unseen), names,
-            free, required, frame,
+            free, required, _frame_of(world),
         )  # fmt: skip
 
     @property
@@ -184,6 +182,18 @@ def nearest_on(obstacle: Obstacle, point: tuple[float, ...]) -> tuple[float, flo
 def _on_shape(shape: shapely.Geometry, here: tuple[float, float]) -> tuple[float, float]:
     x, y = shapely.get_coordinates(shapely.shortest_line(shape, shapely.Point(here)))[0].tolist()
     return x, y
+
+
+def _frame_of(world: World) -> str:
+    """What a legend calls that which the robot stays inside of."""
+    edge = edge_of([obstacle.grid for obstacle in world.obstacles if obstacle.grid is not None])
+    if world.bounds == edge.bounds and world.fences == (
+        () if edge.fence is None else (edge.fence,)
+    ):
+        return "edge of the map"
+    if not world.fences:
+        return "bounds"
+    return "fence" if world.bounds is None else "bounds and fences"
 
 
 def _grounds(obstacles: Sequence[Obstacle]) -> tuple[Ground, ...]:
