@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+from typing import Any, NamedTuple
+
 import numpy as np
+from numpy.typing import NDArray
 
 from viaspline.curve.certificate import SPARE
 from viaspline.detour.brief import Brief
@@ -10,10 +14,10 @@ from viaspline.detour.course import Course, RouteVia
 from viaspline.detour.route import NO_BARRIERS, Floats, Router, Way, on_the_line
 from viaspline.errors import NoPathError
 from viaspline.kernels.corners import X, Y
-from viaspline.kernels.segment import nearest_to_segment
 from viaspline.world.world import World
 
 BISECTIONS = 30
+TRIALS = 8  # places that are tried as a better goal
 
 
 def refuse_blocked_vias(course: Course, world: World, brief: Brief) -> None:
@@ -77,33 +81,74 @@ def explain_blocked_leg(
     if len(barriers) and _way(start, goal, world, brief.required, NO_BARRIERS) is not None:
         return _forced(start, goal, world)
     opened = _widest(start, goal, world, brief.required)
+    moved = reachable_near(start.at, goal.at, world, brief.required)
+    moves = [] if moved is None else [f"move {goal.name!r} to ({moved[0]:.3f}, {moved[1]:.3f})"]
     if opened is None:
         walls = _walls(start, goal, world)
+        moves.append(f"open a gap of {2 * brief.required:.3f} m")
         return NoPathError(
             f"nothing leads from {start.name!r} to {goal.name!r}: {_listed(walls)} shuts it off",
             where=goal.at,
-            remedy=f"move {goal.name!r} to the side of {start.name!r}, or open a gap of "
-            f"{2 * brief.required:.3f} m",
+            remedy=" or ".join(moves),
             via=goal.name,
             obstacles=walls,
         )
     required, way = opened
-    place, index, width = _narrowest(way, world)
-    name = world.name(index)
+    gap = _narrowest(way, world)
     clearance = np.floor((required - brief.radius) * 1000) / 1000
     if clearance >= 0:
-        remedy = f"set robot.clearance_m to at most {clearance:.3f}"
+        moves.insert(0, f"set robot.clearance_m to at most {clearance:.3f}")
     else:
-        remedy = f"the body's radius may be at most {np.floor(required * 1000) / 1000:.3f} m there"
+        most = np.floor(required * 1000) / 1000
+        moves.insert(0, f"the body's radius may be at most {most:.3f} m there")
     return NoPathError(
-        f"no way from {start.name!r} to {goal.name!r} is wide enough: the best one passes "
-        f"{name!r} at ({place[0]:.2f}, {place[1]:.2f}) with {2 * width:.3f} m of room, "
-        f"{2 * brief.required:.3f} m are needed",
-        where=place,
-        remedy=remedy,
+        f"no way from {start.name!r} to {goal.name!r} is wide enough: the best one goes through "
+        f"a gap {gap.between} at ({gap.at[0]:.2f}, {gap.at[1]:.2f}) with {gap.width:.3f} m of "
+        f"room, {2 * brief.required:.3f} m are needed",
+        where=gap.at,
+        remedy=" or ".join(moves),
         via=goal.name,
-        obstacles=(name,),
+        obstacles=gap.sides,
     )
+
+
+def reachable_near(start: Floats, goal: Floats, world: World, required: float) -> Floats | None:
+    """A place near ``goal`` that ``start`` has a way to, to within a lattice's cell.
+
+    Returns:
+        Shape (2,) [m]; None where none was found.
+    """
+    router = Router(world, required, np.array([start[:2], goal[:2]]))
+    closed, place = NO_BARRIERS, goal
+    for _ in range(TRIALS):
+        closed = router.closed_between(start, place, closed)
+        candidate = _nearest_in_room(router, start, goal, closed)
+        if candidate is None:
+            return None
+        if router.find(start, candidate, NO_BARRIERS, np.zeros(len(world), np.bool_)) is not None:
+            return candidate
+        place = candidate
+    return None
+
+
+def _nearest_in_room(router: Router, start: Floats, goal: Floats, closed: Floats) -> Floats | None:
+    """The middle of a free cell that is connected to the start's, as near to the goal as can be."""
+    from scipy.ndimage import label
+
+    lattice = router.lattice.without(closed)
+    rooms: NDArray[Any] = label(lattice.cells == 0)[0]
+    here = lattice.at(rooms, start[None, :2])[0]
+    if here == 0:
+        return None
+    rows, columns = np.nonzero(rooms == here)
+    free = (np.column_stack((columns, rows)) + 0.5) * lattice.side + (lattice.x, lattice.y)
+    free = free[np.argsort(np.hypot(*(free - goal[:2]).T), kind="stable")]
+    for some in np.array_split(free, max(1, len(free) // 1000)):
+        roomy = np.flatnonzero(router.world.distance(some) >= router.required + 1e-3)
+        if roomy.size:
+            nearest: Floats = some[roomy[0]]
+            return nearest
+    return None
 
 
 def explain_tight_leg(course: Course, leg: int, world: World, brief: Brief) -> NoPathError:
@@ -163,17 +208,41 @@ def _widest(
     return low, best
 
 
-def _narrowest(way: Way, world: World) -> tuple[tuple[float, float], int, float]:
-    """Where a way is tightest: place, what is nearest there, distance [m]."""
-    tightest = (np.inf, -1, 0)
-    for k in range(1, len(way.corners) - 1):
-        a, b = way.corners[k, X : Y + 1], way.corners[k + 1, X : Y + 1]
-        distance, index = nearest_to_segment(world.packed, a[0], a[1], b[0], b[1], np.inf)
-        if distance < tightest[0]:
-            tightest = (distance, index, k)
-    distance, index, k = tightest
-    corner = way.corners[k]
-    return (float(corner[X]), float(corner[Y])), int(index), float(distance)
+class _Gap(NamedTuple):
+    """The narrowest place of a way: where [m], how wide [m], and what stands on either side."""
+
+    at: tuple[float, float]
+    width: float
+    sides: tuple[str, ...]
+
+    @property
+    def between(self) -> str:
+        """The sides in words."""
+        return "beside " + repr(self.sides[0]) if len(self.sides) == 1 else _pair(self.sides)
+
+
+def _pair(names: tuple[str, ...]) -> str:
+    return f"between {names[0]!r} and {names[1]!r}"
+
+
+def _narrowest(way: Way, world: World) -> _Gap:
+    """Where a way is tightest."""
+    w = np.linspace(0.0, 1.0, 201)[:, None]
+    corners = way.corners[:, X : Y + 1]
+    places = np.vstack([a + w * (b - a) for a, b in pairwise(corners)])
+    inner = places[2:-2] if len(places) > 4 else places
+    distance, index = world.nearest(inner)
+    k = int(np.argmin(distance))
+    at, room = inner[k], float(distance[k])
+    step = 1e-3 * max(room, 1e-6)
+    east, north = world.distance(at + [step, 0.0]), world.distance(at + [0.0, step])
+    away = np.array([float(east) - room, float(north) - room])
+    size = float(np.hypot(*away))
+    sides = [world.name(int(index[k]))]
+    if size > 0.0:
+        opposite = int(world.nearest(at + 0.5 * room * away / size)[1])
+        sides.append(world.name(opposite))
+    return _Gap((float(at[0]), float(at[1])), 2.0 * room, tuple(dict.fromkeys(sides)))
 
 
 def _walls(start: RouteVia, goal: RouteVia, world: World) -> tuple[str, ...]:

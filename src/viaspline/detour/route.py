@@ -185,6 +185,10 @@ class Router:
                 return None
         return None
 
+    def closed_between(self, start: Floats, goal: Floats, closed: Floats) -> Floats:
+        """The gaps that proved too narrow on the way to a goal that can't be reached, (n, 4)."""
+        return self._along(self.lattice, start, goal, closed)[1]
+
     def _along(
         self, lattice: Lattice, start: Floats, goal: Floats, closed: Floats
     ) -> tuple[Way | None, Floats]:
