@@ -127,7 +127,9 @@ def test_the_gap_that_is_too_narrow_is_named_with_its_place_and_width() -> None:
     cells[:, 15] = True
     cells[9:12, 15] = False
     wall = mission(cells, 0.1, (0.5, 0.5), (2.5, 0.5), 0.1, 0.06)
-    with pytest.raises(vs.NoPathError, match="with 0.300 m of room, 0.320 m are needed") as caught:
+    with pytest.raises(
+        vs.NoPathError, match=r"with 0\.300 m of room, 0\.320 m are needed"
+    ) as caught:
         vs.plan(wall)
     assert caught.value.where == pytest.approx((1.55, 1.05), abs=0.15)
     assert "set robot.clearance_m to at most 0.05" in caught.value.remedy

@@ -115,7 +115,7 @@ def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet:
         with watch.stage("simulate", "driving"):
             from viaspline.robot.simulator import simulate
 
-            done = simulate(asked, seed=seed, progress=watch.driven, plan=plan)
+            done = simulate(plan.mission, seed=seed, progress=watch.driven, plan=plan)
         with watch.stage("report", "drawing and writing"):
             from viaspline.report import results
 

@@ -10,6 +10,7 @@ from viaspline.detour.account import Account
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import course_of
 from viaspline.detour.ledger import LedgerEntry
+from viaspline.detour.order import ordered
 from viaspline.detour.search import find_path
 from viaspline.mission.model import Mission
 from viaspline.trajectory.limits import Limits, Station
@@ -23,7 +24,7 @@ class Plan:
     """A proven path and its time law.
 
     Attributes:
-        mission: What was asked for.
+        mission: What was asked for, its via points in the order in which they are served.
         world: The known world it was planned in.
         path: The exact curve with its via points.
         certificate: The proven clearance of the body against everything known.
@@ -60,6 +61,7 @@ def plan(mission: Mission) -> Plan:
         >>> result.certificate.holds, round(result.path.length, 1), result.ledger[0].chosen.side
         (True, 50.8, 'right')
     """
+    mission = ordered(mission)
     world = World.known(mission)
     brief = Brief.of(mission)
     found = find_path(course_of(mission), world, brief)

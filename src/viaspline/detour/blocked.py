@@ -235,8 +235,7 @@ def _narrowest(way: Way, world: World) -> _Gap:
     k = int(np.argmin(distance))
     at, room = inner[k], float(distance[k])
     step = 1e-3 * max(room, 1e-6)
-    east, north = world.distance(at + [step, 0.0]), world.distance(at + [0.0, step])
-    away = np.array([float(east) - room, float(north) - room])
+    away = world.distance(at + step * np.eye(2)) - room
     size = float(np.hypot(*away))
     sides = [world.name(int(index[k]))]
     if size > 0.0:

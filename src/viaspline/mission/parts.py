@@ -242,15 +242,18 @@ class Route(Value):
 
     Attributes:
         start: Where the robot stands at first.
-        via: The places that the path runs through, in this order.
+        via: The places that the path runs through, in this order unless ``order`` says otherwise.
         goal: Where it ends. None: at the last via point, or at the start if the route is closed.
         closed: Whether the path comes back to its start; then there is no goal.
+        order: ``given``, or ``shortest``: the via points are served in the order that makes the
+            round short.
     """
 
     start: End
     via: tuple[Via, ...] = ()
     goal: End | None = None
     closed: Annotated[bool, Field(strict=True)] = False
+    order: Literal["given", "shortest"] = "given"
 
     def points(self) -> Iterator[tuple[str, ViaPoint]]:
         """Every point of the route in order, with its key in the mission file."""
