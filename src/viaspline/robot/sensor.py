@@ -67,6 +67,7 @@ def _disc_around(obstacle: Obstacle) -> tuple[float, float, float]:
     if obstacle.circle is not None:
         x, y = obstacle.circle.center
         return x, y, obstacle.circle.radius
-    ring: NDArray[np.float64] = np.array(obstacle.polygon)
+    corners = obstacle.polygon if obstacle.grid is None else obstacle.grid.corners
+    ring: NDArray[np.float64] = np.array(corners)
     x, y = 0.5 * (ring.min(axis=0) + ring.max(axis=0))
     return float(x), float(y), float(np.hypot(*(ring - (x, y)).T).max())
