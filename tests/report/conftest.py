@@ -40,3 +40,18 @@ def planned(mission: Mission) -> Plan:
 @pytest.fixture(scope="session")
 def driven(mission: Mission, planned: Plan) -> Run:
     return simulate(mission, plan=planned)
+
+
+@pytest.fixture(scope="session")
+def scanned() -> Run:
+    """A run with a lidar among many posts, none of them on the map."""
+    posts = [[x, y] for x in range(8, 33, 4) for y in range(-9, 10, 3)]
+    unseen = [{"circle": {"center": [x + 0.3 * (y % 2), y], "radius": 0.5}} for x, y in posts]
+    mission = Mission.model_validate(
+        {
+            "world": {"unseen": unseen},
+            "robot": {"sensor": {"lidar": {"range_m": 12, "fov_deg": 270, "beams": 540}}},
+            "route": {"start": [0, 0], "goal": [40, 0]},
+        }
+    )
+    return simulate(mission)

@@ -7,12 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from PIL import Image
 
 from viaspline.errors import OutputError
+from viaspline.maps.grid import Grid
+from viaspline.mission.model import Mission
+from viaspline.report import style
 from viaspline.report.animation import film_run, frames
 from viaspline.report.film_file import FilmFile
 from viaspline.robot.run import Run
+from viaspline.robot.simulator import simulate
 
 
 def test_the_robot_moves_and_the_size_stays(driven: Run) -> None:
@@ -20,6 +25,29 @@ def test_the_robot_moves_and_the_size_stays(driven: Run) -> None:
     assert len({picture.shape for picture in pictures}) == 1
     assert all(size % 2 == 0 for size in pictures[0].shape[:2])
     assert all((a != b).any() for a, b in pairwise(pictures))
+
+
+def share_of(colour: str, frame: NDArray[np.uint8]) -> float:
+    wanted = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
+    return float((np.abs(frame.astype(int) - wanted).max(axis=2) < 12).mean())
+
+
+def test_a_lidar_sweeps_the_ground_in_the_film(scanned: Run) -> None:
+    first, *_, last = frames(scanned, "posts", 6)
+    assert share_of(style.UNSEEN, last) > share_of(style.UNSEEN, first) > 0
+
+
+def test_a_map_that_was_not_known_appears_when_it_is_found() -> None:
+    wall = Grid(np.ones((4, 40), bool), 0.25, (20.0, 2.0, 0.0))
+    mission = Mission.model_validate(
+        {
+            "world": {"unseen": [{"grid": wall}]},
+            "robot": {"sensor": {"range_m": 8}},
+            "route": {"start": [0, 0], "goal": [40, 0]},
+        }
+    )
+    first, *_, last = frames(simulate(mission), "wall", 6)
+    assert share_of(style.UNSEEN_FILL, last) > share_of(style.UNSEEN_FILL, first)
 
 
 def test_a_gif_is_written_whole_with_progress(

@@ -15,7 +15,8 @@ from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.report import style
 from viaspline.report.plan_picture import plan_picture, via_ticks
-from viaspline.report.run_picture import run_picture
+from viaspline.report.run_picture import echoes, run_picture
+from viaspline.report.strips import shown
 from viaspline.robot.run import Run
 
 
@@ -150,3 +151,26 @@ def test_several_maps_differ_in_colour() -> None:
     mask[50:60, 10:30] = True
     mission = _across(_hall(), {"grid": Grid(mask, 0.25, (3.0, -2.0, 0.0)), "name": "keep out"})
     assert share_of(style.OBSTACLES[1][0], plan_picture(plan(mission), "hall")) > 0.002
+
+
+def test_what_a_lidar_has_shown_is_on_the_picture_and_the_rest_stays_faint(scanned: Run) -> None:
+    assert scanned.reached
+    points = echoes(scanned)
+    assert len(points) > 50
+    assert np.abs(scanned.world.distance(points)).max() < 1e-6
+    picture = run_picture(scanned, "posts")
+    assert share_of(style.UNSEEN, picture) > 1e-3
+    assert share_of(style.FAINT_FILL, picture) > 1e-3
+    assert share_of(style.UNSEEN_FILL, picture) < share_of(style.FAINT_FILL, picture)
+
+
+def test_a_run_without_a_lidar_has_shown_no_points(driven: Run) -> None:
+    assert echoes(driven).shape == (0, 2)
+
+
+def test_a_peak_does_not_flatten_the_rest_of_a_strip() -> None:
+    curvature = np.sin(np.linspace(0, 20, 1000))
+    curvature[500] = 1e6
+    low, high = shown(curvature)
+    assert (low, high) == (pytest.approx(-1, abs=0.01), pytest.approx(6, abs=0.1))
+    assert shown(np.array([0.0, 0.0, 3.0])) == (0.0, 3.0)

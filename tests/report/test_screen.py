@@ -2,12 +2,15 @@ from __future__ import annotations
 
 import io
 
+import numpy as np
 import pytest
 from rich.console import Console, RenderableType
 
+from viaspline.detour.ledger import Candidate, LedgerEntry
+from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
-from viaspline.report.screen import plan_tables, run_tables
+from viaspline.report.screen import ledger_table, plan_tables, run_tables
 from viaspline.report.summary import spline_words, summary, tension
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
@@ -75,3 +78,39 @@ def test_a_mission_is_summed_up_in_four_lines(mission: Mission) -> None:
     assert "1 station with stops of 5 s" in lines["route"]
     assert "2 known obstacles (1 circle and 1 polygon), 1 unseen obstacle" in lines["world"]
     assert "tension 0 (slack 0.5)" in spline_words(mission)
+
+
+GRID = Grid(np.eye(20, 30, 4, dtype=bool), 0.5, source="maps/depot.yaml")
+
+
+def test_a_map_is_told_by_its_size() -> None:
+    route = {"start": [1, 8], "goal": [13, 2]}
+    lidar = {"lidar": {"range_m": 5, "fov_deg": 270, "beams": 720}}
+    mission = Mission.model_validate(
+        {"world": {"known": [{"grid": GRID}]}, "robot": {"sensor": lidar}, "route": route}
+    )
+    lines = dict(summary(mission))
+    assert "map maps/depot.yaml: 30 x 20 cells of 0.5 m, bounds" in lines["world"]
+    assert "a lidar with 720 beams of 5 m in 270°" in lines["robot"]
+
+
+def test_a_plan_names_its_map_in_full_and_the_ledger_without_the_folder() -> None:
+    wall = np.zeros((40, 60), bool)
+    wall[5:35, 30] = True
+    grid = {"grid": Grid(wall, 0.5, source="maps/depot.yaml")}
+    mission = Mission.model_validate(
+        {"world": {"known": [grid]}, "route": {"start": [5, 10], "goal": [25, 10]}}
+    )
+    text = _text(plan_tables(plan(mission), "x"))
+    assert "maps/depot.yaml: 60 x 40 cells of 0.5 m" in text
+    assert "map 'depot.yaml'" in text
+
+
+def test_a_long_ledger_is_cut_with_a_count() -> None:
+    nothing = np.zeros((0, 2))
+    taken = Candidate("left", nothing, np.zeros((0, 4, 2)), 9.0, 0.5, 0.1, True)
+    entry = LedgerEntry(("a", "b", "c", "d", "e"), ("start", "goal"), (taken,))
+    text = _text(ledger_table((entry,) * 49))
+    assert text.count("taken") == 12
+    assert "… and 37 more in plan.json" in text
+    assert "a, b, c and 2 more" in text

@@ -16,7 +16,7 @@ from viaspline.report.marks import draw_echoes, draw_path
 from viaspline.report.scene import Scene
 from viaspline.report.units import down
 
-ROOM = 2.75  # in the column, at least [inch]
+ROOM = 2.9  # in the column, at least [inch]
 
 
 def close_up(
@@ -40,9 +40,9 @@ def close_up(
         return
     if column.room < ROOM or 4 * half > column.map_width:
         return
-    height = min(2.3, column.room - 0.5)
-    where = style.short(style.without_folder(certificate.obstacle), 20)
-    title = f"tightest: {down(certificate.clearance)} beside {where}"
+    height = min(2.3, column.room - 0.65)
+    where = style.short(style.without_folder(certificate.obstacle), 36)
+    title = f"tightest place: {down(certificate.clearance)}\nbeside {where}"
     axes = column.axes(height, title)
     x, y = certificate.tightest_at[:2]
     box = axes.get_window_extent()

@@ -65,12 +65,13 @@ class Column:
 
     def axes(self, height: float, title: str) -> Axes:
         """Axes without ticks, as wide as the column."""
-        box = self._sheet.fraction(self._left, self._top - 0.2 - height, self._width, height)
+        head = 0.2 + 0.14 * title.count("\n")
+        box = self._sheet.fraction(self._left, self._top - head - height, self._width, height)
         axes = self._sheet.figure.add_axes(box)
         tidy(axes)
         axes.tick_params(left=False, bottom=False, labelleft=False, labelbottom=False)
         axes.set_title(title, size=SMALL, color=INK, loc="left", pad=3, parse_math=False)
-        self._top -= height + 0.6
+        self._top -= height + head + 0.4
         return axes
 
     def scale_bar(self, axes: Axes, pixels_per_metre: float) -> None:

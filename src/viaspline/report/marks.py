@@ -114,7 +114,7 @@ def draw_vias(
     corners = np.array([via.at[:2] for via in detours]).reshape(-1, 2)
     if len(corners):
         (dot,) = axes.plot(
-            *corners.T, marker="D", markersize=3.6 if len(corners) < 200 else 2,
+            *corners.T, marker="D", markersize=3.6 if len(corners) < 60 else 2.4,
             markerfacecolor=style.DETOUR, markeredgecolor=style.INK, markeredgewidth=0.5,
             linestyle="none", zorder=11, label="detour via point",
         )  # fmt: skip

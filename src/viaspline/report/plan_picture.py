@@ -21,7 +21,7 @@ from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.summary import spline_words
 from viaspline.report.units import down, metres, seconds
 
-WAYS_NAMED = 6  # groups, at most, whose ways have their lengths on the picture
+WAYS_NAMED = 6  # groups; the lengths of their ways are on the picture if they are no more
 
 
 @any_name()
@@ -104,24 +104,28 @@ def draw_losers(sheet: Sheet, labels: Labels, plan: Plan) -> list[Artist]:
         What belongs in a legend.
     """
     handles: list[Artist] = []
-    for line in losing(plan):
+    lines = losing(plan)
+    label = f"{len(lines)} ways not taken" if len(lines) > WAYS_NAMED else "way not taken"
+    for line in lines:
         (handle,) = sheet.map.plot(
             *line.T, color=style.LOSER, linewidth=1.1, linestyle=(0, (5, 3)), alpha=0.75,
-            zorder=6, scalex=False, scaley=False, label="way not taken",
+            zorder=6, scalex=False, scaley=False, label=label,
         )  # fmt: skip
         handles = [handle]
-    for entry in plan.ledger[:WAYS_NAMED]:
+    legs: set[tuple[str, str]] = set()
+    for entry in plan.ledger if len(plan.ledger) <= WAYS_NAMED else ():
         taken = entry.chosen
         if taken is None or taken.length is None or len(entry.candidates) < 2:
             continue
         losers = [c for c in entry.candidates if not c.chosen and c.length is not None]
         for candidate in losers:
             assert candidate.length is not None
-            more = candidate.length - taken.length
+            more = round(candidate.length - taken.length, 1) + 0.0  # no minus nought
             text = f"{candidate.side}: {metres(candidate.length, 1)} ({more:+.1f} m)"
             at = _far_from(candidate.spans, taken.spans)
             labels.add(text, at, rank=4, colour=style.LOSER)
-        if losers:
+        if losers and entry.leg not in legs:
+            legs.add(entry.leg)
             at = _far_from(taken.spans, losers[0].spans)
             text = f"{taken.side}: {metres(taken.length, 1)}"
             labels.add(text, at, rank=6, colour=style.PATH)

@@ -93,7 +93,7 @@ class Scene:
 
         Args:
             axes: Its limits say what can be seen.
-            pixels_per_metre: The scale; a clearance of less than a pixel is not drawn.
+            pixels_per_metre: The scale; a clearance that can hardly be seen is not drawn.
             reveal: Whether to draw the unseen obstacles.
             faint: Whether the unseen ones are to stay in the background.
 
@@ -114,7 +114,7 @@ class Scene:
             artists.append(_draw_known(axes, known, pixels_per_metre, words))
         if unseen.size:
             artists.append(_draw_unseen(axes, unseen, len(self.unseen), faint))
-        if self.required * pixels_per_metre >= 1.0:
+        if self.required * pixels_per_metre >= (3.0 if grids else 1.0):
             ring = self._ring(np.concatenate([known, unseen]), grids, view, pixels_per_metre)
             if not ring.is_empty:
                 patch = PathPatch(

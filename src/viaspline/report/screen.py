@@ -11,6 +11,8 @@ from rich.table import Table
 from viaspline.detour.ledger import Candidate, LedgerEntry
 from viaspline.planner import Plan
 from viaspline.report.messages import deafen
+from viaspline.report.style import without_folder
+from viaspline.report.summary import map_words
 from viaspline.report.units import curvature, down, metres, place, seconds
 from viaspline.robot.run import Run
 
@@ -38,6 +40,9 @@ def plan_tables(plan: Plan, name: str) -> RenderableType:
     facts = _facts(f"Plan · {name}")
     users = [via for via in path.vias if via.kind == "user"]
     detours = len(path.vias) - len(users)
+    for obstacle in plan.world.obstacles:
+        if obstacle.grid is not None:
+            facts.add_row("map", map_words(obstacle.grid).removeprefix("map").lstrip(" :"))
     facts.add_row("length", metres(path.length, 1))
     facts.add_row("duration", seconds(plan.trajectory.duration))
     facts.add_row("points of the route", f"{len(users)}, and {detours} of detours")
@@ -68,7 +73,7 @@ def ledger_table(ledger: tuple[LedgerEntry, ...]) -> RenderableType:
             table.add_row(leg, past, candidate.side, *_candidate(candidate))
             leg = past = ""
     if len(ledger) > LINES:
-        table.add_row(f"… {len(ledger) - LINES} more in plan.json")
+        table.add_row(f"… and {len(ledger) - LINES} more in plan.json")
     return table
 
 
@@ -77,7 +82,11 @@ _NUMBERS = ("length", "clearance", "curvature")
 
 def _members(members: tuple[str, ...]) -> str:
     more = f" and {len(members) - 3} more" if len(members) > 3 else ""
-    return ", ".join(members[:3]) + more
+    return ", ".join(_short(name) for name in members[:3]) + more
+
+
+def _short(name: str) -> str:
+    return without_folder(name).removeprefix("what is ")
 
 
 def _candidate(candidate: Candidate) -> tuple[str, str, str, str]:
@@ -119,7 +128,7 @@ def run_tables(run: Run, name: str) -> RenderableType:
             f"{replan.heading_jump:.1g} rad",
         )  # fmt: skip
     if len(run.replans) > LINES:
-        table.add_row(f"… {len(run.replans) - LINES} more")
+        table.add_row(f"… and {len(run.replans) - LINES} more in run.json")
     return Group(facts, table)
 
 

@@ -44,11 +44,19 @@ def fill(
             axes.fill_between(distances, value, color=colour, alpha=0.12, linewidth=0)
         elif i == 1:
             axes.axhline(0, color=MUTED, linewidth=0.5)
-            low, high = min(0.0, float(np.nanmin(value))), max(0.0, float(np.nanmax(value)))
+            low, high = shown(value)
             pad = 0.15 * (high - low) if high - low > 1e-8 else 0.01  # or it is straight
             axes.set_ylim(low - pad, high + pad)
     strips[-1].set_xlabel("distance along the path [m]", size=TEXT, color=MUTED, labelpad=2)
     _number(strips[0], ticks, last)
+
+
+def shown(value: Floats) -> tuple[float, float]:
+    """From where to where a strip shows a value; a few peaks don't flatten all the rest."""
+    low, high = min(0.0, float(np.nanmin(value))), max(0.0, float(np.nanmax(value)))
+    usual = float(np.nanpercentile(np.abs(value), 98))
+    most = 6.0 * usual if usual > 0 else np.inf
+    return (max(low, -most), min(high, most)) if max(high, -low) > 3 * most else (low, high)
 
 
 def _number(axes: Axes, ticks: Ticks, last: float) -> None:

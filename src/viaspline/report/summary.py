@@ -6,9 +6,12 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
+from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.parts import Obstacle, Sensor
 from viaspline.report.units import metres
+
+MAPS = 4  # in the words about a world, before the rest is only counted
 
 
 def tension(mission: Mission) -> float | list[float]:
@@ -61,9 +64,14 @@ def _route(mission: Mission) -> str:
 
 def _world(mission: Mission) -> str:
     world = mission.world
-    words = [_obstacles(world.known, "known")]
-    if world.unseen:
-        words.append(_obstacles(world.unseen, "unseen"))
+    grids = [obstacle.grid for obstacle in (*world.known, *world.unseen) if obstacle.grid]
+    words = [map_words(grid) for grid in grids[:MAPS]]
+    if len(grids) > MAPS:
+        words.append(f"{len(grids) - MAPS} more maps")
+    for obstacles, kind in ((world.known, "known"), (world.unseen, "unseen")):
+        shapes = [obstacle for obstacle in obstacles if obstacle.grid is None]
+        if shapes or (kind == "known" and not grids):
+            words.append(_obstacles(shapes, kind))
     if world.bounds is not None:
         x0, y0, x1, y1 = world.bounds
         words.append(f"bounds {x1 - x0:g} m x {y1 - y0:g} m")
@@ -72,6 +80,21 @@ def _world(mission: Mission) -> str:
     if world.bounds is None and not world.fences:
         words.append("no bounds")
     return ", ".join(words)
+
+
+def map_words(grid: Grid) -> str:
+    """An occupancy grid in a few words.
+
+    Example:
+        >>> map_words(Grid([[0, 1, 1], [0, 0, 0]], 0.05, source="maps/depot.yaml"))
+        'map maps/depot.yaml: 3 x 2 cells of 0.05 m'
+        >>> map_words(Grid([[0, 1, 1]], 1.0, unknown=[[0, 0, 1]]))
+        'map: 3 x 1 cells of 1 m (33 % unknown)'
+    """
+    name = "map" if grid.source is None else f"map {grid.source}"
+    unknown = "" if grid.unknown is None else f" ({100 * grid.unknown.mean():.0f} % unknown)"
+    size = f"{grid.width} x {grid.height} cells of {grid.resolution:g} m"
+    return f"{name}: {size}{unknown}"
 
 
 def _obstacles(obstacles: Sequence[Obstacle], kind: str) -> str:
@@ -90,8 +113,17 @@ def _robot(mission: Mission) -> str:
         f"at most {robot.max_speed_mps:g} m/s and {robot.max_accel_mps2:g} m/s²",
     ]
     if robot.sensor is not None:
-        words.append(f"sees {robot.sensor.reach:g} m far")
+        words.append(_sensor(robot.sensor))
     return ", ".join(words)
+
+
+def _sensor(sensor: Sensor) -> str:
+    if sensor.lidar is None:
+        return f"sees {sensor.reach:g} m far"
+    lidar = sensor.lidar
+    noise = f" and {lidar.noise_m:g} m of noise" if lidar.noise_m > 0 else ""
+    beams = f"{_count(lidar.beams, 'beam')} of {lidar.range_m:g} m in {lidar.fov_deg:g}°"
+    return f"a lidar with {beams}{noise}"
 
 
 def _count(number: int, what: str) -> str:
