@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.dilate import grow_into
 from viaspline.kernels.mesh import Mesh, mesh_of
 from viaspline.kernels.polyanya import shortest_path
 from viaspline.kernels.raster import mark_segments, rasterized
@@ -24,6 +25,7 @@ Box = tuple[float, float, float, float]
 HALF_DIAGONAL = math.sqrt(0.5)  # of a cell of side 1
 FINE, COARSE = 2**16, 2**20  # cells that a lattice of obstacles without maps should have, may have
 MOST = 2**27
+ALIGNED = 1e-9  # of a cell: what a map may lie off the lattice
 NOTHING: Cells = np.empty((0, 0), np.uint8)
 
 
@@ -118,8 +120,42 @@ def _rasterized(world: World, required: float, box: Box, side: float) -> Lattice
     x0, y0, x1, y1 = box
     height, width = math.ceil((y1 - y0) / side - 1e-9), math.ceil((x1 - x0) / side - 1e-9)
     reach = max(required - HALF_DIAGONAL * side, HALF_DIAGONAL * side)
-    cells = rasterized(world.packed, x0, y0, side, height, width, reach, NOTHING)
+    grown = _grown_maps(world, reach, (x0, y0), side, (height, width))
+    cells = rasterized(world.packed, x0, y0, side, height, width, reach, grown)
     return Lattice(x0, y0, side, cells, reach <= required - HALF_DIAGONAL * side + 1e-12)
+
+
+def _grown_maps(
+    world: World, reach: float, low: tuple[float, float], side: float, shape: tuple[int, int]
+) -> Cells:
+    """The maps' cells grown by ``reach``; nothing unless all of them lie on the lattice."""
+    grids = [obstacle.grid for obstacle in world.obstacles if obstacle.grid is not None]
+    places = [_place_on(grid, low, side) for grid in grids]
+    if not grids or None in places:
+        return NOTHING
+    cells = np.zeros(shape, np.uint8)
+    for grid, place in zip(grids, places, strict=True):
+        assert place is not None
+        row, column, parts = place
+        blocked = grid.blocked.astype(np.uint8)
+        if parts > 1:
+            blocked = blocked.repeat(parts, axis=0).repeat(parts, axis=1)
+        grow_into(blocked, reach / side, row, column, cells)
+    return cells
+
+
+def _place_on(grid: Grid, low: tuple[float, float], side: float) -> tuple[int, int, int] | None:
+    """Row and column of a lattice where a map's first cell begins, and its cells aside in one.
+
+    None if it lies across them.
+    """
+    x, y, yaw = grid.origin
+    numbers = np.array([(y - low[1]) / side, (x - low[0]) / side, grid.resolution / side])
+    whole = np.round(numbers)
+    if yaw != 0.0 or whole[2] < 1 or (np.abs(numbers - whole) > ALIGNED * whole[2]).any():
+        return None
+    row, column, parts = whole.astype(int).tolist()
+    return row, column, parts
 
 
 def _has_room(grid: Grid, required: float, box: Box) -> bool:
