@@ -83,7 +83,7 @@ def _runs_gap(world: PackedWorld, i: int, j: int, sides: bool, limit: float) -> 
         column = first
         place = world.grid_shapes[g, 2] + row * width
         while column <= last:
-            steps = int(world.to_right[place + column])
+            steps = np.int64(world.to_right[place + column])
             if steps > 0:
                 column += steps
                 continue

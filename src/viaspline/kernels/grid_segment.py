@@ -83,7 +83,7 @@ def _row_gap(
     column = int(max(west - best - spare, 0.0))
     last = math.floor(min(east + best + spare, width - 1.0))
     while column <= last:
-        steps = int(to_right[first + column])
+        steps = np.int64(to_right[first + column])
         if steps > 0:
             column += steps
             continue
