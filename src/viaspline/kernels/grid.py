@@ -3,9 +3,7 @@
 A grid is the union of its blocked cells, closed squares; what is outside of its rectangle is free.
 Queries are answered in the grid's own frame, in columns u and rows v as real numbers: cell (r, c)
 is the square from (c, r) to (c + 1, r + 1). The tables tell how far from a cell its row stays what
-it is, so a row costs the same however wide it is, and distances are exact to the squares. Entries
-are made 64 bits wide before they are reckoned with: in 16 bits, where ``int`` leaves them in a
-kernel, -32768 has no opposite.
+it is, so a row costs the same however wide it is, and distances are exact to the squares.
 """
 
 from __future__ import annotations
@@ -56,6 +54,12 @@ def row_tables(blocked: Flags) -> tuple[Columns, Columns]:
 
 
 @inner
+def entry(table: Columns, place: int) -> int:
+    """An entry in 64 bits; ``int`` by itself leaves it in 16, where -32768 has no opposite."""
+    return int(np.int64(table[place]))
+
+
+@inner
 def to_cells(world: PackedWorld, g: int, x: float, y: float) -> tuple[float, float]:
     """From the world [m] to grid g's columns and rows."""
     frame = world.grid_frames[g]
@@ -89,13 +93,13 @@ def _aside(
     to_right: Columns, to_left: Columns, place: int, column: int, u: float, sign: int
 ) -> float:
     """How far to either side the nearest cell sought is, in the row of the cell at ``place``."""
-    right = sign * np.int64(to_right[place])
+    right = sign * entry(to_right, place)
     if right < 0:
         return max(max(column - u, u - column - 1.0), 0.0)
     aside = np.inf
     if right < NONE:
         aside = column + right - u
-    left = sign * np.int64(to_left[place])
+    left = sign * entry(to_left, place)
     if left < NONE:
         aside = min(aside, u - (column - left + 1))
     return aside
@@ -177,7 +181,7 @@ def _steps(world: PackedWorld, g: int, row: int, column: int) -> int:
     width = world.grid_shapes[g, 0]
     if row < 0 or row >= world.grid_shapes[g, 1]:
         return NONE
-    steps = int(np.int64(world.to_right[world.grid_shapes[g, 2] + row * width + column]))
+    steps = entry(world.to_right, world.grid_shapes[g, 2] + row * width + column)
     if steps > 0:
         return steps
     return min(-steps, width - column)

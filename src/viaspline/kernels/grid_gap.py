@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.distance import obstacle_signed
-from viaspline.kernels.grid import grid_signed, to_cells, to_world
+from viaspline.kernels.grid import entry, grid_signed, to_cells, to_world
 from viaspline.kernels.grid_segment import grid_segment
 from viaspline.kernels.jit import inner
 from viaspline.kernels.packed import PackedWorld
@@ -83,7 +83,7 @@ def _runs_gap(world: PackedWorld, i: int, j: int, sides: bool, limit: float) -> 
         column = first
         place = world.grid_shapes[g, 2] + row * width
         while column <= last:
-            steps = np.int64(world.to_right[place + column])
+            steps = entry(world.to_right, place + column)
             if steps > 0:
                 column += steps
                 continue

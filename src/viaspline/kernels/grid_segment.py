@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.distance import squared_point_segment
-from viaspline.kernels.grid import nearest_cell, to_cells
+from viaspline.kernels.grid import entry, nearest_cell, to_cells
 from viaspline.kernels.jit import inner
 from viaspline.kernels.packed import Columns, PackedWorld
 
@@ -83,7 +83,7 @@ def _row_gap(
     column = int(max(west - best - spare, 0.0))
     last = math.floor(min(east + best + spare, width - 1.0))
     while column <= last:
-        steps = np.int64(to_right[first + column])
+        steps = entry(to_right, first + column)
         if steps > 0:
             column += steps
             continue
