@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -71,6 +72,34 @@ def _pulled_back(at: Floats, place: Floats, world: World, required: float) -> Fl
             low = middle
     found: Floats = at + high * (place - at)
     return found
+
+
+class BlockedLegError(NoPathError):
+    """No way leads from one via point to the next; why is found out when it is asked for.
+
+    Finding the least change that would serve takes many more searches than finding that there is
+    no way, and who has another way to try doesn't ask.
+
+    Args:
+        via: The via point that can't be reached.
+        explain: Finds the reason.
+    """
+
+    def __init__(self, via: str, explain: Callable[[], NoPathError]) -> None:
+        Exception.__init__(self)
+        self.via = via
+        self._explain = explain
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in ("reason", "where", "remedy", "obstacles"):
+            raise AttributeError(name)
+        told = self._explain()
+        self.reason, self.where, self.remedy = told.reason, told.where, told.remedy
+        self.obstacles = told.obstacles
+        return vars(self)[name]
+
+    def __str__(self) -> str:
+        return f"{self.reason}: {self.remedy}"
 
 
 def explain_blocked_leg(

@@ -9,17 +9,18 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.detour.blocked import explain_blocked_leg
+from viaspline.detour.blocked import BlockedLegError, explain_blocked_leg
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course
 from viaspline.detour.islands import PassedIslands
 from viaspline.detour.leg_search import LegSearch
 from viaspline.detour.route import Router, on_the_line
-from viaspline.detour.sides import PassedGroups, groups_met, pass_groups
+from viaspline.detour.sides import PassedGroups, WeighedLater, groups_met, pass_groups
 from viaspline.kernels.groups import group_labels
 from viaspline.world.world import World
 
-Passed = PassedGroups | PassedIslands
+WEIGHED = 4  # groups up to which the curves on either side are weighed at once
+Passed = PassedGroups | WeighedLater | PassedIslands
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,13 @@ class Task:
         way, barriers = leg.shortest_allowed(active)
         best = leg.curve(way)
         if best is None:
-            raise explain_blocked_leg(course, index, self.world, self.brief, barriers)
+            world, brief = self.world, self.brief
+            raise BlockedLegError(
+                course.ends(index)[1].name,
+                lambda: explain_blocked_leg(course, index, world, brief, barriers),
+            )
         if dense:
             return PassedIslands(leg, best)
+        if len(met) > WEIGHED:
+            return WeighedLater(leg, met, best, active)
         return pass_groups(leg, met, best, active)
