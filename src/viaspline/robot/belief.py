@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import NDArray
 
 from viaspline.curve.path import Path
 from viaspline.mission.parts import Obstacle, RobotSpec
@@ -15,9 +15,15 @@ from viaspline.robot.lidar import Scan
 from viaspline.robot.views import Views
 from viaspline.world.world import World
 
-GRAIN = 1.0 / 12.0  # radius of the discs on surfaces, of the distance that the path keeps
+Floats = NDArray[np.float64]
+
+GRAIN = 1.0 / 20.0  # radius of the discs on surfaces, of the distance that the path keeps
 FINEST, COARSEST = 0.005, 0.1  # and its limits [m]
+LEAST_ROOM = 4.0 * FINEST
+"""Distance that even a point without clearance keeps from surfaces that it sees [m]."""
+
 AHEAD = 1.3  # distances to stop in that a robot looks ahead
+LATEST = 64  # surfaces beyond which all of them are packed anew
 GAP = 0.7  # from place to place that has to have been seen, of the discs' radius
 RIM = 0.3  # by which the body is taken for larger where it has to be seen free, of the same
 SLACK = 1e-4  # by which samples of a path may miss the distance that it was proven to keep [m]
@@ -43,6 +49,7 @@ class Belief:
 
     Attributes:
         map: What is known without being seen: it stays, whatever the beams say.
+        settled: The map and the surfaces but for the latest, packed once for many scans.
         echoes: The surfaces that beams have hit.
         views: The looks round that are remembered.
         body: The robot's radius [m].
@@ -52,6 +59,7 @@ class Belief:
     """
 
     map: World
+    settled: World
     echoes: Echoes
     views: Views
     body: float
@@ -59,7 +67,7 @@ class Belief:
     world: World
 
     @classmethod
-    def at_start(cls, world: World, robot: RobotSpec, position: ArrayLike) -> Belief:
+    def at_start(cls, world: World, robot: RobotSpec) -> Belief:
         """What a robot that has just been put down knows.
 
         Raises:
@@ -72,7 +80,8 @@ class Belief:
         stop = robot.max_speed_mps**2 / (2.0 * robot.max_accel_mps2)
         ahead = AHEAD * stop + 2.0 * required
         views = Views(near=2.0 * ahead, apart=max(required, 4.0 * grain), noise=lidar.noise_m)
-        return cls(world, Echoes.none(grain, lidar.noise_m), views, robot.radius_m, ahead, world)
+        echoes = Echoes.none(grain, lidar.noise_m)
+        return cls(world, world, echoes, views, robot.radius_m, ahead, world)
 
     def with_scan(self, scan: Scan) -> tuple[Belief, News]:
         """What is known after one more scan, and what is new about it."""
@@ -84,42 +93,63 @@ class Belief:
             seen = index >= len(self.map)
             strange = distance > np.where(seen, 0.0, ON_MAP) + echoes.tolerance
             known = seen & ~strange
-            echoes = echoes.confirmed(hits[known], index[known] - len(self.map))
+            echoes = echoes.confirmed(scan, hits[known], index[known] - len(self.map))
         echoes, moved = echoes.put_right(before)
         echoes, new = echoes.with_hits(hits[strange])
         echoes, gone = echoes.without_seen_through(scan)
-        world = self.world
-        if new or moved or gone:
-            world = self.map.with_obstacles(echoes.obstacles)
-        views = self.views.with_scan(scan)
-        return replace(self, echoes=echoes, views=views, world=world), News(moved + new, gone)
+        belief = replace(self, echoes=echoes, views=self.views.with_scan(scan))
+        latest = len(self.world) - len(self.settled) + len(new)
+        if moved or gone or latest > LATEST:
+            belief = belief._packed()
+        elif new:
+            belief = replace(belief, world=self.settled.with_obstacles(echoes.obstacles[-latest:]))
+        return belief, News(moved + new, gone)
 
-    def certain_until(self, path: Path, distance: float, floor: float) -> float:
-        """How far along a path the robot can go inside of what it has seen [m].
-
-        Up to there its whole body has only been where beams have passed, and the path keeps its
-        distance from everything known.
+    def seen_until(self, path: Path, start: float, end: float) -> float:
+        """How far along a path the body can go where beams have been on all of its front [m].
 
         Args:
             path: What is driven.
-            distance: Where the robot is on it [m].
-            floor: Distance to keep from what is known [m].
+            start: Up to there that is known [m].
+            end: Beyond this it is not asked [m].
         """
-        step = GAP * self.echoes.grain
-        first, last = np.ceil(distance / step), np.floor((distance + self.ahead) / step)
-        along = step * np.arange(first, last + 1.0)
-        along = np.append(along[along < path.length], min(path.length, distance + self.ahead))
+        if end <= start:
+            return end
+        along = self._along(path, start, end)
         u = np.asarray(path.parameter(along))
         places = np.asarray(path.evaluate(u))[:, :2]
         tangents = np.asarray(path.tangent(u))[:, :2]
         rim = self.body + RIM * self.echoes.grain
-        count = self.views.count(places, tangents, rim, step)
-        if len(self.world) and count:
-            near = np.flatnonzero(self.world.distance(places[:count]) < floor - SLACK)
-            count = int(near[0]) if near.size else count
-        return float(along[count - 1]) if count else distance
+        count = self.views.count(places, tangents, rim, GAP * self.echoes.grain)
+        return float(along[count - 1]) if count else start
+
+    def clear_until(self, path: Path, start: float, end: float, floor: float) -> float:
+        """How far along a path it keeps a distance from everything known [m].
+
+        Args:
+            path: What is driven.
+            start: Where the robot is on it [m].
+            end: Beyond this it is not asked [m].
+            floor: The distance to keep [m].
+        """
+        if not len(self.world) or end <= start:
+            return end
+        along = self._along(path, start, end)
+        near = np.flatnonzero(self.world.distance(path.at_distance(along)) < floor - SLACK)
+        if not near.size:
+            return end
+        return float(along[near[0] - 1]) if near[0] else start
+
+    def _along(self, path: Path, start: float, end: float) -> Floats:
+        """Places along a path, the same for every start: multiples of a length, and the end."""
+        step = GAP * self.echoes.grain
+        places = step * np.arange(np.ceil(start / step), np.ceil(end / step))
+        return np.append(places[places < end], end)
 
     def told(self, obstacles: Iterable[Obstacle]) -> Belief:
         """The same with more obstacles on the map."""
-        known = self.map.with_obstacles(obstacles)
-        return replace(self, map=known, world=known.with_obstacles(self.echoes.obstacles))
+        return replace(self, map=self.map.with_obstacles(obstacles))._packed()
+
+    def _packed(self) -> Belief:
+        settled = self.map.with_obstacles(self.echoes.obstacles)
+        return replace(self, settled=settled, world=settled)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from viaspline.kernels import sight
 from viaspline.mission.parts import Circle, Obstacle
@@ -16,7 +17,7 @@ Ints = NDArray[np.int64]
 
 BELIEVED = 2  # scans that have to see through a point that was hit once
 CERTAIN = 10  # and through one that was hit again and again
-SETTLED = 64  # hits after which the place of a point is not estimated any better
+LEVELS = (4, 16, 64)  # hits of a point at which its place is put right
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +62,12 @@ class Echoes:
         """The middles of the discs [m], shape (n, 2)."""
         return np.array([_center(obstacle) for obstacle in self.obstacles]).reshape(-1, 2)
 
-    def confirmed(self, hits: Floats, index: Ints) -> Echoes:
-        """The same after some hits, shape (k, 2), each inside of the disc ``index``, shape (k,)."""
+    def confirmed(self, scan: Scan, hits: Floats, index: Ints) -> Echoes:
+        """The same after some hits of a scan, shape (k, 2), each near the disc ``index``, (k,)."""
+        trust = self.trust.copy()
+        trust[np.unique(index)] += 1
+        if self.noise > 0.0:
+            index = self._beside(scan, hits, index)
         count = np.bincount(index, minlength=len(self))
         total = self.hits + count
         means = self.means
@@ -70,10 +75,20 @@ class Echoes:
             sums = np.column_stack(
                 [np.bincount(index, hits[:, axis], minlength=len(self)) for axis in range(2)]
             )
-            share = (count / np.maximum(total, 1))[:, None]
-            means = means + share * (sums / np.maximum(count, 1)[:, None] - means)
-        trust = np.where(count > 0, np.minimum(self.trust + 1, CERTAIN), self.trust)
-        return Echoes(self.grain, self.noise, self.obstacles, means, total, trust)
+            means = means + (sums - count[:, None] * means) / total[:, None]
+        return replace(self, means=means, hits=total, trust=np.minimum(trust, CERTAIN))
+
+    def _beside(self, scan: Scan, hits: Floats, index: Ints) -> Ints:
+        """For each hit the disc in whose direction it was, if that is as near as noise allows.
+
+        The nearest one would not do: of two discs, the one before the surface would get the hits
+        that were measured too short, and stay where it is.
+        """
+        if not len(hits):
+            return index
+        near = cKDTree(_seen_from(scan, self.means)).query(_seen_from(scan, hits))[1]
+        apart = np.hypot(*(hits - self.means[near]).T)
+        return np.where(apart <= self.grain + 2.0 * self.tolerance, near, index)
 
     def put_right(self, before: Ints) -> tuple[Echoes, tuple[Obstacle, ...]]:
         """The same with the discs moved whose hits, ``before`` so many, have become enough.
@@ -83,12 +98,12 @@ class Echoes:
         """
         if self.noise <= 0.0:
             return self, ()
-        due = np.flatnonzero((_level(self.hits) > _level(before)) & (before < SETTLED))
+        due = np.flatnonzero(_level(self.hits) > _level(before))
         obstacles = list(self.obstacles)
         for i in due.tolist():
             obstacles[i] = _disc(self.means[i], self.grain)
         moved = tuple(obstacles[i] for i in due.tolist())
-        return self._with(tuple(obstacles)), moved
+        return replace(self, obstacles=tuple(obstacles)), moved
 
     def with_hits(self, hits: Floats) -> tuple[Echoes, tuple[Obstacle, ...]]:
         """The same with new discs that cover some hits [m], shape (k, 2), each the first there.
@@ -100,13 +115,12 @@ class Echoes:
         points = points[sight.spread(points, self.grain)]
         new = tuple(_disc(point, self.grain) for point in points)
         ones = np.ones(len(new), np.int64)
-        grown = Echoes(
-            self.grain,
-            self.noise,
-            self.obstacles + new,
-            np.concatenate((self.means, points)),
-            np.concatenate((self.hits, ones)),
-            np.concatenate((self.trust, BELIEVED * ones)),
+        grown = replace(
+            self,
+            obstacles=self.obstacles + new,
+            means=np.concatenate((self.means, points)),
+            hits=np.concatenate((self.hits, ones)),
+            trust=np.concatenate((self.trust, BELIEVED * ones)),
         )
         return grown, new
 
@@ -126,30 +140,36 @@ class Echoes:
             self.means, x, y, scan.first_direction, scan.angle_increment, scan.free,
             2.0 * self.grain, 4.0 * self.grain + 2.0 * self.tolerance,
         )  # fmt: skip
-        trust = self.trust - through
-        kept = trust > 0
+        doubted = replace(self, trust=self.trust - through)
+        return doubted._kept(doubted.trust > 0)
+
+    def _kept(self, kept: NDArray[np.bool_]) -> tuple[Echoes, int]:
         gone = len(self) - int(np.count_nonzero(kept))
         if not gone:
-            return Echoes(self.grain, self.noise, self.obstacles, self.means, self.hits, trust), 0
+            return self, 0
         left = tuple(self.obstacles[i] for i in np.flatnonzero(kept).tolist())
-        return Echoes(
-            self.grain, self.noise, left, self.means[kept], self.hits[kept], trust[kept]
-        ), gone
+        return replace(
+            self, obstacles=left, means=self.means[kept], hits=self.hits[kept],
+            trust=self.trust[kept],
+        ), gone  # fmt: skip
 
-    def _with(self, obstacles: tuple[Obstacle, ...]) -> Echoes:
-        return Echoes(self.grain, self.noise, obstacles, self.means, self.hits, self.trust)
+
+def _seen_from(scan: Scan, points: Floats) -> Floats:
+    """Places in which directions from a scan count ten times as much as distances, (n, 2)."""
+    away = points - np.asarray(scan.position[:2])
+    bearings = np.arctan2(away[:, 1], away[:, 0]) - scan.heading
+    distances = np.maximum(np.hypot(*away.T), 1e-9)
+    return np.column_stack((np.remainder(bearings + np.pi, 2 * np.pi), 0.1 * np.log(distances)))
 
 
 def _level(hits: Ints) -> Ints:
-    """0 below 4 hits, 1 below 16, 2 below 64, then 3."""
-    return np.searchsorted(np.array([4, 16, SETTLED]), hits, side="right")
+    return np.searchsorted(np.array(LEVELS), hits, side="right")
 
 
 def _disc(point: Floats, radius: float) -> Obstacle:
-    """A disc; it is made without checks, which take ten times as long."""
     x, y = point.tolist()
-    circle = Circle.model_construct(center=(x, y), radius=radius)
-    return Obstacle.model_construct(circle=circle, name=f"what is seen at ({x:.2f}, {y:.2f})")
+    circle = Circle(center=(x, y), radius=radius)
+    return Obstacle(circle=circle, name=f"what is seen at ({x:.2f}, {y:.2f})")
 
 
 def _center(obstacle: Obstacle) -> tuple[float, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -10,12 +11,13 @@ from numpy.typing import NDArray
 
 from viaspline.curve.path import Path, PathVia
 from viaspline.detour.brief import Brief
+from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
-from viaspline.robot.belief import Belief
+from viaspline.robot.belief import LEAST_ROOM, Belief
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.trajectory.limits import Limits, Station
-from viaspline.trajectory.retime import retime
+from viaspline.trajectory.retime import braking, retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
@@ -48,6 +50,19 @@ class Wait:
 
 
 @dataclass(frozen=True)
+class Close:
+    """A robot that has come closer to something than it should, and is on its way out.
+
+    Attributes:
+        until: Distance along the path up to which it keeps less [m].
+        floor: Distance that it keeps there from everything known [m].
+    """
+
+    until: float
+    floor: float
+
+
+@dataclass(frozen=True)
 class Journey:
     """A robot's way so far and the way it means to go on; a new one for every step.
 
@@ -64,8 +79,10 @@ class Journey:
         turns: Distances along the path where it has a corner to turn on the spot [m].
         time: Of the last step [s].
         belief: What a lidar has shown; None without one.
-        floor: Distance that the path keeps from everything known [m].
+        close: Where the path keeps less than it should, if it does.
+        sighted: Up to this distance along the path the robot has seen where its body will be [m].
         dared: Up to this distance along the path the robot goes though it sees too little [m].
+        reviewed: When it was last asked whether there is a better path [s].
         wait: Since when and why the robot waits, if it does.
         distance: Progress along the path at that time [m].
         off: How far beside the path the robot was then [m].
@@ -91,8 +108,10 @@ class Journey:
     law: Trajectory
     time: float
     belief: Belief | None = None
-    floor: float = 0.0
+    close: Close | None = None
+    sighted: float = 0.0
     dared: float = 0.0
+    reviewed: float = -math.inf
     wait: Wait | None = None
     distance: float = 0.0
     off: float = 0.0
@@ -109,13 +128,30 @@ class Journey:
 
     @cached_property
     def brief(self) -> Brief:
-        """What every path has to keep."""
-        return Brief.of(self.mission)
+        """What every path has to keep; with a lidar it is never nothing."""
+        brief = Brief.of(self.mission)
+        if self.belief is None:
+            return brief
+        return replace(brief, clearance=max(brief.clearance, LEAST_ROOM - brief.radius))
+
+    @property
+    def grain(self) -> float:
+        """Size of the smallest thing that counts for a robot with a lidar [m]."""
+        assert self.belief is not None
+        return self.belief.echoes.grain
 
     @cached_property
     def ahead(self) -> tuple[tuple[PathVia, float], ...]:
         """The route's points still to come, in order, with their distances along the path [m]."""
         return points_after(self.path, self.last)
+
+    def stretches(self, end: float) -> tuple[tuple[float, float, float], ...]:
+        """From here on to ``end`` [m]: from where to where the path keeps which distance [m]."""
+        here, required = self.distance, self.brief.required
+        if self.close is None or self.close.until <= here:
+            return ((here, end, required),)
+        until = min(self.close.until, end)
+        return ((here, until, self.close.floor), (until, end, required))
 
     @property
     def reached(self) -> bool:
@@ -141,6 +177,38 @@ def points_after(path: Path, last: int) -> tuple[tuple[PathVia, float], ...]:
     )
 
 
+def certain_until(journey: Journey, path: Path, same: float = math.inf) -> float:
+    """How far along a path the robot can go for certain [m].
+
+    Without a lidar it trusts what it knows, and that is to the end.
+
+    Args:
+        journey: The robot's way so far.
+        path: What is driven.
+        same: Up to this distance it is the path of the journey [m].
+    """
+    if journey.belief is None:
+        return path.length
+    seen = _seen_until(journey, path, same)
+    for start, end, floor in journey.stretches(seen):
+        clear = journey.belief.clear_until(path, start, end, floor)
+        if clear < end:
+            return clear
+    return seen
+
+
+def sighted(journey: Journey) -> Journey:
+    """The same, knowing how far along its path it has seen."""
+    return replace(journey, sighted=_seen_until(journey, journey.path, math.inf))
+
+
+def _seen_until(journey: Journey, path: Path, same: float) -> float:
+    assert journey.belief is not None
+    here = journey.distance
+    end = min(here + journey.belief.ahead, path.length)
+    return journey.belief.seen_until(path, max(here, min(journey.sighted, same)), end)
+
+
 def time_law(
     journey: Journey,
     path: Path,
@@ -149,12 +217,11 @@ def time_law(
     distance: float,
     speed: float,
     time: float,
-    sure: float = 0.0,
+    end: float = math.inf,
 ) -> Trajectory:
     """The time law of the rest of a path, with the stops that are still to come.
 
-    A stay that is under way goes on. With a lidar the law ends, at rest, where the robot is not
-    certain to be free any more.
+    A stay that is under way goes on.
 
     Args:
         journey: The robot's way so far.
@@ -163,7 +230,7 @@ def time_law(
         distance: Where the law begins [m].
         speed: There [m/s].
         time: Then [s].
-        sure: Up to this distance the robot goes in any case [m].
+        end: Where the law ends, at rest [m]; by default where the path does.
 
     Raises:
         GeometryError: When the robot is too fast to stop where it has to.
@@ -177,12 +244,8 @@ def time_law(
     if journey.dwell is not None:
         stops.append(Station(distance, max(journey.dwell.until - time, 0.0), journey.dwell.name))
         speed = 0.0
-    end = path.length
-    if journey.belief is not None:
-        sure = max(sure, journey.dared)
-        end = min(max(journey.belief.certain_until(path, distance, journey.floor), sure), end)
-        if end < path.length:
-            stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
+    if end < path.length:
+        stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
     law = retime(
         path,
         journey.limits,
@@ -192,3 +255,21 @@ def time_law(
         start_time=time,
     )
     return law if end >= path.length else law.until(end)
+
+
+def law_on(journey: Journey, *, speed: float, time: float) -> Trajectory:
+    """The time law from here on along the journey's own path, at this speed [m/s] and time [s].
+
+    Where the robot can't stop in time any more, because what was certain is not so now, it brakes
+    as hard as it can.
+    """
+    here, path = journey.distance, journey.path
+    end = max(certain_until(journey, path), journey.dared)
+    try:
+        return time_law(
+            journey, path, journey.turns, distance=here, speed=speed, time=time, end=end
+        )
+    except GeometryError:
+        if journey.belief is None:
+            raise
+        return braking(here, speed, journey.limits.max_accel, time)

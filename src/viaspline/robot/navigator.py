@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import Path
-from viaspline.detour.brief import Brief
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
@@ -84,7 +83,6 @@ class Navigator:
             laid=self._plan.world,
             law=self._plan.trajectory,
             time=0.0,
-            floor=Brief.of(mission).required,
         )
         law = time_law(journey, journey.path, (), distance=0.0, speed=0.0, time=0.0)
         self._journey = replace(journey, law=law, belief=_belief(journey))
@@ -206,7 +204,7 @@ def _belief(journey: Journey) -> Belief | None:
     robot = journey.mission.robot
     if robot.sensor is None or robot.sensor.lidar is None:
         return None
-    return Belief.at_start(journey.world, robot, journey.place(0.0))
+    return Belief.at_start(journey.world, robot)
 
 
 def _started(journey: Journey, time: float) -> Journey:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import PathVia
-from viaspline.robot.journey import SLIP, Dwell, Journey, time_law
+from viaspline.robot.journey import SLIP, Dwell, Journey, law_on
 from viaspline.robot.run import Event, Visit
 from viaspline.robot.state import RobotState
 
@@ -35,9 +35,7 @@ def advance(journey: Journey, state: RobotState, time: float) -> Journey:
     if abs(distance - should) > DRIFT and journey.giving_up is None:
         journey = happened(journey)
         speed = min(state.speed, float(journey.law.speed_at(distance)))
-        law = time_law(
-            journey, journey.path, journey.turns, distance=distance, speed=speed, time=time
-        )
+        law = law_on(journey, speed=speed, time=time)
         return replace(journey, law=law)
     return happened(replace(journey, distance=max(should, low)))
 

@@ -29,12 +29,14 @@ def take(scene: Scene, choice: Choice, skip: Mapping[int, str]) -> Journey:
     ]
     if choice.mode == "from_rest" and scene.speed > 0.0:
         events.append(Event("braked", journey.time, now, "brakes, to leave from rest"))
-    message = f"goes round {_list(scene.names)} on a {choice.mode.replace('_', ' ')} path"
+    why = f"goes round {_list(scene.names)}" if scene.names else "takes a better way"
+    message = f"{why} on a {choice.mode.replace('_', ' ')} path"
     events.append(Event("replanned", journey.time, now, message, {"mode": choice.mode}))
     return replace(
         journey.noted(*events),
         path=path,
         laid=journey.world,
+        sighted=min(journey.sighted, choice.found.changed_from),
         dared=0.0,
         law=choice.law,
         turns=choice.turns,

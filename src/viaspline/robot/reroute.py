@@ -24,12 +24,12 @@ class Answer:
 
     Attributes:
         choice: The way on; None if there is none.
-        reason: Why there is none.
+        refusal: Why there is none.
         skip: Points of the route that are given up for it, each with the reason.
     """
 
     choice: Choice | None
-    reason: str = ""
+    refusal: NoPathError | str = ""
     skip: Mapping[int, str] = field(default_factory=dict)
 
 
@@ -52,14 +52,14 @@ def notice(journey: Journey, obstacles: Sequence[Obstacle]) -> Journey:
     )
     if journey.finished or journey.giving_up is not None:
         return journey
-    free = free_until(journey, new, journey.brief.required)
+    free = free_until(journey, new)
     if free is None:
         return journey
     began = clock.perf_counter()
     scene = scene_of(journey, new, names, free, journey.brief)
     found = answer(scene, world)
     if found.choice is None:
-        journey = give_up(journey, scene.speed, found.reason)
+        journey = give_up(journey, scene.speed, str(found.refusal))
     else:
         journey = take(scene, found.choice, found.skip)
     spent = clock.perf_counter() - began
@@ -79,7 +79,7 @@ def answer(scene: Scene, world: World) -> Answer:
         except NoPathError as error:
             lost = _lost(scene, skip, error)
             if lost is None:
-                return Answer(None, str(error))
+                return Answer(None, error)
             skip[lost] = error.reason
 
 

@@ -62,18 +62,19 @@ def speed_now(journey: Journey) -> float:
     return 0.0 if journey.dwell is not None else float(journey.law.state_at(journey.time)[1])
 
 
-def free_until(journey: Journey, against: World, floor: float) -> float | None:
+def free_until(journey: Journey, against: World) -> float | None:
     """Start of the first span ahead that comes too close to something [m]; None if none does."""
     path = journey.path
-    if journey.distance >= path.length - SLIP:
-        return None
-    u = float(path.parameter(journey.distance))
-    first = first_conflict(path.section(u, path.domain[1]), against, floor)
-    if first is None:
-        return None
-    if first == 0:
-        return journey.distance
-    return float(path.distance(float(math.floor(u) + first)))
+    for start, end, floor in journey.stretches(path.length):
+        if end - start <= SLIP:
+            continue
+        first, last = np.asarray(path.parameter(np.array([start, end]))).tolist()
+        conflict = first_conflict(path.section(first, last), against, floor)
+        if conflict == 0:
+            return start
+        if conflict is not None:
+            return float(path.distance(float(math.floor(first) + conflict)))
+    return None
 
 
 def first_conflict(curve: PiecewiseCubic, world: World, required: float) -> int | None:
@@ -96,4 +97,5 @@ def scene_of(
         leaves[min(stop + wait, rest)] = None  # there it may be slow enough for a sharper bend
     if journey.belief is not None:
         leaves[stop] = None  # there it may have seen enough of another way
-    return Scene(journey, against, names, free, speed, stop, tuple(leaves), brief, journey.floor)
+    floor = journey.stretches(journey.path.length)[0][2]
+    return Scene(journey, against, names, free, speed, stop, tuple(leaves), brief, floor)

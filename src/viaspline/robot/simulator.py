@@ -57,8 +57,7 @@ def simulate(
 
     Args:
         mission: What to do.
-        seed: For what is random. A range sensor and a point robot are not, so that it has no
-            effect yet.
+        seed: For the noise of a lidar; nothing else is random.
         step: Time between two looks of the sensor [s].
         progress: Called with the time [s], the distance driven and the length of the path [m].
         plan: The mission's plan, if there is one already.

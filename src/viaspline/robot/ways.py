@@ -10,7 +10,7 @@ import numpy as np
 from viaspline.detour import replan
 from viaspline.detour.detoured import Detoured
 from viaspline.errors import GeometryError, NoPathError
-from viaspline.robot.journey import SLIP, time_law
+from viaspline.robot.journey import SLIP, certain_until, time_law
 from viaspline.robot.run import Mode
 from viaspline.robot.scene import Scene
 from viaspline.robot.sides import changed_side, is_better
@@ -65,11 +65,24 @@ def find(scene: Scene, world: World, skip: Collection[int] = frozenset()) -> Cho
     return choice if is_better(rest, other) else kept
 
 
-def _first_way(scene: Scene, world: World, skip: Collection[int]) -> Choice:
+def anew(scene: Scene, world: World) -> Choice:
+    """Everything ahead laid anew, under way or from rest.
+
+    Raises:
+        NoPathError: If there is no way to the goal.
+    """
+    return _first_way(scene, world, (), ("planned",))
+
+
+def _first_way(
+    scene: Scene,
+    world: World,
+    skip: Collection[int],
+    modes: tuple[Mode, ...] = ("reflex", "planned"),
+) -> Choice:
     path, brief = scene.journey.path, scene.brief
     leaves = [leave for leave in scene.leaves if scene.may_leave(leave)]
-    modes: tuple[Mode, ...] = ("planned",) if skip else ("reflex", "planned")
-    for mode in modes:
+    for mode in ("planned",) if skip else modes:
         for leave in leaves:
             try:
                 if mode == "reflex":
@@ -98,17 +111,25 @@ def _turns_back(scene: Scene, found: Detoured) -> bool:
     return depths[1] < depths[0] - scene.brief.required
 
 
-def timed(scene: Scene, mode: Mode, found: Detoured) -> Choice | None:
-    """A way with its time law; None if the robot is too fast to go over to it."""
+def timed(scene: Scene, mode: Mode, found: Detoured, then: tuple[float, ...] = ()) -> Choice | None:
+    """A way with its time law; None if the robot is too fast to go over to it.
+
+    Args:
+        scene: The robot under way.
+        mode: How the way was found; from rest the robot turns where it stops,
+        found: The way.
+        then: and at these distances along it [m].
+    """
     journey = scene.journey
     turns = tuple(turn for turn in journey.turns if turn <= found.changed_from + SLIP)
     stands = mode == "from_rest"
+    certain = certain_until(journey, found.path, found.changed_from)
     if stands:
-        turns = (*turns, scene.stop)
+        turns, certain = (*turns, scene.stop, *then), max(certain, scene.stop)
     try:
         law = time_law(
-            journey, found.path, turns, distance=journey.distance, speed=scene.speed,
-            time=journey.time, sure=scene.stop if stands else 0.0,
+            journey, found.path, turns,
+            distance=journey.distance, speed=scene.speed, time=journey.time, end=certain,
         )  # fmt: skip
     except GeometryError:
         return None  # it could not stop within what it has seen of it
