@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,6 +68,36 @@ def groups_met(leg: LegSearch, labels: NDArray[np.int64], active: Flags) -> tupl
     return tuple(met.values())
 
 
+@dataclass(frozen=True)
+class WeighedLater:
+    """A leg past so many groups that their other sides are looked at when the ledger is read.
+
+    The way that was taken is the shortest of all, whatever the other sides cost.
+
+    Attributes:
+        leg: What was led round.
+        met: The groups in its way.
+        best: The curve along the shortest way.
+        active: (n,): the obstacles that way was found with.
+    """
+
+    leg: LegSearch
+    met: tuple[Group, ...]
+    best: Curve
+    active: Flags
+
+    @property
+    def fitted(self) -> Fitted:
+        """The leg's spline."""
+        return self.best.fitted
+
+    @cached_property
+    def entries(self) -> tuple[LedgerEntry, ...]:
+        """Every group, and the ways past it."""
+        curves, reasons = _weighed(self.leg, self.met, self.best, self.active.copy())
+        return _entries(self.leg, self.met, curves, self.best, reasons)
+
+
 def pass_groups(leg: LegSearch, met: Sequence[Group], best: Curve, active: Flags) -> PassedGroups:
     """Weigh the other side of every group as well.
 
@@ -76,6 +107,15 @@ def pass_groups(leg: LegSearch, met: Sequence[Group], best: Curve, active: Flags
         best: The curve along the shortest way.
         active: (n,): the obstacles that way was found with.
     """
+    curves, reasons = _weighed(leg, met, best, active)
+    winner = min(curves, key=lambda curve: curve.measured.length)
+    return PassedGroups(winner.fitted, _entries(leg, met, curves, winner, reasons))
+
+
+def _weighed(
+    leg: LegSearch, met: Sequence[Group], best: Curve, active: Flags
+) -> tuple[list[Curve], list[str]]:
+    """The best curve and those on the other side of each group; why there might be none."""
     curves = [best]
     reasons: list[str] = []
     for group in met:
@@ -83,11 +123,19 @@ def pass_groups(leg: LegSearch, met: Sequence[Group], best: Curve, active: Flags
         other, reason = _other_side(leg, met, group, side, best.way, active)
         curves += [other] if other else []
         reasons.append(reason)
-    winner = min(curves, key=lambda curve: curve.measured.length)
-    entries = tuple(
+    return curves, reasons
+
+
+def _entries(
+    leg: LegSearch,
+    met: Sequence[Group],
+    curves: Sequence[Curve],
+    winner: Curve,
+    reasons: Sequence[str],
+) -> tuple[LedgerEntry, ...]:
+    return tuple(
         leg.entry(group, curves, winner, reason) for group, reason in zip(met, reasons, strict=True)
     )
-    return PassedGroups(winner.fitted, entries)
 
 
 def _other_side(
