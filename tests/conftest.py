@@ -10,6 +10,7 @@ import shapely
 from hypothesis import HealthCheck, settings
 from numpy.typing import NDArray
 
+from viaspline.maps.grid import Grid
 from viaspline.mission.parts import Obstacle
 
 # With the JIT off the kernels are a thousand times slower: fewer examples.
@@ -30,7 +31,14 @@ def _ring(ring: Sequence[Any]) -> shapely.Polygon:
     return shapely.Polygon(ring)
 
 
-def _signed(shape: shapely.Polygon, points: Any) -> Floats:
+def _squares(grid: Grid) -> Any:
+    """The union of a grid's blocked cells."""
+    row, column = np.nonzero(grid.blocked)
+    cells = shapely.union_all(shapely.box(column, row, column + 1, row + 1))
+    return shapely.transform(cells, grid.to_world)
+
+
+def _signed(shape: Any, points: Any) -> Floats:
     distance = shapely.distance(shape.boundary, points)
     return np.where(shapely.contains(shape, points), -distance, distance)
 
@@ -48,6 +56,9 @@ def shapely_distance() -> Oracle:
             if obstacle.circle is not None:
                 centre = shapely.Point(obstacle.circle.center)
                 one = shapely.distance(centre, points) - obstacle.circle.radius
+            elif obstacle.grid is not None:
+                one = _signed(_squares(obstacle.grid), points)
+                one[np.isnan(one)] = np.inf  # nothing is blocked
             else:
                 one = _signed(shapely.Polygon(obstacle.polygon, obstacle.holes), points)
             found = np.minimum(found, one)

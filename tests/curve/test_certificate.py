@@ -12,6 +12,7 @@ from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.certificate import SPARE, TOLERANCE, certify
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
+from viaspline.maps.grid import Grid
 from viaspline.mission.parts import Obstacle
 from viaspline.world.world import World
 
@@ -35,6 +36,11 @@ def random_world(rng: np.random.Generator) -> tuple[list[Obstacle], dict[str, An
             reach = size * rng.uniform(0.5, 2, 5)
             ring = np.column_stack((x + reach * np.cos(angle), y + reach * np.sin(angle)))
             obstacles.append(Obstacle(polygon=ring))
+    if rng.random() < 0.4:
+        blocked = rng.random(rng.integers(1, 20, 2)) < rng.choice([0.05, 0.3, 0.9])
+        blocked[0, 0] = True
+        place = (*rng.uniform(0, 80, 2).tolist(), float(rng.choice([0.0, 0.4, -1.9])))
+        obstacles.append(Obstacle(grid=Grid(blocked, float(rng.choice([0.1, 1.0, 4.0])), place)))
     frame: dict[str, Any] = {}
     if not obstacles or rng.random() < 0.5:
         frame["bounds"] = (-20.0, -10.0, 120.0, 130.0)
@@ -158,6 +164,32 @@ def test_a_wall_thinner_than_any_sample_is_not_stepped_over() -> None:
     certificate = certify(straight((0, 0), (11, 0)), World([wall]), 0.0)
     assert certificate.clearance <= 0.0
     assert not certify(straight((0, 0), (11, 0)), World([wall]), 1e-3).holds
+
+
+def test_a_wall_of_cells_thinner_than_any_sample_is_not_stepped_over() -> None:
+    wall = np.zeros((4000, 9), bool)
+    wall[:, 4] = True
+    world = World([Obstacle(grid=Grid(wall, 1e-3, (5.0, -2.0, 0.0)))])
+    certificate = certify(straight((0, 0), (11, 0)), world, 0.0)
+    assert -1e-3 <= certificate.clearance <= -0.4e-3
+    assert not certificate.holds
+
+
+def test_a_curve_along_a_staircase_of_cells_at_exactly_what_is_required_holds() -> None:
+    stairs = np.tri(200, 200, -1, dtype=bool)  # its corners lie on the diagonal
+    world = World([Obstacle(grid=Grid(stairs, 0.5))])
+    aside = np.array([1.0, -1.0]) / math.sqrt(2)
+    ends = np.array([(-5.0, -5.0), (30.0, 30.0), (105.0, 105.0)]) + aside
+    assert certify(CardinalSpline(ends), world, 1.0).holds
+    assert certify(CardinalSpline(ends), world, 1.0).clearance == pytest.approx(1.0, abs=SPARE)
+    assert not certify(CardinalSpline(ends), world, 1.0 + 3e-6).holds
+
+
+def test_what_is_nearest_on_a_map_is_called_by_the_file_of_the_map() -> None:
+    grid = Grid(np.ones((2, 2), bool), 1.0, (4.0, 1.0, 0.0), "depot.yaml")
+    certificate = certify(straight((0, 0), (10, 0)), World([Obstacle(grid=grid)]), 0.5)
+    assert certificate.obstacle == "map 'depot.yaml'"
+    assert certificate.clearance == pytest.approx(1.0, abs=TOLERANCE)
 
 
 def test_an_empty_world_leaves_infinite_clearance() -> None:
