@@ -96,6 +96,21 @@ class Way:
 
 
 @dataclass(frozen=True)
+class _Tried:
+    """What came of one lattice.
+
+    Attributes:
+        way: The way, if there is one.
+        closed: Segments that no way crosses, (n, 4).
+        is_proof: Whether only such segments were closed in the lattice.
+    """
+
+    way: Way | None
+    closed: Floats
+    is_proof: bool
+
+
+@dataclass(frozen=True)
 class Router:
     """Finds the shortest ways in a world for a robot that needs a certain room.
 
@@ -178,34 +193,45 @@ class Router:
         """The first of ever finer lattices that leads to a way."""
         closed = barriers
         for lattice in chain((self.lattice,), self._finer):
-            way, closed = self._along(lattice, start, goal, closed)
-            if way is not None:
-                return way
-            if lattice.is_open and len(closed) == len(barriers):
-                return None
+            tried = self._along(lattice, start, goal, closed)
+            if tried.way is not None or (lattice.is_open and tried.is_proof):
+                return tried.way
+            closed = tried.closed
         return None
 
     def closed_between(self, start: Floats, goal: Floats, closed: Floats) -> Floats:
         """The gaps that proved too narrow on the way to a goal that can't be reached, (n, 4)."""
-        return self._along(self.lattice, start, goal, closed)[1]
+        return self._along(self.lattice, start, goal, closed).closed
 
-    def _along(
-        self, lattice: Lattice, start: Floats, goal: Floats, closed: Floats
-    ) -> tuple[Way | None, Floats]:
-        """The way along the guides of a lattice, and what is closed once it has been sought."""
+    def _along(self, lattice: Lattice, start: Floats, goal: Floats, closed: Floats) -> _Tried:
+        """Follow the guides of a lattice, each but the last through a gap that is closed then."""
+        is_proof = True
         if len(closed):
             lattice = lattice.without(closed)
         for _ in range(GAPS):
             guide = lattice.guide(start, goal)
             if guide is None:
-                return None, closed
+                return _Tried(None, closed, is_proof)
             bends, gap = self._taut(guide, lattice.side)
             if len(bends):
-                return Way.round(bends, self.world, self._floor), closed
-            gap = np.vstack((gap, narrow_places(self.world.packed, guide, self._floor)))
-            closed = np.vstack((closed, gap))
+                return _Tried(Way.round(bends, self.world, self._floor), closed, is_proof)
             lattice = lattice.without(gap)
-        return None, closed
+            proven = narrow_places(self.world.packed, guide, self._floor)
+            if self._is_too_narrow(gap):
+                proven = np.vstack((proven, gap))
+            else:
+                is_proof = False
+            if len(proven):
+                closed = np.vstack((closed, proven))
+                lattice = lattice.without(proven)
+        return _Tried(None, closed, is_proof=False)
+
+    def _is_too_narrow(self, gap: Floats) -> bool:
+        """Whether nothing on a segment across a gap, shape (1, 4), has the room."""
+        w = np.linspace(0.0, 1.0, 65)[:, None]
+        return bool(
+            self.world.distance(gap[:, :2] + w * (gap[:, 2:] - gap[:, :2])).max() < self._floor
+        )
 
     def _taut(self, guide: Floats, side: float) -> tuple[Floats, Floats]:
         """The guide pulled taut, or no bends and the gap that it can't go through."""
