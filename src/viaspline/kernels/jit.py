@@ -117,6 +117,14 @@ def inner(function: _Function) -> _Function:
     return _compile(function, no_cpython_wrapper=True)
 
 
+def within(function: _Function) -> _Function:
+    """Compile a function right into the kernels that call it: for the inside of hot loops.
+
+    It must neither make nor return arrays. numba counts references at every call; not here.
+    """
+    return _compile(function, no_cpython_wrapper=True, forceinline=True, _nrt=False)
+
+
 class _CompileListener(event.Listener):
     def __init__(self, tell: Callable[[str], None]) -> None:
         self._tell = tell

@@ -8,62 +8,116 @@ last place where the path turned. The path that it finds is the shortest of all 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.mesh import Mesh, rectangle_at
+from viaspline.kernels.jit import inner, kernel, within
+from viaspline.kernels.mesh import (
+    BOTTOM,
+    FIRST_ABOVE,
+    FIRST_BELOW,
+    HEIGHT,
+    LEFT,
+    OVER,
+    PIECE,
+    RIGHT,
+    TOP,
+    TURN_LEFT,
+    UNDER,
+    Mesh,
+    rectangle_at,
+)
 from viaspline.kernels.packed import Floats, Ints
+from viaspline.kernels.rows import new_floats, new_ints, sized_floats, sized_ints
 
 TINY = 1e-9
-# columns of a node
+# columns of the two tables of nodes
 A, B, ROOT_X, ROOT_Y, COST = range(5)
 PORTAL, UP, ROOT, PARENT = range(4)
 START = -1  # the root before the first turn
 GOAL = -2  # in place of the portal: the path has arrived
 
 
-@inner
-def _push(keys: Floats, items: Ints, size: int, key: float, item: int) -> int:
-    k = size
+class Search(NamedTuple):
+    """Nodes, and a heap of those that have not been expanded.
+
+    A root is a portal's end: ``2 * portal`` for the left one, ``2 * portal + 1`` for the right.
+
+    Attributes:
+        places: The interval, the root, and the length of the path up to it, (n, 5).
+        links: The portal, whether the path goes up through it, the root, the node before, (n, 4).
+        keys: The heap's keys: how long a path through the node is at least, (n, 1).
+        items: The heap's nodes, (n, 1).
+        sizes: How many nodes there are, and how many of them are in the heap, (1, 2).
+        cheapest: Length of the shortest path yet to each root, (2 p, 1).
+        goal: (2,).
+    """
+
+    places: Floats
+    links: Ints
+    keys: Floats
+    items: Ints
+    sizes: Ints
+    cheapest: Floats
+    goal: Floats
+
+
+@within
+def _push(search: Search, key: float, item: int) -> None:
+    k = search.sizes[0, 1]
     while k > 0:
         parent = (k - 1) >> 1
-        if keys[parent] <= key:
+        if search.keys[parent, 0] <= key:
             break
-        keys[k] = keys[parent]
-        items[k] = items[parent]
+        search.keys[k, 0] = search.keys[parent, 0]
+        search.items[k, 0] = search.items[parent, 0]
         k = parent
-    keys[k] = key
-    items[k] = item
-    return size + 1
+    search.keys[k, 0] = key
+    search.items[k, 0] = item
+    search.sizes[0, 1] += 1
 
 
-@inner
-def _pop(keys: Floats, items: Ints, size: int) -> int:
-    """Take the first item away; it stands at ``items[size - 1]`` then."""
-    first = items[0]
-    size -= 1
-    key = keys[size]
-    item = items[size]
+@within
+def _pop(search: Search) -> int:
+    """Take the node with the smallest key; -1 where there is none."""
+    size = search.sizes[0, 1] - 1
+    if size < 0:
+        return -1
+    first = search.items[0, 0]
+    key = search.keys[size, 0]
+    item = search.items[size, 0]
     k = 0
     while True:
         child = 2 * k + 1
         if child >= size:
             break
-        if child + 1 < size and keys[child + 1] < keys[child]:
+        if child + 1 < size and search.keys[child + 1, 0] < search.keys[child, 0]:
             child += 1
-        if keys[child] >= key:
+        if search.keys[child, 0] >= key:
             break
-        keys[k] = keys[child]
-        items[k] = items[child]
+        search.keys[k, 0] = search.keys[child, 0]
+        search.items[k, 0] = search.items[child, 0]
         k = child
-    keys[k] = key
-    items[k] = item
-    items[size] = first
-    return size
+    search.keys[k, 0] = key
+    search.items[k, 0] = item
+    search.sizes[0, 1] = size
+    return first
 
 
-@inner
+@within
+def _next(search: Search) -> int:
+    """The next node that no shorter path to its root has made worthless; -1 where none is left."""
+    while True:
+        node = _pop(search)
+        if node < 0:
+            return -1
+        root = search.links[node, ROOT]
+        if root == START or search.places[node, COST] <= search.cheapest[root, 0] + TINY:
+            return node
+
+
+@within
 def _crossing(
     rx: float, ry: float, a: float, b: float, y: float, gx: float, gy: float
 ) -> tuple[float, float]:
@@ -82,45 +136,249 @@ def _crossing(
     return x, math.hypot(x - rx, y - ry) + math.hypot(gx - x, gy - y)
 
 
-@inner
-def _grown_floats(rows: Floats) -> Floats:
-    larger = np.empty((2 * rows.shape[0], rows.shape[1]))
-    for i in range(rows.shape[0]):
-        for k in range(rows.shape[1]):
-            larger[i, k] = rows[i, k]
-    return larger
+@within
+def _add(
+    search: Search,
+    portal: int,
+    up: int,
+    a: float,
+    b: float,
+    x: float,
+    y: float,
+    cost: float,
+    root: int,
+    parent: int,
+) -> int:
+    """A new node, which is not in the heap yet; returns its number."""
+    count = search.sizes[0, 0]
+    search.sizes[0, 0] += 1
+    search.places[count, A] = a
+    search.places[count, B] = b
+    search.places[count, ROOT_X] = x
+    search.places[count, ROOT_Y] = y
+    search.places[count, COST] = cost
+    search.links[count, PORTAL] = portal
+    search.links[count, UP] = up
+    search.links[count, ROOT] = root
+    search.links[count, PARENT] = parent
+    return count
 
 
-@inner
-def _grown_ints(rows: Ints) -> Ints:
-    larger = np.empty((2 * rows.shape[0], rows.shape[1]), np.int64)
-    for i in range(rows.shape[0]):
-        for k in range(rows.shape[1]):
-            larger[i, k] = rows[i, k]
-    return larger
+@within
+def _first_door(portals: Ints, first: int, last: int, low: float) -> int:
+    """The first of the portals first:last, which stand from left to right, beyond ``low``."""
+    while last - first > 8:
+        middle = (first + last) >> 1
+        if portals[middle, RIGHT] <= low + TINY:
+            first = middle + 1
+        else:
+            last = middle
+    while first < last and portals[first, RIGHT] <= low + TINY:
+        first += 1
+    return first
 
 
-@inner
-def _range(mesh: Mesh, first: int, last: int, low: float, high: float) -> tuple[int, int]:
-    """Those of the portals first:last, which stand from left to right, that meet [low, high]."""
-    portals = mesh.portals
-    if last - first > 8:
-        left = first
-        right = last
-        while left < right:
-            middle = (left + right) >> 1
-            if portals[middle, 1] <= low + TINY:
-                left = middle + 1
+@within
+def _spread(
+    mesh: Mesh,
+    search: Search,
+    room: int,
+    parent: int,
+    up: int,
+    low: float,
+    high: float,
+    x: float,
+    y: float,
+    cost: float,
+    root: int,
+) -> None:
+    """Add a node for every portal of a side of a rectangle that is seen in [low, high].
+
+    Args:
+        mesh: Mesh.
+        search: What is added to.
+        room: The rectangle.
+        parent: The node that is expanded, -1 at the start.
+        up: 1 for the upper side, 0 for the lower one.
+        low: [cells].
+        high: [cells].
+        x: Of the root from which the window is seen.
+        y: The same.
+        cost: Length of the path to the root.
+        root: The root.
+    """
+    if high - low <= TINY:
+        return
+    side = FIRST_ABOVE if up == 1 else FIRST_BELOW
+    last = mesh.doors[room, side + 1]
+    door = _first_door(mesh.portals, mesh.doors[room, side], last, low)
+    behind = search.links[parent, PORTAL] if parent >= 0 else -1
+    far = float(mesh.rectangles[room, TOP if up == 1 else BOTTOM])
+    while door < last and mesh.portals[door, LEFT] < high - TINY:
+        # where the window ends within rounding of the portal's end it is that end: paths turn there
+        a = float(mesh.portals[door, LEFT])
+        a = low if low > a + TINY else a
+        b = float(mesh.portals[door, RIGHT])
+        b = high if high < b - TINY else b
+        if door != behind:
+            if far == y and not a <= x <= b:
+                _slide(search, door, parent, up, a, b, x, y, cost, root)
             else:
-                right = middle
-        first = left
-    else:
-        while first < last and portals[first, 1] <= low + TINY:
-            first += 1
-    end = first
-    while end < last and portals[end, 0] < high - TINY:
-        end += 1
-    return first, end
+                node = _add(search, door, up, a, b, x, y, cost, root, parent)
+                _, rest = _crossing(x, y, a, b, far, search.goal[0], search.goal[1])
+                _push(search, cost + rest, node)
+        door += 1
+
+
+@within
+def _slide(
+    search: Search,
+    door: int,
+    parent: int,
+    up: int,
+    a: float,
+    b: float,
+    x: float,
+    y: float,
+    cost: float,
+    root: int,
+) -> None:
+    """Add a node for a portal on the root's own line: along the wall to its end, and round it.
+
+    The path turns twice at once. The first turn gets a node of its own.
+    """
+    end = a if x < a else b
+    turned = 2 * door if x < a else 2 * door + 1
+    cost_there = cost + abs(end - x)
+    if cost_there > search.cheapest[turned, 0] + TINY:
+        return
+    search.cheapest[turned, 0] = cost_there
+    first = _add(search, door, up, a, b, x, y, cost, root, parent)
+    node = _add(search, door, up, a, b, end, y, cost_there, turned, first)
+    _, rest = _crossing(end, y, a, b, y, search.goal[0], search.goal[1])
+    _push(search, cost_there + rest, node)
+
+
+@within
+def _turn(
+    mesh: Mesh, search: Search, here: int, room: int, end: int, seen: float, near: float
+) -> None:
+    """Turn at the left (0) or the right (1) end of a node's interval, if the path can.
+
+    Args:
+        mesh: Mesh.
+        search: What is added to.
+        here: The node.
+        room: The rectangle that it leads into.
+        end: 0 or 1.
+        seen: As far as the far side of the rectangle is seen past this end without a turn.
+        near: Height of the portal.
+    """
+    portal = search.links[here, PORTAL]
+    up = search.links[here, UP]
+    x = search.places[here, A + end]
+    if x != mesh.portals[portal, LEFT + end] or mesh.portals[portal, TURN_LEFT + end] == 0:
+        return
+    root = 2 * portal + end
+    cost = search.places[here, COST] + math.hypot(
+        x - search.places[here, ROOT_X], near - search.places[here, ROOT_Y]
+    )
+    if cost > search.cheapest[root, 0] + TINY:
+        return
+    search.cheapest[root, 0] = cost
+    left = float(mesh.rectangles[room, LEFT])
+    right = float(mesh.rectangles[room, RIGHT])
+    for back in range(2):  # what is hidden on the far side, then back through the near side
+        limit = x if back == 1 else min(max(seen, left), right)
+        low = left if end == 0 else limit
+        high = limit if end == 0 else right
+        _spread(mesh, search, room, here, abs(up - back), low, high, x, near, cost, root)
+
+
+@within
+def _expand(mesh: Mesh, search: Search, here: int, last_room: int) -> None:
+    """Add what a node leads to."""
+    portal = search.links[here, PORTAL]
+    up = search.links[here, UP]
+    room = mesh.portals[portal, OVER if up == 1 else UNDER]
+    a = search.places[here, A]
+    b = search.places[here, B]
+    x = search.places[here, ROOT_X]
+    y = search.places[here, ROOT_Y]
+    near = float(mesh.portals[portal, HEIGHT])
+    if room == last_room:
+        at, rest = _crossing(x, y, a, b, near, search.goal[0], search.goal[1])
+        root = search.links[here, ROOT]
+        node = _add(search, GOAL, up, at, at, x, y, search.places[here, COST], root, here)
+        _push(search, search.places[here, COST] + rest, node)
+    # the far side as the root sees it through the interval
+    low = left = float(mesh.rectangles[room, LEFT])
+    high = right = float(mesh.rectangles[room, RIGHT])
+    if y != near:
+        far = float(mesh.rectangles[room, TOP if up == 1 else BOTTOM])
+        low = x + (a - x) * (far - y) / (near - y)
+        high = x + (b - x) * (far - y) / (near - y)
+    _spread(
+        mesh, search, room, here, up, max(low, left), min(high, right),
+        x, y, search.places[here, COST], search.links[here, ROOT],
+    )  # fmt: skip
+    for end in range(2):
+        _turn(mesh, search, here, room, end, low if end == 0 else high, near)
+
+
+@within
+def _doors_of(mesh: Mesh, room: int) -> int:
+    """How many portals a rectangle has."""
+    below = mesh.doors[room, FIRST_BELOW + 1] - mesh.doors[room, FIRST_BELOW]
+    return below + mesh.doors[room, FIRST_ABOVE + 1] - mesh.doors[room, FIRST_ABOVE]
+
+
+@within
+def _most_after(mesh: Mesh, search: Search, here: int) -> int:
+    """How many nodes there are at most when a node has been expanded."""
+    portal = search.links[here, PORTAL]
+    room = mesh.portals[portal, OVER if search.links[here, UP] == 1 else UNDER]
+    return search.sizes[0, 0] + 1 + 6 * _doors_of(mesh, room)
+
+
+@inner
+def _sized(search: Search, room: int) -> Search:
+    """The same with room for that many nodes."""
+    count = search.sizes[0, 0]
+    return Search(
+        sized_floats(search.places, count, room),
+        sized_ints(search.links, count, room),
+        sized_floats(search.keys, search.sizes[0, 1], room),
+        sized_ints(search.items, search.sizes[0, 1], room),
+        search.sizes,
+        search.cheapest,
+        search.goal,
+    )
+
+
+@inner
+def _begun(mesh: Mesh, start: Floats, goal: Floats, room: int) -> Search:
+    """A search with what is seen from the start."""
+    cheapest = new_floats(2 * mesh.portals.shape[0], 1)
+    for k in range(cheapest.shape[0]):
+        cheapest[k, 0] = np.inf
+    size = 1024 + 2 * mesh.portals.shape[0]
+    search = Search(
+        new_floats(size, 5),
+        new_ints(size, 4),
+        new_floats(size, 1),
+        new_ints(size, 1),
+        new_ints(1, 2),
+        cheapest,
+        goal,
+    )
+    search.sizes[0, 0] = 0
+    search.sizes[0, 1] = 0
+    left = float(mesh.rectangles[room, LEFT])
+    right = float(mesh.rectangles[room, RIGHT])
+    for up in range(2):
+        _spread(mesh, search, room, -1, up, left, right, start[0], start[1], 0.0, START)
+    return search
 
 
 @kernel
@@ -135,258 +393,63 @@ def shortest_path(mesh: Mesh, start: Floats, goal: Floats) -> Floats:
     Returns:
         Start, the corners where it turns, goal, (k, 2) [cells]; no rows where there is no path.
     """
-    sx = start[0]
-    sy = start[1]
-    gx = goal[0]
-    gy = goal[1]
-    first_room = rectangle_at(mesh, sx, sy)
-    last_room = rectangle_at(mesh, gx, gy)
-    path = np.empty((2, 2))
-    if first_room < 0 or last_room < 0:
-        return path[:0]
-    if first_room == last_room:
-        path[0, 0] = sx
-        path[0, 1] = sy
-        path[1, 0] = gx
-        path[1, 1] = gy
-        return path
-    cheapest = np.full(2 * mesh.portals.shape[0], np.inf)
-    places = np.empty((1024, 5))
-    links = np.empty((1024, 4), np.int64)
-    keys = np.empty(1024)
-    items = np.empty(1024, np.int64)
+    room = rectangle_at(mesh, start[0], start[1])
+    last_room = rectangle_at(mesh, goal[0], goal[1])
+    if room < 0 or last_room < 0:
+        return new_floats(0, 2)
+    if mesh.rectangles[room, PIECE] != mesh.rectangles[last_room, PIECE]:
+        return new_floats(0, 2)
+    if room == last_room:
+        return _path(new_floats(0, 2), 0, start, goal)
+    search = _begun(mesh, start, goal, room)
+    here = _next(search)
+    while here >= 0 and search.links[here, PORTAL] != GOAL:
+        most = _most_after(mesh, search, here)
+        if most > search.places.shape[0]:
+            search = _sized(search, 2 * most)
+        _expand(mesh, search, here, last_room)
+        here = _next(search)
+    turns, count = _turns(mesh, search, here)
+    return _path(turns, count, start, goal)
+
+
+@inner
+def _turns(mesh: Mesh, search: Search, last: int) -> tuple[Floats, int]:
+    """Where the path to the last node turns, from its end to its start, and how often."""
+    gx = search.goal[0]
+    gy = search.goal[1]
+    turns = new_floats(16, 2)
     count = 0
-    size = 0
-    # what is to be made of the node that is being expanded: a queue of (portal, up, a, b, root)
-    here = -1
-    while True:
-        if here < 0:
-            room = first_room
-            a = b = rx = 0.0
-            ry = sy
-            rx = sx
-            cost = 0.0
-            root = START
-            up = 1
-            stages = 2  # at the start: what is above, then what is below
-        else:
-            portal = links[here, PORTAL]
-            up = links[here, UP]
-            room = mesh.portals[portal, 4] if up == 1 else mesh.portals[portal, 3]
-            a = places[here, A]
-            b = places[here, B]
-            rx = places[here, ROOT_X]
-            ry = places[here, ROOT_Y]
-            cost = places[here, COST]
-            root = links[here, ROOT]
-            stages = 5
-        left = float(mesh.rectangles[room, 0])
-        right = float(mesh.rectangles[room, 1])
-        bottom = float(mesh.rectangles[room, 2])
-        top = float(mesh.rectangles[room, 3])
-        near = bottom if up == 1 else top
-        far = top if up == 1 else bottom
-        if here >= 0 and room == last_room:
-            x, rest = _crossing(rx, ry, a, b, near, gx, gy)
-            if count + 1 >= places.shape[0]:
-                places = _grown_floats(places)
-                links = _grown_ints(links)
-            places[count, A] = x
-            places[count, B] = x
-            places[count, ROOT_X] = rx
-            places[count, ROOT_Y] = ry
-            places[count, COST] = cost + rest
-            links[count, PORTAL] = GOAL
-            links[count, UP] = up
-            links[count, ROOT] = root
-            links[count, PARENT] = here
-            if size + 1 >= keys.size:
-                keys, items = _roomier(keys, items)
-            size = _push(keys, items, size, cost + rest, count)
+    # the last turn may be at an end of the last interval
+    at = search.places[last]
+    x = at[A]
+    y = float(mesh.portals[search.links[search.links[last, PARENT], PORTAL], HEIGHT])
+    area = (x - at[ROOT_X]) * (gy - y) - (y - at[ROOT_Y]) * (gx - x)
+    if abs(area) > 1e-7 * (abs(gx - x) + abs(gy - y) + 1.0):
+        turns[0, 0] = x
+        turns[0, 1] = y
+        count = 1
+    node = last
+    while node >= 0 and search.links[node, ROOT] != START:
+        x = search.places[node, ROOT_X]
+        y = search.places[node, ROOT_Y]
+        if count == turns.shape[0]:
+            turns = sized_floats(turns, count, 2 * count)
+        if count == 0 or x != turns[count - 1, 0] or y != turns[count - 1, 1]:
+            turns[count, 0] = x
+            turns[count, 1] = y
             count += 1
-        # the far side as the root sees it through the interval
-        low = left
-        high = right
-        if here >= 0 and ry != near:
-            scale = (far - ry) / (near - ry)
-            low = rx + (a - rx) * scale
-            high = rx + (b - rx) * scale
-        left_turn = False
-        right_turn = False
-        if here >= 0:
-            left_turn = a == mesh.portals[portal, 0] and mesh.turns[portal, 0] == 1
-            right_turn = b == mesh.portals[portal, 1] and mesh.turns[portal, 1] == 1
-        left_cost = np.inf
-        right_cost = np.inf
-        if left_turn:
-            left_cost = cost + math.hypot(a - rx, near - ry)
-            if left_cost > cheapest[2 * portal] + TINY:
-                left_turn = False
-            else:
-                cheapest[2 * portal] = left_cost
-        if right_turn:
-            right_cost = cost + math.hypot(b - rx, near - ry)
-            if right_cost > cheapest[2 * portal + 1] + TINY:
-                right_turn = False
-            else:
-                cheapest[2 * portal + 1] = right_cost
-        for stage in range(stages):
-            # 0: seen on the far side; 1, 2: the far side round either end; 3, 4: back through the
-            # near side, round either end. At the start 1 is what lies below.
-            go_up = up
-            from_x = rx
-            from_y = ry
-            price = cost
-            origin = root
-            back = False
-            if stage == 0:
-                window_low = max(low, left)
-                window_high = min(high, right)
-            elif here < 0:
-                go_up = 0
-                window_low = left
-                window_high = right
-            elif stage == 1 or stage == 3:
-                if not left_turn:
-                    continue
-                from_x = a
-                from_y = near
-                price = left_cost
-                origin = 2 * portal
-                window_low = left
-                window_high = min(low, right) if stage == 1 else a
-                back = stage == 3
-            else:
-                if not right_turn:
-                    continue
-                from_x = b
-                from_y = near
-                price = right_cost
-                origin = 2 * portal + 1
-                window_low = max(high, left) if stage == 2 else b
-                window_high = right
-                back = stage == 4
-            if back:
-                go_up = 1 - up
-            if window_high - window_low <= TINY:
-                continue
-            doors = mesh.above if go_up == 1 else mesh.below
-            first, last = _range(mesh, doors[room, 0], doors[room, 1], window_low, window_high)
-            for door in range(first, last):
-                if door == (portal if here >= 0 else -1):
-                    continue
-                new_a = float(mesh.portals[door, 0])
-                new_b = float(mesh.portals[door, 1])
-                if window_low > new_a + TINY:  # else it is the end itself, where paths turn
-                    new_a = window_low
-                if window_high < new_b - TINY:
-                    new_b = window_high
-                y = float(mesh.portals[door, 2])
-                root_x = from_x
-                new_root = origin
-                new_price = price
-                if from_y == y and (from_x < new_a or from_x > new_b):
-                    # along the wall to the nearer end of the portal, and round it
-                    end = 0 if from_x < new_a else 1
-                    root_x = new_a if end == 0 else new_b
-                    new_price = price + abs(root_x - from_x)
-                    new_root = 2 * door + end
-                    if new_price > cheapest[new_root] + TINY:
-                        continue
-                    cheapest[new_root] = new_price
-                if count + 2 >= places.shape[0]:
-                    places = _grown_floats(places)
-                    links = _grown_ints(links)
-                parent = here
-                if new_root != origin:  # two turns at once: the first gets a node of its own
-                    places[count, ROOT_X] = from_x
-                    places[count, ROOT_Y] = from_y
-                    places[count, COST] = price
-                    links[count, ROOT] = origin
-                    links[count, PARENT] = here
-                    parent = count
-                    count += 1
-                places[count, A] = new_a
-                places[count, B] = new_b
-                places[count, ROOT_X] = root_x
-                places[count, ROOT_Y] = from_y
-                places[count, COST] = new_price
-                links[count, PORTAL] = door
-                links[count, UP] = go_up
-                links[count, ROOT] = new_root
-                links[count, PARENT] = parent
-                _, rest = _crossing(root_x, from_y, new_a, new_b, y, gx, gy)
-                if size + 1 >= keys.size:
-                    keys, items = _roomier(keys, items)
-                size = _push(keys, items, size, new_price + rest, count)
-                count += 1
-        # the next node that is still worth it
-        while True:
-            if size == 0:
-                return path[:0]
-            size = _pop(keys, items, size)
-            here = items[size]
-            root = links[here, ROOT]
-            if links[here, PORTAL] == GOAL:
-                return _path_to(places, links, here, start, goal, mesh)
-            if root == START or places[here, COST] <= cheapest[root] + TINY:
-                break
+        node = search.links[node, PARENT]
+    return turns, count
 
 
 @inner
-def _roomier(keys: Floats, items: Ints) -> tuple[Floats, Ints]:
-    more_keys = np.empty(2 * keys.size)
-    more_items = np.empty(2 * items.size, np.int64)
-    for k in range(keys.size):
-        more_keys[k] = keys[k]
-        more_items[k] = items[k]
-    return more_keys, more_items
-
-
-@inner
-def _path_to(
-    places: Floats, links: Ints, last: int, start: Floats, goal: Floats, mesh: Mesh
-) -> Floats:
-    """Start, roots and goal on the way to the last node, (k, 2)."""
-    count = 2
-    for writing in range(2):
-        if writing == 1:
-            path = np.empty((count, 2))
-            path[0, 0] = start[0]
-            path[0, 1] = start[1]
-            path[count - 1, 0] = goal[0]
-            path[count - 1, 1] = goal[1]
-        row = count - 2
-        x = goal[0]
-        y = goal[1]
-        size = 2
-        # the last turn may be at an end of the last interval
-        near = float(mesh.portals[links[links[last, PARENT], PORTAL], 2])
-        node = last
-        px = places[last, A]
-        py = near
-        straight = abs(
-            (px - places[last, ROOT_X]) * (y - py) - (py - places[last, ROOT_Y]) * (x - px)
-        )
-        if straight > 1e-7 * (abs(x - px) + abs(y - py) + 1.0):
-            if writing == 1:
-                path[row, 0] = px
-                path[row, 1] = py
-                row -= 1
-            size += 1
-            x = px
-            y = py
-        while node >= 0:
-            px = places[node, ROOT_X]
-            py = places[node, ROOT_Y]
-            if links[node, ROOT] != START and (px != x or py != y):
-                if writing == 1:
-                    path[row, 0] = px
-                    path[row, 1] = py
-                    row -= 1
-                size += 1
-                x = px
-                y = py
-            node = links[node, PARENT]
-        count = size
+def _path(turns: Floats, count: int, start: Floats, goal: Floats) -> Floats:
+    """Start, turns in their order, goal, (count + 2, 2)."""
+    path = new_floats(count + 2, 2)
+    for axis in range(2):
+        path[0, axis] = start[axis]
+        path[count + 1, axis] = goal[axis]
+        for k in range(count):
+            path[count - k, axis] = turns[k, axis]
     return path
