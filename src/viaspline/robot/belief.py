@@ -24,7 +24,7 @@ LEAST_ROOM = 4.0 * FINEST
 
 AHEAD = 1.3  # distances to stop in that a robot looks ahead
 LATEST = 64  # surfaces beyond which all of them are packed anew
-GAP = 0.7  # from place to place that has to have been seen, of the discs' radius
+GAP = 1.0  # from place to place that has to have been seen, of the discs' radius
 RIM = 0.3  # by which the body is taken for larger where it has to be seen free, of the same
 SLACK = 1e-4  # by which samples of a path may miss the distance that it was proven to keep [m]
 ON_MAP = 1e-6  # a hit nearer than this to what is on the map shows just that [m]

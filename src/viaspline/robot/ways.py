@@ -17,7 +17,7 @@ from viaspline.robot.sides import changed_side, is_better
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
-SAMPLES = 257  # of a way, to see whether it leads back
+SAMPLES = 129  # of a way, to see whether it leads back
 
 
 @dataclass(frozen=True)
