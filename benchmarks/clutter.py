@@ -17,7 +17,7 @@ from multiprocessing import get_context
 import numpy as np
 import shapely
 from extremitypathfinder import PolygonEnvironment
-from oracle import distances_to_shapes, inside_bounds, verdict
+from oracle import distances_to, inside_bounds, verdict
 from shapely.geometry import Polygon
 from timing import in_turn
 from worlds import GOAL, RADIUS, SIZE, START, crossing, dense, inflated, length, obstacles
@@ -38,7 +38,7 @@ def is_there_a_way(found: list[vs.Obstacle], radius: float) -> str:
     shapes = [
         (*o.circle.center, o.circle.radius) if o.circle else np.array(o.polygon) for o in found
     ]
-    gaps = inside_bounds(distances_to_shapes(shapes, radius + 1.0, BOX, STEP), BOX, STEP)
+    gaps = inside_bounds(distances_to(shapes, radius + 1.0, BOX, STEP), BOX, STEP)
     return verdict(gaps, BOX, STEP, START, GOAL, radius)
 
 

@@ -13,7 +13,6 @@ import math
 
 import numpy as np
 from scipy.ndimage import label
-from scipy.spatial import cKDTree
 
 Box = tuple[float, float, float, float]
 
@@ -27,18 +26,15 @@ def samples(box: Box, step: float) -> tuple[np.ndarray, np.ndarray]:
     )
 
 
-def distances_to_discs(centers: np.ndarray, radii: np.ndarray, box: Box, step: float) -> np.ndarray:
-    """Distance of every sample to the nearest disc [m], (height, width)."""
-    x, y = samples(box, step)
-    points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    found = np.full(len(points), np.inf)
-    for radius in np.unique(radii):
-        found = np.minimum(found, cKDTree(centers[radii == radius]).query(points)[0] - radius)
-    return found.reshape(len(y), len(x))
+def distances_to(shapes: list, reach: float, box: Box, step: float) -> np.ndarray:
+    """Distance of every sample to the nearest disc or convex ring [m], (height, width).
 
-
-def distances_to_shapes(shapes: list, reach: float, box: Box, step: float) -> np.ndarray:
-    """The same to discs ``(x, y, radius)`` and convex rings (n, 2), as far as ``reach``."""
+    Args:
+        shapes: Discs ``(x, y, radius)`` and rings (n, 2).
+        reach: No distance is told beyond this [m].
+        box: What the lattice covers [m].
+        step: Between samples [m].
+    """
     x, y = samples(box, step)
     found = np.full((len(y), len(x)), reach)
     for shape in shapes:
