@@ -241,7 +241,7 @@ def _slacken(rows: Floats, count: int) -> tuple[int, int]:
                 if turn < -1e-12:
                     dropped = k
                     break
-                rows[k, TURN] = turn
+                rows[k, TURN] = max(turn, 0.0)
         if dropped < 0:
             return count, -1
         if dropped <= 0 or dropped >= count - 1:
