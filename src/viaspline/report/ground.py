@@ -149,14 +149,15 @@ def _index(cells: Floats, first: int, size: int) -> NDArray[np.int32]:
 
 def _coarser(grid: Grid, rows: slice, columns: slice, size: int) -> Codes:
     """A window of a grid in larger squares, each the worst of those that it is made of."""
-    codes = grid.blocked[rows, columns].astype(np.uint8)
-    codes *= BLOCKED
+    blocked = grid.blocked[rows, columns]
+    height, width = blocked.shape
+    codes = np.zeros((height + -height % size, width + -width % size), np.uint8)
+    window = codes[:height, :width]
+    np.multiply(blocked, np.uint8(BLOCKED), out=window)
     if grid.unknown is not None:
-        codes -= grid.unknown[rows, columns]
+        window -= grid.unknown[rows, columns]
     if size == 1:
         return codes
-    height, width = codes.shape
-    codes = np.pad(codes, ((0, -height % size), (0, -width % size)))
     tall = codes.reshape(-1, size, codes.shape[1]).max(axis=1)
     coarse: Codes = tall.reshape(len(tall), -1, size).max(axis=2)
     return coarse
