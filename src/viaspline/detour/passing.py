@@ -13,12 +13,16 @@ from viaspline.detour.blocked import BlockedLegError, explain_blocked_leg
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course
 from viaspline.detour.islands import PassedIslands
-from viaspline.detour.leg_search import LegSearch
-from viaspline.detour.route import Router, on_the_line
+from viaspline.detour.leg_search import Curve, LegSearch
+from viaspline.detour.route import NO_BARRIERS, Flags, Floats, Router, on_the_line
 from viaspline.detour.sides import PassedGroups, WeighedLater, groups_met, pass_groups
+from viaspline.kernels.corners import X, Y
 from viaspline.kernels.groups import group_labels
+from viaspline.kernels.string import narrow_places
 from viaspline.world.world import World
 
+TIGHT = 1e-4  # room on either side that a curve may need beyond what is required [m]
+MOST = 200  # such gaps
 WEIGHED = 4  # groups up to which the curves on either side are weighed at once
 Passed = PassedGroups | WeighedLater | PassedIslands
 
@@ -65,8 +69,7 @@ class Task:
         active[list(hit)] = True
         dense = self.router.is_dense(active)
         met = () if dense else groups_met(leg, self.groups, active)
-        way, barriers = leg.shortest_allowed(active)
-        best = leg.curve(way)
+        best, barriers = self._fitted(leg, active)
         if best is None:
             world, brief = self.world, self.brief
             raise BlockedLegError(
@@ -78,3 +81,21 @@ class Task:
         if len(met) > WEIGHED:
             return WeighedLater(leg, met, best, active)
         return pass_groups(leg, met, best, active)
+
+    def _fitted(self, leg: LegSearch, active: Flags) -> tuple[Curve | None, Floats]:
+        """The curve along the shortest way on which one fits, and the sides that are forbidden.
+
+        A gap that is just as wide as what is required lets a polyline through, but no curve with
+        a certificate: it is closed then.
+        """
+        closed = NO_BARRIERS
+        while True:
+            way, barriers = leg.shortest_allowed(active, closed)
+            best = leg.curve(way)
+            if way is None or best is not None:
+                return best, barriers
+            places = np.ascontiguousarray(way.corners[:, X : Y + 1])
+            tight = narrow_places(self.world.packed, places, self.brief.required + TIGHT)
+            if not len(tight) or len(closed) > MOST:
+                return None, barriers
+            closed = np.vstack((closed, tight))

@@ -102,7 +102,8 @@ class _Tried:
     Attributes:
         way: The way, if there is one.
         closed: Segments that no way crosses, (n, 4).
-        is_proof: Whether only such segments were closed in the lattice.
+        is_proof: Whether nothing else was closed in the lattice. Closing a segment blocks whole
+            cells, so a finer lattice may still show a way beside it.
     """
 
     way: Way | None
@@ -194,7 +195,8 @@ class Router:
         closed = barriers
         for lattice in chain((self.lattice,), self._finer):
             tried = self._along(lattice, start, goal, closed)
-            if tried.way is not None or (lattice.is_open and tried.is_proof):
+            shut = lattice.is_open and len(tried.closed) == len(barriers) and tried.is_proof
+            if tried.way is not None or shut:
                 return tried.way
             closed = tried.closed
         return None
