@@ -23,7 +23,6 @@ from viaspline.report.units import metres, seconds
 from viaspline.robot.run import Event, Replan, Run
 
 PIECES = 4000  # of the coloured line, at most
-REPLANS_NAMED = 4  # with a lidar, at most
 NOTED = ("detected", "replanned", "skipped", "braked", "stopped", "contact")
 MARKED = {"detected": ("x", "detected"), "braked": ("v", "braked"), "stopped": ("X", "stopped"),
           "skipped": ("P", "gave up a via point"), "contact": ("*", "contact")}  # fmt: skip
@@ -200,7 +199,7 @@ def _draw_events(sheet: Sheet, labels: Labels, run: Run) -> list[Artist]:
             zorder=10 if has_lidar(run) else 14.5,
             label="new path from here",
         )  # fmt: skip
-        if has_lidar(run) and len(run.replans) > REPLANS_NAMED:
+        if has_lidar(run):  # they are many; the column tells them
             continue
         labels.add(
             f"new path, {replan.time:.0f} s ({replan.mode.replace('_', ' ')})",

@@ -15,6 +15,7 @@ from viaspline.report import style
 from viaspline.report.drawing import Floats, outline, shape_of
 from viaspline.report.ground import Ground, Tone
 from viaspline.report.sheet import Sheet
+from viaspline.robot.belief import ON_MAP
 from viaspline.robot.lidar import LidarSensor
 from viaspline.robot.run import Run
 
@@ -85,10 +86,11 @@ def _in_colours(patch: Patch) -> Patch:
 
 
 class _Beams(Sight):
-    """The ground that the beams sweep, and the points that they have hit."""
+    """The ground that the beams sweep, and the points off the map that they have hit."""
 
     def __init__(self, run: Run, sheet: Sheet, spec: Lidar) -> None:
         exact = spec.model_copy(update={"noise_m": 0.0})
+        self._map = run.plan.world
         self._lidar = LidarSensor(run.world.obstacles, exact)
         self._grain = 1.0 / sheet.pixels_per_metre
         self._points: Floats = np.zeros((0, 2))
@@ -108,7 +110,10 @@ class _Beams(Sight):
         angles = scan.first_direction + np.arange(len(scan.ranges)) * scan.angle_increment
         ends = place + scan.free[:, None] * np.column_stack((np.cos(angles), np.sin(angles)))
         self._fan.set_xy(np.vstack([[place], ends]))
-        dots = np.round(np.vstack([self._points, scan.hits]) / self._grain)
+        hits = scan.hits
+        if len(self._map) and len(hits):
+            hits = hits[self._map.distance(hits) > ON_MAP]
+        dots = np.round(np.vstack([self._points, hits]) / self._grain)
         self._points = np.unique(dots, axis=0) * self._grain
         self._dots.set_data(*self._points.T)
         return [self._fan, self._dots]
