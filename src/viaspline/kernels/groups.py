@@ -8,7 +8,7 @@ from viaspline.kernels.distance import polygon_signed
 from viaspline.kernels.grid_gap import grid_gap
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Ints, PackedWorld
-from viaspline.kernels.segment import box_gap, polygon_segment
+from viaspline.kernels.segment import box_gap, obstacle_segment
 
 
 @inner
@@ -23,12 +23,13 @@ def obstacle_gap(world: PackedWorld, i: int, j: int, limit: float) -> float:
             return np.hypot(circle[0] - second[0], circle[1] - second[1]) - circle[2] - second[2]
         return polygon_signed(world, world.slot[other], circle[0], circle[1], np.inf) - circle[2]
     best = limit
-    for p, other in ((world.slot[i], world.slot[j]), (world.slot[j], world.slot[i])):
-        first = world.block_edges[world.polygon_blocks[p]]
-        last = world.block_edges[world.polygon_blocks[p + 1]]
+    for p, other in ((i, j), (j, i)):
+        slot = world.slot[p]
+        first = world.block_edges[world.polygon_blocks[slot]]
+        last = world.block_edges[world.polygon_blocks[slot + 1]]
         for e in range(first, last):
             edge = world.edges[e]
-            gap = polygon_segment(world, other, edge[0], edge[1], edge[2], edge[3], best)
+            gap = obstacle_segment(world, other, edge[0], edge[1], edge[2], edge[3], best)
             best = min(best, gap)
     return best
 

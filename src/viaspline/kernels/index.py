@@ -116,10 +116,14 @@ def _leaves(skip: Ints, leaf: Ints, node: int) -> int:
 
 def ring_boxes(edges: Floats, starts: Ints) -> Floats:
     """Box of every run ``starts[k]:starts[k + 1]`` of edges (e, 4), shape (k, 4)."""
-    boxes = np.tile((np.inf, np.inf, -np.inf, -np.inf), (starts.size - 1, 1))
-    some = starts[1:] > starts[:-1]
-    if some.any():
-        first = starts[:-1][some]
-        boxes[some, :2] = np.minimum.reduceat(np.minimum(edges[:, :2], edges[:, 2:]), first)
-        boxes[some, 2:] = np.maximum.reduceat(np.maximum(edges[:, :2], edges[:, 2:]), first)
+    boxes = np.empty((starts.size - 1, 4))
+    boxes[:, :2] = np.inf
+    boxes[:, 2:] = -np.inf
+    filled = np.flatnonzero(starts[1:] > starts[:-1])
+    if filled.size:
+        first = starts[filled]
+        for axis in range(2):
+            one, other = edges[:, axis], edges[:, 2 + axis]
+            boxes[filled, axis] = np.minimum.reduceat(np.minimum(one, other), first)
+            boxes[filled, 2 + axis] = np.maximum.reduceat(np.maximum(one, other), first)
     return boxes

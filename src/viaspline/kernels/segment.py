@@ -45,28 +45,6 @@ def box_gap(boxes: Floats, b: int, x0: float, y0: float, x1: float, y1: float) -
 
 
 @inner
-def polygon_segment(
-    world: PackedWorld, p: int, ax: float, ay: float, bx: float, by: float, limit: float
-) -> float:
-    """Distance between polygon p and the segment a-b [m]; 0 where they touch."""
-    x0 = min(ax, bx)
-    x1 = max(ax, bx)
-    y0 = min(ay, by)
-    y1 = max(ay, by)
-    best = limit
-    for b in range(world.polygon_blocks[p], world.polygon_blocks[p + 1]):
-        if box_gap(world.block_boxes, b, x0, y0, x1, y1) >= best:
-            continue
-        for e in range(world.block_edges[b], world.block_edges[b + 1]):
-            edge = world.edges[e]
-            gap = segment_segment(ax, ay, bx, by, edge[0], edge[1], edge[2], edge[3])
-            best = min(best, gap)
-    if best > 0.0 and polygon_signed(world, p, ax, ay, np.inf) < 0.0:
-        return 0.0
-    return best
-
-
-@inner
 def obstacle_segment(
     world: PackedWorld, i: int, ax: float, ay: float, bx: float, by: float, limit: float
 ) -> float:
@@ -80,7 +58,21 @@ def obstacle_segment(
         return point_segment(circle[0], circle[1], ax, ay, bx, by) - circle[2]
     if world.kind[i] == 2:
         return grid_segment(world, slot, ax, ay, bx, by, limit)
-    return polygon_segment(world, slot, ax, ay, bx, by, limit)
+    x0 = min(ax, bx)
+    x1 = max(ax, bx)
+    y0 = min(ay, by)
+    y1 = max(ay, by)
+    best = limit
+    for b in range(world.polygon_blocks[slot], world.polygon_blocks[slot + 1]):
+        if box_gap(world.block_boxes, b, x0, y0, x1, y1) >= best:
+            continue
+        for e in range(world.block_edges[b], world.block_edges[b + 1]):
+            edge = world.edges[e]
+            gap = segment_segment(ax, ay, bx, by, edge[0], edge[1], edge[2], edge[3])
+            best = min(best, gap)
+    if best > 0.0 and polygon_signed(world, slot, ax, ay, np.inf) < 0.0:
+        return 0.0
+    return best
 
 
 @inner
