@@ -14,8 +14,11 @@ from viaspline.kernels.packed import PackedWorld
 
 
 @inner
-def _box_in_cells(world: PackedWorld, g: int, i: int) -> tuple[float, float, float, float]:
-    """Box of obstacle i, a polygon or a grid, in grid g's columns and rows."""
+def _cells_near(world: PackedWorld, g: int, i: int, far: float) -> tuple[int, int, int, int]:
+    """First and last column, first and last row of grid g within ``far`` cells of obstacle i's box.
+
+    Obstacle i is a polygon or a grid.
+    """
     u0 = np.inf
     v0 = np.inf
     u1 = -np.inf
@@ -31,88 +34,99 @@ def _box_in_cells(world: PackedWorld, g: int, i: int) -> tuple[float, float, flo
             x = world.edges[k, 0]
             y = world.edges[k, 1]
         else:
-            width = world.grid_shapes[slot, 0] if k % 2 == 1 else 0
-            height = world.grid_shapes[slot, 1] if k >= 2 else 0
-            x, y = to_world(world, slot, float(width), float(height))
+            right = world.grid_shapes[slot, 0] if k % 2 == 1 else 0
+            top = world.grid_shapes[slot, 1] if k >= 2 else 0
+            x, y = to_world(world, slot, float(right), float(top))
         u, v = to_cells(world, g, x, y)
         u0 = min(u0, u)
         v0 = min(v0, v)
         u1 = max(u1, u)
         v1 = max(v1, v)
-    return u0, v0, u1, v1
+    width = float(world.grid_shapes[g, 0])
+    height = float(world.grid_shapes[g, 1])
+    return (
+        math.floor(min(max(u0 - far, 0.0), width)),
+        math.floor(max(min(u1 + far, width - 1.0), -1.0)),
+        math.floor(min(max(v0 - far, 0.0), height)),
+        math.floor(max(min(v1 + far, height - 1.0), -1.0)),
+    )
 
 
 @inner
-def _run_gap(
-    world: PackedWorld, g: int, other: int, row: int, start: int, end: int, limit: float
-) -> float:
-    """Distance between the sides of a run of cells of grid g and grid ``other`` [m]."""
-    ax, ay = to_world(world, g, float(start), float(row))
-    bx, by = to_world(world, g, float(end), float(row))
-    cx, cy = to_world(world, g, float(end), row + 1.0)
-    dx, dy = to_world(world, g, float(start), row + 1.0)
-    best = grid_segment(world, other, ax, ay, bx, by, limit)
-    best = grid_segment(world, other, bx, by, cx, cy, best)
-    best = grid_segment(world, other, cx, cy, dx, dy, best)
-    return grid_segment(world, other, dx, dy, ax, ay, best)
+def _reaches_inside(world: PackedWorld, i: int, j: int) -> bool:
+    """Whether blocked cells of grid i lie inside the polygon or grid j.
 
-
-@inner
-def _runs_gap(world: PackedWorld, i: int, j: int, sides: bool, limit: float) -> float:
-    """Distance between the runs of grid i and obstacle j [m], at most ``limit``.
-
-    Args:
-        world: PackedWorld.
-        i: A grid.
-        j: A grid or a polygon.
-        sides: Whether to measure from the runs' sides to grid j. Otherwise only runs inside of j
-            count, with 0; that is all that there can be where its outline is known to be farther
-            away.
-        limit: What is known [m].
+    One cell of a run tells it for all where the outlines are known to be apart.
     """
-    best = limit
     g = world.slot[i]
-    width = world.grid_shapes[g, 0]
-    u0, v0, u1, v1 = _box_in_cells(world, g, j)
-    far = best / world.grid_frames[g, 4] + 1.0 if sides else 0.0
-    low = math.floor(max(v0 - far, 0.0))
-    high = math.floor(min(v1 + far, world.grid_shapes[g, 1] - 1.0))
-    first = math.floor(max(u0 - far, 0.0))
-    last = math.floor(min(u1 + far, width - 1.0))
+    first, last, low, high = _cells_near(world, g, j, 0.0)
     for row in range(low, high + 1):
+        place = world.grid_shapes[g, 2] + row * world.grid_shapes[g, 0]
         column = first
-        place = world.grid_shapes[g, 2] + row * width
         while column <= last:
             steps = entry(world.to_right, place + column)
-            if steps > 0:
-                column += steps
-                continue
-            end = min(column - steps, width)
-            x, y = to_world(world, g, column + 0.5, row + 0.5)
-            if obstacle_signed(world, j, x, y, 0.0) < 0.0:
-                return 0.0
-            if sides:
-                best = _run_gap(world, g, world.slot[j], row, column, end, best)
-            column = end
-    return best
+            if steps < 0:
+                x, y = to_world(world, g, column + 0.5, row + 0.5)
+                if obstacle_signed(world, j, x, y, 0.0) < 0.0:
+                    return True
+            column += abs(steps)
+    return False
 
 
 @inner
 def grid_gap(world: PackedWorld, i: int, j: int, limit: float) -> float:
-    """Distance between the grid i and obstacle j [m], at most ``limit``; not above 0 on touch."""
+    """Distance between the grid i and the disc or polygon j [m]; not above 0 where they overlap."""
     g = world.slot[i]
     slot = world.slot[j]
     if world.kind[j] == 0:
         circle = world.circles[slot]
-        distance = grid_signed(world, g, circle[0], circle[1], limit + circle[2])
-        return distance - circle[2] if distance < limit + circle[2] else limit
-    if world.kind[j] == 2:
-        best = _runs_gap(world, i, j, True, limit)
-        return _runs_gap(world, j, i, False, best)
+        reach = limit + circle[2]
+        distance = grid_signed(world, g, circle[0], circle[1], reach)
+        return distance - circle[2] if distance < reach else limit
     best = limit
     first = world.block_edges[world.polygon_blocks[slot]]
     last = world.block_edges[world.polygon_blocks[slot + 1]]
     for e in range(first, last):
         edge = world.edges[e]
         best = grid_segment(world, g, edge[0], edge[1], edge[2], edge[3], best)
-    return _runs_gap(world, i, j, False, best)
+    return 0.0 if _reaches_inside(world, i, j) else best
+
+
+@inner
+def _sides_gap(
+    world: PackedWorld, g: int, other: int, row: int, start: int, end: int, limit: float
+) -> float:
+    """Distance between the four sides of a run of cells of grid g and grid ``other`` [m]."""
+    best = limit
+    u = float(start)
+    v = float(row)
+    for side in range(4):
+        ax, ay = to_world(world, g, u, v)
+        if side % 2 == 0:
+            u = float(end) if side == 0 else float(start)
+        else:
+            v = row + 1.0 if side == 1 else float(row)
+        bx, by = to_world(world, g, u, v)
+        best = grid_segment(world, other, ax, ay, bx, by, best)
+    return best
+
+
+@inner
+def grids_gap(world: PackedWorld, i: int, j: int, limit: float) -> float:
+    """Distance between the grids i and j [m]; 0 where they touch."""
+    best = limit
+    g = world.slot[i]
+    other = world.slot[j]
+    first, last, low, high = _cells_near(world, g, j, limit / world.grid_frames[g, 4] + 1.0)
+    for row in range(low, high + 1):
+        place = world.grid_shapes[g, 2] + row * world.grid_shapes[g, 0]
+        column = first
+        while column <= last:
+            steps = entry(world.to_right, place + column)
+            end = min(column + abs(steps), world.grid_shapes[g, 0])
+            if steps < 0:
+                best = _sides_gap(world, g, other, row, column, end, best)
+            column = end
+    if best > 0.0 and (_reaches_inside(world, i, j) or _reaches_inside(world, j, i)):
+        return 0.0
+    return best

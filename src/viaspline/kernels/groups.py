@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.distance import polygon_signed
-from viaspline.kernels.grid_gap import grid_gap
+from viaspline.kernels.grid_gap import grid_gap, grids_gap
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Ints, PackedWorld
 from viaspline.kernels.segment import box_gap, obstacle_segment
@@ -70,32 +70,37 @@ def _labels(world: PackedWorld, width: float) -> Ints:
     return parent
 
 
+@inner
+def _unite(parent: Ints, i: int, j: int) -> None:
+    first = _root(parent, i)
+    second = _root(parent, j)
+    parent[max(first, second)] = min(first, second)
+
+
 @kernel
 def _join_grids(world: PackedWorld, width: float, parent: Ints) -> None:
-    """Join the group of every grid in ``parent`` with those of the obstacles that are near to it.
+    """Join the groups of every grid and of the discs and polygons that are near to it."""
+    for i in range(parent.size):
+        if world.kind[i] == 2:
+            for j in range(parent.size):
+                if world.kind[j] != 2 and grid_gap(world, i, j, width) < width:
+                    _unite(parent, i, j)
 
-    A kernel by itself, which those who have no grids need not wait for to be compiled.
-    """
-    count = world.kind.size
-    for leaf in range(world.leaf.size):
-        i = world.leaf[leaf]
-        if i < 0 or world.kind[i] != 2:
-            continue
-        box = world.boxes[leaf]
-        node = 0
-        while node < world.leaf.size:
-            if box_gap(world.boxes, node, box[0], box[1], box[2], box[3]) >= width:
-                node = world.skip[node]
-                continue
-            j = world.leaf[node]
-            node += 1
-            if j < 0:
-                continue
-            first = _root(parent, i)
-            second = _root(parent, j)
-            if first != second and grid_gap(world, i, j, width) < width:
-                parent[max(first, second)] = min(first, second)
-    for i in range(count):
+
+@kernel
+def _join_pairs_of_grids(world: PackedWorld, width: float, parent: Ints) -> None:
+    """Join the groups of grids that are near to each other."""
+    for i in range(parent.size):
+        if world.kind[i] == 2:
+            for j in range(i):
+                if world.kind[j] == 2 and grids_gap(world, i, j, width) < width:
+                    _unite(parent, i, j)
+
+
+@kernel
+def _settle(parent: Ints) -> None:
+    """Make every entry the root of its tree."""
+    for i in range(parent.size):
         parent[i] = _root(parent, i)
 
 
@@ -105,6 +110,11 @@ def group_labels(world: PackedWorld, width: float) -> Ints:
     Two obstacles are of one group when a gap narrower than ``width`` [m] is between them.
     """
     labels = _labels(world, width)
-    if world.grid_frames.shape[0]:
+    grids = world.grid_frames.shape[0]
+    if grids and grids < labels.size:  # only who has both waits for it to be compiled
         _join_grids(world, width, labels)
+    if grids > 1:
+        _join_pairs_of_grids(world, width, labels)
+    if grids:
+        _settle(labels)
     return labels
