@@ -33,7 +33,7 @@ def nothing(lidar: Lidar = LIDAR, world: World | None = None) -> Belief:
 
 def certain(belief: Belief, path: Path, start: float) -> float:
     """How far a body of 0.3 m can go for certain, as a distance along a path."""
-    seen = belief.seen_until(path, start, min(start + belief.ahead, path.length))
+    seen = belief.seen_until(path, start, min(start + belief.ahead, path.length), 0.3)
     return belief.clear_until(path, start, seen, 0.3)
 
 

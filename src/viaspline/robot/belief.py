@@ -25,6 +25,7 @@ LEAST_ROOM = 4.0 * FINEST
 AHEAD = 1.3  # distances to stop in that a robot looks ahead
 LATEST = 64  # surfaces beyond which all of them are packed anew
 GAP = 1.0  # from place to place that has to have been seen, of the discs' radius
+INSIDE = 0.8  # of that radius: so far into a disc places can be seen for certain
 RIM = 0.3  # by which the body is taken for larger where it has to be seen free, of the same
 SLACK = 1e-4  # by which samples of a path may miss the distance that it was proven to keep [m]
 ON_MAP = 1e-6  # a hit nearer than this to what is on the map shows just that [m]
@@ -105,13 +106,14 @@ class Belief:
             belief = replace(belief, world=self.settled.with_obstacles(echoes.obstacles[-latest:]))
         return belief, News(moved + new, gone)
 
-    def seen_until(self, path: Path, start: float, end: float) -> float:
+    def seen_until(self, path: Path, start: float, end: float, floor: float) -> float:
         """How far along a path the body can go where beams have been on all of its front [m].
 
         Args:
             path: What is driven.
             start: Up to there that is known [m].
             end: Beyond this it is not asked [m].
+            floor: Distance that the path keeps from what is known [m].
         """
         if end <= start:
             return end
@@ -119,7 +121,8 @@ class Belief:
         u = np.asarray(path.parameter(along))
         places = np.asarray(path.evaluate(u))[:, :2]
         tangents = np.asarray(path.tangent(u))[:, :2]
-        rim = self.body + RIM * self.echoes.grain
+        # beams end at surfaces, which lie inside of the discs that the path keeps clear of
+        rim = min(self.body + RIM * self.echoes.grain, floor + INSIDE * self.echoes.grain)
         count = self.views.count(places, tangents, rim, GAP * self.echoes.grain)
         return float(along[count - 1]) if count else start
 

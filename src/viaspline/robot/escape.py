@@ -1,9 +1,10 @@
-"""The way out for a robot that stands closer to something than it should: straight away from it."""
+"""The way out for a robot that has come closer to something than it should."""
 
 from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
@@ -54,6 +55,39 @@ def way_out(scene: Scene, world: World, brief: Brief, floor: float) -> tuple[Sce
     scene = replace(scene, journey=replace(journey, close=Close(at, floor)))
     choice = timed(scene, "from_rest", replace(found, changed_from=scene.stop), (at,))
     return None if choice is None else (scene, choice)
+
+
+def relieved(
+    scene: Scene, choice: Choice, world: World, brief: Brief, skip: Collection[int]
+) -> tuple[Scene, Choice]:
+    """A way that keeps less than it should, but only as far as it must.
+
+    From the first place on that has enough room it is laid anew.
+
+    Args:
+        scene: The robot under way, with what the whole way keeps.
+        choice: The way.
+        world: What is known.
+        brief: What it should keep.
+        skip: Points of the route that are left out.
+
+    Returns:
+        The scene with what is kept where, and the way; the same if there is no other.
+    """
+    journey, path, start = scene.journey, choice.found.path, choice.found.changed_from
+    assert journey.close is not None
+    places = np.arange(start, path.length, journey.grain)
+    roomy = np.flatnonzero(world.distance(path.at_distance(places)) >= brief.required)
+    if not roomy.size:
+        return scene, choice
+    at = float(places[roomy[0]])
+    try:
+        found = replan.planned(path, at, world, brief, skip)
+    except NoPathError:
+        return scene, choice
+    freed = replace(scene, journey=replace(journey, close=Close(at, journey.close.floor)))
+    again = timed(freed, choice.mode, replace(found, changed_from=start))
+    return (scene, choice) if again is None else (freed, again)
 
 
 def _roomy_place(world: World, here: Floats, required: float, floor: float) -> Floats | None:

@@ -206,7 +206,8 @@ def _seen_until(journey: Journey, path: Path, same: float) -> float:
     assert journey.belief is not None
     here = journey.distance
     end = min(here + journey.belief.ahead, path.length)
-    return journey.belief.seen_until(path, max(here, min(journey.sighted, same)), end)
+    floor = min(stretch[2] for stretch in journey.stretches(end))
+    return journey.belief.seen_until(path, max(here, min(journey.sighted, same)), end, floor)
 
 
 def time_law(

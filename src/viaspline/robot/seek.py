@@ -13,7 +13,7 @@ from viaspline.detour.blocked import BlockedLegError
 from viaspline.detour.brief import Brief
 from viaspline.detour.fit import too_close
 from viaspline.errors import NoPathError
-from viaspline.robot.escape import way_out
+from viaspline.robot.escape import relieved, way_out
 from viaspline.robot.journey import SLIP, Close, Journey, Wait
 from viaspline.robot.records import give_up, take
 from viaspline.robot.reroute import Answer, answer
@@ -117,9 +117,12 @@ def _answer(journey: Journey, free: float) -> tuple[Scene, Answer]:
         if out is not None:
             return out[0], Answer(out[1])
     scene = replace(scene, journey=replace(journey, close=Close(math.inf, floor)), floor=floor)
-    return scene, answer(
-        replace(scene, brief=replace(brief, clearance=floor - brief.radius)), world
-    )
+    eased = replace(brief, clearance=floor - brief.radius)
+    found = answer(replace(scene, brief=eased), world)
+    if found.choice is None:
+        return scene, found
+    scene, choice = relieved(scene, found.choice, world, _spared(brief), set(found.skip))
+    return scene, replace(found, choice=choice)
 
 
 def _room(scene: Scene) -> float:

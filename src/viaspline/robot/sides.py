@@ -1,7 +1,7 @@
 """Which side of things a path passes: a robot keeps it, unless the other is clearly better.
 
 Two ways between the same two places pass something on different sides if the loop that they make
-together winds round it. Where a new path would do so, with something that was known when the old
+together encloses it. Where a new path would do so, with something that was known when the old
 one was laid, it is compared with the best path that keeps the old side there.
 """
 
@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 
 from viaspline.curve.path import Path
 from viaspline.detour.barrier import barriers_of
-from viaspline.kernels.winding import windings
-from viaspline.mission.parts import Side
+from viaspline.mission.parts import Obstacle, Side
 from viaspline.robot.journey import points_after
 from viaspline.world.world import World
 
@@ -56,14 +55,23 @@ def changed_side(
     if not len(places):
         return None
     for before, after in _legs(old, new, at, last, 0.5 * width):
-        ring = np.concatenate((before, after[::-1]))
-        between = np.flatnonzero(windings(ring, places) != 0)
+        between = _enclosed(np.concatenate((before, after[::-1])), places)
         if between.size:
             gaps = [np.hypot(*(before - places[k]).T).min() for k in between]
             nearest = int(between[int(np.argmin(gaps))])
             barrier = barriers_of(known, int(indices[nearest]), before[0], before[-1]).right[0]
             return places[nearest], "right" if _crosses(before, barrier) else "left"
     return None
+
+
+def _enclosed(ring: Floats, places: Floats) -> NDArray[np.intp]:
+    """Indices of the places that lie inside of a closed line, which may cross itself."""
+    near = (places >= ring.min(axis=0)) & (places <= ring.max(axis=0))
+    found = np.flatnonzero(near.all(axis=1))
+    if not found.size or np.ptp(ring, axis=0).min() <= 0.0:
+        return np.empty(0, np.intp)
+    area = World([Obstacle(polygon=[(x, y) for x, y in ring.tolist()])])
+    return found[area.distance(places[found]) < 0.0]
 
 
 def _places(world: World) -> tuple[Floats, NDArray[np.intp]]:
