@@ -26,6 +26,8 @@ class World:
 
     The distance to the world is the smallest of the signed distances to all of them:
     exact outside of all of them, and inside the depth in the obstacle that is entered deepest.
+    A grid is the union of its blocked squares, and nothing beyond its rectangle; worlds of the
+    same map share what is reckoned once of it, 4 bytes a square.
 
     Args:
         obstacles: What is known.
@@ -94,9 +96,11 @@ class World:
         if index <= BOUNDS:
             return "bounds" if index == BOUNDS else f"fence {BOUNDS - index}"
         obstacle = self.obstacles[index]
-        if obstacle.name is None and obstacle.grid is not None and obstacle.grid.source is not None:
+        if obstacle.name is not None:
+            return obstacle.name
+        if obstacle.grid is not None and obstacle.grid.source is not None:
             return f"map '{obstacle.grid.source}'"
-        return obstacle.name or f"obstacle {index + 1}"
+        return f"obstacle {index + 1}"
 
     @property
     def names(self) -> tuple[str, ...]:
