@@ -176,26 +176,14 @@ def grid_signed(world: PackedWorld, g: int, x: float, y: float, limit: float) ->
 
 
 @inner
-def _steps(world: PackedWorld, g: int, row: int, column: int) -> int:
-    """Columns from a cell to where its row changes; ``NONE`` in a row outside of the grid."""
-    width = world.grid_shapes[g, 0]
-    if row < 0 or row >= world.grid_shapes[g, 1]:
-        return NONE
-    steps = entry(world.to_right, world.grid_shapes[g, 2] + row * width + column)
-    if steps > 0:
-        return steps
-    return min(-steps, width - column)
-
-
-@inner
 def _write_corner(
-    world: PackedWorld, g: int, u: int, v: int, east: int, north: int, out: Floats, count: int
+    frame: Floats, u: int, v: int, east: int, north: int, out: Floats, count: int
 ) -> int:
-    """Write one corner, free towards the quadrant (east, north)."""
+    """Write the corner at a lattice point that is free towards the quadrant (east, north)."""
     if count < out.shape[0]:
-        frame = world.grid_frames[g]
         half = math.sqrt(0.5)
-        out[count, 0], out[count, 1] = to_world(world, g, float(u), float(v))
+        out[count, 0] = frame[0] + frame[4] * (frame[2] * u - frame[3] * v)
+        out[count, 1] = frame[1] + frame[4] * (frame[3] * u + frame[2] * v)
         out[count, 2] = half * (frame[2] * east - frame[3] * north)
         out[count, 3] = half * (frame[3] * east + frame[2] * north)
     return count + 1
@@ -225,28 +213,35 @@ def grid_corners_near(
     """
     u, v = to_cells(world, g, x, y)
     width = world.grid_shapes[g, 0]
-    far = reach / world.grid_frames[g, 4]
-    top = math.floor(min(v + far, float(world.grid_shapes[g, 1])))
+    height = world.grid_shapes[g, 1]
+    to_right = world.to_right
+    frame = world.grid_frames[g]
+    far = reach / frame[4]
+    top = math.floor(min(v + far, float(height)))
     for line in range(math.ceil(max(v - far, 0.0)), top + 1):
         across = math.sqrt(max(far * far - (line - v) * (line - v), 0.0))
         column = math.ceil(max(u - across, 0.0))
         last = math.floor(min(u + across, float(width)))
+        upper = world.grid_shapes[g, 2] + line * width
+        lower = upper - width
+        nw = column > 0 and line < height and to_right[upper + column - 1] < 0
+        sw = column > 0 and line > 0 and to_right[lower + column - 1] < 0
         while column <= last:
-            nw = is_blocked(world, g, line, column - 1)
-            ne = is_blocked(world, g, line, column)
-            sw = is_blocked(world, g, line - 1, column - 1)
-            se = is_blocked(world, g, line - 1, column)
+            within = column < width
+            above = entry(to_right, upper + column) if within and line < height else NONE
+            below = entry(to_right, lower + column) if within and line > 0 else NONE
+            ne = above < 0
+            se = below < 0
             blocked = int(nw) + int(ne) + int(sw) + int(se)
             if blocked == 1:
                 east = -1 if ne or se else 1
                 north = -1 if nw or ne else 1
-                count = _write_corner(world, g, column, line, east, north, out, count)
+                count = _write_corner(frame, column, line, east, north, out, count)
             elif blocked == 2 and nw == se:
                 turn = -1 if nw else 1
-                count = _write_corner(world, g, column, line, -turn, 1, out, count)
-                count = _write_corner(world, g, column, line, turn, -1, out, count)
-            if column >= width:
-                break
-            lower = _steps(world, g, line - 1, column)
-            column += min(lower, _steps(world, g, line, column))
+                count = _write_corner(frame, column, line, -turn, 1, out, count)
+                count = _write_corner(frame, column, line, turn, -1, out, count)
+            column += min(min(abs(above), abs(below)), max(width - column, 1))
+            nw = ne
+            sw = se
     return count
