@@ -13,8 +13,9 @@ import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.parts import Lidar, Obstacle
 from viaspline.robot.lidar import LidarSensor
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Run
@@ -216,6 +217,44 @@ def test_a_point_without_clearance_keeps_what_the_finest_points_measure(
     )  # fmt: skip
     assert run.reached, run.reason
     assert run.certificate.clearance > 0.0
+
+
+def test_without_a_scan_it_stays_where_it_is(mission_of: Make) -> None:
+    nav = Navigator(mission_of([0, 0], [12, 0], **ROBOT))
+    for time in (0.0, 1.0, 2.0):
+        command, nav = nav.step(nav.reference(time), [], time)
+    assert nav.distance == 0.0
+    assert command.stopped
+    assert not nav.finished
+
+
+def test_what_it_is_told_stands_beside_what_it_sees(mission_of: Make, disc_at: Shape) -> None:
+    mission = mission_of([0, 0], [20, 0], unseen=[disc_at(8, 0.2, 0.8)], **ROBOT)
+    told = Obstacle.model_validate(disc_at(14, -0.1, 1.0, "told"))
+    assert mission.robot.sensor is not None
+    assert mission.robot.sensor.lidar is not None
+    sensor = LidarSensor(mission.world.unseen, mission.robot.sensor.lidar)
+    nav = Navigator(mission)
+    for tick in range(1000):
+        state, time = nav.reference(tick * STEP), tick * STEP
+        _, nav = nav.step(state, sensor.scan(state.position, state.heading), time)
+        if tick == 40:
+            _, nav = nav.step(state, [told], time)
+        if nav.finished:
+            break
+    assert nav.reached, nav.reason
+    assert told in nav.world.obstacles
+    assert len(nav.world) > 10
+    points = np.asarray(nav.path.at_distance(np.linspace(0, nav.path.length, 3000)))
+    for obstacle in (told, *mission.world.unseen):
+        assert shape_of(obstacle).distance(shapely.LineString(points)) > 0.39
+
+
+def test_a_scan_for_a_robot_without_a_lidar_is_refused(mission_of: Make) -> None:
+    nav = Navigator(mission_of([0, 0], [20, 0]))
+    scan = LidarSensor([], Lidar(range_m=5)).scan((0.0, 0.0), 0.0)
+    with pytest.raises(GeometryError, match="has no lidar"):
+        nav.step(nav.reference(0.0), scan, 0.0)
 
 
 obstacles = st.lists(

@@ -13,7 +13,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan, plan
 from viaspline.robot.belief import Belief
-from viaspline.robot.journey import Journey, time_law
+from viaspline.robot.journey import Journey, law_on
 from viaspline.robot.lidar import Scan
 from viaspline.robot.look import look
 from viaspline.robot.progress import advance, happened
@@ -38,6 +38,16 @@ class Navigator:
     A robot with a sensor never drives faster than v with v²/(2 max_accel) + v reaction <= range -
     radius - clearance, so it can stop before it comes too close to whatever comes into range. If
     the sensor hardly sees past the clearance, a quarter of what it sees past the body counts.
+
+    A robot with a lidar is given scans. It drives into unknown space openly: paths lead through it
+    as if it were free, but every time law ends, at rest, where its whole body has only been on
+    places that beams have passed. What beams have hit is kept as small discs, with a radius of a
+    twentieth of the distance that the path keeps (5 mm to 0.1 m) and one standard deviation of the
+    noise; discs that later scans see through again and again are forgotten, those on the map never.
+    So it keeps that much more than the clearance from what it has seen, and a gap that is narrower
+    than that is closed to it. It is laid a new path when the old one is blocked, or when something
+    that has gone opened one that is 5 % and 0.5 m shorter; and it passes what it knows on the side
+    that it meant to, unless the other is shorter by as much.
 
     Args:
         mission: What to do.
@@ -84,8 +94,8 @@ class Navigator:
             law=self._plan.trajectory,
             time=0.0,
         )
-        law = time_law(journey, journey.path, (), distance=0.0, speed=0.0, time=0.0)
-        self._journey = replace(journey, law=law, belief=_belief(journey))
+        journey = replace(journey, belief=_belief(journey))
+        self._journey = replace(journey, law=law_on(journey, speed=0.0, time=0.0))
 
     def step(
         self, state: RobotState, sensed: Iterable[Obstacle] | Scan, time: float
@@ -102,8 +112,8 @@ class Navigator:
             The command, and the navigator for the next step.
 
         Raises:
-            GeometryError: When time runs backwards, or the state is not finite or has the wrong
-                dimension.
+            GeometryError: When time runs backwards, the state is not finite or has the wrong
+                dimension, or a scan is given to a robot that has no lidar.
         """
         journey = self._journey
         _check(state, time, journey)
@@ -112,6 +122,11 @@ class Navigator:
         if not journey.finished:
             journey = advance(journey, state, time)
         if isinstance(sensed, Scan):
+            if journey.belief is None:
+                raise GeometryError(
+                    "a scan was given, but the mission's robot has no lidar; give it one by "
+                    "robot.sensor.lidar"
+                )
             journey = happened(look(journey, sensed))
         else:
             new = tuple(dict.fromkeys(o for o in sensed if o not in journey.seen))

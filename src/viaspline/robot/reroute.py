@@ -35,8 +35,12 @@ class Answer:
 
 def notice(journey: Journey, obstacles: Sequence[Obstacle]) -> Journey:
     """The journey of a robot that has just been told of these obstacles for the first time."""
-    old = len(journey.world)
-    world = journey.world.with_obstacles(obstacles)
+    belief = journey.belief
+    if belief is None:
+        old, world = len(journey.world), journey.world.with_obstacles(obstacles)
+    else:
+        old, belief = len(belief.map), belief.told(obstacles)
+        world = belief.world
     names = tuple(world.name(old + i) for i in range(len(obstacles)))
     here = journey.place(journey.distance)
     new = World(
@@ -44,7 +48,8 @@ def notice(journey: Journey, obstacles: Sequence[Obstacle]) -> Journey:
         for obstacle, name in zip(obstacles, names, strict=True)
     )
     gaps = [float(new.distances_to(i, here)) for i in range(len(obstacles))]
-    journey = replace(journey, world=world, seen=journey.seen.union(obstacles)).noted(
+    seen = journey.seen.union(obstacles)
+    journey = replace(journey, world=world, belief=belief, seen=seen).noted(
         *(
             Event("detected", journey.time, here, f"sees '{name}' {gap:.1f} m away", {"name": name})
             for name, gap in zip(names, gaps, strict=True)

@@ -106,7 +106,7 @@ def _drive(
         lidar = LidarSensor(world.obstacles, robot.sensor.lidar, seed)
     elif robot.sensor is not None:
         sensor = RangeSensor(_named_unseen(nav.mission, world), robot.sensor.reach)
-    limit = PATIENCE * nav.trajectory.duration + GRACE
+    limit = PATIENCE * nav.plan.trajectory.duration + GRACE
     laws: list[tuple[float, Trajectory]] = []
     known: frozenset[Obstacle] = frozenset()
     tick = 0
