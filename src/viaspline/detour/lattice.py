@@ -95,8 +95,9 @@ def lattices(world: World, required: float, places: Floats) -> Iterator[Lattice]
     x0, y0, x1, y1 = _box(world, required, places)
     grids = [obstacle.grid for obstacle in world.obstacles if obstacle.grid is not None]
     area = (x1 - x0) * (y1 - y0)
-    if len(grids) == 1 == len(world) and _has_room(grids[0], required, (x0, y0, x1, y1)):
-        yield _native(grids[0])
+    native = _native(world, required, (x0, y0, x1, y1))
+    if native is not None:
+        yield native
         return
     wanted = required / (2.0 * HALF_DIAGONAL)
     if grids:
@@ -158,17 +159,25 @@ def _place_on(grid: Grid, low: tuple[float, float], side: float) -> tuple[int, i
     return row, column, parts
 
 
-def _has_room(grid: Grid, required: float, box: Box) -> bool:
-    """Whether a robot that needs ``required`` gets through wherever a map's free cells meet."""
-    x0, y0, x1, y1 = grid.extent
-    within = box[0] <= x0 and box[1] <= y0 and x1 <= box[2] and y1 <= box[3]
-    return grid.origin[2] == 0.0 and within and required < 0.5 * grid.resolution
+def _native(world: World, required: float, box: Box) -> Lattice | None:
+    """A map's own cells, and free ones round them as far as the box goes.
 
-
-def _native(grid: Grid) -> Lattice:
-    """A map's own cells."""
-    x, y, _ = grid.origin
-    return Lattice(x, y, grid.resolution, grid.blocked.astype(np.uint8), is_open=True)
+    None unless a robot that needs ``required`` gets through wherever free cells of a lone map meet.
+    """
+    grid = world.obstacles[0].grid if len(world) == 1 and not world.fences else None
+    if grid is None or grid.origin[2] != 0.0 or required >= 0.5 * grid.resolution:
+        return None
+    low, high = np.array(grid.extent).reshape(2, 2)
+    beyond = np.array((low - box[:2], box[2:] - high)) / grid.resolution
+    cells = np.round(beyond) if world.bounds is not None else np.ceil(beyond)
+    is_cut = world.bounds is not None and (np.abs(beyond - cells) > ALIGNED).any()
+    width, height = (high - low) / grid.resolution + cells.sum(axis=0)
+    if is_cut or (cells < 0).any() or width * height > MOST:
+        return None
+    (left, down), (right, up) = cells.astype(int).tolist()
+    free = np.pad(grid.blocked.astype(np.uint8), ((down, up), (left, right)))
+    x, y = low - (left, down) * np.array(grid.resolution)
+    return Lattice(float(x), float(y), grid.resolution, free, is_open=True)
 
 
 def _snapped(low: float, at: float, side: float) -> float:

@@ -17,8 +17,8 @@ from viaspline.detour.leg_search import Curve, LegSearch
 from viaspline.detour.route import NO_BARRIERS, Flags, Floats, Router, on_the_line
 from viaspline.detour.sides import PassedGroups, WeighedLater, groups_met, pass_groups
 from viaspline.kernels.corners import X, Y
+from viaspline.kernels.gaps import narrow_places
 from viaspline.kernels.groups import group_labels
-from viaspline.kernels.string import narrow_places
 from viaspline.world.world import World
 
 TIGHT = 1e-4  # room on either side that a curve may need beyond what is required [m]

@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from viaspline.curve.certificate import SPARE
 from viaspline.detour.lattice import Lattice, lattices
 from viaspline.kernels.corners import X, Y
+from viaspline.kernels.gaps import narrow_places, narrowest
 from viaspline.kernels.route import barrier_crossings, has_narrow_gap, shortest_route
 from viaspline.kernels.segment import mark_near_segment
-from viaspline.kernels.string import TAUT, is_clear_polyline, narrow_places, pulled_taut
-from viaspline.kernels.taut import bends_of, corners_round, detour_points, taut_length
+from viaspline.kernels.string import pulled_taut
+from viaspline.kernels.taut import bends_of, detour_points, taut_length
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
@@ -63,15 +64,6 @@ class Way:
             return self.turns
         points: Floats = detour_points(self.bends, step, excess, stretch, ease)
         return points
-
-    @classmethod
-    def round(cls, bends: Floats, world: World, floor: float) -> Way:
-        """The way along taut bends, its corners so fine that they keep ``floor`` as well."""
-        for step in STEPS:
-            corners = corners_round(bends, step)
-            if is_clear_polyline(world.packed, corners, floor):
-                break
-        return cls(corners, bends, float(taut_length(corners, bends)))
 
     @classmethod
     def through(cls, corners: Floats) -> Way:
@@ -214,9 +206,14 @@ class Router:
             guide = lattice.guide(start, goal)
             if guide is None:
                 return _Tried(None, closed, is_proof)
-            bends, gap = self._taut(guide, lattice.side)
+            bends, corners, stuck = pulled_taut(
+                self.world.packed, guide, self.required + np.array(MARGINS), self._floor,
+                lattice.side, np.array(STEPS),
+            )  # fmt: skip
             if len(bends):
-                return _Tried(Way.round(bends, self.world, self._floor), closed, is_proof)
+                way = Way(corners, bends, float(taut_length(corners, bends)))
+                return _Tried(way, closed, is_proof)
+            gap = self._gap(guide, stuck)
             lattice = lattice.without(gap)
             proven = narrow_places(self.world.packed, guide, self._floor)
             if self._is_too_narrow(gap):
@@ -235,15 +232,12 @@ class Router:
             self.world.distance(gap[:, :2] + w * (gap[:, 2:] - gap[:, :2])).max() < self._floor
         )
 
-    def _taut(self, guide: Floats, side: float) -> tuple[Floats, Floats]:
-        """The guide pulled taut, or no bends and the gap that it can't go through."""
-        for margin in MARGINS:
-            status, bends, gap = pulled_taut(
-                self.world.packed, guide, self.required + margin, self._floor, side
-            )
-            if status == TAUT:
-                break
-        return bends, gap
+    def _gap(self, guide: Floats, stuck: Floats) -> Floats:
+        """The segment across the gap at which a guide got stuck, (1, 4)."""
+        if stuck[0, 4] < 0.0:
+            return np.ascontiguousarray(stuck[:, :4])
+        found: Floats = narrowest(self.world.packed, guide, stuck[0, 4], self._floor)
+        return found
 
     @property
     def _floor(self) -> float:

@@ -256,7 +256,7 @@ def taut_length(route: Floats, bends: Floats) -> float:
     return length
 
 
-@kernel
+@inner
 def corners_round(bends: Floats, step: float) -> Floats:
     """The corners of taut bends: every arc in circumscribed turns of at most ``step``.
 
