@@ -222,6 +222,8 @@ def grid_corners_near(
         across = math.sqrt(max(far * far - (line - v) * (line - v), 0.0))
         column = math.ceil(max(u - across, 0.0))
         last = math.floor(min(u + across, float(width)))
+        if column > last:
+            continue
         upper = world.grid_shapes[g, 2] + line * width
         lower = upper - width
         nw = column > 0 and line < height and to_right[upper + column - 1] < 0
