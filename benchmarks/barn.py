@@ -11,7 +11,7 @@ That compares ways of which neither is bound to a place in the middle; the stret
 by planning from the reference path's first cell to its last.
 
 A robot of 0.15 m gets through every world, larger ones don't: whether they should is told by a
-flood over a lattice of 5 mm, and of 1.25 mm where that can't tell.
+flood over a lattice of 10 mm, and of 2.5 mm where that can't tell.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ import viaspline as vs
 
 START, GOAL, CYLINDER = (-2.25, 3.0), (-2.25, 13.0), 0.075
 BOX = (-4.7, -1.0, 0.2, 14.0)
-SMALL, LARGE = 0.15, (0.215, 0.25, 0.3)
-STEPS = (0.005, 0.00125)
+SMALL, LARGE = 0.15, (0.215, 0.3, 0.4)
+STEPS = (0.01, 0.0025)
 ROUNDS = 3
 
 
