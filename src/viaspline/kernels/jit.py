@@ -82,7 +82,7 @@ def _take_literals_as_values(dispatcher: Any) -> None:
     dispatcher.get_call_template = template
 
 
-def _compile(function: _Function, **options: bool) -> _Function:
+def _compile(function: _Function, **options: Any) -> _Function:
     settings: Any = config  # numba makes its settings as it reads them
     kept = settings.CACHE_DIR
     if CACHE_FOLDER is not None:
@@ -123,6 +123,16 @@ def within(function: _Function) -> _Function:
     It must neither make nor return arrays. numba counts references at every call; not here.
     """
     return _compile(function, no_cpython_wrapper=True, forceinline=True, _nrt=False)
+
+
+def part(function: _Function) -> _Function:
+    """Take a function as a part of the one kernel that calls it.
+
+    Every function of its own is linked with all that it reaches and optimised by itself before the
+    kernel is. So this serves what stands between a kernel and the distance code; in long kernels
+    numba's types take longer than that.
+    """
+    return _compile(function, no_cpython_wrapper=True, inline="always")
 
 
 class _CompileListener(event.Listener):

@@ -22,7 +22,7 @@ from viaspline.kernels.features import (
     OUT_Y,
     features_near,
 )
-from viaspline.kernels.jit import inner, kernel, within
+from viaspline.kernels.jit import inner, kernel, part, within
 from viaspline.kernels.packed import Floats, PackedWorld
 from viaspline.kernels.rows import new_floats, sized_floats
 from viaspline.kernels.segment import nearest_to_segment
@@ -174,7 +174,7 @@ def _turn_at(guide: Floats, k: int) -> tuple[float, float, float]:
     return turn, math.cos(half), math.sin(half)
 
 
-@inner
+@part
 def _inside(
     world: PackedWorld, guide: Floats, k: int, nx: float, ny: float, rho: float, side: float,
     found: Floats,
@@ -209,7 +209,7 @@ def _inside(
     return chosen
 
 
-@inner
+@part
 def _begin(
     world: PackedWorld, guide: Floats, rho: float, side: float, found: Floats
 ) -> tuple[Floats, int]:
@@ -341,7 +341,7 @@ def _most_in_the_way(
     return chosen, side, place
 
 
-@inner
+@part
 def _closest_on(
     world: PackedWorld, ax: float, ay: float, bx: float, by: float, floor: float
 ) -> tuple[float, float]:
@@ -361,7 +361,7 @@ def _closest_on(
     return 0.5 * (ax + bx), 0.5 * (ay + by)
 
 
-@inner
+@part
 def _arc_conflict(
     world: PackedWorld, rows: Floats, k: int, floor: float
 ) -> tuple[float, float, float]:
@@ -382,7 +382,7 @@ def _arc_conflict(
     return 0.0, 0.0, -1.0
 
 
-@inner
+@part
 def _conflict(
     world: PackedWorld, rows: Floats, k: int, floor: float
 ) -> tuple[int, float, float, float]:
@@ -409,7 +409,7 @@ def _conflict(
     return at, rows[k, HEADING_IN] + rows[k, SIDE] * turned, x, y
 
 
-@inner
+@part
 def _next_conflict(
     world: PackedWorld, rows: Floats, count: int, k: int, floor: float
 ) -> tuple[int, int, float, float, float]:
@@ -439,7 +439,7 @@ def _remember(history: Floats, count: int, found: Floats, j: int, side: float) -
     return times
 
 
-@inner
+@part
 def _pulled(
     world: PackedWorld, guide: Floats, rho: float, floor: float, side: float, stuck: Floats
 ) -> tuple[Floats, int]:
@@ -484,7 +484,7 @@ def _pulled(
         count += 1
 
 
-@inner
+@part
 def _is_clear(world: PackedWorld, corners: Floats, floor: float) -> bool:
     """Whether every piece of a row of corners keeps ``floor``."""
     for k in range(corners.shape[0] - 1):
