@@ -129,7 +129,7 @@ def narrow_places(world: PackedWorld, guide: Floats, rho: float) -> Floats:
             y = guide[k, 1] + travelled / size * dy
             distance, _ = nearest(world, x, y, 4.0 * rho)
             travelled += 0.25 * rho + max(distance - rho, 0.0)
-            if distance >= rho:
+            if not 0.0 < distance < rho:
                 continue
             if count == chords.shape[0]:
                 chords = sized_floats(chords, count, 2 * count)
