@@ -81,7 +81,7 @@ def test_beams_end_at_the_walls_of_a_yard(x: float, y: float, heading: float) ->
     assume(shapely.Polygon(HOLE).buffer(-0.01).contains(shapely.Point(x, y)))
     scan = LidarSensor([YARD], Lidar(range_m=20, beams=24)).scan((x, y), heading)
     for beam, measured in enumerate(scan.ranges.tolist()):
-        assert measured == pytest.approx(first_hit(scan, beam, surface(YARD), 20.0), abs=1e-9)
+        assert measured == pytest.approx(first_hit(scan, beam, surface(YARD), 20.0), abs=1e-8)
 
 
 @given(places, places, angles, st.floats(-3, 3), st.integers(0, 2**32 - 1))
