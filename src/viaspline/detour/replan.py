@@ -17,7 +17,6 @@ from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.account import Account
-from viaspline.detour.blocked import BlockedLegError
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, Leg, RouteVia, direction, span_slack
 from viaspline.detour.detoured import Detoured
@@ -132,8 +131,6 @@ def _joined(path: Path, stretch: _Stretch, world: World, brief: Brief) -> Detour
     for reach in REACHES:
         try:
             return _join(path, stretch, world, brief, reach * max(brief.required, 0.1))
-        except BlockedLegError:
-            raise  # what is shut is shut from the end of any run-out
         except NoPathError as error:
             problem = error
     assert problem is not None  # REACHES is not empty

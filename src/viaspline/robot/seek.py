@@ -30,8 +30,7 @@ EVERY = 0.25  # a path that is blocked far ahead is laid anew no more often than
 AGAIN = 0.5  # after it has found no way, a robot tries again so much later [s]
 REVIEW = 1.0  # whether a better way has opened is asked no more often than this [s]
 PATIENCE = 5.0  # a robot gives up if it has stood so long without a way [s]
-TOUCH = 2e-4  # by which a robot that has come too close may come closer yet [m],
-CLOSEST = 0.8  # and so deep into the discs on surfaces, of their radius, that its body may reach
+TOUCH = 1e-3  # by which a robot that has come too close may come closer yet [m]
 
 
 def way_round(journey: Journey, free: float) -> Journey:
@@ -112,8 +111,7 @@ def _answer(journey: Journey, free: float) -> tuple[Scene, Answer]:
     if room >= brief.required:
         found = answer(replace(scene, brief=_spared(brief)), world)
         return scene, answer(scene, world) if found.choice is None else found
-    least = brief.radius - CLOSEST * journey.grain
-    floor = max(room - TOUCH, min(room - 0.5 * TOUCH, least))
+    floor = max(room - TOUCH, brief.radius - journey.grain)
     if brief.required - room > journey.grain:
         out = way_out(scene, world, _spared(brief), floor) or way_out(scene, world, brief, floor)
         if out is not None:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 
 from viaspline.detour import replan
-from viaspline.detour.blocked import BlockedLegError
 from viaspline.detour.detoured import Detoured
 from viaspline.errors import GeometryError, NoPathError
 from viaspline.robot.journey import SLIP, certain_until, time_law
@@ -83,25 +81,19 @@ def _first_way(
     modes: tuple[Mode, ...] = ("reflex", "planned"),
 ) -> Choice:
     path, brief = scene.journey.path, scene.brief
-    for mode, leave in product(("planned",) if skip else modes, scene.leaves):
-        if not scene.may_leave(leave):
-            continue
-        try:
-            if mode == "reflex":
-                found = replan.reflex(path, leave, world, brief)
-            else:
-                found = replan.planned(path, leave, world, brief, skip=skip)
-        except BlockedLegError:
-            if mode == "planned":
-                raise  # nor is there one from anywhere else
-            continue
-        except NoPathError:
-            continue  # a robot that leaves later, or that stands, may find a way
-        if _turns_back(scene, found):
-            break
-        choice = timed(scene, mode, found)
-        if choice is not None:
-            return choice
+    leaves = [leave for leave in scene.leaves if scene.may_leave(leave)]
+    for mode in ("planned",) if skip else modes:
+        for leave in leaves:
+            try:
+                if mode == "reflex":
+                    found = replan.reflex(path, leave, world, brief)
+                else:
+                    found = replan.planned(path, leave, world, brief, skip=skip)
+            except NoPathError:
+                continue  # a robot that leaves later, or that stands, may find a way
+            choice = timed(scene, mode, found)
+            if choice is not None and not _turns_back(scene, found):
+                return choice
     found = replan.from_rest(path, scene.stop, world, brief, skip=skip)
     choice = timed(scene, "from_rest", found)
     assert choice is not None  # a robot that stands can go any way on
