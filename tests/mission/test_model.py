@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from viaspline.errors import Fault, MissionError
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Lidar, Sensor
+from viaspline.mission.robot_parts import Lidar, Sensor
 
 Make: TypeAlias = Callable[..., dict[str, Any]]
 
@@ -44,7 +44,15 @@ def lidar(**changes: Any) -> dict[str, Any]:
         ("robot.clearance_m", math.inf, "robot.clearance_m", "infinity"),
         ("robot.clearence_m", 1, "robot.clearence_m", "did you mean 'clearance_m'?"),
         ("robot.tension", 1, "robot.tension", "belongs under spline"),
-        ("robot.sensor", {}, "robot.sensor.range_m", "range_m: 40, or lidar: {range_m: 5}"),
+        ("robot.footprint", [[0, 0], [1, 0], [0, 1]], "robot.radius_m", "exclude each other"),
+        ("robot.min_turn_radius_m", 0, "robot.min_turn_radius_m", "greater than 0"),
+        ("robot.turn_on_spot", "yes", "robot.turn_on_spot", "never, stations or vias"),
+        ("robot.drive", {}, "robot.drive", "has none of differential, ackermann and skid_steer"),
+        ("robot.drive", {"differential": {}}, "robot.drive.differential.track_m", "is missing"),
+        ("robot.drive", {"track_m": 1}, "robot.drive.track_m", "belongs under differential"),
+        ("world.speed_zones", [{"max_speed_mps": 1}], "world.speed_zones[0].polygon", "is missing"),
+        ("route.laps", 0, "route.laps", "not less than 1"),
+        ("robot.sensor", {}, "robot.sensor", "{range_m: 40} or {lidar: {range_m: 5}}"),
         ("robot.sensor.lidar", {"range_m": 5}, "robot.sensor.range_m", "keep one of range_m and"),
         ("robot.sensor", {"lidar": {}}, "robot.sensor.lidar.range_m", "is missing"),
         ("robot.sensor", {"lidar": 5}, "robot.sensor.lidar", "found 5"),

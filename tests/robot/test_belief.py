@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.path import Path
-from viaspline.mission.parts import Circle, Lidar, Obstacle, RobotSpec, Sensor
+from viaspline.mission.parts import Circle, Obstacle
+from viaspline.mission.robot_parts import Lidar, RobotSpec, Sensor
 from viaspline.robot.belief import Belief
 from viaspline.robot.lidar import LidarSensor, Scan
 from viaspline.robot.views import Views

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Circle, Lidar, Obstacle
+from viaspline.mission.parts import Circle, Obstacle
+from viaspline.mission.robot_parts import Lidar
 from viaspline.robot.lidar import LidarSensor, Scan
 
 RING = ((-6.0, -6.0), (6.0, -6.0), (6.0, 5.0), (0.0, 7.0), (-6.0, 6.0))

@@ -36,7 +36,7 @@ class Brief:
         """The brief of a mission."""
         robot, goal = mission.robot, mission.route.goal
         return cls(
-            radius=robot.radius_m,
+            radius=robot.inner_radius,
             clearance=robot.clearance_m,
             spline=mission.spline,
             goal_heading_deg=None if goal is None else goal.heading_deg,

@@ -135,8 +135,10 @@ def span_slack(spline: SplineSpec, count: int) -> tuple[float, ...]:
     """The slack s of every span, from tension or slack, one number or one for each.
 
     Raises:
-        GeometryError: When there are more or fewer than the spans.
+        GeometryError: When there are more or fewer than the spans, or they are still to be advised.
     """
+    if spline.tension == "auto":
+        raise GeometryError("spline: tension is auto; let the planner choose it first")
     given: float | Sequence[float]
     if spline.slack is not None:
         given = spline.slack

@@ -182,7 +182,7 @@ def _spline(draft: Draft, spline: SplineSpec) -> list[Flaw]:
             )
         )
     for key, values in (("tension", spline.tension), ("slack", spline.slack)):
-        if values is not None:
+        if values is not None and values != "auto":
             flaws += _tensions(draft, key, values)
     return flaws
 

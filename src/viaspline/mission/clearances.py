@@ -10,7 +10,8 @@ from viaspline.maps.squares import is_unknown
 from viaspline.mission.draft import Corners, Draft, obstacle_label
 from viaspline.mission.flaws import Flaw, Path, number, spell
 from viaspline.mission.freespace import FreeSpace
-from viaspline.mission.parts import Obstacle, RobotSpec, ViaPoint
+from viaspline.mission.parts import Obstacle, ViaPoint
+from viaspline.mission.robot_parts import RobotSpec
 
 TOLERANCE = 1e-9
 """A point may be this much too near [m]: round-off, not a fault."""
@@ -33,7 +34,7 @@ def clearance_flaws(draft: Draft, misshapen: Collection[Path]) -> list[Flaw]:
         bounds = None
     if not points or not (known or fences or bounds):
         return []
-    margin = robot.radius_m + robot.clearance_m
+    margin = robot.inner_radius + robot.clearance_m
     space = FreeSpace(bounds, [ring for _, ring in fences], [item for _, item in known], margin)
     return [
         Flaw((*points[i][0], "at"), _problem(points[i], near, margin), remedy)
@@ -113,7 +114,7 @@ def _remedy(point: ViaPoint, nears: list[_Near], robot: RobotSpec, space: FreeSp
         remedies.append("set unknown: free for the map")
     tightest = min(near.distance for near in nears)
     # Rounded down, so that what is said is enough.
-    clearance = math.floor((tightest - robot.radius_m - 1e-6) * 1e3) / 1e3
+    clearance = math.floor((tightest - robot.inner_radius - 1e-6) * 1e3) / 1e3
     if clearance >= 0:
         remedies.append(f"set robot.clearance_m to at most {number(clearance)}")
     if not remedies:

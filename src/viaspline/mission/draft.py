@@ -18,11 +18,11 @@ from viaspline.mission.parts import (
     EndPoint,
     MissionParts,
     Obstacle,
-    RobotSpec,
     SplineSpec,
     ViaPoint,
     WorldSpec,
 )
+from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.structure import parts
 from viaspline.mission.unfold import Unfolded
 
@@ -131,7 +131,7 @@ def _robot(data: Any) -> RobotSpec | None:
     for key in RobotSpec.model_fields.keys() & given.keys():
         if _attempt(RobotSpec, {key: given[key]}) is not None:
             sound[key] = given[key]
-        elif key in ("radius_m", "clearance_m", "sensor"):
+        elif key in ("radius_m", "footprint", "clearance_m", "sensor"):
             return None
     robot: RobotSpec | None = _attempt(RobotSpec, sound)
     return robot

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from typing import Annotated, Any, Final, TypeAlias
+from typing import Annotated, Any, Final, TypeAlias, TypeVar
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic_core import PydanticCustomError
 
 FAR: Final = 1e9
 """The farthest coordinate and the greatest length [m]; beyond it a double loses the micrometre."""
@@ -45,3 +46,25 @@ class Value(BaseModel):
     """A frozen value that refuses keys it does not know."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+Kind = TypeVar("Kind", bound=Value)
+
+
+def one_of(value: Kind, *keys: str) -> Kind:
+    """The value, if just one of some keys is given.
+
+    Raises:
+        PydanticCustomError: ``none_of`` or ``two_of``, with the keys in its context.
+    """
+    given = [key for key in keys if getattr(value, key) is not None]
+    if not given:
+        raise PydanticCustomError("none_of", "give one of them", {"keys": keys})
+    if len(given) > 1:
+        raise two_of(*given)
+    return value
+
+
+def two_of(*keys: str) -> PydanticCustomError:
+    """The error of keys that exclude each other."""
+    return PydanticCustomError("two_of", "give one of them", {"keys": keys})

@@ -9,9 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import BeforeValidator, Field, InstanceOf, model_validator
+from pydantic import BeforeValidator, Field, InstanceOf
 from pydantic.json_schema import SkipJsonSchema
-from pydantic_core import PydanticCustomError
 
 from viaspline.maps.grid import COARSEST, Grid
 from viaspline.maps.reading import Reading, Unknown
@@ -29,11 +28,12 @@ from viaspline.mission.fields import (
     as_text,
     plain,
 )
+from viaspline.mission.robot_parts import RobotSpec
 
 Side = Literal["left", "right"]
 
-MOST_BEAMS: Final = 100_000
-"""The most beams of a lidar."""
+MOST_LAPS: Final = 1000
+"""The most laps of a closed route."""
 
 
 def _as_grid(value: Any) -> Any:
@@ -113,6 +113,20 @@ class MapSpec(Value):
     never_pass_on: Side | None = None
 
 
+class SpeedZone(Value):
+    """An area in which the robot drives more slowly.
+
+    Attributes:
+        polygon: Its corners ``[[x, y], ...]`` [m].
+        max_speed_mps: The greatest speed of the reference point inside of it [m/s].
+        name: What it is called in reports and errors.
+    """
+
+    polygon: Ring
+    max_speed_mps: Positive
+    name: Name | None = None
+
+
 class WorldSpec(Value):
     """The known map, and what is there but not on the map.
 
@@ -122,6 +136,7 @@ class WorldSpec(Value):
         fences: Polygons that the robot stays inside of, every one (inclusion fences).
         known: Obstacles on the map.
         unseen: Obstacles that only the sensor finds.
+        speed_zones: Areas with a lower speed.
     """
 
     bounds: (
@@ -131,76 +146,7 @@ class WorldSpec(Value):
     fences: tuple[Ring, ...] = ()
     known: tuple[Obstacle, ...] = ()
     unseen: tuple[Obstacle, ...] = ()
-
-
-class Lidar(Value):
-    """A scanner that measures the distance along each of its beams.
-
-    Attributes:
-        range_m: The length of a beam [m].
-        fov_deg: The angle that the beams are spread over, half of it to each side of the robot's
-            heading [deg].
-        beams: How many there are, equally spaced.
-        noise_m: The standard deviation of a measured distance [m].
-    """
-
-    range_m: Annotated[Positive, Field(le=FAR)]
-    fov_deg: Annotated[Positive, Field(le=360)] = 360.0
-    beams: Annotated[int, Field(strict=True, ge=1, le=MOST_BEAMS)] = 360
-    noise_m: Annotated[NotNegative, Field(le=FAR)] = 0.0
-
-
-class Sensor(Value):
-    """What finds the obstacles that are not on the map: a range sensor or a lidar.
-
-    Attributes:
-        range_m: It sees every obstacle of which a part is within this distance [m]. None for a
-            lidar.
-        lidar: It sees what its beams hit.
-
-    >>> Sensor(range_m=40).reach, Sensor(lidar={"range_m": 5}).reach
-    (40.0, 5.0)
-    """
-
-    range_m: Annotated[Positive, Field(le=FAR)] | None = None
-    lidar: Lidar | None = None
-
-    @model_validator(mode="after")
-    def _one_range(self) -> Sensor:
-        if self.range_m is None and self.lidar is None:
-            raise PydanticCustomError("no_range", "give range_m or lidar")
-        if self.range_m is not None and self.lidar is not None:
-            raise PydanticCustomError("two_ranges", "give one of range_m and lidar")
-        return self
-
-    @property
-    def reach(self) -> float:
-        """How far it sees [m], whichever it is."""
-        if self.lidar is not None:
-            return self.lidar.range_m
-        assert self.range_m is not None
-        return self.range_m
-
-
-class RobotSpec(Value):
-    """A disc robot, its limits and its sensor.
-
-    Attributes:
-        radius_m: The radius of the body [m]; 0 is a point.
-        clearance_m: Free space kept between the body and every obstacle [m].
-        max_speed_mps: The greatest speed [m/s].
-        max_accel_mps2: The greatest acceleration and braking along the path [m/s²].
-        max_lateral_accel_mps2: The greatest acceleration across the path, v² times curvature
-            [m/s²]. None: no limit.
-        sensor: What finds the obstacles that are not on the map.
-    """
-
-    radius_m: Annotated[NotNegative, Field(le=FAR)] = 0.5
-    clearance_m: Annotated[NotNegative, Field(le=FAR)] = 0.5
-    max_speed_mps: Positive = 2.0
-    max_accel_mps2: Positive = 1.0
-    max_lateral_accel_mps2: Positive | None = None
-    sensor: Sensor | None = None
+    speed_zones: tuple[SpeedZone, ...] = ()
 
 
 def _as_mapping(value: Any) -> Any:
@@ -237,6 +183,30 @@ Via = Annotated[ViaPoint, BeforeValidator(_as_mapping, json_schema_input_type=Po
 End = Annotated[EndPoint, BeforeValidator(_as_mapping, json_schema_input_type=Point | EndPoint)]
 
 
+CorridorRow = Annotated[
+    tuple[Coordinate, Coordinate, NotNegative, NotNegative], BeforeValidator(plain)
+]
+
+
+class Corridor(Value):
+    """A strip that the path stays inside of: a lane, a race track, the strip along a pipeline.
+
+    Attributes:
+        left_m: How far it reaches to the left of the polyline through the route's points [m].
+        right_m: How far it reaches to the right of it [m].
+        line: In place of both, the middle line with its widths: ``[[x, y, right, left], ...]``
+            [m], in the direction of driving. Along a closed route it is closed.
+        csv: In place of ``line``, a file with its rows, relative to the mission's.
+    """
+
+    left_m: Annotated[Positive, Field(le=FAR)] | None = None
+    right_m: Annotated[Positive, Field(le=FAR)] | None = None
+    line: Annotated[tuple[CorridorRow, ...], Field(min_length=2), BeforeValidator(plain)] | None = (
+        None
+    )
+    csv: Annotated[Name, BeforeValidator(as_text)] | None = None
+
+
 class Route(Value):
     """Start, via points in order, goal.
 
@@ -247,6 +217,8 @@ class Route(Value):
         closed: Whether the path comes back to its start; then there is no goal.
         order: ``given``, or ``shortest``: the via points are served in the order that makes the
             round short.
+        laps: How often a closed route is driven.
+        corridor: A strip that the path stays inside of.
     """
 
     start: End
@@ -254,6 +226,8 @@ class Route(Value):
     goal: End | None = None
     closed: Annotated[bool, Field(strict=True)] = False
     order: Literal["given", "shortest"] = "given"
+    laps: Annotated[int, Field(strict=True, ge=1, le=MOST_LAPS)] = 1
+    corridor: Corridor | None = None
 
     def points(self) -> Iterator[tuple[str, ViaPoint]]:
         """Every point of the route in order, with its key in the mission file."""
@@ -269,14 +243,16 @@ class SplineSpec(Value):
 
     Attributes:
         tension: Eq. (7)'s t: 1 is the polyline, 0 Catmull-Rom, -1 loose. One number, or one for
-            each span between the points of the route.
+            each span between the points of the route, or ``auto`` for what is advised.
         slack: The same by its other name, s = (1 - t) / 2. Give one of the two.
         knots: How far apart the points are in parameter: equally, by the root of their distance,
             by their distance.
         tangents: ``cardinal``, or ``continuous`` for continuous curvature (Nielson's nu-spline).
     """
 
-    tension: Number | Annotated[tuple[Number, ...], BeforeValidator(plain)] | None = None
+    tension: (
+        Number | Annotated[tuple[Number, ...], BeforeValidator(plain)] | Literal["auto"] | None
+    ) = None
     slack: Number | Annotated[tuple[Number, ...], BeforeValidator(plain)] | None = None
     knots: Literal["uniform", "centripetal", "chordal"] = "chordal"
     tangents: Literal["cardinal", "continuous"] = "cardinal"

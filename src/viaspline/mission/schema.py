@@ -9,23 +9,37 @@ from typing import Any, Final
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import (
     Circle,
+    Corridor,
     EndPoint,
-    Lidar,
     MapSpec,
     Obstacle,
-    RobotSpec,
     Route,
-    Sensor,
+    SpeedZone,
     SplineSpec,
     ViaPoint,
     WorldSpec,
 )
+from viaspline.mission.robot_parts import (
+    Ackermann,
+    Differential,
+    Drive,
+    Lidar,
+    Localization,
+    RobotSpec,
+    Sensor,
+    SkidSteer,
+)
 
 _DOCUMENTED: Final = (
-    Mission, WorldSpec, Obstacle, Circle, MapSpec, RobotSpec, Sensor, Lidar, Route, ViaPoint,
-    EndPoint, SplineSpec,
+    Mission, WorldSpec, Obstacle, Circle, MapSpec, SpeedZone, RobotSpec, Drive, Differential,
+    Ackermann, SkidSteer, Localization, Sensor, Lidar, Route, ViaPoint, EndPoint, Corridor,
+    SplineSpec,
 )  # fmt: skip
 
+_ONE_OF: Final = {
+    "Sensor": ("range_m", "lidar"),
+    "Drive": ("differential", "ackermann", "skid_steer"),
+}
 _ATTRIBUTE: Final = re.compile(r"^    (\w+): (.*(?:\n        .*)*)", re.MULTILINE)
 
 
@@ -47,8 +61,9 @@ def json_schema() -> dict[str, Any]:
     obstacle = schema["$defs"]["Obstacle"]
     obstacle["oneOf"] = [{"required": ["circle"]}, {"required": ["polygon"]}]
     obstacle["dependentRequired"] = {"holes": ["polygon"]}
-    sensor = schema["$defs"]["Sensor"]
-    sensor["oneOf"] = [{"required": ["range_m"]}, {"required": ["lidar"]}]
+    for name, kinds in _ONE_OF.items():
+        schema["$defs"][name]["oneOf"] = [{"required": [key]} for key in kinds]
+    schema["$defs"]["RobotSpec"]["not"] = {"required": ["radius_m", "footprint"]}
     spline = schema["$defs"]["SplineSpec"]
     spline["not"] = {"required": ["tension", "slack"]}
     _limit(spline["properties"]["tension"], {"maximum": 1})
@@ -71,6 +86,8 @@ def _add_maps(schema: dict[str, Any]) -> None:
 def _limit(prop: dict[str, Any], limit: dict[str, float]) -> None:
     """Limit the numbers of "one number, or a list of them"."""
     for choice in prop["anyOf"]:
+        if choice.get("const"):
+            continue
         if choice["type"] == "number":
             choice.update(limit)
         elif choice["type"] == "array":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
@@ -61,6 +61,10 @@ def _is_other_branch(detail: ErrorDetails, path: Path) -> bool:
     """Whether this is the error of the branch of "a number or a list" that wasn't meant."""
     if path not in (("spline", "tension"), ("spline", "slack")):
         return False
+    if detail["type"] == "literal_error":
+        return not isinstance(detail["input"], str)
+    if isinstance(detail["input"], str):
+        return detail["type"] == "tuple_type" or path == ("spline", "tension")
     found_list = isinstance(detail["input"], list | tuple) or hasattr(detail["input"], "tolist")
     return detail["type"] == ("float_type" if found_list else "tuple_type")
 
@@ -84,12 +88,8 @@ def _flaw(detail: ErrorDetails, path: Path) -> Flaw:
         return Flaw((*path[:-1], str(key)), problem, "keys are words such as route", at_key=True)
     if kind == "missing":
         return _missing(path, found)
-    if kind == "no_range":
-        remedy = "give range_m: 40, or lidar: {range_m: 5}"
-        return Flaw((*path, "range_m"), "is missing", remedy)
-    if kind == "two_ranges":
-        problem = "the sensor has two ranges, range_m and a lidar's"
-        return Flaw((*path, "range_m"), problem, "keep one of range_m and lidar", at_key=True)
+    if kind in ("none_of", "two_of"):
+        return _one_of(path, kind, detail["ctx"]["keys"])
     if kind == "finite_number":
         problem = f"{describe(found)} is not a place or a size"
         return Flaw(path, problem, f"it should be {expectation(path)}")
@@ -103,6 +103,16 @@ def _flaw(detail: ErrorDetails, path: Path) -> Flaw:
     if kind in ("too_short", "too_long"):
         return _wrong_length(path, found)
     return Flaw(path, f"found {describe(found)}", _remedy(path, found))
+
+
+def _one_of(path: Path, kind: str, keys: Sequence[str]) -> Flaw:
+    """None or several of keys of which one is to be given."""
+    both = ", ".join(keys[:-1]) + " and " + keys[-1]
+    if kind == "two_of":
+        name = field_of(path)
+        problem = f"{name} has {both}, which exclude each other"
+        return Flaw((*path, keys[0]), problem, f"keep one of {both}", at_key=True)
+    return Flaw(path, f"has none of {both}", f"it should be {expectation(path)}")
 
 
 def _remedy(path: Path, found: Any) -> str:

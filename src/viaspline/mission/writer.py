@@ -17,7 +17,7 @@ from viaspline.mission.parts import Obstacle, WorldSpec
 
 _WORD: Final = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _RESERVED: Final = frozenset({"true", "false", "null", "yes", "no", "on", "off", "y", "n"})
-_ONE_PER_LINE: Final = frozenset({"known", "unseen", "fences", "via"})
+_ONE_PER_LINE: Final = frozenset({"known", "unseen", "fences", "speed_zones", "via"})
 
 
 def write_yaml(mission: Mission, path: str | Path) -> None:

@@ -121,7 +121,7 @@ def _moving(axes: Axes, pixels_per_metre: float, run: Run) -> tuple[Line2D, Line
     (path,) = axes.plot([], [], color=style.SENSOR, linewidth=1.8, zorder=8, label="path")
     (trail,) = axes.plot([], [], color=style.PATH, linewidth=2.8, zorder=9, label="driven",
                          solid_capstyle="round")  # fmt: skip
-    size = max(run.plan.mission.robot.radius_m, 5.0 / pixels_per_metre)
+    size = max(run.plan.mission.robot.outer_radius, 5.0 / pixels_per_metre)
     robot = Circle((0, 0), size, facecolor=style.UNSEEN, edgecolor=style.INK, linewidth=0.8,
                    zorder=30, label="robot")  # fmt: skip
     axes.add_artist(robot)

@@ -54,7 +54,7 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     _fill_strips(sheet, plan)
     column = Column(sheet)
     column.legend(handles)
-    close_up(column, scene, plan.path, plan.certificate, plan.mission.robot.radius_m)
+    close_up(column, scene, plan.path, plan.certificate, plan.mission.robot.outer_radius)
     return png(sheet.figure)
 
 

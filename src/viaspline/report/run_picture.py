@@ -71,7 +71,7 @@ def run_picture(run: Run, name: str) -> bytes:
             scene,
             run.path,
             run.certificate,
-            mission.robot.radius_m,
+            mission.robot.outer_radius,
             echoes(run) if scans else None,
         )
     column.notes("Under way", column_notes)

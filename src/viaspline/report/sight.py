@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch, PathPatch, Polygon, Rectangle
 
-from viaspline.mission.parts import Lidar, Obstacle
+from viaspline.mission.parts import Obstacle
+from viaspline.mission.robot_parts import Lidar
 from viaspline.report import style
 from viaspline.report.drawing import Floats, outline, shape_of
 from viaspline.report.ground import Ground, Tone

@@ -8,7 +8,8 @@ from itertools import pairwise
 
 from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle, Sensor
+from viaspline.mission.parts import Obstacle
+from viaspline.mission.robot_parts import Sensor
 from viaspline.report.units import metres
 
 MAPS = 4  # in the words about a world, before the rest is only counted
@@ -17,6 +18,7 @@ MAPS = 4  # in the words about a world, before the rest is only counted
 def tension(mission: Mission) -> float | list[float]:
     """Eq. (7)'s tension, whichever of its two names the mission uses; 0 when it uses none."""
     spline = mission.spline
+    assert spline.tension != "auto", "a plan's mission has the tension that was advised"
     if spline.tension is not None:
         return list(spline.tension) if isinstance(spline.tension, tuple) else spline.tension
     if spline.slack is None:

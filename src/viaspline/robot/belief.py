@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.path import Path
-from viaspline.mission.parts import Obstacle, RobotSpec
+from viaspline.mission.parts import Obstacle
+from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.echoes import Echoes
 from viaspline.robot.lidar import Scan
 from viaspline.robot.views import Views
@@ -76,13 +77,13 @@ class Belief:
         """
         assert robot.sensor is not None and robot.sensor.lidar is not None  # noqa: PT018
         lidar = robot.sensor.lidar
-        required = robot.radius_m + robot.clearance_m
+        required = robot.outer_radius + robot.clearance_m
         grain = float(np.clip(GRAIN * required, FINEST, COARSEST)) + lidar.noise_m
         stop = robot.max_speed_mps**2 / (2.0 * robot.max_accel_mps2)
         ahead = AHEAD * stop + 2.0 * required
         views = Views(near=2.0 * ahead, apart=max(required, 4.0 * grain), noise=lidar.noise_m)
         echoes = Echoes.none(grain, lidar.noise_m)
-        return cls(world, world, echoes, views, robot.radius_m, ahead, world)
+        return cls(world, world, echoes, views, robot.outer_radius, ahead, world)
 
     def with_scan(self, scan: Scan) -> tuple[Belief, News]:
         """What is known after one more scan, and what is new about it."""

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.kernels.raycast import cast
-from viaspline.mission.parts import Lidar, Obstacle
+from viaspline.mission.parts import Obstacle
+from viaspline.mission.robot_parts import Lidar
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]

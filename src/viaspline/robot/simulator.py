@@ -155,7 +155,7 @@ def _quiet(
 
 def _contact(nav: Navigator, world: World, times: Floats) -> Event | None:
     """The first touch of the body while it follows its path over some times [s]."""
-    radius = nav.mission.robot.radius_m
+    radius = nav.mission.robot.outer_radius
     distances = np.asarray(nav.trajectory.distance_at(times))
     gaps = world.distance(nav.path.at_distance(distances)) - radius
     steps = np.diff(distances, prepend=distances[0])
@@ -194,7 +194,7 @@ def _run(drive: _Drive, world: World, step: float) -> Run:
         reason=reason,
         duration=drive.end,
         path=path,
-        certificate=certify(path, world, robot.clearance_m, radius=robot.radius_m),
+        certificate=certify(path, world, robot.clearance_m, radius=robot.outer_radius),
         times=times,
         positions=np.asarray(path.evaluate(u)),
         headings=np.asarray(path.heading(u)),

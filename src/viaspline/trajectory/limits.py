@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from viaspline.errors import GeometryError
-from viaspline.mission.parts import RobotSpec
+from viaspline.mission.robot_parts import RobotSpec
 
 REACTION = 0.1
 """Longest time between two looks of the sensor for which speeds are planned [s]."""
@@ -52,7 +52,7 @@ class Limits:
         """
         top = robot.max_speed_mps
         if robot.sensor is not None:
-            room = _room_to_stop(robot.sensor.reach, robot.radius_m, robot.clearance_m)
+            room = _room_to_stop(robot.sensor.reach, robot.outer_radius, robot.clearance_m)
             top = min(top, stopping_speed(room, robot.max_accel_mps2, reaction))
         return cls(
             max_speed=top,
