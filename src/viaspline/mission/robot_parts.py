@@ -1,0 +1,247 @@
+"""The robot of a mission: its body, its drive, its limits and its sensor."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Final, Literal
+
+from pydantic import Field, model_validator
+
+from viaspline.mission.fields import FAR, NotNegative, Positive, Ring, Value, one_of, two_of
+
+MOST_BEAMS: Final = 100_000
+"""The most beams of a lidar."""
+LONGEST_DELAY: Final = 60.0
+"""The longest delay and the slowest lag of a drive [s]."""
+
+
+class Lidar(Value):
+    """A scanner that measures the distance along each of its beams.
+
+    Attributes:
+        range_m: The length of a beam [m].
+        fov_deg: The angle that the beams are spread over, half of it to each side of the robot's
+            heading [deg].
+        beams: How many there are, equally spaced.
+        noise_m: The standard deviation of a measured distance [m].
+    """
+
+    range_m: Annotated[Positive, Field(le=FAR)]
+    fov_deg: Annotated[Positive, Field(le=360)] = 360.0
+    beams: Annotated[int, Field(strict=True, ge=1, le=MOST_BEAMS)] = 360
+    noise_m: Annotated[NotNegative, Field(le=FAR)] = 0.0
+
+
+class Sensor(Value):
+    """What finds the obstacles that are not on the map: a range sensor or a lidar.
+
+    Attributes:
+        range_m: It sees every obstacle of which a part is within this distance [m]. None for a
+            lidar.
+        lidar: It sees what its beams hit.
+
+    >>> Sensor(range_m=40).reach, Sensor(lidar={"range_m": 5}).reach
+    (40.0, 5.0)
+    """
+
+    range_m: Annotated[Positive, Field(le=FAR)] | None = None
+    lidar: Lidar | None = None
+
+    @model_validator(mode="after")
+    def _one_range(self) -> Sensor:
+        return one_of(self, "range_m", "lidar")
+
+    @property
+    def reach(self) -> float:
+        """How far it sees [m], whichever it is."""
+        if self.lidar is not None:
+            return self.lidar.range_m
+        assert self.range_m is not None
+        return self.range_m
+
+
+class Differential(Value):
+    """Two driven wheels on one axle.
+
+    Attributes:
+        track_m: Distance between the wheels [m].
+        max_wheel_speed_mps: The greatest speed of either wheel [m/s]. None: no limit.
+    """
+
+    track_m: Annotated[Positive, Field(le=FAR)]
+    max_wheel_speed_mps: Positive | None = None
+
+
+class Ackermann(Value):
+    """Steered front wheels, as a bicycle; the reference point is the middle of the rear axle.
+
+    Attributes:
+        wheelbase_m: From the rear axle to the front axle [m].
+        max_steer_deg: The greatest angle of the front wheels [deg].
+        max_steer_rate_degps: How fast they turn [deg/s]. None: no limit.
+    """
+
+    wheelbase_m: Annotated[Positive, Field(le=FAR)]
+    max_steer_deg: Annotated[Positive, Field(lt=90)]
+    max_steer_rate_degps: Positive | None = None
+
+    @property
+    def turn_radius(self) -> float:
+        """The radius of the tightest circle of the reference point [m].
+
+        >>> round(Ackermann(wheelbase_m=2.0, max_steer_deg=45).turn_radius, 9)
+        2.0
+        """
+        return self.wheelbase_m / math.tan(math.radians(self.max_steer_deg))
+
+
+class SkidSteer(Value):
+    """Wheels or tracks on either side that slip when the robot turns.
+
+    Attributes:
+        track_m: Distance between the sides [m].
+        slip: Part of the yaw rate that is lost to slipping.
+        max_wheel_speed_mps: The greatest speed of either side [m/s]. None: no limit.
+    """
+
+    track_m: Annotated[Positive, Field(le=FAR)]
+    slip: Annotated[NotNegative, Field(lt=1)] = 0.0
+    max_wheel_speed_mps: Positive | None = None
+
+
+class Drive(Value):
+    """What moves the robot, and how far from perfect that is in the simulator.
+
+    Attributes:
+        differential: Two driven wheels.
+        ackermann: Steered front wheels.
+        skid_steer: Two slipping sides.
+        delay_s: Time from a command to its effect [s].
+        lag_s: Time constant with which speed and turn follow a command [s].
+        speed_noise_mps: Standard deviation of the speed that is driven [m/s].
+        yaw_rate_noise_degps: Standard deviation of the yaw rate that is driven [deg/s].
+    """
+
+    differential: Differential | None = None
+    ackermann: Ackermann | None = None
+    skid_steer: SkidSteer | None = None
+    delay_s: Annotated[NotNegative, Field(le=LONGEST_DELAY)] = 0.0
+    lag_s: Annotated[NotNegative, Field(le=LONGEST_DELAY)] = 0.0
+    speed_noise_mps: NotNegative = 0.0
+    yaw_rate_noise_degps: NotNegative = 0.0
+
+    @model_validator(mode="after")
+    def _one_kind(self) -> Drive:
+        return one_of(self, "differential", "ackermann", "skid_steer")
+
+
+class Localization(Value):
+    """How well the robot knows where it is, in the simulator.
+
+    Attributes:
+        position_noise_m: Standard deviation of each coordinate that is measured [m].
+        heading_noise_deg: Standard deviation of the heading that is measured [deg].
+    """
+
+    position_noise_m: Annotated[NotNegative, Field(le=FAR)] = 0.0
+    heading_noise_deg: Annotated[NotNegative, Field(le=180)] = 0.0
+
+
+TurnOnSpot = Literal["never", "stations", "vias"]
+
+
+class RobotSpec(Value):
+    """The robot's body, its drive, its limits and its sensor.
+
+    Attributes:
+        radius_m: The radius of the body if it is a disc [m]; 0 is a point.
+        footprint: The body if it is a polygon: corners ``[[x, y], ...]`` about the reference
+            point, x forward and y left [m].
+        clearance_m: Free space kept between the body and every obstacle [m].
+        min_turn_radius_m: The radius of the tightest circle that the reference point can drive
+            [m]. None: what the drive says; without a drive the path may turn as sharply as it
+            likes.
+        turn_on_spot: Where the robot may stand and turn: ``never``, at ``stations`` (via points
+            with a dwell), or at all ``vias``. None: never with steered wheels, else at stations.
+        max_speed_mps: The greatest speed [m/s].
+        max_accel_mps2: The greatest acceleration along the path [m/s²].
+        max_brake_mps2: The greatest deceleration along the path [m/s²]. None: as the acceleration.
+        max_lateral_accel_mps2: The greatest acceleration across the path, v² times curvature
+            [m/s²]. None: no limit.
+        max_yaw_rate_degps: The greatest yaw rate [deg/s]. None: no limit.
+        max_yaw_accel_degps2: The greatest change of the yaw rate [deg/s²]. None: no limit.
+        max_jerk_mps3: The greatest change of the acceleration along the path [m/s³]. None: no
+            limit.
+        drive: What moves it. None: a point that follows its path exactly.
+        localization: How well it knows where it is. None: exactly.
+        tracking_error_m: How far beside its path the robot may get [m]; the path keeps that much
+            more. None: as far as it gets on a trial drive; nothing if it follows exactly.
+        sensor: What finds the obstacles that are not on the map.
+    """
+
+    radius_m: Annotated[NotNegative, Field(le=FAR)] = 0.5
+    footprint: Ring | None = None
+    clearance_m: Annotated[NotNegative, Field(le=FAR)] = 0.5
+    min_turn_radius_m: Annotated[Positive, Field(le=FAR)] | None = None
+    turn_on_spot: TurnOnSpot | None = None
+    max_speed_mps: Positive = 2.0
+    max_accel_mps2: Positive = 1.0
+    max_brake_mps2: Positive | None = None
+    max_lateral_accel_mps2: Positive | None = None
+    max_yaw_rate_degps: Positive | None = None
+    max_yaw_accel_degps2: Positive | None = None
+    max_jerk_mps3: Positive | None = None
+    drive: Drive | None = None
+    localization: Localization | None = None
+    tracking_error_m: Annotated[NotNegative, Field(le=FAR)] | None = None
+    sensor: Sensor | None = None
+
+    @model_validator(mode="after")
+    def _one_body(self) -> RobotSpec:
+        if self.footprint is not None and "radius_m" in self.model_fields_set:
+            raise two_of("radius_m", "footprint")
+        return self
+
+    @property
+    def inner_radius(self) -> float:
+        """The radius of the largest disc about the reference point that the body contains [m].
+
+        >>> RobotSpec(footprint=[(-1, -0.8), (3, -0.8), (3, 0.8), (-1, 0.8)]).inner_radius
+        0.8
+        """
+        if self.footprint is None:
+            return self.radius_m
+        return min(
+            _distance_to_edge(a, b)
+            for a, b in zip(self.footprint, (*self.footprint[1:], self.footprint[0]), strict=True)
+        )
+
+    @property
+    def outer_radius(self) -> float:
+        """The radius of the smallest disc about the reference point that contains the body [m]."""
+        if self.footprint is None:
+            return self.radius_m
+        return max(math.hypot(x, y) for x, y in self.footprint)
+
+    @property
+    def turn_radius(self) -> float | None:
+        """The radius of the tightest circle that it can drive [m]; None if it has no limit."""
+        steered = None if self.drive is None else self.drive.ackermann
+        radii = [self.min_turn_radius_m, None if steered is None else steered.turn_radius]
+        return max((radius for radius in radii if radius is not None), default=None)
+
+    @property
+    def turns_on_spot(self) -> TurnOnSpot:
+        """Where it may stand and turn."""
+        if self.turn_on_spot is not None:
+            return self.turn_on_spot
+        steered = self.drive is not None and self.drive.ackermann is not None
+        return "never" if steered else "stations"
+
+
+def _distance_to_edge(a: tuple[float, float], b: tuple[float, float]) -> float:
+    """The distance of the origin from a segment [m]."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    length = dx * dx + dy * dy
+    w = 0.0 if length == 0.0 else min(max(-(a[0] * dx + a[1] * dy) / length, 0.0), 1.0)
+    return math.hypot(a[0] + w * dx, a[1] + w * dy)
