@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import SplineSpec
+from viaspline.mission.robot_parts import TurnOnSpot
 
 LEAST = 1e-5  # what even a point without clearance keeps, so that touching is not crossing [m]
 
@@ -19,25 +20,51 @@ class Brief:
         clearance: Free space kept between the body and every obstacle [m].
         spline: Tension, knots and tangents.
         goal_heading_deg: Heading with which the path arrives at the goal [deg]; None if it is free.
+        footprint: The body if it is a polygon: its corners, x forward and y left [m]; ``radius``
+            is that of the largest disc in it then.
+        tracking_error: How far beside its path the robot may get [m]; kept in addition.
+        turn_radius: The radius of the tightest circle that the robot can drive [m]; None if it
+            has no limit.
+        turns_on_spot: Where it may stand and turn.
     """
 
     radius: float
     clearance: float
     spline: SplineSpec = field(default_factory=SplineSpec)
     goal_heading_deg: float | None = None
+    footprint: tuple[tuple[float, float], ...] | None = None
+    tracking_error: float = 0.0
+    turn_radius: float | None = None
+    turns_on_spot: TurnOnSpot = "stations"
+
+    @property
+    def kept(self) -> float:
+        """Free space that the body on the path keeps, so that the driven one has its clearance."""
+        return self.clearance + self.tracking_error
 
     @property
     def required(self) -> float:
         """Distance that the path itself keeps from every obstacle [m]."""
-        return max(self.radius + self.clearance, LEAST)
+        return max(self.radius + self.kept, LEAST)
 
     @classmethod
-    def of(cls, mission: Mission) -> Brief:
-        """The brief of a mission."""
+    def of(cls, mission: Mission, tracking_error: float = 0.0) -> Brief:
+        """The brief of a mission.
+
+        Args:
+            mission: What is asked for.
+            tracking_error: How far beside its path the robot gets, if the mission doesn't say [m].
+        """
         robot, goal = mission.robot, mission.route.goal
         return cls(
             radius=robot.inner_radius,
             clearance=robot.clearance_m,
             spline=mission.spline,
             goal_heading_deg=None if goal is None else goal.heading_deg,
+            footprint=robot.footprint,
+            tracking_error=(
+                tracking_error if robot.tracking_error_m is None else robot.tracking_error_m
+            ),
+            turn_radius=robot.turn_radius,
+            turns_on_spot=robot.turns_on_spot,
         )

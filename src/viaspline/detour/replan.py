@@ -66,7 +66,7 @@ def reflex(path: Path, at: float, world: World, brief: Brief) -> Detoured:
     u = float(path.parameter(at))
     blocked = _blocked_spans(path, u, world, brief)
     if not blocked.size:
-        certificate = certify(_ahead(path, u), world, brief.clearance, radius=brief.radius)
+        certificate = certify(_ahead(path, u), world, brief.kept, radius=brief.radius)
         return replace(_result(path, at, certificate, None), rejoins_at=at)
     users = [via for via in path.vias if via.kind == "user"]
     narrow = _stretch(path.vias, users, u, blocked)
@@ -120,7 +120,7 @@ def from_rest(
     head = _head(path, u)
     vias = (*_vias_until(path, u, len(head)), *path_vias(cleared, len(head)))
     new = Path(np.concatenate((head, spans)), vias)
-    certificate = certify(PiecewiseCubic(spans), world, brief.clearance, radius=brief.radius)
+    certificate = certify(PiecewiseCubic(spans), world, brief.kept, radius=brief.radius)
     return _result(new, at, certificate, account)
 
 
@@ -165,7 +165,7 @@ def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: floa
     new = Path(np.concatenate(pieces), vias)
     leaving = float(new.distance(float(len(head))))
     certificate = certify(
-        PiecewiseCubic(new.spans[len(head) :]), world, brief.clearance, radius=brief.radius
+        PiecewiseCubic(new.spans[len(head) :]), world, brief.kept, radius=brief.radius
     )
     back_at = None if rejoin is None else float(new.distance(float(rejoin)))
     return _result(new, leaving, certificate, account, back_at)

@@ -62,7 +62,7 @@ def find_path(course: Course, world: World, brief: Brief) -> Detoured:
     """
     cleared, spans, account = clear_course(course, world, brief)
     path = Path(spans, path_vias(cleared))
-    certificate = certify(path, world, brief.clearance, radius=brief.radius)
+    certificate = certify(path, world, brief.kept, radius=brief.radius)
     return Detoured(path, certificate, account)
 
 
