@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from viaspline.curve.arguments import Floats, frozen, working_copy
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.curve.tangents import ALPHA, RULES
+from viaspline.curve.tangents import ALPHA, PIECES, RULES
 from viaspline.errors import GeometryError
 from viaspline.kernels.tangents import knot_spacing
 
@@ -42,7 +42,7 @@ class CardinalSpline(PiecewiseCubic):
             tension is 1.
         end_heading: Direction at the end, likewise.
         tangents: ``"cardinal"``, or ``"continuous"`` for curvature that does not jump at the via
-            points: see ``viaspline.curve.tangents``.
+            points, with three cubics between them: see ``viaspline.curve.tangents``.
 
     Raises:
         GeometryError: When an argument makes no sense; it is named, with what would be right.
@@ -86,6 +86,7 @@ class CardinalSpline(PiecewiseCubic):
                 f"knots = {knots!r} one of {list(ALPHA)}"
             ) from None
         self._alpha = alpha
+        self._pieces = PIECES[tangents]
         spans = rule(
             self._points, alpha, self._slack, start, end, has_start, has_end, bool(closed)
         )  # fmt: skip
@@ -93,27 +94,38 @@ class CardinalSpline(PiecewiseCubic):
 
     @property
     def points(self) -> Floats:
-        """The via points [m], shape (n, d), read-only; via point i is at u = i."""
+        """The via points [m], shape (n, d), read-only; see ``via_parameters``."""
         return frozen(self._points)
 
     @property
+    def via_parameters(self) -> Floats:
+        """Parameters u of the via points, shape (n,), read-only.
+
+        Example:
+            >>> CardinalSpline([(0, 0), (1, 1), (2, 0)], tangents="continuous").via_parameters
+            array([0., 3., 6.])
+        """
+        return frozen(self._pieces * np.arange(float(len(self._points))))
+
+    @property
     def slack(self) -> Floats:
-        """Slack of every span, shape (m,), read-only."""
+        """Slack from every via point to the next, shape (n - 1,) or (n,), read-only."""
         return frozen(self._slack)
 
     @property
     def tension(self) -> Floats:
-        """Tension of every span, shape (m,), read-only."""
+        """Tension from every via point to the next, shape (n - 1,) or (n,), read-only."""
         return frozen(1.0 - 2.0 * self._slack)
 
     @cached_property
     def _family_knots(self) -> Floats:
-        spacing = knot_spacing(self._points, self._alpha, self._closed)
+        spacing = knot_spacing(self._points, self._alpha, self._closed) / self._pieces
+        spacing = np.repeat(spacing, self._pieces)
         return frozen(np.concatenate(([0.0], np.cumsum(spacing))))
 
     @property
     def knots(self) -> Floats:
-        """Parameters of the via points in which the curve is C1, shape (m + 1,), read-only."""
+        """Parameters of the joints in which the curve is C1, shape (m + 1,), read-only."""
         return self._family_knots
 
 

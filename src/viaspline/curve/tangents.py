@@ -1,7 +1,7 @@
 """The tangent rules of the cardinal family, as pure functions from via points to spans.
 
-A rule decides only the velocity at each via point; what follows is the same piecewise cubic. All
-of them take the same arguments, and reduce to the polyline at slack 0.
+All of them take the same arguments, give the same velocities at the via points, and reduce to the
+polyline at slack 0.
 """
 
 from __future__ import annotations
@@ -70,32 +70,22 @@ def continuous(
     has_end: bool,
     closed: bool,
 ) -> Floats:
-    r"""Tangents that make curvature continuous: Nielson's nu-spline.
+    r"""Cardinal tangents, and the parabola's curvature: three C2 cubics a span.
 
-    Curvature is :math:`|P' \times P''| / |P'|^3`. P' is continuous, so curvature is as well when
-    the jump of P'' points along P': :math:`P''(T_i^+) - P''(T_i^-) = \nu_i P'(T_i)`. On a cubic
-    with end velocities V and slope d,
+    The velocities are those of ``cardinal``. The second derivative at a via point is that of the
+    same parabola, :math:`A_i = 2 (d_i - d_{i-1}) / (h_{i-1} + h_i)`, times :math:`(2 s_k)^2` on
+    span k, as the velocity is taken times :math:`2 s_k`. So the curvature at a via point,
+    :math:`|V_i \times A_i| / |V_i|^3`, is the parabola's on both sides whatever the tensions:
+    it is continuous there, and it stays as it is when a span is pulled taut. In between, three
+    cubics on thirds of the span's knots take over position, velocity and second derivative from
+    both ends, which one cubic has no room for; they are C2, and the only ones.
 
-    .. math:: P''(T_i^+) = (6 d_i - 4 V_i - 2 V_{i+1}) / h_i, \quad
-              P''(T_i^-) = (2 V_{i-1} + 4 V_i - 6 d_{i-1}) / h_{i-1}.
+    The rule is as local as the cardinal one: moving a via point changes the two spans on either
+    side of it. An open end has curvature 0, with a given direction as well.
 
-    Half the condition, times :math:`h_{i-1} h_i / (h_{i-1} + h_i)`, with
-    :math:`a_i = h_i / (h_{i-1} + h_i)`:
-
-    .. math:: a_i V_{i-1} + f_i V_i + (1 - a_i) V_{i+1}
-              = 3 (a_i d_{i-1} + (1 - a_i) d_i), \quad
-              f_i = 2 + \frac{\nu_i}{2} \frac{h_{i-1} h_i}{h_{i-1} + h_i}.
-
-    Tension t at a via point (the mean of its two spans) means :math:`f = (2 - t) / (1 - t)`:
-    :math:`\nu = 0` and the C2 cubic spline at t = 0, the polyline at t = 1, and a factor above 1
-    for every t below, so that the system is always diagonally dominant. It is solved divided by
-    f, with :math:`1/f = 2 s / (1 + 2 s)`, so that t = 1 is no special case.
-
-    An open end has curvature 0: :math:`f V_0 + V_1 = 3 d_0`, the natural end at t = 0. A given
-    direction fixes the end's velocity as in ``cardinal``. Other than there, moving one point
-    moves the whole curve, less and less away from it.
-
-    Source: G. M. Nielson, Some piecewise polynomial alternatives to splines under tension (1974).
+    Source: quintic spans with second derivatives taken from the neighbours are due to C. Sprunk,
+    Planning Motion Trajectories for Mobile Robots Using Splines (2008); here the spans stay
+    cubic, and the second derivative is the one that belongs to the cardinal tangent.
 
     Args:
         points: Via points [m], (n, d), n >= 2.
@@ -108,7 +98,7 @@ def continuous(
         closed: Whether the last point is followed by the first.
 
     Returns:
-        Bézier control polygons [m], (m, 4, d).
+        Bézier control polygons [m], (3 m, 4, d).
     """
     return kernels.continuous_spans(
         points, alpha, slack, start, end, has_start, has_end, closed
@@ -118,3 +108,6 @@ def continuous(
 RULES: MappingProxyType[str, Rule] = MappingProxyType(
     {"cardinal": cardinal, "continuous": continuous}
 )
+
+PIECES: MappingProxyType[str, int] = MappingProxyType({"cardinal": 1, "continuous": 3})
+"""Cubics of each rule from one via point to the next."""

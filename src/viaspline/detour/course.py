@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.curve.tangents import ALPHA, RULES
+from viaspline.curve.tangents import ALPHA, PIECES, RULES
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import SplineSpec
@@ -79,9 +79,14 @@ class Course:
         """The same with another leg."""
         return replace(self, legs=(*self.legs[:index], leg, *self.legs[index + 1 :]))
 
-    def first_spans(self) -> Floats:
+    @property
+    def pieces(self) -> int:
+        """Cubics from one via point to the next, detours counted."""
+        return PIECES[self.spline.tangents]
+
+    def first_spans(self) -> NDArray[np.int64]:
         """Index of every leg's first span, and the number of all spans at the end."""
-        return np.cumsum([0, *(len(leg.slack) for leg in self.legs)])
+        return np.cumsum([0, *(self.pieces * len(leg.slack) for leg in self.legs)])
 
 
 def lay(course: Course) -> Floats:

@@ -8,8 +8,7 @@ is lowered only on the spans that need it, and only as far as they need it.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,26 +92,10 @@ def tighten(course: Course, index: int, world: World, required: float) -> Fitted
 
 
 def _halved(course: Course, index: int, close: NDArray[np.bool_]) -> Course:
-    """Half the slack on some of a leg's spans.
-
-    Tangents of continuous curvature take the mean slack of the two spans at a via point, so there
-    it is halved on the neighbours as well, be they of another leg.
-    """
+    """Half the slack between those via points of a leg between which a span is too close."""
     leg = course.legs[index]
-    if course.spline.tangents != "continuous":
-        return course.with_leg(index, Leg(leg.points, np.where(close, leg.slack / 2, leg.slack)))
-    first = course.first_spans()
-    marked = np.zeros(first[-1] + 2, np.bool_)
-    marked[1 + first[index] + np.flatnonzero(close)] = True
-    near = marked[1:-1] | marked[:-2] | marked[2:]
-    if course.closed:
-        near[0] |= marked[-2]
-        near[-1] |= marked[1]
-    legs = [
-        Leg(other.points, np.where(near[a:b], other.slack / 2, other.slack))
-        for other, (a, b) in zip(course.legs, pairwise(first), strict=True)
-    ]
-    return replace(course, legs=tuple(legs))
+    near = close.reshape(-1, course.pieces).any(axis=1)
+    return course.with_leg(index, Leg(leg.points, np.where(near, leg.slack / 2, leg.slack)))
 
 
 def leg_spans(course: Course, index: int) -> Floats:

@@ -73,10 +73,10 @@ def path_vias(course: Course, first_span: int = 0) -> tuple[PathVia, ...]:
     for k, leg in enumerate(course.legs):
         vias.append(_on_path(course, k, u))
         vias += [
-            PathVia("detour", tuple(point.tolist()), "detour", float(u + j))
+            PathVia("detour", tuple(point.tolist()), "detour", float(u + course.pieces * j))
             for j, point in enumerate(leg.points, start=1)
         ]
-        u += len(leg.slack)
+        u += course.pieces * len(leg.slack)
     if course.closed:
         vias.append(replace(_on_path(course, 0, u), index=len(course.vias)))
     else:

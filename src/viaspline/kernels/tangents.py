@@ -98,99 +98,29 @@ def cardinal_velocities(slopes: Floats, h: Floats, closed: bool, velocities: Flo
 
 
 @inner
-def _solve(lower: Floats, upper: Floats, right: Floats) -> None:
-    """Solve a tridiagonal system with ones on its diagonal, in place of its right side (n, r).
+def parabola_bends(slopes: Floats, h: Floats, closed: bool, bends: Floats) -> None:
+    """Second derivatives of the parabolas through three via points; 0 at an open end.
 
-    Stable without pivoting, because ``lower[i] + upper[i] < 1`` in every row.
-    """
-    count, columns = right.shape
-    above = np.empty(count)
-    above[0] = upper[0]
-    for i in range(1, count):
-        pivot = 1.0 - lower[i] * above[i - 1]
-        above[i] = upper[i] / pivot
-        for c in range(columns):
-            right[i, c] = (right[i, c] - lower[i] * right[i - 1, c]) / pivot
-    for i in range(count - 2, -1, -1):
-        for c in range(columns):
-            right[i, c] -= above[i] * right[i + 1, c]
-
-
-@inner
-def _solve_cyclic(lower: Floats, upper: Floats, right: Floats) -> None:
-    """The same with ``lower[0]`` in the last column and ``upper[-1]`` in the first.
-
-    Sherman and Morrison: A = B + p q', B tridiagonal, p = (-1, 0, ..., 0, upper[-1]) and
-    q = (1, 0, ..., 0, -lower[0]). ``right`` (n, r + 1) has room for p; the rest is used up.
-    """
-    count, columns = right.shape
-    last = count - 1
-    corner = lower[0]
-    for i in range(count):
-        right[i, columns - 1] = 0.0
-    right[0, columns - 1] = -1.0
-    right[last, columns - 1] += upper[last]
-    # the diagonal of B is 2, 1, ..., 1, 1 + product of the corners: its rows are divided by it
-    scale = 1.0 + corner * upper[last]
-    upper[0] /= 2.0
-    lower[last] /= scale
-    for c in range(columns):
-        right[0, c] /= 2.0
-        right[last, c] /= scale
-    _solve(lower, upper, right)
-    bottom = 1.0 + right[0, columns - 1] - corner * right[last, columns - 1]
-    for c in range(columns - 1):
-        factor = (right[0, c] - corner * right[last, c]) / bottom
-        for i in range(count):
-            right[i, c] -= factor * right[i, columns - 1]
-
-
-@inner
-def continuous_velocities(
-    slopes: Floats, h: Floats, slack: Floats, velocities: Floats, fixed: int, closed: bool
-) -> None:
-    """Velocities of Nielson's nu-spline: curvature is continuous at every via point.
-
-    See ``viaspline.curve.tangents.continuous`` for the derivation.
+    ``A_i = 2 (d_i - d_{i-1}) / (h_{i-1} + h_i)`` with the slopes d: together with the velocity of
+    ``cardinal_velocities`` it is the whole second-order behaviour of the parabola.
 
     Args:
         slopes: (p, d), p spans that have a length.
         h: Their knot distances, (p,).
-        slack: Their slack, (p,).
-        velocities: (p + 1, d + 1), filled but for the last column, which is scratch. Where the
-            first or last row is fixed, it holds the velocity already.
-        fixed: 1 when the first row is fixed, 2 when the last one is, 3 when both are.
         closed: Whether the last span is followed by the first; the last row repeats the first.
+        bends: (p + 1, d), filled.
     """
-    spans, dimension = slopes.shape
-    count = spans if closed else spans + 1
-    lower = np.empty(count)
-    upper = np.empty(count)
-    for i in range(spans + 1):
-        velocities[i, dimension] = 0.0
-    for i in range(count):
-        before = max(i - 1, 0) if i > 0 or not closed else spans - 1
-        after = min(i, spans - 1)
-        s = 0.5 * (slack[before] + slack[after])
-        gain = 2.0 * s / (1.0 + 2.0 * s)  # (1 - t) / (2 - t)
-        weight = h[after] / (h[before] + h[after])
-        if not closed and (i == 0 or i == spans):
-            weight = 0.0 if i == 0 else 1.0
-            if fixed & (1 if i == 0 else 2):
-                lower[i] = 0.0
-                upper[i] = 0.0
-                continue
-        lower[i] = gain * weight
-        upper[i] = gain * (1.0 - weight)
-        for axis in range(dimension):
-            mean = slopes[before, axis] * weight + slopes[after, axis] * (1.0 - weight)
-            velocities[i, axis] = 3.0 * gain * mean
-    if closed:
-        _solve_cyclic(lower, upper, velocities[:count])
-        for axis in range(dimension):
-            velocities[spans, axis] = velocities[0, axis]
-    else:
-        _solve(lower, upper, velocities)
+    spans = slopes.shape[0]
+    for axis in range(slopes.shape[1]):
+        bends[0, axis] = 0.0
+        bends[spans, axis] = 0.0
+        for j in range(1, spans):
+            rise = slopes[j, axis] - slopes[j - 1, axis]
+            bends[j, axis] = 2.0 * rise / (h[j - 1] + h[j])
+        if closed:
+            rise = slopes[0, axis] - slopes[spans - 1, axis]
+            bends[0, axis] = 2.0 * rise / (h[spans - 1] + h[0])
+            bends[spans, axis] = bends[0, axis]
 
 
 @inner
@@ -267,6 +197,51 @@ def cardinal_spans(
     return _assemble(points, spacing.shape[0], kept, h, velocities)
 
 
+@inner
+def three_cubics(
+    start: Floats, end: Floats, v0: Floats, v1: Floats, a0: Floats, a1: Floats, polygons: Floats
+) -> None:
+    """Three C2 cubics with given ends: a span of continuous second derivative.
+
+    One cubic has no room for position, velocity and second derivative at both ends; three on
+    thirds of the span have just as much as that asks for. With de Boor's points D0 and D1, which
+    the ends give, the two inner joints lie between their neighbours and those of the middle cubic
+    at the thirds of D0 D1.
+
+    Args:
+        start: (d,).
+        end: (d,).
+        v0: First derivative at the start with respect to the span's local parameter, (d,).
+        v1: The same at the end, (d,).
+        a0: Second derivative at the start, (d,).
+        a1: The same at the end, (d,).
+        polygons: (3, 4, d), filled.
+    """
+    for axis in range(start.shape[0]):
+        p1 = start[axis] + v0[axis] / 9.0
+        p2 = start[axis] + v0[axis] / 4.5 + a0[axis] / 54.0
+        q2 = end[axis] - v1[axis] / 9.0
+        q1 = end[axis] - v1[axis] / 4.5 + a1[axis] / 54.0
+        d0 = 2.0 * p2 - p1
+        d1 = 2.0 * q1 - q2
+        m1 = (2.0 * d0 + d1) / 3.0
+        m2 = (d0 + 2.0 * d1) / 3.0
+        first = 0.5 * (p2 + m1)
+        last = 0.5 * (m2 + q1)
+        polygons[0, 0, axis] = start[axis]
+        polygons[0, 1, axis] = p1
+        polygons[0, 2, axis] = p2
+        polygons[0, 3, axis] = first
+        polygons[1, 0, axis] = first
+        polygons[1, 1, axis] = m1
+        polygons[1, 2, axis] = m2
+        polygons[1, 3, axis] = last
+        polygons[2, 0, axis] = last
+        polygons[2, 1, axis] = q1
+        polygons[2, 2, axis] = q2
+        polygons[2, 3, axis] = end[axis]
+
+
 @kernel
 def continuous_spans(
     points: Floats,
@@ -278,21 +253,40 @@ def continuous_spans(
     has_end: bool,
     closed: bool,
 ) -> Floats:
-    """The same by velocities that make curvature continuous; arguments as ``cardinal_spans``."""
+    """The same with continuous curvature, three cubics a span; arguments as ``cardinal_spans``.
+
+    Returns:
+        Bézier control polygons, (3 m, 4, d) [m].
+    """
     spacing = knot_spacing(points, knots_alpha, closed)
     kept, h, slopes = slopes_of(points, spacing)
     last = kept.shape[0] - 1
-    velocities = np.empty((last + 2, points.shape[1] + 1))
-    slack = np.empty(last + 1)
-    for j in range(last + 1):
-        slack[j] = slack_per_span[kept[j]]
+    count, dimension = points.shape
+    velocities = np.empty((last + 2, dimension))
+    bends = np.empty((last + 2, dimension))
     if last >= 0:
-        fixed = 0
+        cardinal_velocities(slopes, h, closed, velocities)
+        parabola_bends(slopes, h, closed, bends)
         if has_start:
-            fixed += 1
-            _aim(velocities[0], start_tangent, slopes[0], 2.0 * slack[0])
+            _aim(velocities[0], start_tangent, slopes[0], 1.0)
         if has_end:
-            fixed += 2
-            _aim(velocities[last + 1], end_tangent, slopes[last], 2.0 * slack[last])
-        continuous_velocities(slopes, h, slack, velocities, fixed, closed)
-    return _assemble(points, spacing.shape[0], kept, h, velocities)
+            _aim(velocities[last + 1], end_tangent, slopes[last], 1.0)
+    polygons = np.empty((3 * spacing.shape[0], 4, dimension))
+    for k in range(spacing.shape[0]):
+        for row in range(3 * k, 3 * k + 3):
+            for i in range(4):
+                for axis in range(dimension):
+                    polygons[row, i, axis] = points[k, axis]
+    v0, v1, a0, a1 = np.empty((4, dimension))
+    for j in range(last + 1):
+        k = kept[j]
+        gain = 2.0 * slack_per_span[k] * h[j]
+        for axis in range(dimension):
+            v0[axis] = gain * velocities[j, axis]
+            v1[axis] = gain * velocities[j + 1, axis]
+            a0[axis] = gain * gain * bends[j, axis]
+            a1[axis] = gain * gain * bends[j + 1, axis]
+        three_cubics(
+            points[k], points[(k + 1) % count], v0, v1, a0, a1, polygons[3 * k : 3 * k + 3]
+        )  # fmt: skip
+    return polygons

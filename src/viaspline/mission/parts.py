@@ -247,7 +247,8 @@ class SplineSpec(Value):
         slack: The same by its other name, s = (1 - t) / 2. Give one of the two.
         knots: How far apart the points are in parameter: equally, by the root of their distance,
             by their distance.
-        tangents: ``cardinal``, or ``continuous`` for continuous curvature (Nielson's nu-spline).
+        tangents: ``cardinal``, or ``continuous`` for continuous curvature, with three cubics between
+            via points.
     """
 
     tension: (

@@ -24,8 +24,8 @@ def curvature_figure() -> bytes:
         "The paper says that curvature is continuous at the via points. For a cardinal spline it "
         "is not: position and heading are continuous, but curvature jumps at every inner via point "
         "(top; the comb stands on the curve, as long as it is bent). The jump is what a robot with "
-        'a steering wheel cannot follow without stopping. With tangents="continuous" (Nielson\'s '
-        "nu-spline, bottom) the same via points give a curve without jumps.",
+        'a steering wheel cannot follow without stopping. With tangents="continuous" '
+        "(bottom) the same via points and tangents give a curve without jumps, less sharply bent.",
         widths=[4.3, 3.9], heights=[2.25, 2.25], left=0.75,
     )  # fmt: skip
     cases = (
@@ -37,6 +37,7 @@ def curvature_figure() -> bytes:
         _comb(left, spline)
         headline(left, f'tangents="{name}": length {spline.length:.1f} m')
         jumps = np.asarray(spline.curvature_jumps())
+        jumps = jumps[np.round(spline.via_parameters[1:-1]).astype(int) - 1]
         tops.append(_plot(right, spline, jumps))
         largest = float(jumps.max())
         words = (
@@ -52,8 +53,8 @@ def curvature_figure() -> bytes:
 
 
 def _pieces(spline: CardinalSpline) -> list[Floats]:
-    """Parameters within each span, its ends as seen from inside."""
-    joints = np.linspace(*spline.domain, len(spline.spans) + 1)
+    """Parameters from via point to via point, which are seen from inside."""
+    joints = spline.via_parameters
     inset = 1e-9 * (joints[-1] - joints[0])
     return [np.linspace(a + inset, b - inset, PER_SPAN) for a, b in pairwise(joints)]
 
