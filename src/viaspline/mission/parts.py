@@ -247,8 +247,7 @@ class SplineSpec(Value):
         slack: The same by its other name, s = (1 - t) / 2. Give one of the two.
         knots: How far apart the points are in parameter: equally, by the root of their distance,
             by their distance.
-        tangents: ``cardinal``, or ``continuous`` for continuous curvature, with three cubics between
-            via points.
+        tangents: ``cardinal``, or ``continuous`` for continuous curvature.
     """
 
     tension: (
