@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.kernels import clearance as kernels
+from viaspline.world.outline import outline
 from viaspline.world.world import World
 
 TOLERANCE = 1e-3  # between the proven bound and the true clearance [m]
@@ -30,6 +34,9 @@ class Certificate:
         tightest_u: The same as a parameter of the curve.
         tightest_distance: The same as a distance along the curve [m].
         obstacle: The name of the obstacle that is nearest there; None when there is none.
+        contact: The point of a polygonal body that is nearest to it then [m]; None for a disc.
+        tightest_heading: The heading of a polygonal body then [rad], which is that of the curve
+            except in a turn on the spot; None for a disc.
     """
 
     clearance: float
@@ -38,6 +45,8 @@ class Certificate:
     tightest_u: float
     tightest_distance: float
     obstacle: str | None
+    contact: tuple[float, float] | None = None
+    tightest_heading: float | None = None
 
     @property
     def holds(self) -> bool:
@@ -45,35 +54,62 @@ class Certificate:
         return self.clearance >= self.required - SPARE
 
 
+class _Bounds(NamedTuple):
+    """What a kernel knows of the smallest distance: bounds [m], where, and what is nearest."""
+
+    lower: float
+    upper: float
+    span: int
+    w: float
+    nearest: int
+    contact: tuple[float, float, float] | None = None
+
+
 def certify(
-    curve: PiecewiseCubic, world: World, clearance: float, *, radius: float = 0.0
+    curve: PiecewiseCubic,
+    world: World,
+    clearance: float,
+    *,
+    radius: float = 0.0,
+    footprint: ArrayLike | None = None,
 ) -> Certificate:
-    """Prove how far the whole continuous curve stays from everything in the world.
+    """Prove how far the body stays from everything in the world along the whole continuous curve.
 
     Pieces of the curve are bounded by their control polygons and halved until the bound is within
     a millimetre of a distance that is really attained: conservative advancement, with a
     second-order step beside obstacles.
 
+    A footprint moves with its x axis along the tangent. Where the tangent jumps (a corner of a
+    polyline, the seam of a closed curve) it turns on the spot, the short way; where the curve
+    turns back, either way round is proven. Where a body overlaps something the clearance is
+    negative: how deep its outline gets, to a quarter.
+
     Args:
         curve: Any piecewise cubic; of a curve in space, its ground track counts.
         world: The obstacles and bounds.
         clearance: What is to be kept free between the body and everything [m].
-        radius: The robot's body, a disc [m].
+        radius: The robot's body, a disc [m]; what a footprint is grown by.
+        footprint: The robot's body, a polygon in its own frame, x forward and y left, (k, 2) [m];
+            see ``viaspline.world.outline``.
 
     Returns:
         A certificate, whether it holds or not: see ``Certificate.holds``.
 
     Raises:
-        GeometryError: When the curve is not in the plane or in space, or clearance or radius is
-            not a finite number.
+        GeometryError: When the curve is not in the plane or in space, clearance or radius is not
+            a finite number, or the footprint is no polygon about the reference point.
 
     Example:
         >>> from viaspline.curve.cardinal import CardinalSpline
         >>> from viaspline.mission.parts import Obstacle
         >>> world = World([Obstacle(circle={"center": (5, 3), "radius": 1})])
-        >>> certificate = certify(CardinalSpline([(0, 0), (5, 0), (10, 0)]), world, 1.0, radius=0.5)
+        >>> curve = CardinalSpline([(0, 0), (5, 0), (10, 0)])
+        >>> certificate = certify(curve, world, 1.0, radius=0.5)
         >>> round(certificate.clearance, 3), certificate.tightest_at, certificate.holds
         (1.5, (5.0, 0.0), True)
+        >>> body = [(-1, -0.5), (3, -0.5), (3, 0.5), (-1, 0.5)]
+        >>> round(certify(curve, world, 1.0, footprint=body).clearance, 2)
+        1.5
     """
     if curve.dimension not in (2, 3):
         raise GeometryError(
@@ -82,24 +118,50 @@ def certify(
     required = float(clearance) + float(radius)
     if not math.isfinite(required):
         raise GeometryError(f"clearance {clearance} and radius {radius} have to be finite")
-    spans = np.array(curve.spans)  # numba compiles read-only arrays once more
-    tolerance = TOLERANCE
-    lower, upper, span, w, index = kernels.tightest(world.packed, spans, tolerance)
-    while math.isinf(lower) and math.isfinite(upper):
-        tolerance *= 10.0
-        lower, upper, span, w, index = kernels.tightest(world.packed, spans, tolerance)
-    for tolerance in (0.01 * TOLERANCE, 0.1 * SPARE):
-        if lower >= required - SPARE or upper < required - SPARE:
-            break
-        finer, upper, span, w, index = kernels.tightest(world.packed, spans, tolerance)
-        lower = max(lower, finer)
-    u = float(span + w)
+    found = _proven(_bounder(curve, world, footprint), required)
+    contact = None if found.nearest == -1 else found.contact
+    u = float(found.span + found.w)
     at = np.asarray(curve.evaluate(u))
     return Certificate(
-        clearance=float(lower) - float(radius),
+        clearance=float(found.lower) - float(radius),
         required=float(clearance),
         tightest_at=tuple(at.tolist()),
         tightest_u=u,
         tightest_distance=float(curve.distance(u)),
-        obstacle=None if index == -1 else world.name(int(index)),
+        obstacle=None if found.nearest == -1 else world.name(int(found.nearest)),
+        contact=None if contact is None else (float(contact[0]), float(contact[1])),
+        tightest_heading=None if contact is None else float(contact[2]),
     )
+
+
+def _bounder(
+    curve: PiecewiseCubic, world: World, footprint: ArrayLike | None
+) -> Callable[[float], _Bounds]:
+    """From a tolerance to bounds of the distance between the body and the world."""
+    spans = np.array(curve.spans)  # numba compiles read-only arrays once more
+    if footprint is None:
+        return lambda tolerance: _Bounds(*kernels.tightest(world.packed, spans, tolerance))
+    from viaspline.kernels.body import body_tightest, end_direction
+
+    body = outline(footprint)
+    arrival = end_direction(spans, True) if curve.closed else math.nan
+
+    def bounds(tolerance: float) -> _Bounds:
+        return _Bounds(*body_tightest(world.packed, spans, body, arrival, tolerance))
+
+    return bounds
+
+
+def _proven(bounds: Callable[[float], _Bounds], required: float) -> _Bounds:
+    """Bounds as tight as they can be had, and as they have to be to tell what is required."""
+    tolerance = TOLERANCE
+    found = bounds(tolerance)
+    while math.isinf(found.lower) and math.isfinite(found.upper):
+        tolerance *= 10.0
+        found = bounds(tolerance)
+    for tolerance in (0.01 * TOLERANCE, 0.1 * SPARE):
+        if found.lower >= required - SPARE or found.upper < required - SPARE:
+            break
+        finer = bounds(tolerance)
+        found = finer._replace(lower=max(found.lower, finer.lower))
+    return found

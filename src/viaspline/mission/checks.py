@@ -25,6 +25,7 @@ def semantic_flaws(draft: Draft) -> list[Flaw]:
     flaws += _sides(draft)
     flaws += _names(draft)
     flaws += _sensor(draft)
+    flaws += _footprint(draft)
     flaws += _route(draft)
     flaws += _same_places(draft)
     flaws += _dimensions(draft)
@@ -99,6 +100,15 @@ def _sensor(draft: Draft) -> list[Flaw]:
     problem = "there are unseen obstacles, but the robot has no sensor to find them"
     remedy = "give robot.sensor: {range_m: 40}, or put them under world.known"
     return [Flaw(("world", "unseen"), problem, remedy, at_key=True)]
+
+
+def _footprint(draft: Draft) -> list[Flaw]:
+    if draft.robot is None or draft.robot.footprint is None:
+        return []
+    from viaspline.mission.footprint import footprint_flaw
+
+    flaw = footprint_flaw(draft.robot.footprint)
+    return [] if flaw is None else [flaw]
 
 
 def _route(draft: Draft) -> list[Flaw]:

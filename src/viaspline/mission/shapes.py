@@ -74,7 +74,7 @@ def shape_flaws(draft: Draft) -> list[Flaw]:
         if obstacle.polygon is not None:
             paths.append((*path, "polygon"))
             shapes.append((obstacle.polygon, obstacle.holes))
-    return flaws + _invalid(paths, shapes)
+    return flaws + polygon_flaws(paths, shapes)
 
 
 def _one_shape(path: Path, obstacle: Obstacle) -> list[Flaw]:
@@ -99,7 +99,10 @@ def _one_shape(path: Path, obstacle: Obstacle) -> list[Flaw]:
     return flaws
 
 
-def _invalid(paths: list[Path], shapes: list[tuple[Corners, Sequence[Corners]]]) -> list[Flaw]:
+def polygon_flaws(
+    paths: Sequence[Path], shapes: Sequence[tuple[Corners, Sequence[Corners]]]
+) -> list[Flaw]:
+    """Polygons that cross themselves or have no area, each at its path."""
     if not shapes:
         return []
     import shapely
@@ -108,7 +111,7 @@ def _invalid(paths: list[Path], shapes: list[tuple[Corners, Sequence[Corners]]])
     # A sound polygon can't have so little area unless its corners are on one line.
     thin = shapely.area(polygons) <= 1e-12 * shapely.length(polygons) ** 2
     flaws = []
-    for i in np.flatnonzero(thin | ~shapely.is_valid(polygons)):
+    for i in np.flatnonzero(thin | ~shapely.is_valid(polygons)).tolist():
         hull = shapely.convex_hull(polygons[i])
         if hull.area <= 1e-12 * hull.length**2:
             problem = "the polygon has no area: its corners lie on one line"

@@ -14,6 +14,7 @@ from viaspline.kernels.groups import group_labels
 from viaspline.kernels.packed import PackedWorld
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle, Side
+from viaspline.world.outline import outline
 from viaspline.world.pack import join, pack
 
 Bounds = tuple[float, float, float, float]
@@ -143,6 +144,54 @@ class World:
         flat, shape = _as_points(points)
         distance: NDArray[np.float64] = kernels.obstacle_distances(self.packed, index, flat)
         return distance.reshape(shape)
+
+    def body_distance(
+        self, positions: ArrayLike, headings: ArrayLike, footprint: ArrayLike
+    ) -> NDArray[np.float64]:
+        """Distance between a body and the world [m], exact but for rounding, in every pose.
+
+        Args:
+            positions: Where the reference point is [m], shape (n, 2) or (2,); a third coordinate
+                plays no part.
+            headings: Where x of the footprint points [rad], anticlockwise from x; shape (n,) or a
+                number.
+            footprint: The body in its own frame, (k, 2) [m]; see ``outline``.
+
+        Returns:
+            Shape (n,), or a scalar array for one position; 0 where the body touches or overlaps
+            something, has something inside of it, or leaves the bounds or a fence; infinite in an
+            empty world.
+
+        Raises:
+            GeometryError: For other shapes, numbers that are not finite, and a footprint that is
+                no body.
+
+        Example:
+            >>> world = World([Obstacle(circle={"center": (5, 0), "radius": 1})])
+            >>> body = [(-1, -0.5), (3, -0.5), (3, 0.5), (-1, 0.5)]
+            >>> world.body_distance([(0, 0), (0, 0), (2, 0)], [0, np.pi, 0], body).round(9)
+            array([1., 3., 0.])
+        """
+        return self.body_nearest(positions, headings, footprint)[0]
+
+    def body_nearest(
+        self, positions: ArrayLike, headings: ArrayLike, footprint: ArrayLike
+    ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """The same and what is nearest to the body, as in ``nearest``."""
+        from viaspline.kernels.body_pose import body_distances
+
+        flat, shape = _as_points(positions)
+        angles = np.asarray(headings, np.float64)
+        if angles.shape not in ((), shape) or not np.isfinite(angles).all():
+            raise GeometryError(
+                f"headings of shape {angles.shape} don't go with {shape} positions, or are not "
+                "finite; give one for each"
+            )
+        poses = np.empty((len(flat), 3))
+        poses[:, :2] = flat
+        poses[:, 2] = angles.ravel()
+        distance, index = body_distances(self.packed, poses, outline(footprint))
+        return distance.reshape(shape), index.reshape(shape)
 
     def groups(self, width: float) -> tuple[tuple[int, ...], ...]:
         """Obstacles too close together for a body of this width [m] to pass between.
