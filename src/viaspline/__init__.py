@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from viaspline.maps.grid import Grid
     from viaspline.mission.load_map import load_map
     from viaspline.mission.model import Mission
-    from viaspline.mission.parts import Obstacle
+    from viaspline.mission.parts import Obstacle, SpeedZone
     from viaspline.planner import Plan, plan
     from viaspline.robot.navigator import Navigator
     from viaspline.robot.run import Run
@@ -67,6 +67,7 @@ _HOMES = {
     "Plan": "planner",
     "RobotState": "robot.state",
     "Run": "robot.run",
+    "SpeedZone": "mission.parts",
     "Station": "trajectory.limits",
     "Trajectory": "trajectory.trajectory",
     "ViasplineError": "errors",

@@ -65,7 +65,12 @@ def plan(mission: Mission) -> Plan:
     world = World.known(mission)
     brief = Brief.of(mission)
     found = find_path(course_of(mission), world, brief)
-    trajectory = retime(found.path, Limits.of(mission.robot), stations(found.path))
+    trajectory = retime(
+        found.path,
+        Limits.of(mission.robot),
+        stations(found.path),
+        zones=mission.world.speed_zones,
+    )
     return Plan(mission, world, found.path, found.certificate, found.account, trajectory)
 
 

@@ -27,7 +27,7 @@ def random_line(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def test_no_feasible_profile_is_faster_than_the_kernels(seed: int) -> None:
     distances, caps, rests = random_line(seed)
     accel = 0.7
-    points, squares, _, missed = speed_profile(distances, caps, rests, accel, 0.0, 0.0)
+    points, squares, _, missed = speed_profile(distances, caps, rests, accel, accel, 0.0, 0.0)
     assert np.isnan(missed)
     # the pointwise largest v² as a linear programme over all the break points
     n = len(points)
@@ -48,7 +48,7 @@ def test_no_feasible_profile_is_faster_than_the_kernels(seed: int) -> None:
 @settings(deadline=None, max_examples=40)
 def test_between_the_break_points_every_limit_is_kept(seed: int) -> None:
     distances, caps, rests = random_line(seed)
-    points, squares, over, _ = speed_profile(distances, caps, rests, 0.7, 0.0, 0.0)
+    points, squares, over, _ = speed_profile(distances, caps, rests, 0.7, 0.7, 0.0, 0.0)
     assert over == distances[0]
     assert np.all(np.diff(points) > 0)
     slopes = np.diff(squares) / np.diff(points)
@@ -60,7 +60,7 @@ def test_between_the_break_points_every_limit_is_kept(seed: int) -> None:
 
 def test_a_start_above_the_caps_brakes_until_it_is_below_them() -> None:
     points, squares, over, missed = speed_profile(
-        np.array([0.0, 10.0]), np.array([1.0]), np.array([False, False]), 1.0, 9.0, 0.0
+        np.array([0.0, 10.0]), np.array([1.0]), np.array([False, False]), 1.0, 1.0, 9.0, 0.0
     )
     assert over == pytest.approx(4.0)
     assert np.isnan(missed)
@@ -71,7 +71,7 @@ def test_a_start_above_the_caps_brakes_until_it_is_below_them() -> None:
 def test_a_start_too_fast_to_come_to_rest_names_the_place() -> None:
     *_, missed = speed_profile(
         np.array([0.0, 4.0, 9.0]), np.array([4.0, 4.0]), np.array([False, True, False]),
-        1.0, 9.0, 0.0,
+        1.0, 1.0, 9.0, 0.0,
     )  # fmt: skip
     assert missed == 4.0
 
@@ -101,7 +101,7 @@ def test_the_cap_of_an_arc_is_below_what_its_curvature_allows(dimension: int, se
     d1, _ = bezier(span, u)
     speed = np.linalg.norm(d1, axis=1)
     along = np.concatenate(([0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(u))))
-    distances, caps, rests = bend_caps(span[None], along[[0, -1]], 0.5, 1.0, 4.0, 1.1)
+    distances, caps, rests = bend_caps(span[None], along[[0, -1]], 0.5, np.inf, 1.0, 4.0, 1.1)
     assert not rests.any()
     assert np.all(np.diff(distances) > 0)
     arc = np.clip(np.searchsorted(distances, along) - 1, 0, len(caps) - 1)
@@ -114,7 +114,7 @@ def test_the_cap_of_an_arc_is_below_what_its_curvature_allows(dimension: int, se
 def test_a_straight_span_is_one_arc_however_far_away() -> None:
     start, end = np.array([1e6, 1e6]), np.array([1e6 + 7.3, 1e6 + 3.1])
     span = start + np.linspace(0, 1, 4)[:, None] * (end - start)
-    distances, caps, rests = bend_caps(span[None], np.array([0.0, 8.0]), 0.5, 1.0, 4.0, 1.1)
+    distances, caps, rests = bend_caps(span[None], np.array([0.0, 8.0]), 0.5, np.inf, 1.0, 4.0, 1.1)
     assert distances.tolist() == [0.0, 8.0]
     assert caps.tolist() == [4.0]
     assert not rests.any()
@@ -123,10 +123,10 @@ def test_a_straight_span_is_one_arc_however_far_away() -> None:
 def test_a_corner_and_a_cusp_are_places_to_rest() -> None:
     line = np.linspace(0, 1, 4)[:, None]
     corner = np.array([line * [3.0, 0.0], [3.0, 0.0] + line * [0.0, 3.0]])
-    distances, _, rests = bend_caps(corner, np.array([0.0, 3.0, 6.0]), 0.5, 1.0, 4.0, 1.1)
+    distances, _, rests = bend_caps(corner, np.array([0.0, 3.0, 6.0]), 0.5, np.inf, 1.0, 4.0, 1.1)
     assert distances[rests].tolist() == [3.0]
     cusp = np.array([[[0.0, 0.0], [2.0, 2.0], [0.0, 2.0], [2.0, 0.0]]])  # P'(1/2) = 0
-    distances, caps, rests = bend_caps(cusp, np.array([0.0, 3.0]), 0.5, 1.0, 4.0, 1.1)
+    distances, caps, rests = bend_caps(cusp, np.array([0.0, 3.0]), 0.5, np.inf, 1.0, 4.0, 1.1)
     assert rests.any()
     assert abs(distances[rests].mean() - 1.5) < 1e-6
     assert np.all(caps > 0)
@@ -135,7 +135,8 @@ def test_a_corner_and_a_cusp_are_places_to_rest() -> None:
 def test_many_arcs_outgrow_the_first_room_that_is_made_for_them() -> None:
     rng = np.random.default_rng(1)
     points = np.cumsum(rng.normal(0, 5, (4, 2)), axis=0)
-    distances, caps, _ = bend_caps(points[None], np.array([0.0, 9.0]), 1e-3, 1.0, 4.0, 1.001)
+    ends = np.array([0.0, 9.0])
+    distances, caps, _ = bend_caps(points[None], ends, 1e-3, np.inf, 1.0, 4.0, 1.001)
     assert len(caps) > 300
     assert len(distances) == len(caps) + 1
     assert distances[-1] == 9.0

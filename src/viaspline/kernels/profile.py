@@ -155,11 +155,19 @@ def _turns(before: Floats, after: Floats, slip: float) -> bool:
 
 @inner
 def _arc_cap(
-    r: Floats, width: float, lateral: float, accel: float, top: float, tolerance: float
+    r: Floats,
+    width: float,
+    lateral: float,
+    turning: float,
+    accel: float,
+    top: float,
+    tolerance: float,
 ) -> tuple[float, bool]:
     """The largest v² on an arc, and whether halving it would not be worth while."""
     bound, least = _curvature_bounds(r, width)
-    cap = min(top, lateral / bound) if bound > 0.0 else top
+    cap = top
+    if bound > 0.0:
+        cap = min(top, lateral / bound, (turning / bound) ** 2)
     if cap >= top or bound <= tolerance * least:
         return cap, True
     longest = 0.0
@@ -178,6 +186,7 @@ def _next_arc(
     stack: Floats,
     depth: int,
     lateral: float,
+    turning: float,
     accel: float,
     top: float,
     tolerance: float,
@@ -192,7 +201,7 @@ def _next_arc(
         depth -= 1
         a, b = stack[depth, 0], stack[depth, 1]
         _restrict(q, a, b, r)
-        cap, fine = _arc_cap(r, b - a, lateral, accel, top, tolerance)
+        cap, fine = _arc_cap(r, b - a, lateral, turning, accel, top, tolerance)
         if fine:
             return depth, a, b, cap, False
         if b - a < 1e-9:
@@ -205,7 +214,13 @@ def _next_arc(
 
 @kernel
 def bend_caps(
-    spans: Floats, joints: Floats, lateral: float, accel: float, top: float, tolerance: float
+    spans: Floats,
+    joints: Floats,
+    lateral: float,
+    turning: float,
+    accel: float,
+    top: float,
+    tolerance: float,
 ) -> tuple[Floats, Floats, Flags]:
     """Split a curve into arcs, each with the largest v² that its curvature allows.
 
@@ -215,7 +230,8 @@ def bend_caps(
     Args:
         spans: Bézier control polygons [m], shape (m, 4, d).
         joints: Distance along the curve of the ends of the spans [m], shape (m + 1,).
-        lateral: Largest v² times curvature [m/s²].
+        lateral: Largest v² times curvature [m/s²], inf for no limit.
+        turning: Largest v times curvature [rad/s], inf for no limit.
         accel: Largest acceleration along the curve [m/s²].
         top: v² that nothing may exceed [m²/s²].
         tolerance: More than 1; the nearer to 1, the more arcs and the faster the profile.
@@ -249,7 +265,7 @@ def bend_caps(
             depth, a, b, cap, cusp = depth - 1, 0.0, 1.0, top, False
             if not is_straight:
                 depth, a, b, cap, cusp = _next_arc(
-                    q, r, stack, depth + 1, lateral, accel, top, tolerance
+                    q, r, stack, depth + 1, lateral, turning, accel, top, tolerance
                 )
             piece = _arc_length(q, a, b)
             if piece <= 0.0:
@@ -270,14 +286,14 @@ def bend_caps(
 
 
 @inner
-def _backward(distances: Floats, caps: Floats, rests: Flags, accel: float, last: float) -> Floats:
+def _backward(distances: Floats, caps: Floats, rests: Flags, brake: float, last: float) -> Floats:
     """The largest v² at every end of a stretch from which all that follows can be kept."""
     n = distances.shape[0]
     back = np.empty(n)
     back[n - 1] = 0.0 if rests[n - 1] else min(last, caps[n - 2])
     for i in range(n - 2, -1, -1):
         limit = caps[i] if i == 0 else min(caps[i], caps[i - 1])
-        reach = back[i + 1] + 2.0 * accel * (distances[i + 1] - distances[i])
+        reach = back[i + 1] + 2.0 * brake * (distances[i + 1] - distances[i])
         back[i] = 0.0 if rests[i] else min(limit, reach)
     return back
 
@@ -295,29 +311,36 @@ def _peak(
     high: float,
     cap: float,
     accel: float,
+    brake: float,
     s: Floats,
     e: Floats,
     count: int,
 ) -> int:
     """Break points inside a stretch whose ends have the v² ``low`` and ``high``."""
-    slope, width = 2.0 * accel, right - left
-    rise, fall = (cap - low) / slope, width - (cap - high) / slope
+    up, down, width = 2.0 * accel, 2.0 * brake, right - left
+    rise, fall = (cap - low) / up, width - (cap - high) / down
     if rise < fall:
         for x in (rise, fall):
             if s[count - 1] < left + x < right:
                 s[count], e[count] = left + x, cap
                 count += 1
         return count
-    x = (high - low + slope * width) / (2.0 * slope)
+    x = (high - low + down * width) / (up + down)
     if s[count - 1] < left + x < right:
-        s[count], e[count] = left + x, low + slope * x
+        s[count], e[count] = left + x, low + up * x
         count += 1
     return count
 
 
 @kernel
 def speed_profile(
-    distances: Floats, caps: Floats, rests: Flags, accel: float, first: float, last: float
+    distances: Floats,
+    caps: Floats,
+    rests: Flags,
+    accel: float,
+    brake: float,
+    first: float,
+    last: float,
 ) -> tuple[Floats, Floats, float, float]:
     """The fastest v² along a line of stretches, by a backward and a forward pass.
 
@@ -325,9 +348,10 @@ def speed_profile(
         distances: Ends of the stretches [m], increasing, shape (n,).
         caps: Largest v² on every stretch [m²/s²], shape (n - 1,).
         rests: Where v is 0, shape (n,).
-        accel: Largest acceleration and deceleration [m/s²].
+        accel: Largest acceleration [m/s²].
+        brake: Largest deceleration [m/s²].
         first: v² at the start. If it is more than the caps allow, the profile brakes with
-            ``accel`` until it is below them.
+            ``brake`` until it is below them.
         last: v² at the end.
 
     Returns:
@@ -336,34 +360,34 @@ def speed_profile(
         come to rest as it should (nan if there is none).
     """
     n = distances.shape[0]
-    slope = 2.0 * accel
-    slip = 1e-12 + 1e-14 * accel * abs(distances[n - 1])
-    back = _backward(distances, caps, rests, accel, last)
+    up, down = 2.0 * accel, 2.0 * brake
+    slip = 1e-12 + 1e-14 * brake * abs(distances[n - 1])
+    back = _backward(distances, caps, rests, brake, last)
     s, e = np.empty(4 * n), np.empty(4 * n)
     count, over, missed = 1, distances[0], np.nan
-    is_over = _exceeds(first, back[0], slip)
+    is_over = _exceeds(first, back[0], slip + 4e-6 * brake)  # what 2 µm of braking take off
     s[0], e[0] = distances[0], first if is_over else min(first, back[0])
     if is_over and rests[0]:
         missed = distances[0]
     for i in range(n - 1):
         left, right, cap, low = distances[i], distances[i + 1], caps[i], e[count - 1]
         if is_over:
-            brake = low - slope * (right - left)
-            if _exceeds(brake, back[i + 1], slip):
+            braked = low - down * (right - left)
+            if _exceeds(braked, back[i + 1], slip):
                 if np.isnan(missed) and (rests[i + 1] or i == n - 2):
                     missed = right
                 over = right
-                s[count], e[count] = right, brake
+                s[count], e[count] = right, braked
                 count += 1
                 continue
             is_over = False
             if low > cap:
-                left = over = min(left + (low - cap) / slope, right)
+                left = over = min(left + (low - cap) / down, right)
                 low = cap
                 s[count], e[count] = left, low
                 count += 1
-        high = min(back[i + 1], max(low, 0.0) + slope * (right - left))
-        count = _peak(left, right, low, high, cap, accel, s, e, count)
+        high = min(back[i + 1], max(low, 0.0) + up * (right - left))
+        count = _peak(left, right, low, high, cap, accel, brake, s, e, count)
         if right > s[count - 1]:
             s[count], e[count] = right, high
             count += 1

@@ -79,7 +79,7 @@ class Belief:
         lidar = robot.sensor.lidar
         required = robot.outer_radius + robot.clearance_m
         grain = float(np.clip(GRAIN * required, FINEST, COARSEST)) + lidar.noise_m
-        stop = robot.max_speed_mps**2 / (2.0 * robot.max_accel_mps2)
+        stop = robot.max_speed_mps**2 / (2.0 * (robot.max_brake_mps2 or robot.max_accel_mps2))
         ahead = AHEAD * stop + 2.0 * required
         views = Views(near=2.0 * ahead, apart=max(required, 4.0 * grain), noise=lidar.noise_m)
         echoes = Echoes.none(grain, lidar.noise_m)

@@ -251,6 +251,7 @@ def time_law(
         path,
         journey.limits,
         stops,
+        zones=journey.mission.world.speed_zones,
         start=min(distance, path.length),
         start_speed=speed,
         start_time=time,
@@ -273,4 +274,4 @@ def law_on(journey: Journey, *, speed: float, time: float) -> Trajectory:
     except GeometryError:
         if journey.belief is None:
             raise
-        return braking(here, speed, journey.limits.max_accel, time)
+        return braking(here, speed, journey.limits.brake, time)

@@ -47,7 +47,7 @@ def take(scene: Scene, choice: Choice, skip: Mapping[int, str]) -> Journey:
 
 def give_up(journey: Journey, speed: float, reason: str) -> Journey:
     """Brake as hard as possible from a speed [m/s], and stand."""
-    law = braking(journey.distance, speed, journey.limits.max_accel, journey.time)
+    law = braking(journey.distance, speed, journey.limits.brake, journey.time)
     if speed > 0.0:
         here = journey.place(journey.distance)
         journey = journey.noted(Event("braked", journey.time, here, f"brakes: {reason}"))

@@ -90,7 +90,7 @@ def scene_of(
     here = journey.distance
     speed = speed_now(journey)
     rest = here if journey.dwell is not None else journey.law.next_rest(here + SLIP)
-    stop = min(here + speed * speed / (2.0 * journey.limits.max_accel), rest)
+    stop = min(here + speed * speed / (2.0 * journey.limits.brake), rest)
     wait = speed * journey.reaction
     leaves = {min(here + wait, rest): None}
     if journey.limits.max_lateral_accel is not None:

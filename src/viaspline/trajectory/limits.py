@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.mission.robot_parts import RobotSpec
@@ -11,26 +15,136 @@ from viaspline.mission.robot_parts import RobotSpec
 REACTION = 0.1
 """Longest time between two looks of the sensor for which speeds are planned [s]."""
 
+SETTLE = 0.1
+"""Time in which a robot takes up the yaw rate of the next piece where the curvature jumps [s]."""
+
+_ALONG = (
+    "max_speed",
+    "max_accel",
+    "max_lateral_accel",
+    "max_brake",
+    "max_yaw_rate",
+    "max_yaw_accel",
+    "max_jerk",
+)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Limits:
-    """Limits along a path.
+    """Limits along a path. None: no limit.
 
     Attributes:
         max_speed: [m/s], more than 0.
-        max_accel: Along the path, speeding up and braking [m/s²], more than 0.
-        max_lateral_accel: Across the path, v² times curvature [m/s²]; None: no limit.
+        max_accel: Along the path, speeding up [m/s²], more than 0.
+        max_lateral_accel: Across the path, v² times curvature [m/s²].
+        max_brake: Along the path, slowing down [m/s²]. None: as ``max_accel``.
+        max_yaw_rate: Of the path's heading over the ground [rad/s].
+        max_yaw_accel: Change of that [rad/s²]. At a place where the curvature jumps, as it does at
+            the via points of a cardinal spline, the yaw rate would have to jump as well; the robot
+            is so slow there that the jump is what this limit allows in ``SETTLE`` seconds.
+        max_jerk: Change of the acceleration along the path [m/s³].
+        axis_speed: Along every coordinate axis [m/s]: one number, or one for each axis.
+        axis_accel: Along every coordinate axis [m/s²], the acceleration across the path included.
+
+    Raises:
+        GeometryError: When a limit is not a finite number above 0.
+
+    Example:
+        >>> Limits(max_speed=2.0, max_accel=1.0, axis_accel=[0.5, 0.7]).axis_accel
+        (0.5, 0.7)
     """
 
     max_speed: float
     max_accel: float
     max_lateral_accel: float | None = None
+    max_brake: float | None = None
+    max_yaw_rate: float | None = None
+    max_yaw_accel: float | None = None
+    max_jerk: float | None = None
+    axis_speed: float | Sequence[float] | NDArray[np.float64] | None = None
+    axis_accel: float | Sequence[float] | NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
-        for name in ("max_speed", "max_accel", "max_lateral_accel"):
+        for name in _ALONG:
             value = getattr(self, name)
-            if value is not None and not 0 < value < float("inf"):
+            if value is not None and not 0 < value < math.inf:
                 raise GeometryError(f"{name} is {value}; give a finite number above 0")
+            if value is not None:
+                object.__setattr__(self, name, float(value))
+        for name in ("axis_speed", "axis_accel"):
+            value = getattr(self, name)
+            if value is None or isinstance(value, float):
+                axes = () if value is None else (value,)
+            elif np.ndim(value) == 0:
+                axes = (float(value),)
+                object.__setattr__(self, name, axes[0])
+            else:
+                axes = tuple(np.asarray(value, dtype=float).ravel().tolist())
+                object.__setattr__(self, name, axes)
+            if not all(0 < limit < math.inf for limit in axes):
+                raise GeometryError(f"{name} is {value}; give finite numbers above 0")
+
+    @property
+    def brake(self) -> float:
+        """Largest deceleration along the path [m/s²]."""
+        return self.max_accel if self.max_brake is None else self.max_brake
+
+    def of_axes(self, name: str, dimension: int) -> NDArray[np.float64]:
+        """``axis_speed`` or ``axis_accel`` for every axis of a path; nothing if there is no limit.
+
+        Args:
+            name: Which of the two.
+            dimension: Of the path, d.
+
+        Returns:
+            Shape (d,), or (0,).
+
+        Raises:
+            GeometryError: When there is a number for each axis of another kind of path.
+        """
+        value = getattr(self, name)
+        if value is None:
+            return np.empty(0)
+        axes = np.atleast_1d(np.asarray(value, dtype=float))
+        if axes.size not in (1, dimension):
+            raise GeometryError(
+                f"{name} has {axes.size} numbers and the path {dimension} axes; give one number, "
+                "or one for each axis"
+            )
+        return np.full(dimension, axes[0]) if axes.size == 1 else axes
+
+    def conflicts(self, turning_radius: float) -> tuple[str, ...]:
+        """What these limits never allow where a robot turns as tightly as it can.
+
+        Args:
+            turning_radius: Of its tightest turn [m], more than 0.
+
+        Returns:
+            A sentence for each limit of the speed that another one never lets the robot reach
+            there; none if all agree.
+
+        Example:
+            >>> Limits(max_speed=3, max_accel=1, max_lateral_accel=0.5).conflicts(2.0)
+            ('max_speed 3 m/s is never reached on a turn of 2 m: max_lateral_accel 0.5 m/s² allows
+             1 m/s there; a radius of 18 m would allow it',)
+        """
+        if not 0 < turning_radius < math.inf:
+            raise GeometryError(f"turning_radius is {turning_radius}; give a radius above 0")
+        found = []
+        lateral, rate, top = self.max_lateral_accel, self.max_yaw_rate, self.max_speed
+        if lateral is not None and (slow := math.sqrt(lateral * turning_radius)) < top:
+            found.append(
+                f"max_speed {top:g} m/s is never reached on a turn of {turning_radius:g} m: "
+                f"max_lateral_accel {lateral:g} m/s² allows {slow:.3g} m/s there; "
+                f"a radius of {top * top / lateral:.3g} m would allow it"
+            )
+        if rate is not None and (slow := rate * turning_radius) < top:
+            found.append(
+                f"max_speed {top:g} m/s is never reached on a turn of {turning_radius:g} m: "
+                f"max_yaw_rate {math.degrees(rate):.3g} deg/s allows {slow:.3g} m/s there; "
+                f"a radius of {top / rate:.3g} m would allow it"
+            )
+        return tuple(found)
 
     @classmethod
     def of(cls, robot: RobotSpec, reaction: float = REACTION) -> Limits:
@@ -53,12 +167,21 @@ class Limits:
         top = robot.max_speed_mps
         if robot.sensor is not None:
             room = _room_to_stop(robot.sensor.reach, robot.outer_radius, robot.clearance_m)
-            top = min(top, stopping_speed(room, robot.max_accel_mps2, reaction))
+            brake = robot.max_brake_mps2 or robot.max_accel_mps2
+            top = min(top, stopping_speed(room, brake, reaction))
         return cls(
             max_speed=top,
             max_accel=robot.max_accel_mps2,
             max_lateral_accel=robot.max_lateral_accel_mps2,
+            max_brake=robot.max_brake_mps2,
+            max_yaw_rate=_radians(robot.max_yaw_rate_degps),
+            max_yaw_accel=_radians(robot.max_yaw_accel_degps2),
+            max_jerk=robot.max_jerk_mps3,
         )
+
+
+def _radians(degrees: float | None) -> float | None:
+    return None if degrees is None else math.radians(degrees)
 
 
 def _room_to_stop(sight: float, radius: float, clearance: float) -> float:

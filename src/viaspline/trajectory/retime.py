@@ -3,42 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
-from viaspline.kernels import profile
+from viaspline.mission.parts import SpeedZone
+from viaspline.trajectory.bends import Cubic
+from viaspline.trajectory.cells import Evaluable
+from viaspline.trajectory.coupled import Stage
+from viaspline.trajectory.course import course_of, crawl
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.trajectory import Trajectory
 
-Floats = NDArray[np.float64]
-
-TOLERANCE = 1.1
-"""Largest ratio of the curvatures within one arc of the profile."""
-
-
-class Curve(Protocol):
-    """What a time law needs of a piecewise cubic.
-
-    Without a limit across the path the length is enough; the rest is not asked for.
-    """
-
-    @property
-    def spans(self) -> Floats:
-        """Bézier control polygons [m], shape (m, 4, d)."""
-
-    @property
-    def domain(self) -> tuple[float, float]:
-        """First and last parameter; the spans share it equally."""
-
-    @property
-    def length(self) -> float:
-        """Length [m]."""
-
-    def distance(self, u: ArrayLike) -> Floats | float:
-        """Distance along the curve [m]."""
+Curve = Cubic | Evaluable
 
 
 def retime(
@@ -46,31 +23,43 @@ def retime(
     limits: Limits,
     stations: Sequence[Station] = (),
     *,
+    zones: Sequence[SpeedZone] = (),
     start: float = 0.0,
     start_speed: float = 0.0,
     end_speed: float = 0.0,
     speed_cap: float | None = None,
     start_time: float = 0.0,
+    grid: int | None = None,
 ) -> Trajectory:
-    """The largest speed everywhere along a path that keeps every limit.
+    """The fastest drive along a path that keeps every limit everywhere.
 
-    v² is bounded from above on every arc of the path: by ``max_speed`` and, with a limit across
-    the path, by that limit over the arc's proven largest curvature. A pass from the end and one
-    from the start take off what braking and speeding up don't allow. v² is linear between the
-    points of the result, so no limit is exceeded between them. The robot comes to rest at
-    stations, and where it would have to turn on the spot (a corner or a cusp) if there is a limit
-    across the path.
+    With limits that are a largest speed at every place (speed, across the path, yaw rate, zones)
+    v² is bounded on every arc by the arc's proven largest curvature, and two passes take off what
+    braking and speeding up don't allow: exact but for the arcs' ends. Limits of the yaw
+    acceleration and of the axes couple speed and acceleration; then the path is cut into cells and
+    the fastest v² is found by reachability, as TOPP-RA does it. v² is linear between the points of
+    the result, and the limits are kept between them as well: on a piecewise cubic in the plane
+    that is proven, on any other curve the errors between samples are measured and allowed for.
+
+    The robot comes to rest at stations, and where it would have to turn on the spot (a corner or a
+    cusp) if a limit asks for anything across the path.
 
     Args:
-        path: What is driven.
-        limits: Speed, and acceleration along and across the path.
+        path: What is driven: a piecewise cubic such as ``Path`` or ``CardinalSpline``, or anything
+            with ``domain`` and ``evaluate(u, derivative)``, for which distances are measured from
+            its start.
+        limits: Of speed, acceleration, yaw, jerk and axes.
         stations: Stops, each with its dwell; those before ``start`` are left out.
+        zones: Areas in which the reference point of the robot drives no faster than they say. A
+            station inside of one is a stop like any other.
         start: Distance along the path at which the time law begins [m].
-        start_speed: Speed there [m/s]. If the limits on speed and across the path allow less, the
-            robot brakes as hard as it can, and ``over_limit_until`` of the result says how far.
-        end_speed: Speed at the end of the path [m/s].
+        start_speed: Speed there [m/s]. If the limits allow less, the robot brakes as hard as it
+            can, and ``over_limit_until`` of the result says how far.
+        end_speed: Speed at the end of the path [m/s], or less.
         speed_cap: One more limit of the speed [m/s], e.g. what the sensor allows.
         start_time: Time at the start [s].
+        grid: At least so many cells where speed and acceleration are coupled; on a sampled curve
+            exactly so many, 1000 by default. By default as many as the limits need.
 
     Returns:
         The time law from ``start`` to the end of the path.
@@ -87,32 +76,42 @@ def retime(
         24.0
         >>> law.times
         array([ 0.,  2.,  5.,  7., 12., 14., 22., 24.])
+        >>> slow = SpeedZone(polygon=[(20, -5), (25, -5), (25, 5), (20, 5)], max_speed_mps=1)
+        >>> round(retime(line, Limits(max_speed=2, max_accel=1), zones=[slow]).duration, 3)
+        20.0
     """
-    length = float(path.length)
+    course = course_of(path, limits, grid)
+    length = course.length
     _check(length, start, start_speed, end_speed, speed_cap)
     stops = _stops_from(stations, start, length)
-    top = limits.max_speed if speed_cap is None else min(limits.max_speed, speed_cap)
+    accel = crawl(limits)
     if length - start <= 0.0:
-        points, squares = np.full(2, length), np.zeros(2)
         return Trajectory.through(
-            points, squares, max_accel=limits.max_accel, stations=stops, start_time=start_time
+            np.full(2, length), np.zeros(2), max_accel=accel, stations=stops, start_time=start_time
         )
-    line, caps, rests = _stretches(path, limits, top, start, length, stops)
-    points, squares, over, missed = profile.speed_profile(
-        line, caps, rests, limits.max_accel, start_speed**2, end_speed**2
+    stage = Stage(
+        start=start,
+        end=length,
+        first=float(start_speed),
+        last=float(end_speed),
+        top=limits.max_speed if speed_cap is None else min(limits.max_speed, float(speed_cap)),
+        stops=tuple(stop.distance for stop in stops),
+        slow=course.slow(zones, start),
     )
-    if missed == missed:
+    profile = course.profile(stage)
+    if profile.missed == profile.missed:
         raise GeometryError(
-            f"the robot can't stop at {missed:g} m: from {start_speed:g} m/s at {start:g} m it "
-            f"needs {start_speed**2 / (2 * limits.max_accel):g} m; start slower or stop later"
+            f"the robot can't stop at {profile.missed:g} m: from {start_speed:g} m/s at "
+            f"{start:g} m it needs {start_speed**2 / (2 * limits.brake):g} m; start slower or "
+            "stop later"
         )
     return Trajectory.through(
-        points,
-        squares,
-        max_accel=limits.max_accel,
+        profile.points,
+        profile.squares,
+        max_accel=accel,
         stations=stops,
         start_time=start_time,
-        over_limit_until=over if over > start else None,
+        over_limit_until=profile.over if profile.over > start else None,
     )
 
 
@@ -158,27 +157,3 @@ def _stops_from(stations: Sequence[Station], start: float, length: float) -> tup
     return tuple(
         Station(min(station.distance, length), station.dwell, station.name) for station in ahead
     )
-
-
-def _stretches(
-    path: Curve, limits: Limits, top: float, start: float, length: float, stops: Sequence[Station]
-) -> tuple[Floats, Floats, NDArray[np.bool_]]:
-    """Ends of the stretches from start to end, the largest v² on each, and where to rest."""
-    places = np.unique([start, length, *(stop.distance for stop in stops)])
-    if limits.max_lateral_accel is None:
-        line, caps = places, np.full(len(places) - 1, top * top)
-        rests = np.zeros(len(places), dtype=np.bool_)
-    else:
-        joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
-        first = max(int(np.searchsorted(joints, start, side="right")) - 1, 0)
-        arcs, arc_caps, corners = profile.bend_caps(
-            np.ascontiguousarray(path.spans[first:]), joints[first:],
-            limits.max_lateral_accel, limits.max_accel, top * top, TOLERANCE,
-        )  # fmt: skip
-        line = np.union1d(arcs[arcs > start], places)
-        middles = 0.5 * (line[1:] + line[:-1])
-        within = np.clip(np.searchsorted(arcs, middles) - 1, 0, len(arc_caps) - 1)
-        caps = arc_caps[within]
-        rests = np.isin(line, arcs[corners & (arcs > start)])
-    rests |= np.isin(line, [stop.distance for stop in stops])
-    return line, caps, rests

@@ -1,0 +1,296 @@
+"""Cells of a curve: short pieces on which tangent and curvature are known, with their errors.
+
+On every cell the unit tangent T(s) and the curvature vector K(s) = dT/ds are quadratics in the
+distance s, given as Bernstein coefficients, with proven bounds of what they miss. With the
+derivatives p_k = q^(k) / |q'|^k and τ = T·p_2, a cubic has T' = K = p_2 - τT,
+K' = p_3⊥ - 3τK - κ²T, p_3' = -3τp_3 and τ' = κ² + T·p_3 - 2τ². So bounds of κ, |τ| and |p_3| on
+a cell bound all that follow.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.jit import kernel, within
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+_QUADRATIC = 0.00802
+"""Largest |x (x - 1/2) (x - 1)| / 6 on [0, 1]: what a quadratic through three points misses."""
+
+SPAN, FIRST, LAST, MISS_T, MISS_K, MISS_TURN, MISS_CHANGE, NOISE, STRAIGHT = range(9)
+"""Columns of the rows of ``cut_cells``."""
+
+
+@within
+def _bounds(k: float, t: float, c: float) -> tuple[float, float]:
+    """Bounds of |K''| and |K'''| where κ <= k, |τ| <= t and |p_3| <= c."""
+    k1 = c + 3.0 * t * k + k * k
+    t1 = k * k + c + 2.0 * t * t
+    kk1 = k * c + 3.0 * t * k * k
+    c1 = 3.0 * t * c + 2.0 * k * c
+    t2 = 2.0 * kk1 + k * c + 3.0 * t * c + 4.0 * t * t1
+    k2 = c1 + 3.0 * t1 * k + 3.0 * t * k1 + 2.0 * kk1 + k * k * k
+    k3 = 3.0 * t1 * c + 3.0 * t * c1
+    k3 += k1 * c + 3.0 * t * k * c + k * k * c
+    k3 += (k * c + 3.0 * t * c) * k + c * k1
+    k3 += 3.0 * (t2 * k + t1 * k1) + 3.0 * (t1 * k1 + t * k2)
+    k3 += 2.0 * (k1 * k1 + k * k2) + 4.0 * kk1 * k + k * k * k1
+    return k2, k3
+
+
+@within
+def _shape_bounds(r: Floats, width: float) -> tuple[float, float, float, float, float]:
+    """Least and largest |q'| where q' has the control vectors r; bounds of κ, |τ| and |p_3|.
+
+    |q'|² has the Bernstein coefficients g; a polynomial lies between the least and the largest.
+    """
+    g0, g01, g02, g11, g12, g2, third = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    w0, w1, w2 = 0.0, 0.0, 0.0
+    d = r.shape[1]
+    for i in range(d):
+        g0 += r[0, i] * r[0, i]
+        g01 += r[0, i] * r[1, i]
+        g02 += r[0, i] * r[2, i]
+        g11 += r[1, i] * r[1, i]
+        g12 += r[1, i] * r[2, i]
+        g2 += r[2, i] * r[2, i]
+        third += (r[2, i] - 2.0 * r[1, i] + r[0, i]) ** 2
+        for j in range(i + 1, d):
+            w0 += (r[0, i] * r[1, j] - r[0, j] * r[1, i]) ** 2
+            w1 += (r[0, i] * r[2, j] - r[0, j] * r[2, i]) ** 2
+            w2 += (r[1, i] * r[2, j] - r[1, j] * r[2, i]) ** 2
+    mid = (g02 + 2.0 * g11) / 3.0
+    low, high = min(g0, g01, mid, g12, g2), max(g0, g01, mid, g12, g2)
+    if low <= 0.0:
+        return 0.0, np.sqrt(high), np.inf, np.inf, np.inf
+    over = 1.0 / (low * np.sqrt(low))
+    k = np.sqrt(max(4.0 * w0, w1, 4.0 * w2)) / width * over
+    t = max(abs(g01 - g0), abs(mid - g01), abs(g12 - mid), abs(g2 - g12)) * 2.0 / width * over
+    c = 2.0 * np.sqrt(third) / (width * width) * over
+    return np.sqrt(low), np.sqrt(high), k, t, c
+
+
+@within
+def _velocity(spans: Floats, i: int, a: float, b: float, r: Floats) -> None:
+    """Control vectors of the derivative of span i on [a, b] of its parameter."""
+    for j in range(spans.shape[2]):
+        x0 = 3.0 * (spans[i, 1, j] - spans[i, 0, j])
+        x1 = 3.0 * (spans[i, 2, j] - spans[i, 1, j])
+        x2 = 3.0 * (spans[i, 3, j] - spans[i, 2, j])
+        p, q = x0 + a * (x1 - x0), x1 + a * (x2 - x1)
+        r[0, j], r[1, j] = p + a * (q - p), p + b * (q - p)
+        p, q = x0 + b * (x1 - x0), x1 + b * (x2 - x1)
+        r[2, j] = p + b * (q - p)
+
+
+@within
+def _size(spans: Floats, i: int) -> tuple[float, bool]:
+    """What rounding does to the derivative of a span, and whether it runs straight ahead."""
+    largest, longest, chord = 0.0, 0.0, 0.0
+    for j in range(spans.shape[2]):
+        chord += (spans[i, 3, j] - spans[i, 0, j]) ** 2
+        for k in range(4):
+            largest = max(largest, abs(spans[i, k, j]))
+            if k < 3:
+                longest = max(longest, abs(3.0 * (spans[i, k + 1, j] - spans[i, k, j])))
+    noise = 2.0**-46 * (largest + longest)
+    straight, last = True, 0.0
+    for k in range(1, 4):
+        along, across = 0.0, 0.0
+        for j in range(spans.shape[2]):
+            along += (spans[i, k, j] - spans[i, 0, j]) * (spans[i, 3, j] - spans[i, 0, j])
+        for j in range(spans.shape[2]):
+            ideal = along / (chord + 1e-300) * (spans[i, 3, j] - spans[i, 0, j])
+            across = max(across, abs(spans[i, k, j] - spans[i, 0, j] - ideal))
+        straight &= across <= noise and along >= last
+        last = along
+    return (noise if longest > 0.0 else -1.0), straight and chord > 0.0
+
+
+@kernel
+def cut_cells(
+    spans: Floats, longest: float, least: float, accel: float, square: float, axis: float,
+    yaw: float,
+) -> tuple[Floats, Flags]:  # fmt: skip
+    """Cut a curve into cells that are fine enough for the limits.
+
+    Args:
+        spans: Bézier control polygons [m], shape (m, 4, d).
+        longest: No cell is longer [m].
+        least: A cell that is shorter is fine enough for every limit [m].
+        accel: Bound of the acceleration along the curve [m/s²].
+        square: Bound of v² [m²/s²].
+        axis: The least acceleration that an axis allows [m/s²], inf if there is no limit.
+        yaw: Largest yaw acceleration [rad/s²], inf if there is no limit.
+
+    Returns:
+        Rows (n, 9): span; first and last parameter in it; what the quadratics of T [-], of K [1/m]
+        and of the curvature [1/m], and the line of the curvature's change [1/m²], miss at most;
+        what rounding does to the derivative [m]; 1 on a straight piece. And whether the cell is a
+        cusp, too short to be halved, (n,).
+    """
+    m, d = spans.shape[0], spans.shape[2]
+    size = 2 * m + 64
+    rows, cusps = np.zeros((size, 9)), np.zeros(size, np.bool_)
+    r, stack = np.empty((3, d)), np.empty((64, 2))
+    count = 0
+    for i in range(m):
+        noise, straight = _size(spans, i)
+        depth = 1 if noise >= 0.0 else 0
+        stack[0, 0], stack[0, 1] = 0.0, 1.0
+        while depth > 0:
+            depth -= 1
+            a, b = stack[depth, 0], stack[depth, 1]
+            width = b - a
+            _velocity(spans, i, a, b, r)
+            low, high, k, t, c = _shape_bounds(r, width)
+            h = high * width
+            fine, miss_t, miss_k, miss_y, miss_z = False, 0.0, 0.0, 0.0, 0.0
+            if straight:
+                fine = h <= longest
+            elif low > noise and high <= 1.5 * low:
+                k2, k3 = _bounds(k, t, c)
+                miss_y = 2.0 * k * k2 + k3
+                miss_z = 0.125 * h * h * miss_y
+                cube = 1.3 * _QUADRATIC * h * h * h
+                miss_t, miss_k, miss_y = cube * k2, cube * k3, cube * miss_y
+                fine = h <= longest and h * k <= 0.1
+                if axis < np.inf and k > 0.0:
+                    fine &= miss_t * accel + miss_k * min(square, axis / k) <= 0.004 * axis
+                if yaw < np.inf and k > 0.0:
+                    fine &= miss_y * accel <= 0.01 * yaw
+                    fine &= miss_z * min(square, yaw / (c + k * k)) <= 0.02 * yaw
+                fine |= h <= least and h * k <= 0.3
+            cusp = not fine and width < 1e-9
+            if not (fine or cusp):
+                middle = 0.5 * (a + b)
+                stack[depth, 0], stack[depth, 1] = middle, b
+                stack[depth + 1, 0], stack[depth + 1, 1] = a, middle
+                depth += 2
+                continue
+            if count == size:
+                more, flags = np.zeros((2 * size, 9)), np.zeros(2 * size, np.bool_)
+                for row in range(size):
+                    flags[row] = cusps[row]
+                    for j in range(9):
+                        more[row, j] = rows[row, j]
+                rows, cusps, size = more, flags, 2 * size
+            rows[count, SPAN], rows[count, FIRST], rows[count, LAST] = i, a, b
+            rows[count, MISS_T], rows[count, MISS_K] = miss_t, miss_k
+            rows[count, MISS_TURN], rows[count, MISS_CHANGE] = miss_y, miss_z
+            rows[count, NOISE], rows[count, STRAIGHT] = noise, 1.0 if straight else 0.0
+            cusps[count] = cusp
+            count += 1
+    return rows[:count], cusps[:count]
+
+
+@within
+def _frame(r: Floats, u: float, width: float, frame: Floats) -> float:
+    """T and K at a place in [0, 1] of a cell, into rows 0 and 1; returns |q'|."""
+    square, dot, v = 0.0, 0.0, 1.0 - u
+    for j in range(r.shape[1]):
+        first = v * v * r[0, j] + 2.0 * u * v * r[1, j] + u * u * r[2, j]
+        second = 2.0 * (v * (r[1, j] - r[0, j]) + u * (r[2, j] - r[1, j])) / width
+        frame[0, j], frame[1, j] = first, second
+        square += first * first
+        dot += first * second
+    speed = np.sqrt(square)
+    over = 1.0 / square if square > 0.0 else 0.0
+    for j in range(r.shape[1]):
+        frame[1, j] = (frame[1, j] - dot * over * frame[0, j]) * over
+        frame[0, j] *= speed * over
+    return speed
+
+
+@within
+def _speed(r: Floats, u: float) -> float:
+    v, total = 1.0 - u, 0.0
+    for j in range(r.shape[1]):
+        x = v * v * r[0, j] + 2.0 * u * v * r[1, j] + u * u * r[2, j]
+        total += x * x
+    return np.sqrt(total)
+
+
+@within
+def _short_length(r: Floats, a: float, b: float) -> float:
+    """Length of a piece on which |q'| hardly changes, by Gauss' rule with three points."""
+    half, middle = 0.5 * (b - a), 0.5 * (a + b)
+    x = 0.7745966692414834 * half
+    ends = _speed(r, middle - x) + _speed(r, middle + x)
+    return half * (5.0 * ends + 8.0 * _speed(r, middle)) / 9.0
+
+
+@within
+def _middle(first: float, middle: float, last: float, x: float) -> float:
+    """The middle Bernstein coefficient of the quadratic with three values at 0, x and 1."""
+    y = 1.0 - x
+    return (middle - y * y * first - x * x * last) / (2.0 * x * y)
+
+
+@within
+def _straight_frame(spans: Floats, i: int, frame: Floats) -> float:
+    """T and K of a straight span, and its length."""
+    square = 0.0
+    for j in range(spans.shape[2]):
+        frame[0, j], frame[1, j] = spans[i, 3, j] - spans[i, 0, j], 0.0
+        square += frame[0, j] * frame[0, j]
+    chord = np.sqrt(square)
+    for j in range(spans.shape[2]):
+        frame[0, j] /= chord
+    return chord
+
+
+@kernel
+def fill_cells(
+    spans: Floats, rows: Floats, cusps: Flags
+) -> tuple[Floats, Floats, Floats, Floats, Flags]:
+    """Tangent and curvature on every cell.
+
+    Args:
+        spans: Bézier control polygons [m], shape (m, 4, d).
+        rows: Of ``cut_cells``.
+        cusps: Of ``cut_cells``.
+
+    Returns:
+        Ends of the cells as distances from the first one (n + 1,); which part of each cell's
+        length lies before the middle of its parameter (n,); Bernstein coefficients of T and of K
+        (n, d, 3); and where the curve has a corner or a cusp (n + 1,).
+    """
+    n, d = rows.shape[0], spans.shape[2]
+    along, shares, rests = np.zeros(n + 1), np.full(n, 0.5), np.zeros(n + 1, np.bool_)
+    tangents, bends = np.empty((n, d, 3)), np.empty((n, d, 3))
+    r, at, mid, end = np.empty((3, d)), np.empty((2, d)), np.empty((2, d)), np.zeros((2, d))
+    now = -1
+    for i in range(n):
+        span, a, b = int(rows[i, SPAN]), rows[i, FIRST], rows[i, LAST]
+        _velocity(spans, span, a, b, r)
+        straight = rows[i, STRAIGHT] > 0.0
+        handle = _straight_frame(spans, span, at) if straight else _frame(r, 0.0, b - a, at)
+        if span != now:
+            turn, slip = 0.0, 1e-5 + rows[i, NOISE] / handle
+            for j in range(d):
+                turn += (at[0, j] - end[0, j]) ** 2
+            rests[i] |= now >= 0 and not turn <= slip * slip
+            now = span
+        if straight:
+            _straight_frame(spans, span, mid)
+            _straight_frame(spans, span, end)
+        else:
+            _frame(r, 0.5, b - a, mid)
+            _frame(r, 1.0, b - a, end)
+        half = (b - a) * _short_length(r, 0.0, 0.5)
+        piece = half + (b - a) * _short_length(r, 0.5, 1.0)
+        if piece > 0.0 and not straight:
+            shares[i] = half / piece
+        for j in range(d):
+            tangents[i, j, 0], tangents[i, j, 2] = at[0, j], end[0, j]
+            tangents[i, j, 1] = _middle(at[0, j], mid[0, j], end[0, j], shares[i])
+            bends[i, j, 0], bends[i, j, 2] = at[1, j], end[1, j]
+            bends[i, j, 1] = _middle(at[1, j], mid[1, j], end[1, j], shares[i])
+        rests[i] |= cusps[i]
+        rests[i + 1] |= cusps[i]
+        along[i + 1] = along[i] + piece
+    return along, shares, tangents, bends, rests
