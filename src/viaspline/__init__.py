@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from viaspline.robot.run import Run
     from viaspline.robot.simulator import simulate
     from viaspline.robot.state import Command, RobotState
+    from viaspline.trajectory.lap import retime_lap
     from viaspline.trajectory.limits import Limits, Station
     from viaspline.trajectory.retime import retime
     from viaspline.trajectory.trajectory import Trajectory
@@ -77,6 +78,7 @@ _HOMES = {
     "load_map": "mission.load_map",
     "plan": "planner",
     "retime": "trajectory.retime",
+    "retime_lap": "trajectory.lap",
     "simulate": "robot.simulator",
 }
 

@@ -83,7 +83,7 @@ def retime(
     course = course_of(path, limits, grid)
     length = course.length
     _check(length, start, start_speed, end_speed, speed_cap)
-    stops = _stops_from(stations, start, length)
+    stops = stops_from(stations, start, length)
     accel = crawl(limits)
     if length - start <= 0.0:
         return Trajectory.through(
@@ -145,7 +145,8 @@ def _check(
         raise GeometryError(f"speed_cap is {speed_cap}; give a speed above 0")
 
 
-def _stops_from(stations: Sequence[Station], start: float, length: float) -> tuple[Station, ...]:
+def stops_from(stations: Sequence[Station], start: float, length: float) -> tuple[Station, ...]:
+    """The stops from a distance on [m], in order and on the path."""
     slip = 1e-9 * (1.0 + length)
     for station in stations:
         if not (station.distance <= length + slip and 0.0 <= station.dwell < np.inf):
