@@ -12,11 +12,20 @@ from viaspline.detour.course import course_of
 from viaspline.detour.ledger import LedgerEntry
 from viaspline.detour.order import ordered
 from viaspline.detour.search import find_path
+from viaspline.errors import GeometryError, NoPathError
+from viaspline.machine.allowance import SOFTER, allowance
+from viaspline.machine.limits import limits_of
+from viaspline.machine.machine import is_driven, machine_of
+from viaspline.machine.turns import with_turns
 from viaspline.mission.model import Mission
-from viaspline.trajectory.limits import Limits, Station
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.trajectory.limits import Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
+
+ROUNDS = 6  # of planning and trial drives
+SPARE = 1.1  # by which an allowance grows that was measured once already
 
 
 @dataclass(frozen=True)
@@ -30,6 +39,8 @@ class Plan:
         certificate: The proven clearance of the body against everything known.
         account: What the search did; its ledger is drawn up when it is read.
         trajectory: The time law along the path.
+        tracking_error: How far beside the path the driven robot may get [m]: the path keeps that
+            much more than the clearance that was asked for.
     """
 
     mission: Mission
@@ -38,6 +49,7 @@ class Plan:
     certificate: Certificate
     account: Account | None
     trajectory: Trajectory
+    tracking_error: float = 0.0
 
     @property
     def ledger(self) -> tuple[LedgerEntry, ...]:
@@ -48,9 +60,13 @@ class Plan:
 def plan(mission: Mission) -> Plan:
     """Plan a mission: the spline through its via points, round what stands in the way, timed.
 
+    A robot with a drive or a localisation that is not exact is made to follow the plan in trial
+    drives. What it gets beside the path, with a margin, is kept in addition, and the mission
+    planned again, until that covers what is measured. ``robot.tracking_error_m`` says it instead.
+
     Raises:
         NoPathError: When there is no path, with the reason and the least change that would serve.
-        GeometryError: When the mission's numbers contradict each other.
+        GeometryError: When the mission's numbers contradict each other, or the robot can't follow.
 
     Example:
         >>> mission = Mission.model_validate({
@@ -62,22 +78,43 @@ def plan(mission: Mission) -> Plan:
         (True, 50.8, 'right')
     """
     mission = ordered(mission)
-    world = World.known(mission)
-    brief = Brief.of(mission)
-    found = find_path(course_of(mission), world, brief)
-    trajectory = retime(
-        found.path,
-        Limits.of(mission.robot),
-        stations(found.path),
-        zones=mission.world.speed_zones,
+    world, robot = World.known(mission), mission.robot
+    error = robot.tracking_error_m or 0.0
+    if robot.tracking_error_m is not None or not is_driven(robot):
+        return _with_error(mission, world, error)
+    for _ in range(ROUNDS):
+        result = _with_error(mission, world, error)
+        needed = allowance(result.path, result.trajectory, robot)
+        if needed <= error:
+            return result
+        error = SPARE * max(needed, error)
+    raise GeometryError(
+        f"the robot gets ever farther beside its path, {error:.2f} m in the last trial drive; "
+        f"give it {SOFTER}, or say what to keep by tracking_error_m"
     )
-    return Plan(mission, world, found.path, found.certificate, found.account, trajectory)
 
 
-def stations(path: Path) -> tuple[Station, ...]:
-    """The stops of a path: its via points that have a dwell."""
-    return tuple(
+def _with_error(mission: Mission, world: World, error: float) -> Plan:
+    """The plan that keeps ``error`` [m] more than the clearance."""
+    brief = Brief.of(mission, error)
+    try:
+        found = find_path(course_of(mission), world, brief)
+    except NoPathError as problem:
+        if error > 0.0:
+            problem.reason += f" ({error:.2f} m of it for how far the robot gets beside its path)"
+            problem.args = (f"{problem.reason}: {problem.remedy}",)
+        raise
+    stops = stations(found.path, mission.robot)
+    zones = mission.world.speed_zones
+    trajectory = retime(found.path, limits_of(mission.robot), stops, zones=zones)
+    return Plan(mission, world, found.path, found.certificate, found.account, trajectory, error)
+
+
+def stations(path: Path, robot: RobotSpec) -> tuple[Station, ...]:
+    """The stops of a path: its via points that have a dwell, and a machine's turns on the spot."""
+    stops = [
         Station(float(distance), via.dwell, via.name)
         for via, distance in zip(path.vias, path.via_distances, strict=True)
         if via.dwell > 0
-    )
+    ]
+    return tuple(with_turns(path, machine_of(robot), stops) if is_driven(robot) else stops)

@@ -26,6 +26,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
             "mission": mission_summary(plan.mission, name),
             "path": path_data(plan.path) | {"csv_spacing_m": spacing},
             "certificate": certificate_data(plan.certificate),
+            **({"tracking_error_m": plan.tracking_error} if plan.tracking_error else {}),
             "ledger": [_entry(entry) for entry in plan.ledger],
             "trajectory": {
                 "duration_s": plan.trajectory.duration,

@@ -49,9 +49,25 @@ def run_json(run: Run, name: str, *, seed: int = 0) -> str:
                 for event in run.events
             ],
             "replans": [_replan(replan) for replan in run.replans],
+            **_tracking(run),
             "path": path_data(run.path),
         }
     )
+
+
+def _tracking(run: Run) -> dict[str, Any]:
+    """What a robot with a drive was off from its path; nothing of one that follows exactly."""
+    if run.tracking is None:
+        return {}
+    cross, heading, along = run.tracking.cross, run.tracking.heading, run.tracking.along
+    errors = {
+        f"{name}_{percentile}_{unit}": value
+        for name, unit, spread in (
+            ("cross_track", "m", cross), ("heading", "rad", heading), ("along_track", "m", along)
+        )
+        for percentile, value in spread._asdict().items()
+    }  # fmt: skip
+    return {"tracking": {"allowed_m": run.plan.tracking_error, **errors}}
 
 
 def _replan(replan: Replan) -> dict[str, Any]:

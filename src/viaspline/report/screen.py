@@ -111,6 +111,13 @@ def run_tables(run: Run, name: str) -> RenderableType:
             "tightest place",
             f"{place(run.certificate.tightest_at)} beside {run.certificate.obstacle}",
         )
+    if run.tracking is not None:
+        cross = run.tracking.cross
+        facts.add_row(
+            "beside its path",
+            f"{metres(cross.p99, 3)} in 99 % of the time, at most {metres(cross.max, 3)} "
+            f"(allowed {metres(run.plan.tracking_error, 3)})",
+        )
     served = sum(visit.status == "served" for visit in run.visits)
     facts.add_row("points served", f"{served} of {len(run.visits)}")
     missed = [visit for visit in run.visits if visit.status != "served"]

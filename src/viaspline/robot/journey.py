@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from viaspline.curve.path import Path, PathVia
 from viaspline.detour.brief import Brief
 from viaspline.errors import GeometryError
+from viaspline.machine.turns import with_turns
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
 from viaspline.robot.belief import LEAST_ROOM, Belief
+from viaspline.robot.pilot import Pilot
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import braking, retime
@@ -77,7 +79,9 @@ class Journey:
         laid: What was known when the path was laid.
         law: The time law along it.
         turns: Distances along the path where it has a corner to turn on the spot [m].
-        time: Of the last step [s].
+        time: Of the last step [s]; with a drive, when what is decided in it happens.
+        tracking_error: How far beside its path the robot may get [m].
+        pilot: The controller of a robot with a drive; None if it follows exactly.
         belief: What a lidar has shown; None without one.
         close: Where the path keeps less than it should, if it does.
         sighted: Up to this distance along the path the robot has seen where its body will be [m].
@@ -107,6 +111,8 @@ class Journey:
     laid: World
     law: Trajectory
     time: float
+    tracking_error: float = 0.0
+    pilot: Pilot | None = None
     belief: Belief | None = None
     close: Close | None = None
     sighted: float = 0.0
@@ -129,7 +135,7 @@ class Journey:
     @cached_property
     def brief(self) -> Brief:
         """What every path has to keep; with a lidar it is never nothing."""
-        brief = Brief.of(self.mission)
+        brief = Brief.of(self.mission, self.tracking_error)
         if self.belief is None:
             return brief
         return replace(brief, clearance=max(brief.clearance, LEAST_ROOM - brief.radius))
@@ -247,6 +253,8 @@ def time_law(
         speed = 0.0
     if end < path.length:
         stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
+    if journey.pilot is not None:
+        stops = with_turns(path, journey.pilot.machine, stops, distance)
     law = retime(
         path,
         journey.limits,

@@ -9,6 +9,8 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
+from viaspline.machine.limits import limits_of
+from viaspline.machine.machine import PERIOD, is_driven, machine_of
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan, plan
@@ -16,15 +18,18 @@ from viaspline.robot.belief import Belief
 from viaspline.robot.journey import Journey, law_on
 from viaspline.robot.lidar import Scan
 from viaspline.robot.look import look
-from viaspline.robot.progress import advance, happened
+from viaspline.robot.pilot import Pilot
+from viaspline.robot.progress import advance, commanded, happened
 from viaspline.robot.reroute import notice
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
 from viaspline.robot.steering import steer
 from viaspline.robot.visits import visits_of
-from viaspline.trajectory.limits import REACTION, Limits
+from viaspline.trajectory.limits import REACTION
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
+
+ROUNDING = 1e-12  # of times
 
 
 class Navigator:
@@ -49,10 +54,16 @@ class Navigator:
     that has gone opened one that is 5 % and 0.5 m shorter; and it passes what it knows on the side
     that it meant to, unless the other is shorter by as much.
 
+    A robot with a drive, or with a localisation that is not exact, is controlled in a closed loop:
+    its commands bring it to where it should be when they take effect, after the delay of the drive.
+    So time runs ahead by that delay in here, in the events and re-plans too. Where the robot is
+    too far behind, its time law waits for it.
+
     Args:
         mission: What to do.
         plan: Its plan, if there is one already.
         reaction: Longest time between two steps [s].
+        period: Usual time between two steps; only the control of a robot with a drive asks [s].
 
     Raises:
         NoPathError: When there is no path at all.
@@ -76,11 +87,16 @@ class Navigator:
     """
 
     def __init__(
-        self, mission: Mission, plan: Plan | None = None, *, reaction: float = REACTION
+        self,
+        mission: Mission,
+        plan: Plan | None = None,
+        *,
+        reaction: float = REACTION,
+        period: float = PERIOD,
     ) -> None:
         if not 0.0 < reaction < float("inf"):
             raise GeometryError(f"reaction is {reaction}; give a time above 0")
-        limits = Limits.of(mission.robot, reaction)
+        limits = limits_of(mission.robot, reaction)
         self._plan = _planned(mission) if plan is None else plan
         journey = Journey(
             mission=mission,
@@ -93,8 +109,9 @@ class Navigator:
             laid=self._plan.world,
             law=self._plan.trajectory,
             time=0.0,
+            tracking_error=self._plan.tracking_error,
         )
-        journey = replace(journey, belief=_belief(journey))
+        journey = replace(journey, belief=_belief(journey), pilot=_pilot(journey, period))
         self._journey = replace(journey, law=law_on(journey, speed=0.0, time=0.0))
 
     def step(
@@ -119,7 +136,8 @@ class Navigator:
         _check(state, time, journey)
         if not journey.events:
             journey = _started(journey, time)
-        if not journey.finished:
+        before = journey
+        if not journey.finished or journey.pilot is not None:
             journey = advance(journey, state, time)
         if isinstance(sensed, Scan):
             if journey.belief is None:
@@ -132,6 +150,7 @@ class Navigator:
             new = tuple(dict.fromkeys(o for o in sensed if o not in journey.seen))
             if new and not journey.finished:
                 journey = happened(notice(journey, new))
+        journey = commanded(before, journey, state, time)
         return steer(journey, state), self._with(journey)
 
     def _with(self, journey: Journey) -> Navigator:
@@ -145,6 +164,11 @@ class Navigator:
         u = self.path.parameter(float(distance))
         place = np.asarray(self.path.evaluate(u))
         return RobotState(tuple(place.tolist()), float(self.path.heading(u)), float(speed))
+
+    @property
+    def pilot(self) -> Pilot | None:
+        """The controller of a robot with a drive; None if it follows exactly."""
+        return self._journey.pilot
 
     @property
     def mission(self) -> Mission:
@@ -222,15 +246,25 @@ def _belief(journey: Journey) -> Belief | None:
     return Belief.at_start(journey.world, robot)
 
 
+def _pilot(journey: Journey, period: float) -> Pilot | None:
+    robot = journey.mission.robot
+    if not is_driven(robot):
+        return None
+    return Pilot.of(machine_of(robot, period), period, journey.path, journey.law)
+
+
 def _started(journey: Journey, time: float) -> Journey:
+    if journey.pilot is not None:
+        time += journey.pilot.ahead
     journey = replace(journey, time=time, law=journey.law.delayed(time))
     length = f"sets off on a path of {journey.path.length:.1f} m"
     return journey.noted(Event("started", time, journey.place(0.0), length))
 
 
 def _check(state: RobotState, time: float, journey: Journey) -> None:
-    if journey.events and time < journey.time:
-        raise GeometryError(f"time {time} s is before the last step's, {journey.time} s")
+    last = journey.time - (0.0 if journey.pilot is None else journey.pilot.ahead)
+    if journey.events and time < last - ROUNDING * (1.0 + abs(last)):
+        raise GeometryError(f"time {time} s is before the last step's, {last} s")
     numbers = (*state.position, state.heading, state.speed, time)
     if len(state.position) != journey.path.dimension or not np.isfinite(numbers).all():
         raise GeometryError(

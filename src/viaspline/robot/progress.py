@@ -7,7 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import PathVia
+from viaspline.kernels.follow import ASIDE
 from viaspline.robot.journey import SLIP, Dwell, Journey, law_on
+from viaspline.robot.pilot import Pilot
 from viaspline.robot.run import Event, Visit
 from viaspline.robot.state import RobotState
 
@@ -21,6 +23,8 @@ def advance(journey: Journey, state: RobotState, time: float) -> Journey:
     Progress is a distance along the path. It is looked for near the place where the time law has
     the robot, and never goes back, so a path that crosses or repeats itself makes no difference.
     """
+    if journey.pilot is not None:
+        return _piloted(journey, journey.pilot, state, time)
     should, speed, _ = (float(x) for x in journey.law.state_at(time))
     here = np.asarray(journey.path.at_distance(should))
     off = float(np.linalg.norm(np.asarray(state.position) - here))
@@ -38,6 +42,29 @@ def advance(journey: Journey, state: RobotState, time: float) -> Journey:
         law = law_on(journey, speed=speed, time=time)
         return replace(journey, law=law)
     return happened(replace(journey, distance=max(should, low)))
+
+
+def _piloted(journey: Journey, pilot: Pilot, state: RobotState, time: float) -> Journey:
+    """The journey of a robot with a drive: its law waits for it where it is too far behind."""
+    pilot = pilot.on(journey.path, journey.law).step(state, time)
+    law = journey.law if pilot.late <= 0.0 else journey.law.delayed(pilot.late)
+    now = time + pilot.ahead
+    distance = max(float(law.distance_at(now)), journey.distance)
+    off = abs(float(pilot.note[ASIDE]))
+    return happened(replace(journey, pilot=pilot, law=law, time=now, distance=distance, off=off))
+
+
+def commanded(before: Journey, journey: Journey, state: RobotState, time: float) -> Journey:
+    """The journey when its pilot has decided, by the path and the law that there are now."""
+    if journey.pilot is None or before.pilot is None:
+        return journey
+    pilot = journey.pilot
+    if journey.path is not pilot.path or journey.law is not pilot.trajectory:
+        waited = pilot.late > 0.0
+        pilot = before.pilot.on(journey.path, journey.law).step(state, time)
+        if pilot.late > 0.0 and not waited:
+            journey = replace(journey, law=journey.law.delayed(pilot.late))
+    return replace(journey, pilot=pilot.gave(time))
 
 
 def project(

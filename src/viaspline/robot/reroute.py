@@ -92,7 +92,7 @@ def _too_late(scene: Scene) -> str:
     distance, nearest = scene.against.nearest(scene.journey.path.at_distance(scene.stop))
     name, brief = scene.against.name(int(nearest)), scene.journey.brief
     gap = f"{float(distance) - brief.radius:.2f} m"
-    inside = f"inside the clearance of {brief.clearance:g} m that it has to keep"
+    inside = f"inside the clearance of {brief.kept:g} m that it has to keep"
     if scene.speed == 0.0:
         return f"the robot stands {gap} from '{name}', {inside}"
     return (
@@ -113,7 +113,7 @@ def _covered(scene: Scene) -> tuple[dict[int, str], str | None]:
     for k in np.flatnonzero(distances < scene.floor).tolist():
         via, name = ahead[k][0], scene.against.name(int(nearest[k]))
         free = float(distances[k]) - journey.brief.radius
-        why = f"'{name}' leaves {free:.2f} m there, {journey.brief.clearance:g} m are needed"
+        why = f"'{name}' leaves {free:.2f} m there, {journey.brief.kept:g} m are needed"
         if free < 0.0:
             why = f"'{name}' covers it"
         if via.u >= journey.path.domain[1] - 1e-9:

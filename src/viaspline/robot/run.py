@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
+from viaspline.machine.tracking import Tracking
 from viaspline.planner import Plan
 from viaspline.world.world import World
 
@@ -96,8 +97,9 @@ class Run:
         reached: Whether the robot came to its goal.
         reason: Why it did not; None if it did.
         duration: [s].
-        path: The exact curve that was driven.
-        certificate: The proven clearance of the driven path against everything that was there.
+        path: The curve that was driven: exactly, or of a robot with a drive within a millimetre,
+            which its certificate takes off.
+        certificate: The proven clearance of the driven body against everything that was there.
         times: [s], shape (n,).
         positions: [m], shape (n, d).
         headings: [rad], shape (n,).
@@ -128,3 +130,4 @@ class Run:
     replans: tuple[Replan, ...]
     compute_times: tuple[float, ...] = ()
     known: World | None = None
+    tracking: Tracking | None = None

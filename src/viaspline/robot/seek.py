@@ -117,7 +117,7 @@ def _answer(journey: Journey, free: float) -> tuple[Scene, Answer]:
         if out is not None:
             return out[0], Answer(out[1])
     scene = replace(scene, journey=replace(journey, close=Close(math.inf, floor)), floor=floor)
-    eased = replace(brief, clearance=floor - brief.radius)
+    eased = replace(brief, clearance=floor - brief.radius - brief.tracking_error)
     found = answer(replace(scene, brief=eased), world)
     if found.choice is None:
         return scene, found

@@ -1,4 +1,4 @@
-"""The simulator: the whole world, a sensor, a navigator, and a point robot that follows exactly."""
+"""The simulator: the whole world, a sensor, a navigator, and a robot."""
 
 from __future__ import annotations
 
@@ -14,9 +14,12 @@ from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan
+from viaspline.robot.driven import Sensed, drive_machine
+from viaspline.robot.driven_run import run_of
 from viaspline.robot.lidar import LidarSensor
 from viaspline.robot.navigator import Navigator
-from viaspline.robot.run import Event, Run, Visit
+from viaspline.robot.outcome import outcome
+from viaspline.robot.run import Event, Run
 from viaspline.robot.sensor import RangeSensor
 from viaspline.trajectory.limits import REACTION
 from viaspline.trajectory.trajectory import Trajectory
@@ -52,12 +55,17 @@ def simulate(
 ) -> Run:
     """Drive a mission in the world as it is, with what is not on the map.
 
+    A robot without a drive follows its path exactly. One with a drive, or with a localisation that
+    is not exact, is commanded by the navigator and moves as its machine does, with its delay, its
+    limits and its noise: then ``Run.path`` is the way that it really took, its certificate that of
+    the driven body, and ``Run.tracking`` what it was off.
+
     The same mission gives the same run, bit by bit. A drive takes at most ten times its planned
     duration and ten minutes; then it is broken off, with that as its reason.
 
     Args:
         mission: What to do.
-        seed: For the noise of a lidar; nothing else is random.
+        seed: Of all that is random: the noise of a lidar, of the drive and of the localisation.
         step: Time between two looks of the sensor [s].
         progress: Called with the time [s], the distance driven and the length of the path [m].
         plan: The mission's plan, if there is one already.
@@ -67,8 +75,8 @@ def simulate(
 
     Raises:
         NoPathError: When there is no path at all.
-        GeometryError: When the step is not above 0, or the sensor sees no farther than the
-            robot's body.
+        GeometryError: When the step is not above 0, the sensor sees no farther than the robot's
+            body, or a robot with a drive is sent on a route with heights.
 
     Example:
         >>> run = simulate(Mission.model_validate({
@@ -82,7 +90,9 @@ def simulate(
     if not 0.0 < step < float("inf"):
         raise GeometryError(f"step is {step}; give a time above 0 s")
     world = World.everything(mission)
-    nav = Navigator(mission, plan, reaction=max(step, REACTION))
+    nav = Navigator(mission, plan, reaction=max(step, REACTION), period=step)
+    if nav.pilot is not None:
+        return _run_of_machine(nav, world, step, progress, seed)
     drive = _drive(nav, world, step, progress, seed)
     return _run(drive, world, step)
 
@@ -96,16 +106,22 @@ def _named_unseen(mission: Mission, world: World) -> tuple[Obstacle, ...]:
     )
 
 
+def _sensors(
+    mission: Mission, world: World, seed: int
+) -> tuple[LidarSensor | None, RangeSensor | None]:
+    """The sensor that the robot has."""
+    sensor = mission.robot.sensor
+    if sensor is None:
+        return None, None
+    if sensor.lidar is not None:
+        return LidarSensor(world.obstacles, sensor.lidar, seed), None
+    return None, RangeSensor(_named_unseen(mission, world), sensor.reach)
+
+
 def _drive(
     nav: Navigator, world: World, step: float, progress: Progress | None, seed: int
 ) -> _Drive:
-    robot = nav.mission.robot
-    sensor = None
-    lidar = None
-    if robot.sensor is not None and robot.sensor.lidar is not None:
-        lidar = LidarSensor(world.obstacles, robot.sensor.lidar, seed)
-    elif robot.sensor is not None:
-        sensor = RangeSensor(_named_unseen(nav.mission, world), robot.sensor.reach)
+    lidar, sensor = _sensors(nav.mission, world, seed)
     limit = PATIENCE * nav.plan.trajectory.duration + GRACE
     laws: list[tuple[float, Trajectory]] = []
     known: frozenset[Obstacle] = frozenset()
@@ -172,16 +188,28 @@ def _contact(nav: Navigator, world: World, times: Floats) -> Event | None:
     return None
 
 
+def _run_of_machine(
+    nav: Navigator, world: World, step: float, progress: Progress | None, seed: int
+) -> Run:
+    lidar, sensor = _sensors(nav.mission, world, seed)
+
+    def sense(place: tuple[float, float], heading: float, tick: int) -> Sensed:
+        if lidar is not None:
+            return lidar.scan(place, heading, tick)
+        return () if sensor is None else sensor.seen(place)
+
+    def tell(time: float, nav: Navigator) -> None:
+        if progress is not None:
+            progress(time, nav.distance, nav.path.length)
+
+    limit = PATIENCE * nav.plan.trajectory.duration + GRACE
+    drive = drive_machine(nav, world, step, seed, sense, tell, limit)
+    return run_of(drive, world, step)
+
+
 def _run(drive: _Drive, world: World, step: float) -> Run:
     nav = drive.nav
-    reason = drive.overdue or nav.reason
-    events, visits = nav.events, nav.visits
-    if drive.touched is not None:
-        reason = f"the robot touched '{drive.touched.data['name']}'"
-        events = (*(e for e in events if e.time <= drive.end), drive.touched)
-    if reason is not None:
-        visits = tuple(_because(visit, reason) for visit in visits)
-    events = tuple(sorted(events, key=lambda event: event.time))
+    reason, events, visits = outcome(nav, drive.end, drive.touched, drive.overdue)
     times = _sample_times(drive, step, events)
     distances, speeds = _along(drive.laws, times)
     path = driven(nav.path, float(distances[-1]))
@@ -206,10 +234,6 @@ def _run(drive: _Drive, world: World, step: float) -> Run:
         compute_times=nav.compute_times,
         known=nav.world,
     )
-
-
-def _because(visit: Visit, reason: str) -> Visit:
-    return replace(visit, reason=reason) if visit.status == "failed" else visit
 
 
 def _sample_times(drive: _Drive, step: float, events: tuple[Event, ...]) -> Floats:

@@ -24,6 +24,9 @@ class RobotState:
 class Command:
     """What the robot is to do until the next step.
 
+    For a robot with a drive, speed and yaw rate are what the drive is to be given now: its delay,
+    its lag and its limits have been seen to. ROS's Twist takes ``speed`` and ``yaw_rate``.
+
     Attributes:
         speed: Forward, now [m/s].
         acceleration: By which that speed changes from now on [m/s²].
@@ -36,6 +39,10 @@ class Command:
         stopped: Whether the robot is to stand: it dwells, turns on the spot to ``heading``, or
             its drive is over.
         finished: Whether its drive is over, at the goal or not.
+        steer: The angle of the front wheels of a robot with an Ackermann drive, left is positive
+            [rad]; None for others.
+        wheels: The speeds of the left and the right wheels of a differential or skid-steer drive
+            [m/s]; None for others.
     """
 
     speed: float
@@ -47,3 +54,5 @@ class Command:
     distance: float
     stopped: bool
     finished: bool
+    steer: float | None = None
+    wheels: tuple[float, float] | None = None

@@ -7,7 +7,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.follow import turn_law
+from viaspline.kernels.motion import ACKERMANN, DIFFERENTIAL, SKID_STEER, turning
 from viaspline.robot.journey import Journey
+from viaspline.robot.pilot import Pilot
 from viaspline.robot.progress import ON_PATH
 from viaspline.robot.state import Command, RobotState
 
@@ -20,12 +23,11 @@ AIM_TIME = 1.0  # and over what it drives in this time [s]
 def steer(journey: Journey, state: RobotState) -> Command:
     """The command for a robot at this point of its journey.
 
-    On the path it is the path's own curvature. Beside it, with the offset e to the left of the
-    path and the heading error h, it is curvature - e/L² - 2h/L: both errors die out, critically
-    damped, over a distance of about L.
+    On the path it is the path's own curvature; beside it the control law leads back. The same
+    law drives robots with a drive, whose pilot has decided already.
     """
     distance, speed, acceleration = (float(x) for x in journey.law.state_at(journey.time))
-    if journey.off > ON_PATH:
+    if journey.off > ON_PATH and journey.pilot is None:
         distance = journey.distance
         speed = float(journey.law.speed_at(distance))
     path = journey.path
@@ -36,27 +38,45 @@ def steer(journey: Journey, state: RobotState) -> Command:
         curvature = 0.0  # a cusp, where the robot turns on the spot
     if path.dimension > 2:
         curvature = _ground_curvature(journey, u)
-    if journey.off > ON_PATH:
-        curvature -= _correction(state, position, heading)
+    stopped = speed == 0.0 and acceleration == 0.0
+    steered, wheels, rate = None, None, None
+    if journey.pilot is not None:
+        speed, rate, steered, wheels = _driven(journey.pilot)
+        curvature = rate / speed if speed > 0.0 else curvature
+    elif journey.off > ON_PATH:
+        curvature = _led_back(curvature, state, position, heading)
     return Command(
         speed=speed,
         acceleration=acceleration,
         curvature=curvature,
-        yaw_rate=speed * curvature,
+        yaw_rate=speed * curvature if rate is None else rate,
         position=tuple(position.tolist()),
         heading=heading,
         distance=distance,
-        stopped=speed == 0.0 and acceleration == 0.0,
+        stopped=stopped,
         finished=journey.finished,
+        steer=steered,
+        wheels=wheels,
     )
 
 
-def _correction(state: RobotState, position: Floats, heading: float) -> float:
+def _driven(pilot: Pilot) -> tuple[float, float, float | None, tuple[float, float] | None]:
+    """Speed, yaw rate, angle of the front wheels, speeds of the left and right wheels."""
+    machine, (speed, turn) = pilot.machine, pilot.command
+    rate = float(turning(machine, speed, turn))
+    if machine.kind == ACKERMANN:
+        return speed, rate, turn, None
+    if machine.kind in (DIFFERENTIAL, SKID_STEER):
+        apart = 0.5 * rate * machine.length / machine.grip
+        return speed, rate, None, (speed - apart, speed + apart)
+    return speed, rate, None, None
+
+
+def _led_back(curvature: float, state: RobotState, position: Floats, heading: float) -> float:
     aside = np.asarray(state.position)[:2] - position[:2]
     offset = float(aside[1] * math.cos(heading) - aside[0] * math.sin(heading))
     error = math.remainder(state.heading - heading, math.tau)
-    aim = max(NEAREST_AIM, AIM_TIME * state.speed)
-    return offset / aim**2 + 2.0 * error / aim
+    return turn_law(curvature, offset, error, max(NEAREST_AIM, AIM_TIME * state.speed))
 
 
 def _ground_curvature(journey: Journey, u: float) -> float:

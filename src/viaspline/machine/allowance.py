@@ -1,0 +1,59 @@
+"""How far from its path a driven body gets: measured in trial drives, with a margin."""
+
+from __future__ import annotations
+
+import math
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import GeometryError
+from viaspline.machine.follow import follow
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.trajectory.trajectory import Trajectory
+
+SEEDS = (7001, 7002, 7003)
+"""Of the trial drives."""
+
+MARGIN = 1.5
+"""By which the allowance is larger than what was measured. Errors from noise are about normal; in
+drives of some minutes the largest is about four standard deviations, so this covers six."""
+
+LEAST = 0.005
+"""What is added for what a trial drive leaves out: the curve through the steps, rounding [m]."""
+
+
+def allowance(path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec) -> float:
+    """The tracking error that a robot's clearance has to allow for on a path [m].
+
+    Args:
+        path: In the plane.
+        trajectory: Its time law.
+        robot: Its body, drive and localisation.
+
+    Raises:
+        GeometryError: When the robot doesn't come to the end of the path.
+
+    Example:
+        >>> from viaspline.trajectory.limits import Limits
+        >>> from viaspline.trajectory.retime import retime
+        >>> line = PiecewiseCubic([[[0, 0], [10, 0], [20, 0], [30, 0]]])
+        >>> law = retime(line, Limits(max_speed=2.0, max_accel=1.0))
+        >>> allowance(line, law, RobotSpec(drive={"differential": {"track_m": 0.5}})) < 0.02
+        True
+    """
+    reach = 0.0 if robot.footprint is None else robot.outer_radius
+    largest = 0.0
+    for seed in SEEDS:
+        track = follow(path, trajectory, robot, seed=seed)
+        if not track.finished:
+            raise GeometryError(
+                f"the robot can't follow its path: in a trial drive it was {track.times[-1]:.0f} s "
+                f"under way at {track.tracking.progress[-1]:.1f} m of {path.length:.1f} m; "
+                f"give it {SOFTER}"
+            )
+        largest = max(largest, track.tracking.body_deviation(reach))
+    if not math.isfinite(largest):
+        raise GeometryError(f"the robot can't follow its path at all; give it {SOFTER}")
+    return MARGIN * largest + LEAST
+
+
+SOFTER = "a lower max_speed_mps, softer limits (max_lateral_accel_mps2), less delay or less noise"

@@ -1,0 +1,90 @@
+"""How near a driven robot was to its path, and its exact motion from step to step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels import follow as kernels
+from viaspline.kernels.follow import Rail
+
+Floats = NDArray[np.float64]
+
+
+class Spread(NamedTuple):
+    """The median, the 99th percentile and the greatest of the sizes of an error."""
+
+    p50: float
+    p99: float
+    max: float
+
+
+@dataclass(frozen=True, eq=False)
+class Tracking:
+    """What a robot's true state was off from what its path and its time law asked.
+
+    Attributes:
+        times: [s], shape (n,).
+        progress: Distance along the path of the place that is nearest to the robot [m], (n,).
+        cross_track: How far beside that place it was, left is positive [m], (n,).
+        heading_error: Its heading less the path's there [rad], (n,).
+        along_track: How far behind the place was where it should have been [m], (n,).
+        moving: Whether it should have been on its way, (n,). At rest it may turn on the spot, and
+            what it is off is still what it was off when it stopped.
+    """
+
+    times: Floats
+    progress: Floats
+    cross_track: Floats
+    heading_error: Floats
+    along_track: Floats
+    moving: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, rail: Rail, notes: Floats, rows: Floats) -> Tracking:
+        """The errors of a drive.
+
+        Args:
+            rail: The path.
+            notes: Of every period of the controller, shape (m, NOTES), m >= 1.
+            rows: Of every step of the motion: time, x, y, heading, …, shape (n, 6).
+        """
+        off = kernels.deviations(rail, notes, rows)
+        return cls(rows[:, 0], off[:, 0], off[:, 1], off[:, 2], off[:, 3], off[:, 4] == 0.0)
+
+    @property
+    def cross(self) -> Spread:
+        """Of the offset to the side, while it was on its way [m]."""
+        return self._spread(self.cross_track)
+
+    @property
+    def heading(self) -> Spread:
+        """Of the heading error, while it was on its way [rad]."""
+        return self._spread(self.heading_error)
+
+    @property
+    def along(self) -> Spread:
+        """Of the error along the path, while it was on its way [m]."""
+        return self._spread(self.along_track)
+
+    def body_deviation(self, reach: float) -> float:
+        """How far any point of the body was from where it would have been on the path [m].
+
+        A point that lies R from the reference point is off by the offset to the side and, through
+        the heading error h, by 2 R sin(h/2) at most. A disc is not turned by anything.
+
+        Args:
+            reach: R of the farthest corner; 0 for a disc [m].
+        """
+        turned = np.where(self.moving, np.abs(self.heading_error), 0.0)
+        off = np.abs(self.cross_track) + 2.0 * reach * np.sin(0.5 * turned)
+        return float(off.max()) if off.size else 0.0
+
+    def _spread(self, errors: Floats) -> Spread:
+        sizes = np.abs(errors[self.moving])
+        if not sizes.size:
+            return Spread(0.0, 0.0, 0.0)
+        return Spread(*(float(x) for x in np.percentile(sizes, [50.0, 99.0, 100.0])))

@@ -1,0 +1,35 @@
+"""When a driven body touches something."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.robot.run import Event
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+
+DEPTH = 1e-9  # what touches by less doesn't [m]
+
+
+def touched(robot: RobotSpec, world: World, rows: Floats) -> Event | None:
+    """The first touch in some steps of a motion.
+
+    The steps are so short that a body which is clear at their ends does not touch between them by
+    more than a fraction of a millimetre; what is certain is in the run's certificate.
+
+    Args:
+        robot: Its body.
+        world: Everything that is there.
+        rows: Time, x, y, heading, …, shape (n, 6).
+    """
+    gaps, nearest = world.nearest(rows[:, 1:3])
+    inside = np.flatnonzero(gaps < robot.inner_radius - DEPTH)
+    if not inside.size:
+        return None
+    i = int(inside[0])
+    name = world.name(int(nearest[i]))
+    where = float(rows[i, 1]), float(rows[i, 2])
+    return Event("contact", float(rows[i, 0]), where, f"touches '{name}'", {"name": name})

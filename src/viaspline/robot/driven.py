@@ -1,0 +1,107 @@
+"""The simulated drive of a machine: it is commanded, and moves as its drive lets it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels import follow as kernels
+from viaspline.kernels.follow import SUBSTEP
+from viaspline.machine.faults import Faults
+from viaspline.machine.follow import start_of
+from viaspline.machine.tracking import Tracking
+from viaspline.mission.parts import Obstacle
+from viaspline.robot.contact import touched
+from viaspline.robot.lidar import Scan
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.run import Event
+from viaspline.robot.state import RobotState
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+Sensed = tuple[Obstacle, ...] | Scan
+Sense = Callable[[tuple[float, float], float, int], Sensed]
+Told = Callable[[float, Navigator], None]
+
+HALT = 1e-3  # a robot that is slower stands [m/s]
+LINGER = 5.0  # it is waited for that after its drive at most [s]
+
+
+@dataclass(frozen=True, eq=False)
+class Driven:
+    """A drive that is over.
+
+    Attributes:
+        nav: The navigator at its end.
+        rows: The true motion at every step: time, x, y, heading, and the speed and yaw rate
+            before, shape (n, 6).
+        tracking: What it was off from its path.
+        touched: The contact that ended it.
+        overdue: Why it was broken off.
+    """
+
+    nav: Navigator
+    rows: Floats
+    tracking: Tracking
+    touched: Event | None
+    overdue: str | None
+
+
+def drive_machine(
+    nav: Navigator, world: World, step: float, seed: int, sense: Sense, tell: Told, limit: float
+) -> Driven:
+    """Drive until the navigator has finished and the robot stands.
+
+    Args:
+        nav: At the start.
+        world: Everything that is there.
+        step: From one look and one command to the next [s].
+        seed: Of the noise.
+        sense: What the sensor shows at the true place [m] and heading [rad] at a tick.
+        tell: Told the time and the navigator at every step.
+        limit: The drive is broken off at this time [s].
+    """
+    pilot = nav.pilot
+    assert pilot is not None
+    machine, faults = pilot.machine, Faults(nav.mission.robot, seed)
+    substeps = max(math.ceil(step / SUBSTEP - 1e-9), 1)
+    state = start_of(pilot.rail.x[0], pilot.rail.y[0], pilot.rail.heading[0])
+    rows, notes = [np.array([[0.0, *state[:3], 0.0, 0.0]])], []
+    contact = touched(nav.mission.robot, world, rows[0])
+    overdue, tick = None, 0
+    while contact is None:
+        time = tick * step
+        pose = state[:3] + faults.measured(1)[0]
+        believed = RobotState((float(pose[0]), float(pose[1])), float(pose[2]), float(state[3]))
+        place = float(state[0]), float(state[1])
+        _, nav = nav.step(believed, sense(place, float(state[2]), tick), time)
+        pilot = nav.pilot
+        assert pilot is not None
+        notes.append(pilot.note)
+        tell(time, nav)
+        if _is_over(nav, time, float(state[3])):
+            break
+        if time > limit:
+            overdue = f"the drive was broken off after {time:.0f} s, its limit"
+            break
+        moved = kernels.move(
+            machine, state, time, step / substeps, pilot.given[:, 0].copy(),
+            pilot.given[:, 1].copy(), pilot.given[:, 2].copy(), faults.driven(substeps),
+        )  # fmt: skip
+        contact = touched(nav.mission.robot, world, np.vstack((rows[-1][-1:], moved)))
+        rows.append(moved)
+        tick += 1
+    track = np.concatenate(rows)
+    if contact is not None:
+        track = track[track[:, 0] <= contact.time + 1e-9]
+    noted = np.array(notes) if notes else np.zeros((1, kernels.NOTES))
+    return Driven(nav, track, Tracking.of(pilot.rail, noted, track), contact, overdue)
+
+
+def _is_over(nav: Navigator, time: float, speed: float) -> bool:
+    end = nav.trajectory.end_time
+    return nav.finished and time >= end and (abs(speed) < HALT or time >= end + LINGER)

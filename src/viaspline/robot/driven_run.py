@@ -1,0 +1,112 @@
+"""The run of a machine: the curve that it truly drove, and what is proven of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.certificate import certify
+from viaspline.curve.path import Path, PathVia
+from viaspline.machine.trace import trace
+from viaspline.robot.driven import Driven
+from viaspline.robot.outcome import outcome
+from viaspline.robot.run import Run, Visit
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+
+NEAR = 1.0  # a via point is passed within so much of its place along the path [m]
+CREEPS = 0.02  # a robot that is slower has no curvature to speak of [m/s]
+
+
+def run_of(drive: Driven, world: World, step: float) -> Run:
+    """The run of a drive that is over.
+
+    Args:
+        drive: The drive.
+        world: Everything that was there.
+        step: From one sample to the next [s].
+    """
+    nav, rows = drive.nav, drive.rows
+    robot, end = nav.mission.robot, float(drive.rows[-1, 0])
+    reason, events, visits = outcome(nav, end, drive.touched, drive.overdue)
+    path, bound, u = driven_path(drive)
+    certificate = certify(path, world, robot.clearance_m, radius=robot.outer_radius)
+    ticks = step * np.arange(math.floor(end / step + 1e-9) + 1)
+    times = np.unique(np.concatenate((ticks, [event.time for event in events], [end])))
+    times = times[times <= end]
+    speeds, rates = (np.interp(times, rows[:, 0], rows[:, k]) for k in (4, 5))
+    headings = np.interp(times, rows[:, 0], rows[:, 3])
+    return Run(
+        plan=nav.plan,
+        world=world,
+        reached=nav.reached and reason is None,
+        reason=reason,
+        duration=end,
+        path=path,
+        certificate=replace(certificate, clearance=certificate.clearance - bound),
+        times=times,
+        positions=np.asarray(path.evaluate(np.interp(times, rows[:, 0], u))),
+        headings=np.remainder(headings + np.pi, 2.0 * np.pi) - np.pi,
+        speeds=speeds,
+        curvatures=np.where(speeds > CREEPS, rates / np.maximum(speeds, CREEPS), 0.0),
+        visits=missed(drive, visits),
+        events=events,
+        replans=nav.replans,
+        compute_times=nav.compute_times,
+        known=nav.world,
+        tracking=drive.tracking,
+    )
+
+
+def driven_path(drive: Driven) -> tuple[Path, float, Floats]:
+    """The curve of the true motion with the via points that were passed, and its bound [m].
+
+    Returns:
+        The path, how far it may be from the true motion [m], and its parameter at every row.
+    """
+    robot = drive.nav.mission.robot
+    reach = 0.0 if robot.footprint is None else robot.outer_radius
+    curve, bound, u = trace(drive.rows[:, 1:3], drive.rows[:, 3], reach)
+    vias: list[PathVia] = []
+    for via, distance in zip(drive.nav.path.vias, drive.nav.path.via_distances, strict=True):
+        row = _passing(drive, via, float(distance))
+        if row is not None:
+            least = vias[-1].u if vias else 0.0
+            vias.append(replace(via, u=max(float(u[row]), least)))
+    return Path(curve.spans, vias), bound, u
+
+
+def _passing(drive: Driven, via: PathVia, distance: float) -> int | None:
+    """The row at which the robot was nearest to a via point when it passed there."""
+    progress = drive.tracking.progress
+    if progress[-1] < distance - NEAR:
+        return None
+    rows = np.flatnonzero(np.abs(progress - distance) <= NEAR)
+    if not rows.size:
+        return None
+    away = np.hypot(*(drive.rows[rows, 1:3] - np.array(via.at[:2])).T)
+    return int(rows[int(away.argmin())])
+
+
+def missed(drive: Driven, visits: tuple[Visit, ...]) -> tuple[Visit, ...]:
+    """The visits with how near the true motion came to each via point."""
+    places = {via.at: row for via, row in _passings(drive)}
+    return tuple(
+        replace(visit, miss=math.dist(drive.rows[places[visit.at], 1:3], visit.at[:2]))
+        if visit.status == "served" and visit.at in places
+        else visit
+        for visit in visits
+    )
+
+
+def _passings(drive: Driven) -> list[tuple[PathVia, int]]:
+    found = []
+    for via, distance in zip(drive.nav.path.vias, drive.nav.path.via_distances, strict=True):
+        row = _passing(drive, via, float(distance))
+        if row is not None and via.kind == "user":
+            found.append((via, row))
+    return found
