@@ -22,6 +22,7 @@ from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.units import metres, seconds
 from viaspline.robot.run import Event, Replan, Run
 
+ASIDE = "left of path [m]"  # the strip of what a robot with a drive was off
 PIECES = 4000  # of the coloured line, at most
 NOTED = ("detected", "replanned", "skipped", "braked", "stopped", "contact")
 MARKED = {"detected": ("x", "detected"), "braked": ("v", "braked"), "stopped": ("X", "stopped"),
@@ -43,7 +44,8 @@ def run_picture(run: Run, name: str) -> bytes:
     driven = run.positions[:, :2]
     seen = np.vstack([planned, driven])
     view = view_of(seen, scene.corners, scene.box, required)
-    sheet = new_sheet(view, strips.names(run.positions), *_heading(run, name))
+    rows = strips.names(run.positions) + ([ASIDE] if run.tracking is not None else [])
+    sheet = new_sheet(view, rows, *_heading(run, name))
     labels = Labels(sheet.map)
     scans = has_lidar(run)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre, faint=scans)
@@ -230,8 +232,11 @@ def _fill_strips(sheet: Sheet, run: Run) -> None:
     distances = np.concatenate([[0.0], np.cumsum(steps)])
     keep = thinned(np.arange(len(distances), dtype=float), 6000).astype(int)
     values = [run.speeds[keep], run.curvatures[keep]]
-    if len(sheet.strips) == 3:
+    if len(strips.names(run.positions)) == 3:
         values.append(run.positions[keep, 2])
+    if run.tracking is not None:
+        off = np.interp(run.times, run.tracking.times, run.tracking.cross_track)
+        values.append(off[keep])
     strips.fill(
         sheet.strips, distances[keep], values, via_ticks(run.path, run.plan.mission), style.PATH
     )

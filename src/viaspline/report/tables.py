@@ -54,6 +54,12 @@ def run_csv(run: Run) -> str:
         ("speed_mps", run.speeds, 6),
         ("curvature_1pm", run.curvatures, 9),
     ]
+    if run.tracking is not None:
+        track = run.tracking
+        columns += [
+            ("cross_track_m", np.interp(run.times, track.times, track.cross_track), 6),
+            ("along_track_m", np.interp(run.times, track.times, track.along_track), 6),
+        ]
     return _csv(columns)
 
 

@@ -27,6 +27,11 @@ def touched(robot: RobotSpec, world: World, rows: Floats) -> Event | None:
     """
     gaps, nearest = world.nearest(rows[:, 1:3])
     inside = np.flatnonzero(gaps < robot.inner_radius - DEPTH)
+    if robot.footprint is not None and not inside.size:
+        close = np.flatnonzero(gaps < robot.outer_radius)
+        bodies, those = world.body_nearest(rows[close, 1:3], rows[close, 3], robot.footprint)
+        nearest[close] = those
+        inside = close[bodies <= 0.0]
     if not inside.size:
         return None
     i = int(inside[0])

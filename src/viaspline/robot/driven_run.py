@@ -8,9 +8,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.curve.certificate import certify
+from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path, PathVia
+from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.machine.trace import trace
+from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.driven import Driven
 from viaspline.robot.outcome import outcome
 from viaspline.robot.run import Run, Visit
@@ -34,7 +36,7 @@ def run_of(drive: Driven, world: World, step: float) -> Run:
     robot, end = nav.mission.robot, float(drive.rows[-1, 0])
     reason, events, visits = outcome(nav, end, drive.touched, drive.overdue)
     path, bound, u = driven_path(drive)
-    certificate = certify(path, world, robot.clearance_m, radius=robot.outer_radius)
+    certificate = proven(path, world, robot)
     ticks = step * np.arange(math.floor(end / step + 1e-9) + 1)
     times = np.unique(np.concatenate((ticks, [event.time for event in events], [end])))
     times = times[times <= end]
@@ -60,6 +62,13 @@ def run_of(drive: Driven, world: World, step: float) -> Run:
         known=nav.world,
         tracking=drive.tracking,
     )
+
+
+def proven(path: PiecewiseCubic, world: World, robot: RobotSpec) -> Certificate:
+    """The proven clearance of a robot's body along a curve."""
+    if robot.footprint is None:
+        return certify(path, world, robot.clearance_m, radius=robot.radius_m)
+    return certify(path, world, robot.clearance_m, footprint=robot.footprint)
 
 
 def driven_path(drive: Driven) -> tuple[Path, float, Floats]:
