@@ -1,8 +1,8 @@
 """How near machines stay to their paths: every example, every drive, with delay and noise.
 
-2 m/s at most, 0.1 s from a command to its effect, a lag of 0.1 s, errors of the localisation and of
-the drive; the 99th percentile of the error across the path is to be 0.15 m at most, nothing is to be
-touched, and the driven body is to keep its clearance, proven.
+2 m/s at most, 0.1 s from a command to its effect, a lag of 0.1 s, errors of the localisation and
+of the drive; the 99th percentile of the error across the path is to be 0.15 m at most, nothing is
+to be touched, and the driven body is to keep its clearance, proven.
 
     python benchmarks/tracking.py [NAME ...]
 """

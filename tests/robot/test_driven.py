@@ -117,11 +117,11 @@ def test_the_same_seed_gives_the_same_drive_and_another_another(mission_of: Make
 
 
 def test_shifting_the_mission_shifts_the_drive(mission_of: Make) -> None:
-    points = np.array([(0, 0), (20, 5), (40, 0)])
+    points, shift = np.array([(0, 0), (20, 5), (40, 0)]), np.array((64, -32))
     quiet = {"differential": {"track_m": 0.5}, "delay_s": 0.1}
     here = simulate(mission_of(*points.tolist(), drive=quiet))
-    there = simulate(mission_of(*(points + (64, -32)).tolist(), drive=quiet))
-    assert there.positions == pytest.approx(here.positions + (64, -32), abs=1e-6)
+    there = simulate(mission_of(*(points + shift).tolist(), drive=quiet))
+    assert there.positions == pytest.approx(here.positions + shift, abs=1e-6)
 
 
 @pytest.mark.parametrize("kind", list(DRIVES))

@@ -8,7 +8,7 @@ from viaspline.machine.machine import is_driven
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.limits import REACTION, Limits
 
-STRAIGHT = 0.9
+STRAIGHT = 0.8
 """Part of a wheel's speed that is used at most on the straight; the rest is for turning."""
 GRIP = 5.0
 """Acceleration across the path that tyres stand [m/s²], for machines without a limit of it."""
@@ -18,7 +18,8 @@ def limits_of(robot: RobotSpec, reaction: float = REACTION) -> Limits:
     """The limits of a mission's robot, with what its machine and its sensor allow.
 
     The time between two looks of the sensor is longer by the delay and the lag of the drive: so
-    much later it brakes.
+    much later it brakes. The outer wheel turns at v (1 + |curvature| track/2): a limit v of the
+    speed and one of the yaw rate share what it can.
 
     Args:
         robot: The robot of the mission.
@@ -29,8 +30,9 @@ def limits_of(robot: RobotSpec, reaction: float = REACTION) -> Limits:
 
     Example:
         >>> wheels = {"track_m": 0.5, "max_wheel_speed_mps": 1.0}
-        >>> limits_of(RobotSpec(drive={"differential": wheels})).max_speed
-        0.9
+        >>> limits = limits_of(RobotSpec(drive={"differential": wheels}))
+        >>> limits.max_speed, round(limits.max_yaw_rate, 9)
+        (0.8, 0.8)
     """
     if not is_driven(robot):
         return Limits.of(robot, reaction)
@@ -41,7 +43,12 @@ def limits_of(robot: RobotSpec, reaction: float = REACTION) -> Limits:
     sides = drive.differential or drive.skid_steer
     if sides is None or sides.max_wheel_speed_mps is None:
         return limits
-    return replace(limits, max_speed=min(limits.max_speed, STRAIGHT * sides.max_wheel_speed_mps))
+    wheel, grip = sides.max_wheel_speed_mps, 1.0
+    if drive.skid_steer is not None:
+        grip -= drive.skid_steer.slip
+    speed = min(limits.max_speed, STRAIGHT * wheel)
+    rate = 2.0 * grip * (wheel - speed) / sides.track_m
+    return replace(limits, max_speed=speed, max_yaw_rate=min(rate, limits.max_yaw_rate or rate))
 
 
 def _gripping(limits: Limits) -> Limits:
