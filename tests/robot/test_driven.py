@@ -161,9 +161,17 @@ def test_a_robot_that_was_put_down_the_wrong_way_round_turns(mission_of: Make) -
     assert command.yaw_rate < -0.5
 
 
-def test_huge_noise_is_an_error_that_says_what_it_needs(mission_of: Make) -> None:
+def test_huge_noise_is_an_error_that_names_the_remedy(mission_of: Make) -> None:
     wild = machine(localization={"position_noise_m": 3.0, "heading_noise_deg": 100})
-    mission = mission_of([0, 0], [50, 0], bounds=[-6, -6, 56, 6], **wild, sensor=None)
+    with pytest.raises(GeometryError, match="give it a lower max_speed_mps, .* or less noise"):
+        plan(mission_of([0, 0], [50, 0], **wild, sensor=None))
+
+
+def test_an_allowance_that_closes_a_gap_is_named(mission_of: Make, disc_at: Shape) -> None:
+    gap = [disc_at(25, 4.2, 3), disc_at(25, -4.2, 3)]
+    mission = mission_of(
+        [0, 0], [50, 0], known=gap, bounds=[-6, -7, 56, 7], **machine(tracking_error_m=0.6)
+    )
     with pytest.raises(NoPathError, match="how far the robot gets beside its path"):
         plan(mission)
 
