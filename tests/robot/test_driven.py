@@ -163,7 +163,7 @@ def test_a_robot_that_was_put_down_the_wrong_way_round_turns(mission_of: Make) -
 
 def test_huge_noise_is_an_error_that_names_the_remedy(mission_of: Make) -> None:
     wild = machine(localization={"position_noise_m": 3.0, "heading_noise_deg": 100})
-    with pytest.raises(GeometryError, match="give it a lower max_speed_mps, .* or less noise"):
+    with pytest.raises(GeometryError, match=r"give it a lower max_speed_mps, .* or less noise"):
         plan(mission_of([0, 0], [50, 0], **wild, sensor=None))
 
 
