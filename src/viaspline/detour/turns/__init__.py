@@ -1,0 +1,1 @@
+"""Paths for robots with a turning circle."""

@@ -1,0 +1,131 @@
+"""One search through poses, in one direction, as it grows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.detour.turns.terrain import Terrain
+from viaspline.kernels import pose_search as kernels
+from viaspline.kernels.ground import Ground
+from viaspline.kernels.heap import Heap
+from viaspline.kernels.pose_search import Ahead, Moves, Search
+
+Floats = NDArray[np.float64]
+
+FIRST_SLICE, SLICE = 64, 4000  # states between which a search can be stopped
+FEW = 800
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """A way that a search has found.
+
+    Attributes:
+        start: Number of the start.
+        heading: At the goal; NaN if it comes straight [rad].
+        cost: With what it cost up to the start [m].
+        segments: See ``kernels.ground``, (n, 3).
+    """
+
+    start: int
+    heading: float
+    cost: float
+    segments: Floats
+
+
+class Growth:
+    """A search that is stopped and goes on."""
+
+    def __init__(
+        self, terrain: Terrain, ground: Ground, moves: Moves, starts: Floats, goal: Floats,
+        headings: Floats, room: int, after: float,
+    ) -> None:  # fmt: skip
+        """Begin.
+
+        Args:
+            terrain: Where.
+            ground: The same for the kernels.
+            moves: What the robot can do.
+            starts: x, y, heading, cost so far, (n, 4).
+            goal: x, y [m], (2,).
+            headings: Those that are allowed there [rad], NaN for whichever comes straight, (h,).
+            room: States that are kept, at most.
+            after: How many states are looked at after the first arrival, as a share of those
+                before it and of ``FEW``.
+        """
+        self.ground, self.moves = ground, moves
+        self.ahead: Ahead = terrain.ahead(goal[None])
+        self.search = _empty(terrain, moves, goal, headings, room)
+        self.state = kernels.RUNNING
+        self._slice = FIRST_SLICE
+        self._until = math.inf
+        self._after = after
+        kernels.set_off(self.search, self.ahead, float(moves.sizes[0]), starts)
+
+    @property
+    def expanded(self) -> int:
+        """How many states were looked at."""
+        return int(self.search.counts[kernels.EXPANDED])
+
+    @property
+    def was_cut(self) -> bool:
+        """Whether it came to the edge of the window."""
+        return bool(self.search.counts[kernels.LEFT])
+
+    @property
+    def is_over(self) -> bool:
+        """Whether there is nothing more to be done."""
+        return self.state != kernels.RUNNING or self.expanded >= self._until
+
+    @property
+    def has_arrived(self) -> bool:
+        """Whether it has come to the goal."""
+        return bool((self.search.ends >= 0).any())
+
+    def go_on(self, bound: float = math.inf) -> None:
+        """Look at some more states, for arrivals shorter than ``bound`` [m]."""
+        left = self._until - self.expanded
+        quota = int(min(self._slice, left)) if left > 0 else 0
+        self._slice = min(2 * self._slice, SLICE)
+        had = self.has_arrived
+        self.state = kernels.go_on(
+            self.ground, self.moves, self.search, self.ahead, quota, float(bound)
+        )
+        if self.has_arrived and not had:
+            self._until = self.expanded + math.ceil(self._after * (self.expanded + FEW))
+
+    def arrivals(self) -> list[Arrival]:
+        """The best with each heading, the shortest first."""
+        found = []
+        for k in np.flatnonzero(self.search.ends >= 0):
+            segments, start = kernels.trace(self.moves, self.search, int(k))
+            cost = float(self.search.arrivals[k, kernels.LENGTH])
+            found.append(Arrival(int(start), float(self.search.headings[k]), cost, segments))
+        return sorted(found, key=lambda arrival: arrival.cost)
+
+
+def _empty(terrain: Terrain, moves: Moves, goal: Floats, headings: Floats, room: int) -> Search:
+    x0, y0, x1, y1 = terrain.window.box
+    rho, _, step, _ = moves.sizes
+    side = kernels.CELL * step
+    around = math.ceil(4.0 * math.pi * rho / step)
+    nodes = room
+    table = 1 << math.ceil(math.log2(4 * nodes))
+    return Search(
+        window=np.array([x0, y0, side, around]),
+        shape=np.array([math.ceil((y1 - y0) / side), math.ceil((x1 - x0) / side)]),
+        nodes=np.zeros((nodes, 5)),
+        links=np.zeros((nodes, 3), np.int64),
+        keys=np.zeros(table, np.int64),
+        cells=np.zeros(table, np.int64),
+        heap=Heap(np.zeros(nodes), np.zeros(nodes, np.int64), np.zeros(1, np.int64)),
+        counts=np.zeros(3, np.int64),
+        goal=np.ascontiguousarray(goal, np.float64),
+        headings=np.ascontiguousarray(headings, np.float64),
+        arrivals=np.zeros((len(headings), 3)),
+        ends=np.zeros(len(headings), np.int64),
+    )

@@ -1,0 +1,365 @@
+"""A search through poses for a robot with a turning circle that only drives forwards.
+
+Hybrid A* (D. Dolgov, S. Thrun, M. Montemerlo, J. Diebel: "Path planning for autonomous vehicles in
+unknown semi-structured environments", 2010) over place, heading and curvature. The curvature is on
+one of five levels from one turning circle to the other, and a move keeps it or ramps it to the next
+level, so that it is continuous (A. Scheuer, Th. Fraichard: "Continuous-curvature path planning for
+car-like vehicles", 1997). From states without curvature turns with ramps and a line between them
+are laid to the goal, which they hit exactly.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from viaspline.kernels.bend import along_bend
+from viaspline.kernels.connect import MOST, connection
+from viaspline.kernels.dubins import dubins_length, length_to_place
+from viaspline.kernels.ground import Ground, is_clear, reach
+from viaspline.kernels.heap import Heap, pop, push
+from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.packed import Floats, Ints
+
+LEVELS, WAYS = 5, 3  # of curvature; moves from each: down, keep, up
+NONE = -1  # in place of a node
+CELL = 0.6  # side of a cell, as a share of a move
+RUNNING, FULL, EMPTY, BEATEN = range(4)
+# columns of a node, and of its links; a start has the parent -1 less its number
+X, Y, HEADING, COST, STILL = range(5)
+LEVEL, PARENT, CLOSED = range(3)
+# columns of an arrival, and of its links
+LENGTH, FIRST, SECOND = range(3)
+# counters: nodes, expanded ones, moves that left the window
+NODES, EXPANDED, LEFT = range(3)
+LESS = 1e-6  # an arrival has to be shorter by as much to replace another [m]
+
+
+class Moves(NamedTuple):
+    """What a robot can do next.
+
+    Attributes:
+        rho: The least radius; length of the ramps to it and back; length of a move [m], (3,).
+        segments: Of the move from a level of curvature by a way: the ramp, and what is kept
+            after it, (LEVELS * WAYS, 2, 3).
+        places: Along every move from the origin: x, y, cosine and sine of the heading,
+            (LEVELS * WAYS, n, 4).
+        turns: By how much each turns [rad], (LEVELS * WAYS,).
+    """
+
+    sizes: Floats
+    segments: Floats
+    places: Floats
+    turns: Floats
+
+
+class Search(NamedTuple):
+    """What has been searched.
+
+    Attributes:
+        window: Where the reference point may be: x, y of the corner, side of a cell [m], cells of
+            heading in a whole turn, (4,).
+        shape: Rows and columns of the window, (2,).
+        nodes: x, y, heading, cost so far, length that is still to come at least, (n, 5).
+        links: Level of curvature, node before, whether it is expanded, (n, 3).
+        keys: Cells of the nodes in a table with open addressing, 0 where it is empty.
+        cells: The best node in each, the same shape.
+        heap: Those not expanded.
+        counts: See the counters above, (3,).
+        goal: x, y of the goal [m], (2,).
+        headings: Those that are allowed there [rad], NaN for whichever comes straight, (h,).
+        arrivals: The best with each heading: whole length, sides of the two turns, (h, 3).
+        ends: The node from which it was reached, (h,).
+    """
+
+    window: Floats
+    shape: Ints
+    nodes: Floats
+    links: Ints
+    keys: Ints
+    cells: Ints
+    heap: Heap
+    counts: Ints
+    goal: Floats
+    headings: Floats
+    arrivals: Floats
+    ends: Ints
+
+
+class Ahead(NamedTuple):
+    """What is known of the way that is still to come.
+
+    Attributes:
+        frame: x, y of the corner, side of a cell [m], how greedy the search is, (4,).
+        lengths: From every cell to the goal [cells], (rows, columns).
+    """
+
+    frame: Floats
+    lengths: Floats
+
+
+@kernel
+def moves_of(rho: float, ramp: float, step: float, pace: float) -> Moves:
+    """The moves of a robot.
+
+    Args:
+        rho: The least radius [m].
+        ramp: From no curvature to the most [m].
+        step: Length of a move [m], at least half of ``ramp``.
+        pace: Between places at which the body is looked at, at most [m].
+    """
+    count = math.ceil(step / pace)
+    segments = np.zeros((LEVELS * WAYS, 2, 3))
+    places = np.zeros((LEVELS * WAYS, count, 4))
+    turns = np.zeros(LEVELS * WAYS)
+    for level in range(LEVELS):
+        for way in range(WAYS):
+            row = level * WAYS + way
+            first = (level - LEVELS // 2) / (LEVELS // 2) / rho
+            last = (level + way - 1 - LEVELS // 2) / (LEVELS // 2) / rho
+            bend = min(0.5 * ramp, step) if way != 1 else 0.0
+            segments[row, 0, 0], segments[row, 0, 1], segments[row, 0, 2] = first, last, bend
+            segments[row, 1, 0], segments[row, 1, 1], segments[row, 1, 2] = last, last, step - bend
+            x0, y0, turn0 = 0.0, 0.0, 0.0
+            if bend > 0.0:
+                x0, y0, turn0 = along_bend(first, last, bend, bend)
+            for k in range(count):
+                s = step * (k + 1) / count
+                if s <= bend:
+                    x, y, turn = along_bend(first, last, bend, s)
+                else:
+                    dx, dy, more = along_bend(last, last, step, s - bend)
+                    c, sine = math.cos(turn0), math.sin(turn0)
+                    x, y, turn = x0 + c * dx - sine * dy, y0 + sine * dx + c * dy, turn0 + more
+                places[row, k, 0], places[row, k, 1] = x, y
+                places[row, k, 2], places[row, k, 3] = math.cos(turn), math.sin(turn)
+                turns[row] = turn
+    return Moves(np.array([rho, ramp, step, step / count]), segments, places, turns)
+
+
+@inner
+def _slot(search: Search, x: float, y: float, heading: float, level: int) -> int:
+    """Where the cell of a state is in the table, or would be; NONE outside the window."""
+    side = search.window[2]
+    column = math.floor((x - search.window[0]) / side)
+    row = math.floor((y - search.window[1]) / side)
+    if not (0 <= row < search.shape[0] and 0 <= column < search.shape[1]):
+        return NONE
+    around = int(search.window[3])
+    turned = heading / (2.0 * math.pi)
+    sector = min(int((turned - math.floor(turned)) * around), around - 1)
+    key = ((row * search.shape[1] + column) * around + sector) * LEVELS + level + 1
+    mask = search.keys.size - 1
+    slot = ((key * 0x9E3779B97F4A7C1) ^ (key >> 7)) & mask
+    while search.keys[slot] != 0 and search.keys[slot] != key:
+        slot = (slot + 1) & mask
+    search.keys[slot] = key
+    return slot
+
+
+@inner
+def _to_come(search: Search, ahead: Ahead, rho: float, x: float, y: float, heading: float) -> float:
+    """Length that is still to come at least [m]; infinite where there is no way."""
+    side = ahead.frame[2]
+    row = math.floor((y - ahead.frame[1]) / side)
+    column = math.floor((x - ahead.frame[0]) / side)
+    round_ = 0.0
+    if 0 <= row < ahead.lengths.shape[0] and 0 <= column < ahead.lengths.shape[1]:
+        round_ = max(ahead.lengths[row, column] - 2.0, 0.0) * side
+    if round_ == np.inf:
+        return round_
+    dx, dy = search.goal[0] - x, search.goal[1] - y
+    if search.headings.size > 2 or math.isnan(search.headings[0]):
+        return max(round_, length_to_place(dx, dy, heading, rho))
+    open_ = np.inf
+    for k in range(search.headings.size):
+        open_ = min(open_, dubins_length(dx, dy, heading, search.headings[k], rho))
+    return max(round_, open_)
+
+
+@inner
+def _add(
+    search: Search, ahead: Ahead, slot: int, x: float, y: float, heading: float, level: int,
+    cost: float, still: float, parent: int,
+) -> None:  # fmt: skip
+    node = search.counts[NODES]
+    search.counts[NODES] += 1
+    row, link = search.nodes[node], search.links[node]
+    row[X], row[Y], row[HEADING], row[COST], row[STILL] = x, y, heading, cost, still
+    link[LEVEL], link[PARENT], link[CLOSED] = level, parent, 0
+    search.cells[slot] = node + 1
+    push(search.heap, cost + ahead.frame[3] * still, node)
+
+
+@kernel
+def set_off(search: Search, ahead: Ahead, rho: float, starts: Floats) -> None:
+    """Begin a search.
+
+    Args:
+        search: Search, empty.
+        ahead: Ahead.
+        rho: The least radius [m].
+        starts: x, y, heading and cost so far of each, (n, 4).
+    """
+    for k in range(search.headings.size):
+        search.arrivals[k, LENGTH] = np.inf
+        search.ends[k] = NONE
+    for k in range(starts.shape[0]):
+        x, y, heading = starts[k, 0], starts[k, 1], starts[k, 2]
+        slot = _slot(search, x, y, heading, LEVELS // 2)
+        still = _to_come(search, ahead, rho, x, y, heading)
+        if slot != NONE and still < np.inf:
+            _add(search, ahead, slot, x, y, heading, LEVELS // 2, starts[k, 3], still, -1 - k)
+
+
+@inner
+def _arrive(
+    ground: Ground, moves: Moves, search: Search, node: int, bound: float, segments: Floats
+) -> bool:
+    """Try to reach the goal straight from a node; whether an arrival has become shorter."""
+    rho, ramp = moves.sizes[0], moves.sizes[1]
+    x, y, heading, cost, _ = search.nodes[node]
+    dx, dy = search.goal[0] - x, search.goal[1] - y
+    found = False
+    for k in range(search.headings.size):
+        goal = search.headings[k]
+        best = min(search.arrivals[k, LENGTH], bound) - LESS - cost
+        if best <= search.nodes[node, STILL]:
+            continue
+        for s1 in (1.0, -1.0):
+            for s2 in (1.0, -1.0):
+                if math.isnan(goal) and s2 < 0.0:
+                    continue
+                count, length = connection(dx, dy, heading, goal, s1, s2, rho, ramp, segments)
+                if length < best and is_clear(ground, x, y, heading, segments, count):
+                    best = length
+                    arrival = search.arrivals[k]
+                    arrival[LENGTH], arrival[FIRST], arrival[SECOND] = cost + length, s1, s2
+                    search.ends[k] = node
+                    found = True
+    return found
+
+
+@inner
+def _is_free(
+    ground: Ground, moves: Moves, row: int, x: float, y: float, c: float, s: float
+) -> bool:
+    """Whether the body surely gets along a move."""
+    half, pace = 0.5 * ground.frame[3], moves.sizes[3]
+    last = moves.places.shape[1] - 1
+    k = 0
+    while True:
+        dx, dy, cosine, sine = moves.places[row, k]
+        room = reach(
+            ground, x + c * dx - s * dy, y + s * dx + c * dy, c * cosine - s * sine,
+            s * cosine + c * sine,
+        )  # fmt: skip
+        if room < half:
+            return False
+        if k == last:
+            return True
+        k = min(last, k + max(1, int(min((room + half) / pace, 1e6))))
+
+
+@inner
+def _expand(ground: Ground, moves: Moves, search: Search, ahead: Ahead, node: int) -> None:
+    """Do every move from a node."""
+    x, y, heading, cost, _ = search.nodes[node]
+    level = search.links[node, LEVEL]
+    c, s = math.cos(heading), math.sin(heading)
+    last = moves.places.shape[1] - 1
+    for way in range(WAYS):
+        if not 0 <= level + way - 1 < LEVELS:
+            continue
+        row = level * WAYS + way
+        dx, dy = moves.places[row, last, 0], moves.places[row, last, 1]
+        to_x, to_y, to = x + c * dx - s * dy, y + s * dx + c * dy, heading + moves.turns[row]
+        slot = _slot(search, to_x, to_y, to, level + way - 1)
+        if slot == NONE:
+            search.counts[LEFT] += 1
+            continue
+        other, more = search.cells[slot] - 1, cost + moves.sizes[2]
+        if other >= 0 and (search.links[other, CLOSED] != 0 or search.nodes[other, COST] <= more):
+            continue
+        still = _to_come(search, ahead, moves.sizes[0], to_x, to_y, to)
+        if still < np.inf and _is_free(ground, moves, row, x, y, c, s):
+            _add(search, ahead, slot, to_x, to_y, to, level + way - 1, more, still, node)
+
+
+@kernel
+def go_on(
+    ground: Ground, moves: Moves, search: Search, ahead: Ahead, quota: int, bound: float
+) -> int:
+    """Expand some nodes.
+
+    Args:
+        ground: Ground.
+        moves: Moves.
+        search: Search, written in place.
+        ahead: Ahead.
+        quota: How many nodes at most; it also ends with an arrival.
+        bound: Arrivals as long as this don't count [m].
+
+    Returns:
+        RUNNING: there are more; FULL: there is no room for more; EMPTY: everything that can be
+        reached has been; BEATEN: what is left is no better than the bound.
+    """
+    segments = np.empty((MOST, 3))
+    for _ in range(quota):
+        if search.heap.size[0] == 0:
+            return EMPTY
+        if search.counts[NODES] + WAYS > search.nodes.shape[0]:
+            return FULL
+        key = search.heap.keys[0]
+        node = pop(search.heap)
+        if search.links[node, CLOSED] != 0:
+            continue
+        if key >= bound:
+            return BEATEN
+        search.links[node, CLOSED] = 1
+        row = search.nodes[node]
+        slot = _slot(search, row[X], row[Y], row[HEADING], search.links[node, LEVEL])
+        if search.cells[slot] - 1 != node:
+            continue
+        search.counts[EXPANDED] += 1
+        _expand(ground, moves, search, ahead, node)
+        every = 1 + int(row[STILL] / moves.sizes[0])  # the farther, the less it is worth a try
+        if search.links[node, LEVEL] != LEVELS // 2 or search.counts[EXPANDED] % every > 1:
+            continue
+        if _arrive(ground, moves, search, node, bound, segments):
+            return RUNNING
+    return RUNNING
+
+
+@kernel
+def trace(moves: Moves, search: Search, k: int) -> tuple[Floats, int]:
+    """The way of an arrival.
+
+    Returns:
+        Segments (n, 3), see ``ground``, and the number of the start.
+    """
+    node, size = search.ends[k], 0
+    while search.links[node, PARENT] >= 0:
+        node = search.links[node, PARENT]
+        size += 1
+    start = -1 - search.links[node, PARENT]
+    segments = np.zeros((2 * size + MOST, 3))
+    node = search.ends[k]
+    x, y, heading, _, _ = search.nodes[node]
+    dx, dy = search.goal[0] - x, search.goal[1] - y
+    arrival = search.arrivals[k]
+    count, _ = connection(
+        dx, dy, heading, search.headings[k], arrival[FIRST], arrival[SECOND], moves.sizes[0],
+        moves.sizes[1], segments[2 * size :],
+    )  # fmt: skip
+    for step in range(size - 1, -1, -1):
+        parent = search.links[node, PARENT]
+        level = search.links[parent, LEVEL]
+        row = level * WAYS + search.links[node, LEVEL] - level + 1
+        for i in range(2):
+            for column in range(3):
+                segments[2 * step + i, column] = moves.segments[row, i, column]
+        node = parent
+    return segments[: 2 * size + count].copy(), start
