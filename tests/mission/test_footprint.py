@@ -36,7 +36,7 @@ def test_what_is_no_body_is_a_flaw_that_names_the_remedy(
     assert flaw.path == ("robot", "footprint")
     assert problem in flaw.problem
     assert remedy in flaw.remedy
-    with pytest.raises((MissionError, ValueError), match="robot.footprint"):
+    with pytest.raises((MissionError, ValueError), match=r"robot\.footprint"):
         mission(footprint)
 
 

@@ -80,7 +80,7 @@ def swept_area(
         raise GeometryError(f"tolerance {tolerance} has to be above 0, radius {radius} 0 or more")
     if footprint is None:
         at, _ = _poses(curve, 0.0, 0.5 * tolerance)
-        line = shapely.linestrings(at)
+        line = shapely.LineString(at)
         return line.buffer(radius + 0.5 * tolerance, quad_segs=_segments(radius, tolerance))
     body = outline(footprint)
     reach = float(np.hypot(body[:, 0], body[:, 1]).max())
