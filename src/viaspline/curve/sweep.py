@@ -93,8 +93,9 @@ def swept_area(
         pairs = np.concatenate((corners[:-1], corners[1:]), axis=1)
         hulls.append(shapely.convex_hull(shapely.multipoints(pairs)))
     grown = radius + 0.5 * tolerance
-    swept = shapely.union_all(np.concatenate(hulls))
-    return swept.buffer(grown, quad_segs=_segments(radius, tolerance)).simplify(0.0)
+    # each by itself: the union of slivers, edges that slide along themselves, would lose parts
+    around = shapely.buffer(np.concatenate(hulls), grown, quad_segs=_segments(radius, tolerance))
+    return shapely.union_all(around)
 
 
 def _segments(radius: float, tolerance: float) -> int:
