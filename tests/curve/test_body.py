@@ -120,9 +120,10 @@ def random_world(rng: np.random.Generator, near: Floats) -> tuple[list[Obstacle]
             obstacles.append(Obstacle(polygon=ring))
         else:
             around = np.array([(-30, -30), (90, -20), (100, 100), (-40, 90)], float)
-            hole = np.array(shapely.LineString(near).buffer(rng.uniform(2, 6)).exterior.coords)
-            if shapely.Polygon(around).contains(shapely.Polygon(hole)):
-                obstacles.append(Obstacle(polygon=around, holes=[hole[:-1]]))
+            way = shapely.LineString(near).buffer(rng.uniform(2, 6))
+            if way.geom_type == "Polygon" and shapely.Polygon(around).contains(way):
+                hole = np.array(way.exterior.coords)[:-1]
+                obstacles.append(Obstacle(polygon=around, holes=[hole]))
     if rng.random() < 0.5:
         blocked = rng.random(rng.integers(1, 20, 2)) < rng.choice([0.05, 0.3, 0.9])
         blocked[0, 0] = True
