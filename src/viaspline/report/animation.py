@@ -56,7 +56,11 @@ class _Stage:
     def __init__(self, run: Run, name: str) -> None:
         self._run = run
         mission = run.plan.mission
-        scene = Scene.of(run.plan.world, Brief.of(mission).required, mission.world.unseen)
+        scene = Scene.of(
+            run.plan.world,
+            Brief.of(mission, run.plan.tracking_error).required,
+            mission.world.unseen,
+        )
         planned = polyline(run.plan.path.spans)
         seen = np.vstack([planned, run.positions[:, :2]])
         view = view_of(seen, scene.corners, scene.box, scene.required)

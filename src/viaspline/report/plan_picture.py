@@ -32,7 +32,7 @@ def plan_picture(plan: Plan, name: str) -> bytes:
         plan: What was planned.
         name: The mission's name.
     """
-    required = Brief.of(plan.mission).required
+    required = Brief.of(plan.mission, plan.tracking_error).required
     scene = Scene.of(plan.world, required)
     points = polyline(plan.path.spans)
     losers = losing(plan)

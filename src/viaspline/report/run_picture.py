@@ -38,7 +38,7 @@ def run_picture(run: Run, name: str) -> bytes:
         name: The mission's name.
     """
     mission = run.plan.mission
-    required = Brief.of(mission).required
+    required = Brief.of(mission, run.plan.tracking_error).required
     scene = Scene.of(run.plan.world, required, mission.world.unseen)
     planned = polyline(run.plan.path.spans)
     driven = run.positions[:, :2]
@@ -88,6 +88,8 @@ def _heading(run: Run, name: str) -> tuple[str, tuple[str, str]]:
     new = {0: "no new path under way", 1: "1 new path under way"}
     paths = new.get(len(run.replans), f"{len(run.replans)} new paths under way")
     line = f"{proof(run.certificate)}; {paths}"
+    if run.tracking is not None:
+        line += f"; {metres(run.tracking.cross.p99, 3)} beside its path in 99 % of the time"
     if not run.reached:  # why is more to the point than the spline's tension
         return title, (run.reason or "", line)
     return title, (line, subtitle(run.plan.mission))

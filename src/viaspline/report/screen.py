@@ -55,6 +55,8 @@ def plan_tables(plan: Plan, name: str) -> RenderableType:
             f"{place(certificate.tightest_at)} at {metres(certificate.tightest_distance, 1)}, "
             f"beside {certificate.obstacle}",
         )
+    if plan.tracking_error > 0.0:
+        facts.add_row("kept for tracking", f"{metres(plan.tracking_error, 3)} of it")
     facts.add_row("largest curvature", curvature(path.max_curvature()[0]))
     stations = [s for s in plan.trajectory.stations if s.dwell > 0]
     if stations:

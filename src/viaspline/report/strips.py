@@ -27,7 +27,7 @@ def fill(
     Args:
         strips: From ``new_sheet``.
         distances: Along the path [m], not decreasing, shape (n,).
-        values: One array of shape (n,) for each strip: speed, signed curvature, height.
+        values: One array of shape (n,) for each strip: speed, signed curvature, and more.
         ticks: Via points: how far along the path, and their number.
         colour: Of the lines.
     """
@@ -47,6 +47,8 @@ def fill(
             low, high = shown(value)
             pad = 0.15 * (high - low) if high - low > 1e-8 else 0.01  # or it is straight
             axes.set_ylim(low - pad, high + pad)
+        elif value.size and float(np.nanmin(value)) < 0.0:
+            axes.axhline(0, color=MUTED, linewidth=0.5)
     strips[-1].set_xlabel("distance along the path [m]", size=TEXT, color=MUTED, labelpad=2)
     _number(strips[0], ticks, last)
 

@@ -21,7 +21,7 @@ from viaspline.world.world import World
 Floats = NDArray[np.float64]
 
 NEAR = 1.0  # a via point is passed within so much of its place along the path [m]
-CREEPS = 0.02  # a robot that is slower has no curvature to speak of [m/s]
+CREEPS = 0.1  # a robot that is slower has no curvature to speak of [m/s]
 
 
 def run_of(drive: Driven, world: World, step: float) -> Run:
