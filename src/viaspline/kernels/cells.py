@@ -99,11 +99,14 @@ def _size(spans: Floats, i: int) -> tuple[float, bool]:
     noise = 2.0**-46 * (largest + longest)
     straight, last = True, 0.0
     for k in range(1, 4):
+        if not straight:
+            break
         along, across = 0.0, 0.0
         for j in range(spans.shape[2]):
             along += (spans[i, k, j] - spans[i, 0, j]) * (spans[i, 3, j] - spans[i, 0, j])
+        share = along / (chord + 1e-300)
         for j in range(spans.shape[2]):
-            ideal = along / (chord + 1e-300) * (spans[i, 3, j] - spans[i, 0, j])
+            ideal = share * (spans[i, 3, j] - spans[i, 0, j])
             across = max(across, abs(spans[i, k, j] - spans[i, 0, j] - ideal))
         straight &= across <= noise and along >= last
         last = along

@@ -43,7 +43,8 @@ class Grain:
         least: A cell that is shorter is fine enough [m].
         accel: Bound of the acceleration along the curve [m/s²].
         square: Bound of v² [m²/s²].
-        axis: The least acceleration that an axis allows [m/s²]; inf if there is no limit.
+        axis: The least acceleration that is allowed along an axis or across the path [m/s²]; inf
+            if there is no limit.
         yaw_accel: [rad/s²]; inf if there is no limit.
         heading: Whether a limit asks for the change of the heading.
     """

@@ -92,7 +92,7 @@ def grain_for(limits: Limits, dimension: int, stage: Stage, grid: int | None = N
         least=length / MOST,
         accel=accel,
         square=square,
-        axis=float(axes.min()) if axes.size else np.inf,
+        axis=min([*axes.tolist(), _or_inf(limits.max_lateral_accel)]),
         yaw_accel=np.inf if limits.max_yaw_accel is None else limits.max_yaw_accel,
         heading=limits.max_yaw_rate is not None or limits.max_yaw_accel is not None,
     )
@@ -123,7 +123,7 @@ class _System(NamedTuple):
     @classmethod
     def of(cls, cells: Cells, limits: Limits, stage: Stage, grain: Grain) -> _System:
         d, slip = cells.tangents.shape[1], 1e-9 * (1.0 + stage.end)
-        rests = _rests(cells, limits, stage)
+        rests = rests_of(cells, limits, stage)
         ramp = grain.square / (2.0 * grain.accel)
         marks = _marks(cells.along, rests, stage, ramp, slip)
         line, cell, ends = topp.divide(cells.along, marks, slip)
@@ -141,11 +141,7 @@ class _System(NamedTuple):
             np.minimum.at(caps, at[inner], slow)
         caps[np.searchsorted(line, rests)] = 0.0
         caps[-1] = min(caps[-1], stage.last**2)
-        speeds = topp.cell_caps(
-            cells.along, cells.tangents, cells.bends, cells.yaws, cells.misses, grain.square,
-            grain.accel, limits.of_axes("axis_speed", d), _or_inf(limits.max_lateral_accel),
-            _or_inf(limits.max_yaw_rate),
-        )  # fmt: skip
+        speeds = caps_of_cells(cells, limits, grain)
         planes = topp.stretch_planes(
             line, cell, ends, tops, caps, cells.tangents, cells.bends, cells.yaws, cells.misses,
             speeds, limits.max_accel, limits.brake, grain.accel, limits.of_axes("axis_accel", d),
@@ -160,11 +156,20 @@ class _System(NamedTuple):
         return squares, float(over), float(missed)
 
 
+def caps_of_cells(cells: Cells, limits: Limits, grain: Grain) -> Floats:
+    """The line below which v² keeps every limit of a speed, at both ends of each cell, (n, 2)."""
+    return topp.cell_caps(
+        cells.along, cells.tangents, cells.bends, cells.yaws, cells.misses, grain.square,
+        grain.accel, limits.of_axes("axis_speed", cells.tangents.shape[1]),
+        _or_inf(limits.max_lateral_accel), _or_inf(limits.max_yaw_rate),
+    )  # fmt: skip
+
+
 def _or_inf(limit: float | None) -> float:
     return np.inf if limit is None else limit
 
 
-def _rests(cells: Cells, limits: Limits, stage: Stage) -> Floats:
+def rests_of(cells: Cells, limits: Limits, stage: Stage) -> Floats:
     """Where the robot rests from start to end [m]: at stops, and where it turns on the spot."""
     bends = (limits.max_lateral_accel, limits.max_yaw_rate, limits.max_yaw_accel, limits.axis_accel)
     rests = np.array(stage.stops)

@@ -12,6 +12,7 @@ from viaspline.trajectory.bends import Cubic
 from viaspline.trajectory.cells import Evaluable
 from viaspline.trajectory.coupled import Stage
 from viaspline.trajectory.course import course_of, crawl
+from viaspline.trajectory.jerk import smooth_law
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.trajectory import Trajectory
 
@@ -43,6 +44,11 @@ def retime(
 
     The robot comes to rest at stations, and where it would have to turn on the spot (a corner or a
     cusp) if a limit asks for anything across the path.
+
+    ``max_jerk`` bounds the change of the acceleration along the path. From rest to rest it is kept
+    like every other limit; what is found is a local optimum. Where a drive begins or ends under
+    way it is not kept before the first rest and after the last one: a robot that has to brake may
+    not have room for braking gently.
 
     Args:
         path: What is driven: a piecewise cubic such as ``Path`` or ``CardinalSpline``, or anything
@@ -105,6 +111,8 @@ def retime(
             f"{start:g} m it needs {start_speed**2 / (2 * limits.brake):g} m; start slower or "
             "stop later"
         )
+    if limits.max_jerk is not None and np.any(profile.squares <= 0.0):
+        return smooth_law(course, limits, stage, profile, stops, start_time)
     return Trajectory.through(
         profile.points,
         profile.squares,

@@ -10,13 +10,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.trajectory.limits import Station
+from viaspline.trajectory.pieces import after, speed_into, time_into
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """Speed and time along a path, exact between its points: the acceleration is constant there.
+    """Speed and time along a path, exact between its points.
+
+    Without a limit of the jerk the acceleration is constant from point to point. With one it
+    changes linearly with the distance, and with time beside a rest.
 
     A station appears twice: when the robot arrives and when it leaves. All arrays are read-only.
 
@@ -24,10 +28,14 @@ class Trajectory:
         distances: Along the path [m], not decreasing, shape (n,).
         speeds: [m/s], shape (n,).
         times: [s], not decreasing, shape (n,).
-        accelerations: Along the path, from each point to the next [m/s²], shape (n - 1,).
+        accelerations: Along the path, at the beginning of what lies between each point and the
+            next [m/s²], shape (n - 1,).
         stations: The stops on the way, in order.
         over_limit_until: Distance up to which the robot is faster than its limits allow, because
             it was when the time law began [m]; it brakes as hard as it can there. None if never.
+        changes: Of the acceleration with the distance [1/s²], shape (n - 1,); None: all 0.
+        jerks: Changes of the acceleration with time beside rests [m/s³], shape (n - 1,), 0
+            elsewhere; None: all 0.
     """
 
     distances: Floats
@@ -36,6 +44,8 @@ class Trajectory:
     accelerations: Floats
     stations: tuple[Station, ...] = ()
     over_limit_until: float | None = None
+    changes: Floats | None = None
+    jerks: Floats | None = None
 
     def __post_init__(self) -> None:
         for values in (self.distances, self.speeds, self.times, self.accelerations):
@@ -113,6 +123,8 @@ class Trajectory:
             speeds=self.speeds[: last + 1],
             times=self.times[: last + 1],
             accelerations=self.accelerations[:last],
+            changes=None if self.changes is None else self.changes[:last],
+            jerks=None if self.jerks is None else self.jerks[:last],
             stations=tuple(s for s in self.stations if s.distance <= self.distances[last]),
         )
 
@@ -126,6 +138,15 @@ class Trajectory:
         last = self.accelerations.shape[0] - 1
         i = _within(self.times.searchsorted(t, side="right") - 1, 0, last)
         late = t - self.times[i]
+        if self.changes is not None and self.jerks is not None:
+            states = after(
+                late, self.speeds[i], self.accelerations[i], self.changes[i], self.jerks[i]
+            )
+            moving = (t == time) & (t < self.times[-1])
+            distance = _within(
+                self.distances[i] + states[0], self.distances[i], self.distances[i + 1]
+            )
+            return distance[()], np.maximum(states[1], 0.0)[()], (states[2] * moving)[()]
         first, acceleration = self.speeds[i], self.accelerations[i]
         distance = self.distances[i] + (first + 0.5 * acceleration * late) * late
         second = self.speeds[i + 1]
@@ -150,6 +171,9 @@ class Trajectory:
         i = _within(self.distances.searchsorted(s, side="left") - 1, 0, last)
         into = s - self.distances[i]
         width = self.distances[i + 1] - self.distances[i]
+        if self.changes is not None and self.jerks is not None:
+            piece = (self.speeds[i], self.accelerations[i], self.changes[i], self.jerks[i])
+            return s, i, into, speed_into(into, width, *piece)
         part = np.divide(into, width, out=np.zeros_like(into), where=width > 0)
         first, last_square = self.speeds[i] ** 2, self.speeds[i + 1] ** 2
         speed = np.sqrt(first + part * (last_square - first))
@@ -162,6 +186,10 @@ class Trajectory:
     def time_at(self, distance: ArrayLike) -> Floats:
         """Time of arrival at a distance along the path [m], in [s]."""
         _, i, into, speed = self._before(distance)
+        if self.changes is not None and self.jerks is not None:
+            width = self.distances[i + 1] - self.distances[i]
+            late = time_into(into, width, self.speeds[i], speed, self.changes[i], self.jerks[i])
+            return np.minimum(self.times[i] + late, self.times[i + 1])[()]
         sums = self.speeds[i] + speed
         late = np.divide(2.0 * into, sums, out=np.zeros_like(into), where=sums > 0)
         return np.minimum(self.times[i] + late, self.times[i + 1])[()]
