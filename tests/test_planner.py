@@ -10,7 +10,7 @@ import shapely
 import viaspline as vs
 from viaspline.detour.brief import LEAST, Brief
 from viaspline.detour.course import course_of
-from viaspline.detour.search import find_path
+from viaspline.detour.find import find_path
 
 Oracle = Callable[..., Any]
 BOUNDS = [0, 0, 100, 100]

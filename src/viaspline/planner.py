@@ -9,9 +9,9 @@ from viaspline.curve.path import Path
 from viaspline.detour.account import Account
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import course_of
+from viaspline.detour.find import find_path
 from viaspline.detour.ledger import LedgerEntry
 from viaspline.detour.order import ordered
-from viaspline.detour.search import find_path
 from viaspline.errors import GeometryError, NoPathError
 from viaspline.machine.allowance import SOFTER, allowance
 from viaspline.machine.limits import limits_of

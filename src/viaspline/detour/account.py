@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 
 from viaspline.detour.brief import Brief
-from viaspline.detour.course import Course
+from viaspline.detour.laid import Laid
 from viaspline.detour.ledger import LedgerEntry
 from viaspline.detour.measure import measure
 from viaspline.detour.passing import Passed
-from viaspline.detour.route import Floats
 from viaspline.world.world import World
 
 
@@ -26,15 +25,13 @@ class Account:
     of the groups have been looked at; they are looked at when the ledger is read.
 
     Attributes:
-        course: As it was laid in the end.
-        spans: Its curve [m], shape (m, 4, d).
+        laid: The course as it was laid in the end.
         world: The known world.
         brief: What the path keeps.
         passed: The legs that were led round something.
     """
 
-    course: Course
-    spans: Floats
+    laid: Laid
     world: World
     brief: Brief
     passed: Mapping[int, Passed] = field(default_factory=dict)
@@ -46,17 +43,16 @@ class Account:
         A leg that was led round after its neighbour has turned the tangents at the via point
         between them; what was not chosen stays as it was weighed.
         """
-        first = self.course.first_spans()
         entries: list[LedgerEntry] = []
         for leg in sorted(self.passed):
             met = self.passed[leg].entries
-            laid = self.spans[first[leg] : first[leg + 1]]
+            laid = self.laid.leg(leg)
             chosen = met[0].chosen if met else None  # all entries of a leg share it
             if chosen is None or np.array_equal(chosen.spans, laid):
                 entries += met
                 continue
             cost = asdict(measure(laid, self.world, self.brief))  # fields of a candidate as well
-            points = self.course.legs[leg].points
+            points = self.laid.detours(leg)
             entries += [_as_laid(entry, spans=laid, vias=points, **cost) for entry in met]
         return tuple(entries)
 

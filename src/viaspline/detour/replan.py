@@ -13,16 +13,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.curve.certificate import Certificate, certify
+from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.account import Account
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, Leg, RouteVia, direction, span_slack
 from viaspline.detour.detoured import Detoured
+from viaspline.detour.find import lay_course, proven
 from viaspline.detour.fit import CLEAR, too_close
 from viaspline.detour.join import RunOut, run_out
-from viaspline.detour.search import clear_course, path_vias
 from viaspline.errors import NoPathError
 from viaspline.world.world import World
 
@@ -66,7 +66,7 @@ def reflex(path: Path, at: float, world: World, brief: Brief) -> Detoured:
     u = float(path.parameter(at))
     blocked = _blocked_spans(path, u, world, brief)
     if not blocked.size:
-        certificate = certify(_ahead(path, u), world, brief.kept, radius=brief.radius)
+        certificate = proven(_ahead(path, u), world, brief)
         return replace(_result(path, at, certificate, None), rejoins_at=at)
     users = [via for via in path.vias if via.kind == "user"]
     narrow = _stretch(path.vias, users, u, blocked)
@@ -116,11 +116,11 @@ def from_rest(
     _refuse_the_end(path, stretch)
     start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
     course = _course(path, start, stretch, brief)
-    cleared, spans, account = clear_course(course, world, brief)
+    laid, account = lay_course(course, world, brief)
     head = _head(path, u)
-    vias = (*_vias_until(path, u, len(head)), *path_vias(cleared, len(head)))
-    new = Path(np.concatenate((head, spans)), vias)
-    certificate = certify(PiecewiseCubic(spans), world, brief.kept, radius=brief.radius)
+    vias = (*_vias_until(path, u, len(head)), *laid.vias_from(len(head)))
+    new = Path(np.concatenate((head, laid.spans)), vias)
+    certificate = proven(PiecewiseCubic(laid.spans), world, brief)
     return _result(new, at, certificate, account)
 
 
@@ -151,11 +151,12 @@ def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: floa
     course = replace(_course(path, start, stretch, brief, meet), start_tangent=out.tangent)
     if back is not None:
         course = replace(course, end_tangent=back.tangent)
-    cleared, spans, account = clear_course(course, world, brief)
+    laid, account = lay_course(course, world, brief)
+    spans = laid.spans
     head = _head(path, stretch.u)
     first = len(head) + 1
     pieces = [head, out.span[None], spans]
-    vias = [*_vias_until(path, stretch.u, len(head)), *path_vias(cleared, first)]
+    vias = [*_vias_until(path, stretch.u, len(head)), *laid.vias_from(first)]
     ahead = first + len(spans)
     rejoin = None
     if tail is not None and back is not None:
@@ -164,9 +165,7 @@ def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: floa
         vias += [replace(via, u=via.u - tail.u + rejoin) for via in path.vias if via.u >= tail.u]
     new = Path(np.concatenate(pieces), vias)
     leaving = float(new.distance(float(len(head))))
-    certificate = certify(
-        PiecewiseCubic(new.spans[len(head) :]), world, brief.kept, radius=brief.radius
-    )
+    certificate = proven(PiecewiseCubic(new.spans[len(head) :]), world, brief)
     back_at = None if rejoin is None else float(new.distance(float(rejoin)))
     return _result(new, leaving, certificate, account, back_at)
 

@@ -1,1 +1,1 @@
-"""Paths for robots with a turning circle."""
+"""Paths for robots with a turning circle: straight lines, and turns with ramps."""

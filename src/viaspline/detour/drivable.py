@@ -1,0 +1,175 @@
+"""A curve that the robot's body and its turning circle allow.
+
+First the spline with continuous curvature, if it is round enough as it is. Where it is not,
+straight lines and turns with ramps: along the taut ways between the via points, pushed away from
+what the turns come too close to; then with the headings at all via points chosen together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.detour.account import Account
+from viaspline.detour.body import body_conflicts
+from viaspline.detour.brief import Brief
+from viaspline.detour.course import Course
+from viaspline.detour.fit import CLEAR
+from viaspline.detour.heights import with_heights
+from viaspline.detour.laid import Laid
+from viaspline.detour.leg_search import LegSearch
+from viaspline.detour.passing import Task
+from viaspline.detour.route import Way, on_the_line
+from viaspline.detour.search import lay_clear
+from viaspline.detour.turns.bends import DETOUR, Bends, bends_along
+from viaspline.detour.turns.poses import Poses, legs_of, posed
+from viaspline.detour.turns.push import pushed_clear
+from viaspline.detour.turns.refusal import first_failing, refuse_circle
+from viaspline.detour.turns.swing import OVERSHOOT, Swing
+from viaspline.errors import NoPathError
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+NARROW = 0.5  # turning circle of a robot without one that has a long body, in inner radii
+
+
+@dataclass(frozen=True)
+class _Drive:
+    """What is to be driven, where, and by what."""
+
+    course: Course
+    world: World
+    brief: Brief
+
+    @property
+    def radius(self) -> float:
+        """The turning circle [m]."""
+        if self.brief.turn_radius is not None:
+            return self.brief.turn_radius
+        return NARROW * max(self.brief.required, 1e-3)
+
+    @property
+    def rho(self) -> float:
+        """The least radius of turns that are laid [m]."""
+        return OVERSHOOT * self.radius
+
+    def is_clear(self, spans: Floats) -> bool:
+        """Whether the body keeps clear on planar spans."""
+        return bool((body_conflicts(self.world, spans, self.brief) == CLEAR).all())
+
+    def is_drivable(self, spans: Floats) -> bool:
+        """Whether the body keeps clear, and no turn is sharper than the turning circle."""
+        limit = self.brief.turn_radius
+        if limit is not None:
+            ground = PiecewiseCubic(np.ascontiguousarray(spans[:, :, :2]))
+            if not ground.max_curvature()[0] * limit <= 1.0:
+                return False
+        return self.is_clear(spans)
+
+
+def lay_drivable(course: Course, world: World, brief: Brief) -> tuple[Laid, Account]:
+    """Lay a course for a robot with a turning circle or a long body.
+
+    Raises:
+        NoPathError: When there is no such curve, with the via point that can't be reached and
+            what would allow it.
+    """
+    smooth = replace(course, spline=course.spline.model_copy(update={"tangents": "continuous"}))
+    laid, account = lay_clear(smooth, world, brief)
+    drive = _Drive(smooth, world, brief)
+    if drive.is_drivable(laid.spans):
+        return laid, account
+    swung = _swung(drive)
+    return swung, replace(account, laid=swung)
+
+
+def _swung(drive: _Drive) -> Laid:
+    """Lines and turns through the via points of a course.
+
+    Raises:
+        NoPathError: When there are none.
+    """
+    bends = bends_along(drive.course, _ways_of(drive))
+    swing = pushed_clear(bends, drive.rho, drive.world, drive.brief)
+    if isinstance(swing, Swing) and drive.is_clear(swing.spans):
+        return _laid(drive, [swing])
+    poses = _posed(drive, bends, drive.rho)
+    if poses is None:
+        raise _refusal(drive, bends)
+    return _laid(drive, poses.swings)
+
+
+def _ways_of(drive: _Drive) -> list[Way]:
+    """The shortest way of every leg."""
+    task = Task.of(drive.course, drive.world, drive.brief)
+    ways = []
+    for k in range(len(drive.course.legs)):
+        leg = LegSearch(drive.course, k, drive.world, drive.brief, task.router)
+        way, _ = leg.shortest_allowed(on_the_line(drive.world, *leg.ends, drive.brief.required))
+        assert way is not None  # the spline found one
+        ways.append(way)
+    return ways
+
+
+def _posed(drive: _Drive, bends: Bends, rho: float) -> Poses | None:
+    legs = legs_of(bends, _spots(drive))
+    return posed(legs, rho, bends.closed, drive.is_clear)
+
+
+def _spots(drive: _Drive) -> set[int]:
+    """The via points at which the robot may turn on the spot."""
+    where = drive.brief.turns_on_spot
+    return {
+        k
+        for k, via in enumerate(drive.course.vias)
+        if where == "vias" or (where == "stations" and via.dwell > 0.0)
+    }
+
+
+def _refusal(drive: _Drive, bends: Bends) -> NoPathError:
+    legs = legs_of(bends, _spots(drive))
+    failing = first_failing(
+        list(legs), lambda part: posed(part, drive.rho, False, drive.is_clear) is not None
+    )
+
+    def serves(radius: float) -> bool:
+        rho = OVERSHOOT * radius
+        swing = pushed_clear(bends, rho, drive.world, drive.brief)
+        if isinstance(swing, Swing) and drive.is_clear(swing.spans):
+            return True
+        return _posed(drive, bends, rho) is not None
+
+    return refuse_circle(drive.course, drive.radius, failing, serves)
+
+
+def _laid(drive: _Drive, swings: Sequence[Swing]) -> Laid:
+    """The curve of swings that follow each other, with heights if the course has them."""
+    joints, detours, first = [], [], 0
+    for swing in swings:
+        vias = swing.bends.vias
+        if len(swings) > 1:
+            joints.append(first)
+            detours += (first + swing.begins[1:-1]).tolist()
+        else:
+            begins = swing.begins[: len(vias)]
+            joints = begins[vias != DETOUR].tolist()
+            detours = begins[vias == DETOUR].tolist()
+        first += len(swing.spans)
+    if len(joints) < len(drive.course.vias) + drive.course.closed:
+        joints.append(first)
+    spans = np.concatenate([swing.spans for swing in swings])
+    course = drive.course
+    ends = [*course.vias, course.vias[0]] if course.closed else course.vias
+    heights = np.array([via.at[2:] for via in ends])
+    at = np.array(joints)
+    spans = with_heights(spans, at, heights)
+    for u, via in zip(joints, ends, strict=True):  # exactly, not to a nanometre
+        if u < len(spans):
+            spans[u, 0] = via.at
+        if u > 0:
+            spans[u - 1, 3] = via.at
+    return Laid.through(course, spans, at, detours)

@@ -1,0 +1,178 @@
+"""Headings at the via points, chosen together: for via points too close for the turning circle.
+
+Between two via points with given headings there is always a way for a car in the open: it drives
+on and comes round again. So every via point gets a row of headings, and the cheapest row of legs
+between them is found by dynamic programming; legs that come too close to something are left out,
+one after the other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.detour.turns.bends import DETOUR, HEADING, SIDE, Bends
+from viaspline.detour.turns.swing import RAMP, NoSwing, Swing, swing_round
+from viaspline.kernels.headings import cheapest, leg_lengths
+
+Floats = NDArray[np.float64]
+Clear = Callable[[Floats], bool]
+
+HEADINGS = 36
+ROUNDS = 400  # rows of headings that are tried
+FINER = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they are turned then
+
+
+@dataclass(frozen=True)
+class Leg:
+    """What lies between two via points of a row of bends.
+
+    Attributes:
+        rows: Its bends, the via points among them, (n, 5).
+        starts: The headings at its start [rad], (k,); a NaN is free.
+        goals: The headings at its goal [rad], (l,).
+    """
+
+    rows: Floats
+    starts: Floats
+    goals: Floats
+
+    def lengths(self, rho: float) -> Floats:
+        """See ``kernels.headings.leg_lengths``."""
+        found: Floats = leg_lengths(self.rows, self.starts, self.goals, rho, RAMP * rho)
+        return found
+
+    def swing(self, start: float, goal: float, rho: float) -> Swing | NoSwing:
+        """The shortest swing between two headings [rad]."""
+        rows = self.rows.copy()
+        rows[[0, -1], HEADING] = start, goal
+        rows[[0, -1], SIDE] = 0.0
+        return swing_round(Bends(rows, np.full(len(rows), DETOUR)), rho)
+
+
+@dataclass(frozen=True)
+class Poses:
+    """Legs that follow each other with the same heading at every via point between them.
+
+    Attributes:
+        headings: At every via point [rad], (v,); NaN where the robot turns on the spot.
+        swings: One for each leg.
+    """
+
+    headings: Floats
+    swings: tuple[Swing, ...]
+
+    @cached_property
+    def length(self) -> float:
+        """[m]."""
+        return sum(swing.length for swing in self.swings)
+
+
+def legs_of(bends: Bends, spots: Collection[int]) -> tuple[Leg, ...]:
+    """The legs of a row of bends.
+
+    Args:
+        bends: The row.
+        spots: Via points at which the robot may turn on the spot.
+    """
+    count = bends.closed + int(bends.vias.max()) + 1
+    places = [bends.places(via) for via in range(count - bends.closed)]
+    rows = bends.rows
+    if bends.closed:
+        rows = np.vstack((rows, rows[:1]))
+        places.append(len(rows) - 1)
+    headings = [_headings(bends, via, count, spots) for via in range(count)]
+    return tuple(
+        Leg(rows[a : b + 1].copy(), headings[k], headings[k + 1])
+        for k, (a, b) in enumerate(pairwise(places))
+    )
+
+
+def _headings(bends: Bends, via: int, count: int, spots: Collection[int]) -> Floats:
+    """The headings that a via point may have [rad]."""
+    is_end = not bends.closed and via in (0, count - 1)
+    if is_end:
+        return bends.rows[[bends.places(via)], HEADING]
+    if via % (count - bends.closed) in spots:
+        return np.array([math.nan])
+    return np.arange(HEADINGS, dtype=np.float64) * (math.tau / HEADINGS)
+
+
+def posed(legs: Sequence[Leg], rho: float, closed: bool, is_clear: Clear) -> Poses | None:
+    """The shortest row of clear legs, None where there is none among the headings that are tried.
+
+    Args:
+        legs: The legs.
+        rho: The least radius [m].
+        closed: Whether the last heading is the first.
+        is_clear: Tells of spans (m, 4, 2) whether the body keeps clear on them.
+    """
+    counts = np.array([*(len(leg.starts) for leg in legs), len(legs[-1].goals)])
+    costs = np.full((len(legs), counts.max(), counts.max()), np.inf)
+    for k, leg in enumerate(legs):
+        costs[k, : counts[k], : counts[k + 1]] = leg.lengths(rho).min(axis=(2, 3))
+    proven: dict[tuple[int, int, int], Swing] = {}
+    for _ in range(ROUNDS):
+        row, cost = cheapest(costs, counts, closed)
+        if not math.isfinite(cost):
+            return None
+        blocked = False
+        for k, leg in enumerate(legs):
+            key = (k, int(row[k]), int(row[k + 1]))
+            if key in proven:
+                continue
+            swing = leg.swing(leg.starts[key[1]], leg.goals[key[2]], rho)
+            if isinstance(swing, NoSwing) or not is_clear(swing.spans):
+                costs[key] = np.inf
+                blocked = True
+            else:
+                proven[key] = swing
+        if not blocked:
+            chosen = [proven[k, int(row[k]), int(row[k + 1])] for k in range(len(legs))]
+            headings = [leg.starts[row[k]] for k, leg in enumerate(legs)]
+            found = Poses(np.array([*headings, legs[-1].goals[row[-1]]]), tuple(chosen))
+            return _finer(found, legs, rho, closed, is_clear)
+    return None
+
+
+def _finer(poses: Poses, legs: Sequence[Leg], rho: float, closed: bool, is_clear: Clear) -> Poses:
+    """The same with headings turned a little, each as long as that makes it shorter."""
+    free = [k for k in range(len(legs)) if len(legs[k].starts) > 1]
+    for part in FINER:
+        step = part * math.tau / HEADINGS
+        for k in free:
+            for turn in (step, -step):
+                turned = _turned(poses, legs, rho, closed, k, turn)
+                if turned is not None and turned.length < poses.length - 1e-9:
+                    new = [
+                        s
+                        for s, old in zip(turned.swings, poses.swings, strict=True)
+                        if s is not old
+                    ]
+                    if all(is_clear(swing.spans) for swing in new):
+                        poses = turned
+                        break
+    return poses
+
+
+def _turned(
+    poses: Poses, legs: Sequence[Leg], rho: float, closed: bool, k: int, turn: float
+) -> Poses | None:
+    """The same with another heading at via point k."""
+    headings = poses.headings.copy()
+    headings[k] += turn
+    if closed and k == 0:
+        headings[-1] = headings[0]
+    swings = list(poses.swings)
+    for leg in {k, (k - 1) % len(legs) if closed else max(k - 1, 0)}:
+        swing = legs[leg].swing(headings[leg], headings[leg + 1], rho)
+        if isinstance(swing, NoSwing):
+            return None
+        swings[leg] = swing
+    return Poses(headings, tuple(swings))
