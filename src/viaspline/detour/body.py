@@ -1,12 +1,16 @@
-"""What the body on its way comes too close to."""
+"""What the body comes too close to on its way, and the proof that it doesn't."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.curve import body
+from viaspline.curve.certificate import Certificate, certify
+from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.brief import Brief
 from viaspline.detour.fit import too_close
+from viaspline.world.outline import outline
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
@@ -14,4 +18,13 @@ Floats = NDArray[np.float64]
 
 def body_conflicts(world: World, spans: Floats, brief: Brief) -> NDArray[np.int64]:
     """What the body comes nearer to than it may on each span: as ``fit.too_close``, (m,)."""
-    return too_close(world, spans, brief.required)
+    if brief.footprint is None:
+        return too_close(world, spans, brief.required)
+    return body.body_conflicts(world.packed, spans, outline(brief.footprint), brief.least)
+
+
+def proven(curve: PiecewiseCubic, world: World, brief: Brief) -> Certificate:
+    """The certificate of a curve that the body drives."""
+    if brief.footprint is None:
+        return certify(curve, world, brief.kept, radius=brief.radius)
+    return certify(curve, world, brief.kept, footprint=brief.footprint)

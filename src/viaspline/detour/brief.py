@@ -43,6 +43,11 @@ class Brief:
         return self.clearance + self.tracking_error
 
     @property
+    def least(self) -> float:
+        """The same, at least what is more than a touch [m]."""
+        return max(self.kept, LEAST)
+
+    @property
     def required(self) -> float:
         """Distance that the path itself keeps from every obstacle [m]."""
         return max(self.radius + self.kept, LEAST)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +27,8 @@ from viaspline.detour.passing import Task
 from viaspline.detour.route import Way, on_the_line
 from viaspline.detour.search import lay_clear
 from viaspline.detour.turns.bends import DETOUR, Bends, bends_along
-from viaspline.detour.turns.poses import Poses, legs_of, posed
-from viaspline.detour.turns.push import pushed_clear
+from viaspline.detour.turns.poses import Leg, Poses, legs_of, posed
+from viaspline.detour.turns.push import clear_swing, swing_if_clear
 from viaspline.detour.turns.refusal import first_failing, refuse_circle
 from viaspline.detour.turns.swing import OVERSHOOT, Swing
 from viaspline.errors import NoPathError
@@ -94,10 +95,10 @@ def _swung(drive: _Drive) -> Laid:
         NoPathError: When there are none.
     """
     bends = bends_along(drive.course, _ways_of(drive))
-    swing = pushed_clear(bends, drive.rho, drive.world, drive.brief)
-    if isinstance(swing, Swing) and drive.is_clear(swing.spans):
+    swing = clear_swing(bends, drive.rho, drive.world, drive.brief)
+    if swing is not None:
         return _laid(drive, [swing])
-    poses = _posed(drive, bends, drive.rho)
+    poses = _posed(drive, legs_of(bends, _spots(drive)), drive.rho, bends.closed)
     if poses is None:
         raise _refusal(drive, bends)
     return _laid(drive, poses.swings)
@@ -115,9 +116,15 @@ def _ways_of(drive: _Drive) -> list[Way]:
     return ways
 
 
-def _posed(drive: _Drive, bends: Bends, rho: float) -> Poses | None:
-    legs = legs_of(bends, _spots(drive))
-    return posed(legs, rho, bends.closed, drive.is_clear)
+def _posed(drive: _Drive, legs: Sequence[Leg], rho: float, closed: bool) -> Poses | None:
+    """The headings at all via points together: legs as they are, else pushed clear."""
+    for lay in (swing_if_clear, clear_swing):
+        poses = posed(
+            legs, rho, closed, partial(lay, rho=rho, world=drive.world, brief=drive.brief)
+        )
+        if poses is not None:
+            return poses
+    return None
 
 
 def _spots(drive: _Drive) -> set[int]:
@@ -132,16 +139,12 @@ def _spots(drive: _Drive) -> set[int]:
 
 def _refusal(drive: _Drive, bends: Bends) -> NoPathError:
     legs = legs_of(bends, _spots(drive))
-    failing = first_failing(
-        list(legs), lambda part: posed(part, drive.rho, False, drive.is_clear) is not None
-    )
+    failing = first_failing(legs, lambda part: _posed(drive, part, drive.rho, False) is not None)
 
     def serves(radius: float) -> bool:
         rho = OVERSHOOT * radius
-        swing = pushed_clear(bends, rho, drive.world, drive.brief)
-        if isinstance(swing, Swing) and drive.is_clear(swing.spans):
-            return True
-        return _posed(drive, bends, rho) is not None
+        swing = clear_swing(bends, rho, drive.world, drive.brief)
+        return swing is not None or _posed(drive, legs, rho, bends.closed) is not None
 
     return refuse_circle(drive.course, drive.radius, failing, serves)
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path
-from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.account import Account
+from viaspline.detour.body import proven
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course
 from viaspline.detour.detoured import Detoured
@@ -35,8 +34,3 @@ def find_path(course: Course, world: World, brief: Brief) -> Detoured:
     laid, account = lay_course(course, world, brief)
     path = Path(laid.spans, laid.vias)
     return Detoured(path, proven(path, world, brief), account)
-
-
-def proven(curve: PiecewiseCubic, world: World, brief: Brief) -> Certificate:
-    """The certificate of a curve that the body drives."""
-    return certify(curve, world, brief.kept, radius=brief.radius)

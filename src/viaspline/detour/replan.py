@@ -17,10 +17,11 @@ from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.account import Account
+from viaspline.detour.body import proven
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, Leg, RouteVia, direction, span_slack
 from viaspline.detour.detoured import Detoured
-from viaspline.detour.find import lay_course, proven
+from viaspline.detour.find import lay_course
 from viaspline.detour.fit import CLEAR, too_close
 from viaspline.detour.join import RunOut, run_out
 from viaspline.errors import NoPathError

@@ -2,8 +2,8 @@
 
 Between two via points with given headings there is always a way for a car in the open: it drives
 on and comes round again. So every via point gets a row of headings, and the cheapest row of legs
-between them is found by dynamic programming; legs that come too close to something are left out,
-one after the other.
+between them is found by dynamic programming; legs that can't be laid are left
+out, one after the other, until a row is clear.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.detour.turns.bends import DETOUR, HEADING, SIDE, Bends
-from viaspline.detour.turns.swing import RAMP, NoSwing, Swing, swing_round
+from viaspline.detour.turns.swing import RAMP, Swing
 from viaspline.kernels.headings import cheapest, leg_lengths
 
 Floats = NDArray[np.float64]
-Clear = Callable[[Floats], bool]
+Lay = Callable[[Bends], Swing | None]
 
 HEADINGS = 36
 ROUNDS = 400  # rows of headings that are tried
@@ -48,12 +48,12 @@ class Leg:
         found: Floats = leg_lengths(self.rows, self.starts, self.goals, rho, RAMP * rho)
         return found
 
-    def swing(self, start: float, goal: float, rho: float) -> Swing | NoSwing:
-        """The shortest swing between two headings [rad]."""
+    def between(self, start: float, goal: float) -> Bends:
+        """Its bends with headings at both ends [rad]."""
         rows = self.rows.copy()
         rows[[0, -1], HEADING] = start, goal
         rows[[0, -1], SIDE] = 0.0
-        return swing_round(Bends(rows, np.full(len(rows), DETOUR)), rho)
+        return Bends(rows, np.full(len(rows), DETOUR))
 
 
 @dataclass(frozen=True)
@@ -104,65 +104,55 @@ def _headings(bends: Bends, via: int, count: int, spots: Collection[int]) -> Flo
     return np.arange(HEADINGS, dtype=np.float64) * (math.tau / HEADINGS)
 
 
-def posed(legs: Sequence[Leg], rho: float, closed: bool, is_clear: Clear) -> Poses | None:
+def posed(legs: Sequence[Leg], rho: float, closed: bool, lay: Lay) -> Poses | None:
     """The shortest row of clear legs, None where there is none among the headings that are tried.
 
     Args:
         legs: The legs.
         rho: The least radius [m].
         closed: Whether the last heading is the first.
-        is_clear: Tells of spans (m, 4, 2) whether the body keeps clear on them.
+        lay: Lays a clear swing round bends, if it can.
     """
     counts = np.array([*(len(leg.starts) for leg in legs), len(legs[-1].goals)])
     costs = np.full((len(legs), counts.max(), counts.max()), np.inf)
     for k, leg in enumerate(legs):
         costs[k, : counts[k], : counts[k + 1]] = leg.lengths(rho).min(axis=(2, 3))
-    proven: dict[tuple[int, int, int], Swing] = {}
+    laid: dict[tuple[int, int, int], Swing] = {}
     for _ in range(ROUNDS):
         row, cost = cheapest(costs, counts, closed)
         if not math.isfinite(cost):
             return None
-        blocked = False
-        for k, leg in enumerate(legs):
-            key = (k, int(row[k]), int(row[k + 1]))
-            if key in proven:
-                continue
-            swing = leg.swing(leg.starts[key[1]], leg.goals[key[2]], rho)
-            if isinstance(swing, NoSwing) or not is_clear(swing.spans):
-                costs[key] = np.inf
-                blocked = True
-            else:
-                proven[key] = swing
-        if not blocked:
-            chosen = [proven[k, int(row[k]), int(row[k + 1])] for k in range(len(legs))]
-            headings = [leg.starts[row[k]] for k, leg in enumerate(legs)]
-            found = Poses(np.array([*headings, legs[-1].goals[row[-1]]]), tuple(chosen))
-            return _finer(found, legs, rho, closed, is_clear)
+        keys = [(k, int(row[k]), int(row[k + 1])) for k in range(len(legs))]
+        new = [key for key in keys if key not in laid]
+        if not new:
+            headings = [leg.starts[key[1]] for leg, key in zip(legs, keys, strict=True)]
+            ends = np.array([*headings, legs[-1].goals[row[-1]]])
+            return _finer(Poses(ends, tuple(laid[key] for key in keys)), legs, closed, lay)
+        for key in new:
+            leg = legs[key[0]]
+            swing = lay(leg.between(leg.starts[key[1]], leg.goals[key[2]]))
+            costs[key] = math.inf if swing is None else swing.length
+            if swing is not None:
+                laid[key] = swing
     return None
 
 
-def _finer(poses: Poses, legs: Sequence[Leg], rho: float, closed: bool, is_clear: Clear) -> Poses:
+def _finer(poses: Poses, legs: Sequence[Leg], closed: bool, lay: Lay) -> Poses:
     """The same with headings turned a little, each as long as that makes it shorter."""
     free = [k for k in range(len(legs)) if len(legs[k].starts) > 1]
     for part in FINER:
         step = part * math.tau / HEADINGS
         for k in free:
             for turn in (step, -step):
-                turned = _turned(poses, legs, rho, closed, k, turn)
+                turned = _turned(poses, legs, closed, lay, k, turn)
                 if turned is not None and turned.length < poses.length - 1e-9:
-                    new = [
-                        s
-                        for s, old in zip(turned.swings, poses.swings, strict=True)
-                        if s is not old
-                    ]
-                    if all(is_clear(swing.spans) for swing in new):
-                        poses = turned
-                        break
+                    poses = turned
+                    break
     return poses
 
 
 def _turned(
-    poses: Poses, legs: Sequence[Leg], rho: float, closed: bool, k: int, turn: float
+    poses: Poses, legs: Sequence[Leg], closed: bool, lay: Lay, k: int, turn: float
 ) -> Poses | None:
     """The same with another heading at via point k."""
     headings = poses.headings.copy()
@@ -171,8 +161,8 @@ def _turned(
         headings[-1] = headings[0]
     swings = list(poses.swings)
     for leg in {k, (k - 1) % len(legs) if closed else max(k - 1, 0)}:
-        swing = legs[leg].swing(headings[leg], headings[leg + 1], rho)
-        if isinstance(swing, NoSwing):
+        swing = lay(legs[leg].between(headings[leg], headings[leg + 1]))
+        if swing is None:
             return None
         swings[leg] = swing
     return Poses(headings, tuple(swings))

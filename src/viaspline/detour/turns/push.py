@@ -2,44 +2,61 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.detour.body import body_conflicts
+from viaspline.detour.body import body_conflicts, proven
 from viaspline.detour.brief import Brief
 from viaspline.detour.fit import CLEAR
 from viaspline.detour.turns.bends import DETOUR, KEPT, SIDE, Bends, bend
-from viaspline.detour.turns.swing import NoSwing, Swing, swing_round
+from viaspline.detour.turns.swing import NoSwing, Swing, swing_on_sides, swing_round, with_sides
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
-ROUNDS = 24
+ROUNDS = 12
 SAMPLES = 9  # of a span, to find its tightest place
 EPS = 1e-6  # step of the gradient of the distance [m]
 EXTRA = 2e-3  # what a bend keeps beyond what is required [m]
+AHEAD = 12  # spans after a run on which the path may pass what the front touches
 SAME = 0.25  # bends nearer to each other than this, in required distances, are one
 
 
-def pushed_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | NoSwing:
-    """A swing that keeps clear, by new bends round whatever it comes too close to.
+def clear_swing(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | None:
+    """The shortest clear swing, to any sides of given headings, pushed away from what is near.
 
-    Returns:
-        A swing, clear or not, the last that there was; or why there is none.
+    Args:
+        bends: The row.
+        rho: The least radius [m].
+        world: What to keep clear of.
+        brief: What to keep.
     """
-    last = swing_round(bends, rho)
+    found = [_pushed_clear(tried, rho, world, brief) for tried in with_sides(bends)]
+    clear = [swing for swing in found if swing is not None]
+    return min(clear, key=lambda swing: swing.length, default=None)
+
+
+def swing_if_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | None:
+    """The shortest swing to any sides of given headings, if it is clear as it is."""
+    swing = swing_round(bends, rho)
+    if isinstance(swing, NoSwing) or (body_conflicts(world, swing.spans, brief) != CLEAR).any():
+        return None
+    return swing
+
+
+def _pushed_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | None:
+    """The same to the sides that are set."""
+    swing = swing_on_sides(bends, rho)
     for _ in range(ROUNDS):
-        if isinstance(last, NoSwing):
-            return last
-        close = body_conflicts(world, last.spans, brief)
+        if isinstance(swing, NoSwing):
+            return None
+        close = body_conflicts(world, swing.spans, brief)
         if (close == CLEAR).all():
-            return last
-        moved = _pushed(last, close, world, brief)
-        tried = swing_round(moved, rho)
-        if isinstance(tried, NoSwing):
-            return last
-        last = tried
-    return last
+            return swing
+        swing = swing_on_sides(_pushed(swing, close, world, brief), rho)
+    return None
 
 
 def _pushed(swing: Swing, close: NDArray[np.int64], world: World, brief: Brief) -> Bends:
@@ -57,24 +74,62 @@ def _push(
     bends: Bends, swing: Swing, curve: PiecewiseCubic, run: NDArray[np.int64], world: World,
     brief: Brief,
 ) -> Bends:  # fmt: skip
-    u = np.linspace(run[0], run[-1] + 1, SAMPLES * len(run))
-    places = np.asarray(curve.evaluate(u))
-    gaps = world.distance(places)
-    k = int(gaps.argmin())
-    place, gap, heading = places[k], float(gaps[k]), float(curve.heading(u[k]))
-    away = _gradient(world, place)
-    wall = place - gap * away
+    tight = _tightest(curve, run, world, brief)
+    heading = float(curve.heading(tight.u))
     left = np.array([-np.sin(heading), np.cos(heading)])
-    side = 1.0 if -away @ left > 0.0 else -1.0
-    kept = brief.required + EXTRA
-    row = int(np.searchsorted(swing.begins[: len(swing.bends.rows)], u[k], side="right"))
+    side = 1.0 if tight.into @ left > 0.0 else -1.0
+    row = int(np.searchsorted(swing.begins[: len(swing.bends.rows)], tight.u, side="right"))
     for near in (row - 1, row % len(bends.rows)):
         if bends.vias[near] == DETOUR and bends.rows[near, SIDE] == side:
-            off = float(np.linalg.norm(bends.rows[near, :2] - wall))
+            off = float(np.linalg.norm(bends.rows[near, :2] - tight.wall))
             if off < max(SAME * brief.required, bends.rows[near, KEPT] - SAME * brief.required):
-                more = max(brief.required - gap, 0.0)
-                return bends.widened(near, 1.1 * more + EXTRA)
-    return bends.with_bend(row, bend(float(wall[0]), float(wall[1]), kept, side))
+                return bends.widened(near, 1.1 * tight.missing + EXTRA)
+    x, y = tight.wall.tolist()
+    return bends.with_bend(row, bend(x, y, tight.kept + EXTRA, side))
+
+
+class _Tight(NamedTuple):
+    """Where a curve is too close.
+
+    Attributes:
+        u: Its parameter.
+        wall: The surface of what it is too close to [m], (2,).
+        into: From there to its inside, a unit vector.
+        missing: By how much it is too close [m].
+        kept: What the path has to keep from the surface [m].
+    """
+
+    u: float
+    wall: Floats
+    into: Floats
+    missing: float
+    kept: float
+
+
+def _tightest(curve: PiecewiseCubic, run: NDArray[np.int64], world: World, brief: Brief) -> _Tight:
+    """The tightest place of a run of spans."""
+    if brief.footprint is not None:
+        part = PiecewiseCubic(curve.spans[run[0] : run[-1] + 1])
+        found = proven(part, world, brief)
+        if found.contact is not None:
+            at = np.array(found.contact)
+            into = -_gradient(world, at)
+            wall = at + float(world.distance(at)) * into
+            missing = brief.least - found.clearance
+            # the front may touch where the reference point is yet to come
+            beside = curve.section(float(run[0]), min(run[-1] + AHEAD, len(curve.spans))).project(
+                wall
+            )
+            kept = max(beside.distance + 1.1 * missing, brief.required)
+            return _Tight(float(run[0] + beside.u), wall, into, missing, kept)
+    places_u = np.linspace(run[0], run[-1] + 1, SAMPLES * len(run))
+    places = np.asarray(curve.evaluate(places_u))
+    gaps = world.distance(places)
+    k = int(gaps.argmin())
+    into = -_gradient(world, places[k])
+    missing = max(brief.required - float(gaps[k]), 0.0)
+    wall = places[k] + float(gaps[k]) * into
+    return _Tight(float(places_u[k]), wall, into, missing, brief.required)
 
 
 def _gradient(world: World, place: Floats) -> Floats:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -43,6 +43,6 @@ def refuse_circle(
     )
 
 
-def first_failing(legs: list[Leg], can: Callable[[list[Leg]], bool]) -> int:
+def first_failing(legs: Sequence[Leg], can: Callable[[Sequence[Leg]], bool]) -> int:
     """The first leg up to which there is no row of headings."""
     return next((k for k in range(len(legs)) if not can(legs[: k + 1])), len(legs) - 1)

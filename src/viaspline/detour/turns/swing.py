@@ -61,8 +61,8 @@ def swing_round(bends: Bends, rho: float) -> Swing | NoSwing:
         rho: The least radius [m].
     """
     best: Swing | NoSwing | None = None
-    for tried in _with_sides(bends):
-        found = _swing(tried, rho)
+    for tried in with_sides(bends):
+        found = swing_on_sides(tried, rho)
         if best is None or (isinstance(found, Swing) and _is_longer(best, found)):
             best = found
     assert best is not None  # there is always one choice of sides
@@ -73,7 +73,8 @@ def _is_longer(swing: Swing | NoSwing, other: Swing) -> bool:
     return isinstance(swing, NoSwing) or swing.length > other.length
 
 
-def _swing(bends: Bends, rho: float) -> Swing | NoSwing:
+def swing_on_sides(bends: Bends, rho: float) -> Swing | NoSwing:
+    """The swing round a row of bends, to the sides that are set."""
     while True:
         lines, turns, apexes, ramps, state, where = swing(bends.rows, bends.closed, rho, RAMP * rho)
         if state != LEFT_OUT:
@@ -86,7 +87,7 @@ def _swing(bends: Bends, rho: float) -> Swing | NoSwing:
     return Swing(bends, spans, begins, float(swung_length(*laid)))
 
 
-def _with_sides(bends: Bends) -> Iterator[Bends]:
+def with_sides(bends: Bends) -> Iterator[Bends]:
     """Every choice of the sides to which given headings at the ends are left."""
     ends = [k for k in (0, -1) if not bends.closed and not math.isnan(bends.rows[k, HEADING])]
     for sides in product((1.0, -1.0), repeat=len(ends)):
