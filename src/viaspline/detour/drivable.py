@@ -35,6 +35,7 @@ from viaspline.errors import NoPathError
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
+PUSHED = 40  # rows of headings for which legs are pushed clear
 NARROW = 0.5  # turning circle of a robot without one that has a long body, in inner radii
 
 
@@ -118,13 +119,13 @@ def _ways_of(drive: _Drive) -> list[Way]:
 
 def _posed(drive: _Drive, legs: Sequence[Leg], rho: float, closed: bool) -> Poses | None:
     """The headings at all via points together: legs as they are, else pushed clear."""
-    for lay in (swing_if_clear, clear_swing):
-        poses = posed(
-            legs, rho, closed, partial(lay, rho=rho, world=drive.world, brief=drive.brief)
-        )
-        if poses is not None:
-            return poses
-    return None
+    world, brief = drive.world, drive.brief
+    as_it_is = partial(swing_if_clear, rho=rho, world=world, brief=brief)
+    poses = posed(legs, rho, closed, as_it_is)
+    if poses is None:
+        pushed = partial(clear_swing, rho=rho, world=world, brief=brief)
+        poses = posed(legs, rho, closed, pushed, most=PUSHED)
+    return poses
 
 
 def _spots(drive: _Drive) -> set[int]:
@@ -139,14 +140,14 @@ def _spots(drive: _Drive) -> set[int]:
 
 def _refusal(drive: _Drive, bends: Bends) -> NoPathError:
     legs = legs_of(bends, _spots(drive))
-    failing = first_failing(legs, lambda part: _posed(drive, part, drive.rho, False) is not None)
 
-    def serves(radius: float) -> bool:
+    def serves(legs: Sequence[Leg], radius: float) -> bool:
         rho = OVERSHOOT * radius
-        swing = clear_swing(bends, rho, drive.world, drive.brief)
-        return swing is not None or _posed(drive, legs, rho, bends.closed) is not None
+        lay = partial(swing_if_clear, rho=rho, world=drive.world, brief=drive.brief)
+        return posed(legs, rho, False, lay, most=PUSHED) is not None
 
-    return refuse_circle(drive.course, drive.radius, failing, serves)
+    failing = first_failing(legs, lambda part: serves(part, drive.radius))
+    return refuse_circle(drive.course, drive.radius, failing, partial(serves, legs))
 
 
 def _laid(drive: _Drive, swings: Sequence[Swing]) -> Laid:

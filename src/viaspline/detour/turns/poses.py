@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 Lay = Callable[[Bends], Swing | None]
 
 HEADINGS = 36
-ROUNDS = 400  # rows of headings that are tried
+ROUNDS = 300
 FINER = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they are turned then
 
 
@@ -104,7 +104,9 @@ def _headings(bends: Bends, via: int, count: int, spots: Collection[int]) -> Flo
     return np.arange(HEADINGS, dtype=np.float64) * (math.tau / HEADINGS)
 
 
-def posed(legs: Sequence[Leg], rho: float, closed: bool, lay: Lay) -> Poses | None:
+def posed(
+    legs: Sequence[Leg], rho: float, closed: bool, lay: Lay, most: int = ROUNDS
+) -> Poses | None:
     """The shortest row of clear legs, None where there is none among the headings that are tried.
 
     Args:
@@ -112,13 +114,14 @@ def posed(legs: Sequence[Leg], rho: float, closed: bool, lay: Lay) -> Poses | No
         rho: The least radius [m].
         closed: Whether the last heading is the first.
         lay: Lays a clear swing round bends, if it can.
+        most: Rows of headings that are tried.
     """
     counts = np.array([*(len(leg.starts) for leg in legs), len(legs[-1].goals)])
     costs = np.full((len(legs), counts.max(), counts.max()), np.inf)
     for k, leg in enumerate(legs):
         costs[k, : counts[k], : counts[k + 1]] = leg.lengths(rho).min(axis=(2, 3))
     laid: dict[tuple[int, int, int], Swing] = {}
-    for _ in range(ROUNDS):
+    for _ in range(most):
         row, cost = cheapest(costs, counts, closed)
         if not math.isfinite(cost):
             return None

@@ -10,7 +10,7 @@ from viaspline.detour.course import Course
 from viaspline.detour.turns.poses import Leg
 from viaspline.errors import NoPathError
 
-SMALLER = (0.9, 0.75, 0.6, 0.5, 0.35, 0.2, 0.1)  # parts of the radius that are tried
+SMALLER = (0.9, 0.7, 0.5, 0.3, 0.15)  # parts of the radius that are tried
 DIGITS = 3
 
 
