@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from viaspline.curve import body
 from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.detour.brief import Brief
+from viaspline.detour.brief import LEAST, Brief
 from viaspline.detour.fit import too_close
 from viaspline.world.outline import outline
 from viaspline.world.world import World
@@ -18,9 +18,17 @@ Floats = NDArray[np.float64]
 
 def body_conflicts(world: World, spans: Floats, brief: Brief) -> NDArray[np.int64]:
     """What the body comes nearer to than it may on each span: as ``fit.too_close``, (m,)."""
+    return conflicts_within(brief.required, world, spans, brief)
+
+
+def conflicts_within(
+    required: float, world: World, spans: Floats, brief: Brief
+) -> NDArray[np.int64]:
+    """The same for another distance that the path itself is to keep [m]."""
     if brief.footprint is None:
-        return too_close(world, spans, brief.required)
-    return body.body_conflicts(world.packed, spans, outline(brief.footprint), brief.least)
+        return too_close(world, spans, required)
+    least = max(required - brief.radius, LEAST)
+    return body.body_conflicts(world.packed, spans, outline(brief.footprint), least)
 
 
 def proven(curve: PiecewiseCubic, world: World, brief: Brief) -> Certificate:

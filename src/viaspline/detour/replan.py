@@ -17,12 +17,12 @@ from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.account import Account
-from viaspline.detour.body import proven
+from viaspline.detour.body import body_conflicts, proven
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, Leg, RouteVia, direction, span_slack
 from viaspline.detour.detoured import Detoured
 from viaspline.detour.find import lay_course
-from viaspline.detour.fit import CLEAR, too_close
+from viaspline.detour.fit import CLEAR
 from viaspline.detour.join import RunOut, run_out
 from viaspline.errors import NoPathError
 from viaspline.world.world import World
@@ -107,7 +107,9 @@ def planned(
 def from_rest(
     path: Path, at: float, world: World, brief: Brief, skip: Collection[int] = frozenset()
 ) -> Detoured:
-    """Lay everything ahead anew from a standstill at ``at``: the robot may turn on the spot.
+    """Lay everything ahead anew from a standstill at ``at``.
+
+    The robot may turn on the spot, unless it never does: then it goes on as it stands.
 
     Raises:
         NoPathError: When there is no way.
@@ -117,6 +119,8 @@ def from_rest(
     _refuse_the_end(path, stretch)
     start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
     course = _course(path, start, stretch, brief)
+    if brief.turn_radius is not None and brief.turns_on_spot == "never":
+        course = replace(course, start_tangent=np.asarray(path.tangent(u)))
     laid, account = lay_course(course, world, brief)
     head = _head(path, u)
     vias = (*_vias_until(path, u, len(head)), *laid.vias_from(len(head)))
@@ -201,7 +205,7 @@ def _refuse_the_end(path: Path, stretch: _Stretch) -> None:
 
 
 def _refuse_blocked(piece: RunOut, world: World, brief: Brief) -> None:
-    index = int(too_close(world, piece.span[None], brief.required)[0])
+    index = int(body_conflicts(world, piece.span[None], brief)[0])
     if index != CLEAR:
         name = world.name(index)
         raise NoPathError(
@@ -215,7 +219,7 @@ def _refuse_blocked(piece: RunOut, world: World, brief: Brief) -> None:
 def _blocked_spans(path: Path, u: float, world: World, brief: Brief) -> NDArray[np.intp]:
     """Indices of the path's spans from u on that come too close."""
     first = min(int(u), len(path.spans) - 1)
-    close = too_close(world, _ahead(path, u).spans, brief.required)
+    close = body_conflicts(world, _ahead(path, u).spans, brief)
     return first + np.flatnonzero(close != CLEAR)
 
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.detour.body import conflicts_within
 from viaspline.detour.brief import Brief
-from viaspline.detour.fit import CLEAR, too_close
+from viaspline.detour.fit import CLEAR
 from viaspline.robot.journey import SLIP, Journey
 from viaspline.world.world import World
 
@@ -49,7 +50,9 @@ class Scene:
             point = np.asarray(path.at_distance(place))
             return float(self.against.distance(point)) >= self.floor - SLIP
         first, last = np.asarray(path.parameter(np.array([self.free_until, place]))).tolist()
-        return first_conflict(path.section(first, last), self.against, self.floor) is None
+        return (
+            first_conflict(path.section(first, last), self.against, self.floor, self.brief) is None
+        )
 
     def may_leave(self, place: float) -> bool:
         """Whether a new path can leave this one at a place while the robot rolls on."""
@@ -69,7 +72,7 @@ def free_until(journey: Journey, against: World) -> float | None:
         if end - start <= SLIP:
             continue
         first, last = np.asarray(path.parameter(np.array([start, end]))).tolist()
-        conflict = first_conflict(path.section(first, last), against, floor)
+        conflict = first_conflict(path.section(first, last), against, floor, journey.brief)
         if conflict == 0:
             return start
         if conflict is not None:
@@ -77,9 +80,18 @@ def free_until(journey: Journey, against: World) -> float | None:
     return None
 
 
-def first_conflict(curve: PiecewiseCubic, world: World, required: float) -> int | None:
-    """Index of the first span that comes nearer to a world than required, if one does."""
-    blocked = np.flatnonzero(too_close(world, curve.spans, required) != CLEAR)
+def first_conflict(
+    curve: PiecewiseCubic, world: World, required: float, brief: Brief
+) -> int | None:
+    """Index of the first span on which the body comes nearer to a world than it may, if one does.
+
+    Args:
+        curve: What is driven.
+        world: What to keep clear of.
+        required: The distance that the curve itself is to keep [m].
+        brief: The body.
+    """
+    blocked = np.flatnonzero(conflicts_within(required, world, curve.spans, brief) != CLEAR)
     return int(blocked[0]) if blocked.size else None
 
 
