@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import SplineSpec
+from viaspline.mission.parts import SplineSpec, Tangents
 from viaspline.mission.robot_parts import TurnOnSpot
 
 LEAST = 1e-5  # what even a point without clearance keeps, so that touching is not crossing [m]
@@ -18,7 +18,8 @@ class Brief:
     Attributes:
         radius: The robot's body [m].
         clearance: Free space kept between the body and every obstacle [m].
-        spline: Tension, knots and tangents.
+        spline: Tension and knots.
+        tangents: Which ones.
         goal_heading_deg: Heading with which the path arrives at the goal [deg]; None if it is free.
         footprint: The body if it is a polygon: its corners, x forward and y left [m]; ``radius``
             is that of the largest disc in it then.
@@ -31,6 +32,7 @@ class Brief:
     radius: float
     clearance: float
     spline: SplineSpec = field(default_factory=SplineSpec)
+    tangents: Tangents = "cardinal"
     goal_heading_deg: float | None = None
     footprint: tuple[tuple[float, float], ...] | None = None
     tracking_error: float = 0.0
@@ -65,6 +67,7 @@ class Brief:
             radius=robot.inner_radius,
             clearance=robot.clearance_m,
             spline=mission.spline,
+            tangents=mission.tangents,
             goal_heading_deg=None if goal is None else goal.heading_deg,
             footprint=robot.footprint,
             tracking_error=(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from viaspline.curve.tangents import ALPHA, PIECES, RULES
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import SplineSpec
+from viaspline.mission.parts import SplineSpec, Tangents
 
 Floats = NDArray[np.float64]
 
@@ -58,7 +58,8 @@ class Course:
     Attributes:
         vias: (n,) of them, n >= 2.
         legs: n - 1 of them, or n when it is closed.
-        spline: Knots and tangents; tensions stand in the legs as slack.
+        spline: Its knots; tensions stand in the legs as slack.
+        tangents: Which ones.
         start_tangent: Direction in which the curve leaves, shape (d,), or None.
         end_tangent: Direction in which it arrives, shape (d,), or None.
         closed: Whether it comes back to the first via point.
@@ -69,6 +70,7 @@ class Course:
     spline: SplineSpec
     start_tangent: Floats | None = None
     end_tangent: Floats | None = None
+    tangents: Tangents = "cardinal"
     closed: bool = False
 
     def ends(self, leg: int) -> tuple[RouteVia, RouteVia]:
@@ -82,7 +84,7 @@ class Course:
     @property
     def pieces(self) -> int:
         """Cubics from one via point to the next, detours counted."""
-        return PIECES[self.spline.tangents]
+        return PIECES[self.tangents]
 
     def first_spans(self) -> NDArray[np.int64]:
         """Index of every leg's first span, and the number of all spans at the end."""
@@ -107,7 +109,7 @@ def spline_spans(points: Floats, slack: Floats, course: Course) -> Floats:
     """Spans through points with the course's knots, tangents and end directions."""
     start, end = course.start_tangent, course.end_tangent
     none = np.zeros(points.shape[1])
-    return RULES[course.spline.tangents](
+    return RULES[course.tangents](
         points, ALPHA[course.spline.knots], slack,
         none if start is None else start, none if end is None else end,
         start is not None, end is not None, course.closed,
@@ -130,6 +132,7 @@ def course_of(mission: Mission) -> Course:
         vias=vias,
         legs=tuple(Leg.straight(value, dimension) for value in slack),
         spline=mission.spline,
+        tangents=mission.tangents,
         start_tangent=direction(route.start.heading_deg, dimension),
         end_tangent=None if goal is None else direction(goal.heading_deg, dimension),
         closed=route.closed,

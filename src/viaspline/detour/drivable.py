@@ -80,7 +80,7 @@ def lay_drivable(course: Course, world: World, brief: Brief) -> tuple[Laid, Acco
         NoPathError: When there is no such curve, with the via point that can't be reached and
             what would allow it.
     """
-    smooth = replace(course, spline=course.spline.model_copy(update={"tangents": "continuous"}))
+    smooth = replace(course, tangents="continuous")
     laid, account = lay_clear(smooth, world, brief)
     drive = _Drive(smooth, world, brief)
     if drive.is_drivable(laid.spans):

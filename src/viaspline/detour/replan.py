@@ -269,6 +269,7 @@ def _course(
         vias=(start, *targets),
         legs=tuple(Leg.straight(slack[leg - 1], len(start.at)) for leg in legs),
         spline=brief.spline,
+        tangents=brief.tangents,
         end_tangent=direction(brief.goal_heading_deg, len(start.at)) if meet is None else None,
     )
 

@@ -31,6 +31,7 @@ from viaspline.mission.fields import (
 from viaspline.mission.robot_parts import RobotSpec
 
 Side = Literal["left", "right"]
+Tangents = Literal["cardinal", "continuous"]
 
 MOST_LAPS: Final = 1000
 """The most laps of a closed route."""
@@ -247,7 +248,8 @@ class SplineSpec(Value):
         slack: The same by its other name, s = (1 - t) / 2. Give one of the two.
         knots: How far apart the points are in parameter: equally, by the root of their distance,
             by their distance.
-        tangents: ``cardinal``, or ``continuous`` for continuous curvature.
+        tangents: ``cardinal``, or ``continuous`` for continuous curvature. None: continuous if the
+            robot has a drive, a turning circle or a footprint, else cardinal.
     """
 
     tension: (
@@ -255,7 +257,7 @@ class SplineSpec(Value):
     ) = None
     slack: Number | Annotated[tuple[Number, ...], BeforeValidator(plain)] | None = None
     knots: Literal["uniform", "centripetal", "chordal"] = "chordal"
-    tangents: Literal["cardinal", "continuous"] = "cardinal"
+    tangents: Tangents | None = None
 
 
 class MissionParts(Value):
@@ -272,3 +274,12 @@ class MissionParts(Value):
     robot: RobotSpec = RobotSpec()
     route: Route
     spline: SplineSpec = SplineSpec()
+
+    @property
+    def tangents(self) -> Tangents:
+        """Those of the spline, as it says or as the robot asks for."""
+        if self.spline.tangents is not None:
+            return self.spline.tangents
+        robot = self.robot
+        steers = robot.drive is not None or robot.turn_radius is not None
+        return "continuous" if steers or robot.footprint is not None else "cardinal"

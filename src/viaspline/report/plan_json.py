@@ -45,14 +45,16 @@ def mission_summary(mission: Mission, name: str) -> dict[str, Any]:
     return {
         "name": name,
         "frame": "ENU: x east, y north; headings anticlockwise from x",
-        "robot_radius_m": robot.radius_m,
+        "robot_radius_m": robot.radius_m if robot.footprint is None else None,
+        "footprint": robot.footprint,
+        "turn_radius_m": robot.turn_radius,
         "required_clearance_m": robot.clearance_m,
         "max_speed_mps": robot.max_speed_mps,
         "max_accel_mps2": robot.max_accel_mps2,
         "max_lateral_accel_mps2": robot.max_lateral_accel_mps2,
         "tension": tension(mission),
         "knots": spline.knots,
-        "tangents": spline.tangents,
+        "tangents": mission.tangents,
         "closed": mission.route.closed,
     }
 

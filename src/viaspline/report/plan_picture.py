@@ -18,7 +18,7 @@ from viaspline.report.labels import Labels
 from viaspline.report.marks import draw_arrows, draw_path, draw_tightest, draw_vias
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Sheet, new_sheet, view_of
-from viaspline.report.summary import spline_words
+from viaspline.report.summary import body_words, spline_words
 from viaspline.report.units import down, metres, seconds
 
 WAYS_NAMED = 6  # groups; the lengths of their ways are on the picture if they are no more
@@ -61,10 +61,7 @@ def plan_picture(plan: Plan, name: str) -> bytes:
 def subtitle(mission: Mission) -> str:
     """How the curve was asked to be, and by whom it is driven."""
     robot = mission.robot
-    return (
-        f"{spline_words(mission)}; robot of radius {robot.radius_m:g} m, "
-        f"at most {robot.max_speed_mps:g} m/s"
-    )
+    return f"{spline_words(mission)}; {body_words(robot)}, at most {robot.max_speed_mps:g} m/s"
 
 
 def proof(certificate: Certificate) -> str:

@@ -9,7 +9,7 @@ from itertools import pairwise
 from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
-from viaspline.mission.robot_parts import Sensor
+from viaspline.mission.robot_parts import RobotSpec, Sensor
 from viaspline.report.units import metres
 
 MAPS = 4  # in the words about a world, before the rest is only counted
@@ -35,8 +35,23 @@ def spline_words(mission: Mission) -> str:
         pull = f"tension {min(value):g} to {max(value):g} by span"
     else:
         pull = f"tension {value:g} (slack {(1 - value) / 2:g})"
-    bends = "continuous curvature" if spline.tangents == "continuous" else "cardinal tangents"
+    bends = "continuous curvature" if mission.tangents == "continuous" else "cardinal tangents"
     return f"{pull}, {spline.knots} knots, {bends}"
+
+
+def body_words(robot: RobotSpec) -> str:
+    """The robot's body and how tightly it turns.
+
+    >>> body_words(RobotSpec(radius_m=0.4, min_turn_radius_m=2))
+    'robot of radius 0.4 m with a turning circle of 2 m'
+    """
+    body = f"of radius {robot.radius_m:g} m"
+    if robot.footprint is not None:
+        (x0, x1), (y0, y1) = ((min(c), max(c)) for c in zip(*robot.footprint, strict=True))
+        body = f"of {x1 - x0:.3g} m x {y1 - y0:.3g} m"
+    turn = robot.turn_radius
+    circle = "" if turn is None else f" with a turning circle of {turn:.3g} m"
+    return f"robot {body}{circle}"
 
 
 def summary(mission: Mission) -> list[tuple[str, str]]:
@@ -110,7 +125,7 @@ def _obstacles(obstacles: Sequence[Obstacle], kind: str) -> str:
 def _robot(mission: Mission) -> str:
     robot = mission.robot
     words = [
-        f"radius {robot.radius_m:g} m",
+        body_words(robot),
         f"clearance {robot.clearance_m:g} m",
         f"at most {robot.max_speed_mps:g} m/s and {robot.max_accel_mps2:g} m/s²",
     ]
