@@ -10,12 +10,15 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from viaspline.kernels.jit import CACHE_FOLDER
 
 MARK = "curves-compiled"
+LOCK = "curves-compiling"
+LONGEST = 300.0  # a lock that is older than this was left behind [s]
 
 
 def compile_curves() -> None:
@@ -37,11 +40,25 @@ def compile_curves() -> None:
         (CACHE_FOLDER / MARK).touch()
 
 
+def _taken() -> bool:
+    """Take the job: one helper is enough, however many first runs begin at once."""
+    assert CACHE_FOLDER is not None
+    lock = CACHE_FOLDER / LOCK
+    with suppress(OSError):
+        if time.time() - lock.stat().st_mtime > LONGEST:
+            lock.unlink()
+    try:
+        lock.touch(exist_ok=False)
+    except OSError:
+        return False
+    return True
+
+
 @contextmanager
 def second_compiler() -> Iterator[None]:
     """Within the block another process compiles, if this is the first run and there is a core."""
     cores = os.cpu_count() or 1
-    if CACHE_FOLDER is None or (CACHE_FOLDER / MARK).exists() or cores < 2:
+    if CACHE_FOLDER is None or (CACHE_FOLDER / MARK).exists() or cores < 2 or not _taken():
         yield
         return
     try:
@@ -59,6 +76,8 @@ def second_compiler() -> Iterator[None]:
     finally:
         process.kill()
         process.wait()
+        with suppress(OSError):
+            (CACHE_FOLDER / LOCK).unlink()
 
 
 if __name__ == "__main__":
