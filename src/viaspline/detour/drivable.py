@@ -2,7 +2,8 @@
 
 First the spline with continuous curvature, if it is round enough as it is. Where it is not,
 straight lines and turns with ramps: along the taut ways between the via points, pushed away from
-what the turns come too close to; then with the headings at all via points chosen together.
+what the turns come too close to; then with the headings at all via points chosen together; at
+last by a search among poses.
 """
 
 from __future__ import annotations
@@ -26,11 +27,13 @@ from viaspline.detour.leg_search import LegSearch
 from viaspline.detour.passing import Task
 from viaspline.detour.route import Way, on_the_line
 from viaspline.detour.search import lay_clear
-from viaspline.detour.turns.bends import DETOUR, Bends, bends_along
+from viaspline.detour.turns.bends import DETOUR, bends_along
+from viaspline.detour.turns.pose_search import NotFound
 from viaspline.detour.turns.poses import Leg, Poses, legs_of, posed
 from viaspline.detour.turns.push import clear_swing, swing_if_clear
-from viaspline.detour.turns.refusal import first_failing, refuse_circle
-from viaspline.detour.turns.swing import OVERSHOOT, Swing
+from viaspline.detour.turns.refusal import refuse_circle
+from viaspline.detour.turns.swing import OVERSHOOT, RAMP, Swing
+from viaspline.detour.turns.tight import tight_chains
 from viaspline.errors import NoPathError
 from viaspline.world.world import World
 
@@ -99,10 +102,17 @@ def _swung(drive: _Drive) -> Laid:
     swing = clear_swing(bends, drive.rho, drive.world, drive.brief)
     if swing is not None:
         return _laid(drive, [swing])
-    poses = _posed(drive, legs_of(bends, _spots(drive)), drive.rho, bends.closed)
-    if poses is None:
-        raise _refusal(drive, bends)
-    return _laid(drive, poses.swings)
+    legs, spots = legs_of(bends, _spots(drive)), _spots(drive)
+    poses = _posed(drive, legs, drive.rho, bends.closed)
+    if poses is not None:
+        return _laid(drive, poses.swings)
+    chains = tight_chains(
+        drive.course, drive.world, drive.brief, drive.rho, RAMP * drive.rho, spots
+    )
+    if isinstance(chains, NotFound):
+        raise _refusal(drive, legs, chains)
+    joints = np.cumsum([0, *(len(chain.spans) for chain in chains)])
+    return _through(drive, np.concatenate([chain.spans for chain in chains]), joints, ())
 
 
 def _ways_of(drive: _Drive) -> list[Way]:
@@ -138,16 +148,13 @@ def _spots(drive: _Drive) -> set[int]:
     }
 
 
-def _refusal(drive: _Drive, bends: Bends) -> NoPathError:
-    legs = legs_of(bends, _spots(drive))
-
-    def serves(legs: Sequence[Leg], radius: float) -> bool:
+def _refusal(drive: _Drive, legs: Sequence[Leg], failed: NotFound) -> NoPathError:
+    def serves(radius: float) -> bool:
         rho = OVERSHOOT * radius
         lay = partial(swing_if_clear, rho=rho, world=drive.world, brief=drive.brief)
-        return posed(legs, rho, False, lay, most=PUSHED) is not None
+        return posed(legs, rho, drive.course.closed, lay, most=PUSHED) is not None
 
-    failing = first_failing(legs, lambda part: serves(part, drive.radius))
-    return refuse_circle(drive.course, drive.radius, failing, partial(serves, legs))
+    return refuse_circle(drive.course, drive.radius, failed, serves)
 
 
 def _laid(drive: _Drive, swings: Sequence[Swing]) -> Laid:
@@ -166,14 +173,19 @@ def _laid(drive: _Drive, swings: Sequence[Swing]) -> Laid:
     if len(joints) < len(drive.course.vias) + drive.course.closed:
         joints.append(first)
     spans = np.concatenate([swing.spans for swing in swings])
+    return _through(drive, spans, np.array(joints), detours)
+
+
+def _through(
+    drive: _Drive, spans: Floats, joints: NDArray[np.int64], detours: Sequence[int]
+) -> Laid:
+    """Planar spans as the curve of the course: with its heights, and exactly through its places."""
     course = drive.course
     ends = [*course.vias, course.vias[0]] if course.closed else course.vias
-    heights = np.array([via.at[2:] for via in ends])
-    at = np.array(joints)
-    spans = with_heights(spans, at, heights)
-    for u, via in zip(joints, ends, strict=True):  # exactly, not to a nanometre
+    spans = with_heights(spans, joints, np.array([via.at[2:] for via in ends]))
+    for u, via in zip(joints, ends, strict=True):
         if u < len(spans):
             spans[u, 0] = via.at
         if u > 0:
             spans[u - 1, 3] = via.at
-    return Laid.through(course, spans, at, detours)
+    return Laid.through(course, spans, joints, detours)

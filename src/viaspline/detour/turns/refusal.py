@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 
 from viaspline.detour.course import Course
-from viaspline.detour.turns.poses import Leg
+from viaspline.detour.turns.pose_search import NotFound, Reason
 from viaspline.errors import NoPathError
 
 SMALLER = (0.9, 0.7, 0.5, 0.3, 0.15)  # parts of the radius that are tried
@@ -15,17 +15,19 @@ DIGITS = 3
 
 
 def refuse_circle(
-    course: Course, radius: float, failing: int, serves: Callable[[float], bool]
+    course: Course, radius: float, failed: NotFound, serves: Callable[[float], bool]
 ) -> NoPathError:
     """The error for a course that can't be driven with a turning circle.
 
     Args:
         course: What was asked for.
         radius: The radius of the turning circle [m].
-        failing: The leg that can't be driven, as far as that can be said.
+        failed: What the search for a path came to.
         serves: Whether there is a path with a smaller radius [m].
     """
-    via = course.ends(failing)[1]
+    start, via = course.ends(failed.goal)
+    if failed.reason in (Reason.START_TAKEN, Reason.START_SHUT_IN):
+        via = start
     smaller = next((part * radius for part in SMALLER if serves(part * radius)), None)
     if smaller is None:
         remedy = f"move {via.name!r} to where there is room to turn, or leave it out"
@@ -36,13 +38,9 @@ def refuse_circle(
             "where there is room to turn"
         )
     return NoPathError(
-        f"the turning circle of {radius:g} m is too wide to come to via point {via.name!r}",
+        f"with a turning circle of {radius:.4g} m via point {via.name!r} can't be served: "
+        f"{failed.reason.value}",
         where=via.at,
         remedy=remedy,
         via=via.name,
     )
-
-
-def first_failing(legs: Sequence[Leg], can: Callable[[Sequence[Leg]], bool]) -> int:
-    """The first leg up to which there is no row of headings."""
-    return next((k for k in range(len(legs)) if not can(legs[: k + 1])), len(legs) - 1)
