@@ -15,6 +15,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.curve.bends import curvature_bound
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.account import Account
 from viaspline.detour.body import body_conflicts
@@ -71,7 +72,7 @@ class _Drive:
         limit = self.brief.turn_radius
         if limit is not None:
             ground = PiecewiseCubic(np.ascontiguousarray(spans[:, :, :2]))
-            if not ground.max_curvature()[0] * limit <= 1.0:
+            if not curvature_bound(ground)[0] * limit <= 1.0:
                 return False
         return self.is_clear(spans)
 

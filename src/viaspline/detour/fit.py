@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.curve.bends import self_loops
 from viaspline.curve.certificate import SPARE
 from viaspline.detour.course import Course, Leg, lay
 from viaspline.detour.route import Way
@@ -89,6 +90,23 @@ def tighten(course: Course, index: int, world: World, required: float) -> Fitted
             return Fitted(course, spans)
         course = _halved(course, index, close)
     return None
+
+
+def untied(course: Course, spans: Floats) -> Course:
+    """The course with less slack where a span loops back on itself; itself if none does."""
+    legs = np.diff(spans[:, :, :2], axis=1)
+    ahead, after = legs[:, :-1], legs[:, 1:]
+    cross = ahead[..., 0] * after[..., 1] - ahead[..., 1] * after[..., 0]
+    turns = np.abs(np.arctan2(cross, (ahead * after).sum(axis=2))).sum(axis=1)
+    if turns.max() <= np.pi:  # a curve turns no more than its control polygon
+        return course
+    loops = self_loops(spans)
+    first = course.first_spans()
+    for index in range(len(course.legs)):
+        tied = loops[first[index] : first[index + 1]]
+        if tied.any():
+            course = _halved(course, index, tied)
+    return course
 
 
 def _halved(course: Course, index: int, close: NDArray[np.bool_]) -> Course:

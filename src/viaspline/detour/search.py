@@ -6,12 +6,12 @@ from viaspline.detour.account import Account
 from viaspline.detour.blocked import explain_tight_leg, refuse_blocked_vias
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, lay
-from viaspline.detour.fit import CLEAR, tighten, too_close
+from viaspline.detour.fit import CLEAR, tighten, too_close, untied
 from viaspline.detour.laid import Laid
 from viaspline.detour.passing import Passed, Task
 from viaspline.world.world import World
 
-ROUNDS = 40  # every round lowers the slack of the legs that are still too close
+ROUNDS = 60  # every round lowers slack, of spans that loop or of legs that are too close
 
 
 def lay_clear(course: Course, world: World, brief: Brief) -> tuple[Laid, Account]:
@@ -30,6 +30,10 @@ def lay_clear(course: Course, world: World, brief: Brief) -> tuple[Laid, Account
     passed: dict[int, Passed] = {}
     for _ in range(ROUNDS):
         spans = lay(course)
+        loose = untied(course, spans)
+        if loose is not course:
+            course = loose
+            continue
         close = too_close(world, spans, brief.required)
         if (close == CLEAR).all():
             laid = Laid.through(course, spans, course.first_spans(), _detours(course))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from viaspline.curve.bends import curvature_bound
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.detour.ledger import LedgerEntry
@@ -24,7 +25,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
     return dumps(
         {
             "mission": mission_summary(plan.mission, name),
-            "path": path_data(plan.path) | {"csv_spacing_m": spacing},
+            "path": path_data(plan.path) | _turning(plan) | {"csv_spacing_m": spacing},
             "certificate": certificate_data(plan.certificate),
             **({"tracking_error_m": plan.tracking_error} if plan.tracking_error else {}),
             "ledger": [_entry(entry) for entry in plan.ledger],
@@ -37,6 +38,13 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
             },
         }
     )
+
+
+def _turning(plan: Plan) -> dict[str, Any]:
+    """The proven bound of the curvature, for a robot with a turning circle."""
+    if plan.mission.robot.turn_radius is None:
+        return {}
+    return {"curvature_bound_1pm": curvature_bound(plan.path)[0]}
 
 
 def mission_summary(mission: Mission, name: str) -> dict[str, Any]:
