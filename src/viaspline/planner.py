@@ -8,8 +8,7 @@ from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.detour.account import Account
 from viaspline.detour.brief import Brief
-from viaspline.detour.course import course_of
-from viaspline.detour.find import find_path
+from viaspline.detour.drive import find_drive
 from viaspline.detour.ledger import LedgerEntry
 from viaspline.detour.order import ordered
 from viaspline.errors import GeometryError, NoPathError
@@ -98,7 +97,7 @@ def _with_error(mission: Mission, world: World, error: float) -> Plan:
     """The plan that keeps ``error`` [m] more than the clearance."""
     brief = Brief.of(mission, error)
     try:
-        found = find_path(course_of(mission), world, brief)
+        found = find_drive(mission, world, brief)
     except NoPathError as problem:
         if error > 0.0:
             problem.reason += f" ({error:.2f} m of it for how far the robot gets beside its path)"

@@ -164,7 +164,7 @@ def _native(world: World, required: float, box: Box) -> Lattice | None:
 
     None unless a robot that needs ``required`` gets through wherever free cells of a lone map meet.
     """
-    grid = world.obstacles[0].grid if len(world) == 1 and not world.fences else None
+    grid = world.obstacles[0].grid if len(world) == 1 and not world.enclosures else None
     if grid is None or grid.origin[2] != 0.0 or required >= 0.5 * grid.resolution:
         return None
     low, high = np.array(grid.extent).reshape(2, 2)
@@ -190,8 +190,8 @@ def _box(world: World, required: float, places: Floats) -> Box:
     if world.bounds is not None:
         return world.bounds
     low, high = places.min(axis=0), places.max(axis=0)
-    if world.fences:
-        ring = np.concatenate([np.array(fence) for fence in world.fences])
+    if world.enclosures:
+        ring = np.concatenate([np.array(fence) for fence in world.enclosures])
         return (*np.minimum(low, ring.min(axis=0)), *np.maximum(high, ring.max(axis=0)))
     if len(world):
         box = world.packed.boxes[0]

@@ -155,7 +155,7 @@ class Router:
 
     def _is_surely_shortest(self, active: Flags) -> bool:
         """Whether circumscribed corners close no gap that the arcs themselves leave open."""
-        if self.world.fences and active.any():
+        if self.world.enclosures and active.any():
             return False
         met = (self.world.obstacles[i].circle for i in np.flatnonzero(active))
         radius = max((circle.radius for circle in met if circle is not None), default=0.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from dataclasses import replace
 from itertools import pairwise
 
 from viaspline.mission.draft import Draft
@@ -17,6 +18,7 @@ SAME_PLACE = 1e-6
 def semantic_flaws(draft: Draft) -> list[Flaw]:
     """Everything that is wrong with the meaning of a mission."""
     from viaspline.mission.clearances import clearance_flaws
+    from viaspline.mission.corridors import corridor_flaws
     from viaspline.mission.shapes import shape_flaws
 
     flaws = _bounds(draft)
@@ -31,6 +33,10 @@ def semantic_flaws(draft: Draft) -> list[Flaw]:
     flaws += _dimensions(draft)
     if draft.spline is not None:
         flaws += _spline(draft, draft.spline)
+    strange = corridor_flaws(draft)
+    flaws += strange
+    if strange:
+        draft = replace(draft, corridor=None)
     flaws += clearance_flaws(draft, {flaw.path[:3] for flaw in misshapen})
     return flaws
 
@@ -124,7 +130,16 @@ def _route(draft: Draft) -> list[Flaw]:
                 at_key=True,
             )
         )
-    if draft.has_route and len(draft.points) < 2 and draft.points[0][1] is not None:
+    if draft.laps > 1 and draft.closed is False:
+        problem = f"an open route can't be driven {draft.laps} times over"
+        remedy = "set closed: true, or leave out laps"
+        flaws.append(Flaw(("route", "laps"), problem, remedy, at_key=True))
+    if (
+        draft.has_route
+        and len(draft.points) < 2
+        and not draft.is_line
+        and draft.points[0][1] is not None
+    ):
         problem = "a route needs at least two distinct points; this one has only its start"
         flaws.append(Flaw(("route",), problem, "give goal: [x, y] or via: [[x, y], ...]"))
     return flaws

@@ -7,6 +7,7 @@ from collections.abc import Collection
 from typing import NamedTuple
 
 from viaspline.maps.squares import is_unknown
+from viaspline.mission.corridors import CORRIDOR, corridor_of
 from viaspline.mission.draft import Corners, Draft, obstacle_label
 from viaspline.mission.flaws import Flaw, Path, number, spell
 from viaspline.mission.freespace import FreeSpace
@@ -32,13 +33,17 @@ def clearance_flaws(draft: Draft, misshapen: Collection[Path]) -> list[Flaw]:
     bounds = draft.bounds
     if bounds is not None and (bounds[0] >= bounds[2] or bounds[1] >= bounds[3]):
         bounds = None
-    if not points or not (known or fences or bounds):
+    rings: list[tuple[Path, tuple[Corners, ...]]] = [(path, (ring,)) for path, ring in fences]
+    rings += corridor_of(draft)
+    if not points or not (known or rings or bounds):
         return []
     margin = robot.inner_radius + robot.clearance_m
-    space = FreeSpace(bounds, [ring for _, ring in fences], [item for _, item in known], margin)
+    space = FreeSpace(bounds, [area for _, area in rings], [item for _, item in known], margin)
     return [
         Flaw((*points[i][0], "at"), _problem(points[i], near, margin), remedy)
-        for i, nears in _too_near(space, points, known, fences, draft.edge).items()
+        for i, nears in _too_near(
+            space, points, known, [path for path, _ in rings], draft.edge
+        ).items()
         for remedy in [_remedy(points[i][1], nears, robot, space)]
         for near in nears
     ]
@@ -64,7 +69,7 @@ def _too_near(
     space: FreeSpace,
     points: list[tuple[Path, ViaPoint]],
     known: list[tuple[Path, Obstacle]],
-    fences: list[tuple[Path, Corners]],
+    fences: list[Path],
     edge: Collection[Path],
 ) -> dict[int, list[_Near]]:
     """For each point in trouble, what it is too near to."""
@@ -78,8 +83,9 @@ def _too_near(
     for i, distance in space.near_bounds(places):
         note(i, _Near(_edge_label(("world", "bounds"), edge, "the bounds"), distance, "outside"))
     for i, j, distance in space.near_fences(places):
-        path = fences[j][0]
-        note(i, _Near(_edge_label(path, edge, f"fence {spell(path)}"), distance, "outside"))
+        path = fences[j]
+        label = "the corridor" if path == CORRIDOR else f"fence {spell(path)}"
+        note(i, _Near(_edge_label(path, edge, label), distance, "outside"))
     for i, j, distance in space.near_obstacles(places):
         path, obstacle = known[j]
         unknown = obstacle.grid is not None and is_unknown(obstacle.grid, places[i])

@@ -15,6 +15,7 @@ from pydantic import TypeAdapter, ValidationError
 from viaspline.mission.fields import Ring
 from viaspline.mission.flaws import Path, children, spell
 from viaspline.mission.parts import (
+    Corridor,
     EndPoint,
     MissionParts,
     Obstacle,
@@ -45,6 +46,8 @@ class Draft:
         has_route: Whether the number of points is known.
         spline: None if it is faulty.
         edge: Paths of the bounds or the fence that maps brought.
+        corridor: What the route is to stay inside of; None if there is none, or it is faulty.
+        laps: How often a closed route is driven; 1 if that can't be said.
     """
 
     bounds: tuple[float, float, float, float] | None = None
@@ -58,6 +61,13 @@ class Draft:
     has_route: bool = True
     spline: SplineSpec | None = None
     edge: frozenset[Path] = frozenset()
+    corridor: Corridor | None = None
+    laps: int = 1
+
+    @property
+    def is_line(self) -> bool:
+        """Whether a closed corridor says alone where the route goes round."""
+        return bool(self.closed and self.corridor is not None and self.corridor.line is not None)
 
     @classmethod
     def of(cls, mission: MissionParts, unfolded: Unfolded) -> Draft:
@@ -78,6 +88,8 @@ class Draft:
             has_goal=route.goal is not None,
             spline=mission.spline,
             edge=unfolded.edge,
+            corridor=route.corridor,
+            laps=route.laps,
         )
 
     @classmethod
@@ -95,6 +107,7 @@ class Draft:
         if route.get("goal") is not None:
             points.append((("route", "goal"), _point(_END, route["goal"])))
         closed = route.get("closed", False)
+        laps = route.get("laps", 1)
         return cls(
             bounds=bounds.bounds if bounds is not None else None,
             fences=_placed(_sound(TypeAdapter(Ring), world, "fences"), "fences", unfolded),
@@ -107,6 +120,8 @@ class Draft:
             has_route=bool(route) and (isinstance(via, list | tuple) or hasattr(via, "tolist")),
             spline=_attempt(SplineSpec, top.get("spline", {})),
             edge=unfolded.edge,
+            corridor=_attempt(Corridor, route.get("corridor")),
+            laps=laps if isinstance(laps, int) else 1,
         )
 
 

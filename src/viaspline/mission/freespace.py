@@ -35,7 +35,7 @@ class FreeSpace:
 
     Args:
         bounds: ``x_min, y_min, x_max, y_max`` [m].
-        fences: Inclusion polygons.
+        fences: Inclusion polygons, each an outer ring and its holes.
         obstacles: Obstacles of one sound shape each.
         margin: Body radius plus clearance [m].
     """
@@ -43,12 +43,12 @@ class FreeSpace:
     def __init__(
         self,
         bounds: tuple[float, float, float, float] | None,
-        fences: Sequence[Corners],
+        fences: Sequence[Sequence[Corners]],
         obstacles: Sequence[Obstacle],
         margin: float,
     ) -> None:
         self.bounds = bounds
-        self.fences = polygons_of([(ring, ()) for ring in fences])
+        self.fences = polygons_of([(rings[0], rings[1:]) for rings in fences])
         self.margin = margin
         self._pack(obstacles)
 

@@ -192,12 +192,18 @@ CorridorRow = Annotated[
 class Corridor(Value):
     """A strip that the path stays inside of: a lane, a race track, the strip along a pipeline.
 
+    Widths alone are a bound: the path is laid through the route's points as ever. Along a line of
+    its own the path is laid for least curvature, from the start through the via points to the goal
+    or round again. An open strip goes straight on beyond its ends, by its larger width there;
+    where a strip comes back to itself, the bound is what any part of it covers.
+
     Attributes:
         left_m: How far it reaches to the left of the polyline through the route's points [m].
         right_m: How far it reaches to the right of it [m].
         line: In place of both, the middle line with its widths: ``[[x, y, right, left], ...]``
             [m], in the direction of driving. Along a closed route it is closed.
-        csv: In place of ``line``, a file with its rows, relative to the mission's.
+        csv: In place of ``line``, a file with its rows, relative to the mission's. When the mission
+            is read, ``line`` gets the rows and this becomes the file's absolute path.
     """
 
     left_m: Annotated[Positive, Field(le=FAR)] | None = None

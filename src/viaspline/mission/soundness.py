@@ -13,6 +13,7 @@ from viaspline.mission.draft import Draft
 from viaspline.mission.flaws import Flaw, Origin, located
 from viaspline.mission.parts import MissionParts
 from viaspline.mission.structure import structural_flaws
+from viaspline.mission.track_file import given_twice, unfold_corridor
 from viaspline.mission.unfold import unfold_maps
 
 Sound = TypeVar("Sound", bound=MissionParts)
@@ -43,7 +44,12 @@ def sound_mission(
         return cast(Sound, data)
     origin = context.origin if isinstance(context, Context) else None
     flaws: list[Flaw] = list(origin.flaws) if origin is not None else []
-    unfolded = unfold_maps(data, Path(origin.source).parent if origin is not None else Path())
+    folder = Path(origin.source).parent if origin is not None else Path()
+    if origin is not None:
+        flaws += given_twice(data)
+    with_line, faulty = unfold_corridor(data, folder)
+    flaws += faulty
+    unfolded = unfold_maps(with_line, folder)
     flaws += unfolded.flaws
     mission: Sound | None = None
     try:

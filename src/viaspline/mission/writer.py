@@ -61,6 +61,10 @@ def yaml_text(mission: Mission, folder: str | Path = ".") -> str:
     """
     data = mission.model_dump(exclude_defaults=True)
     data = {**data, "world": _world(mission.world, data.get("world", {}), Path(folder))}
+    corridor = mission.route.corridor
+    if corridor is not None and corridor.csv is not None:
+        named = {"csv": _relative(Path(corridor.csv), Path(folder))}
+        data["route"] = {**data["route"], "corridor": named}
     return (
         "\n".join(
             line for key, section in data.items() if section for line in _section(key, section)

@@ -57,6 +57,8 @@ class Scene:
     def of(cls, world: World, required: float, unseen: Sequence[Obstacle] = ()) -> Scene:
         """A world, and what is there but not on its map."""
         parts = [shapely.Polygon(ring) for ring in world.fences]
+        if world.corridor:
+            parts.append(shapely.Polygon(world.corridor[0], world.corridor[1:]))
         if world.bounds is not None:
             parts.append(shapely.box(*world.bounds))
         free = shapely.intersection_all(np.array(parts, object)) if parts else None
@@ -187,6 +189,9 @@ def _on_shape(shape: shapely.Geometry, here: tuple[float, float]) -> tuple[float
 def _frame_of(world: World) -> str:
     """What a legend calls that which the robot stays inside of."""
     edge = edge_of([obstacle.grid for obstacle in world.obstacles if obstacle.grid is not None])
+    if world.corridor:
+        others = world.bounds is not None or bool(world.fences)
+        return "corridor and fences" if others else "corridor"
     if world.bounds == edge.bounds and world.fences == (
         () if edge.fence is None else (edge.fence,)
     ):

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
+from pathlib import Path
 
 from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.parts import Corridor, Obstacle
 from viaspline.mission.robot_parts import RobotSpec, Sensor
 from viaspline.report.units import metres
 
@@ -94,9 +95,20 @@ def _world(mission: Mission) -> str:
         words.append(f"bounds {x1 - x0:g} m x {y1 - y0:g} m")
     if world.fences:
         words.append(_count(len(world.fences), "fence"))
-    if world.bounds is None and not world.fences:
+    if mission.route.corridor is not None:
+        words.append(_corridor(mission.route.corridor))
+    elif world.bounds is None and not world.fences:
         words.append("no bounds")
     return ", ".join(words)
+
+
+def _corridor(corridor: Corridor) -> str:
+    """A corridor in a few words."""
+    if corridor.line is None:
+        return f"a corridor of {corridor.left_m:g} m (left) and {corridor.right_m:g} m (right)"
+    widths = [right + left for _, _, right, left in corridor.line]
+    name = "" if corridor.csv is None else f" {Path(corridor.csv).name}"
+    return f"the corridor{name} of {len(widths)} rows, {min(widths):g} to {max(widths):g} m wide"
 
 
 def map_words(grid: Grid) -> str:

@@ -25,9 +25,9 @@ _TABLES: WeakKeyDictionary[Grid, tuple[Columns, Columns]] = WeakKeyDictionary()
 
 
 def pack(
-    obstacles: Sequence[Obstacle], bounds: Sequence[float] | None, fences: Rings
+    obstacles: Sequence[Obstacle], bounds: Sequence[float] | None, fences: Sequence[Rings]
 ) -> PackedWorld:
-    """Pack obstacles, and what the robot stays inside of."""
+    """Pack obstacles, and what the robot stays inside of: each fence a ring and its holes."""
     count = len(obstacles)
     kind = np.zeros(count, np.int64)
     slot = np.zeros(count, np.int64)
@@ -101,9 +101,9 @@ def _together(tables: Sequence[Columns]) -> Columns:
     return np.concatenate(tables) if tables else np.empty(0, np.int16)
 
 
-def _fences(rings: Rings) -> tuple[Floats, Ints]:
-    """Edges of fences, which run clockwise, and where each fence starts among them."""
-    edges, polygon_blocks, block_edges = _edges([(ring,) for ring in rings])
+def _fences(areas: Sequence[Rings]) -> tuple[Floats, Ints]:
+    """Edges of fences, clockwise and anticlockwise round holes, and where each fence starts."""
+    edges, polygon_blocks, block_edges = _edges(areas)
     starts = block_edges[polygon_blocks]
     for first, last in pairwise(starts.tolist()):
         edges[first:last] = edges[first:last][::-1, [2, 3, 0, 1]]

@@ -14,8 +14,9 @@ from viaspline.kernels.groups import group_labels
 from viaspline.kernels.packed import PackedWorld
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle, Side
+from viaspline.mission.strip import corridor_rings
 from viaspline.world.outline import outline
-from viaspline.world.pack import join, pack
+from viaspline.world.pack import Rings, join, pack
 
 Bounds = tuple[float, float, float, float]
 NOTHING = -1  # the index of what is nearest in an empty world
@@ -34,6 +35,7 @@ class World:
         obstacles: What is known.
         bounds: ``x_min, y_min, x_max, y_max`` [m], or None.
         fences: Rings that the robot stays inside of [m].
+        corridor: One more, with the islands in it: its outer ring, then its holes [m].
 
     Example:
         >>> world = World([Obstacle(circle={"center": (0, 0), "radius": 2})], bounds=(-9, -9, 9, 9))
@@ -47,19 +49,25 @@ class World:
         *,
         bounds: Sequence[float] | None = None,
         fences: Iterable[Sequence[tuple[float, float]]] = (),
+        corridor: Iterable[Sequence[tuple[float, float]]] = (),
     ) -> None:
         self.obstacles = tuple(obstacles)
         self.bounds: Bounds | None = None
         self.fences = tuple(tuple(ring) for ring in fences)
+        self.corridor = tuple(tuple(ring) for ring in corridor)
         if bounds is not None:
             self.bounds = _checked(bounds)
-        self.packed: PackedWorld = pack(self.obstacles, self.bounds, self.fences)
+        areas: list[Rings] = [(ring,) for ring in self.fences]
+        if self.corridor:
+            areas.append(self.corridor)
+        self.packed: PackedWorld = pack(self.obstacles, self.bounds, areas)
 
     @classmethod
     def known(cls, mission: Mission) -> World:
         """What the mission has on its map."""
         spec = mission.world
-        return cls(spec.known, bounds=spec.bounds, fences=spec.fences)
+        corridor = corridor_rings(mission.route)
+        return cls(spec.known, bounds=spec.bounds, fences=spec.fences, corridor=corridor)
 
     @classmethod
     def everything(cls, mission: Mission) -> World:
@@ -72,7 +80,7 @@ class World:
         world = object.__new__(World)
         world.obstacles = self.obstacles + new
         world.bounds = self.bounds
-        world.fences = self.fences
+        world.fences, world.corridor = self.fences, self.corridor
         world.packed = join(self.packed, pack(new, None, ()))
         return world
 
@@ -82,7 +90,13 @@ class World:
         world = object.__new__(World)
         world.obstacles = (*self.obstacles[:index], asked, *self.obstacles[index + 1 :])
         world.bounds, world.fences, world.packed = self.bounds, self.fences, self.packed
+        world.corridor = self.corridor
         return world
+
+    @property
+    def enclosures(self) -> tuple[tuple[tuple[float, float], ...], ...]:
+        """The outer rings of the fences and of the corridor [m]."""
+        return (*self.fences, *self.corridor[:1])
 
     def __len__(self) -> int:
         return len(self.obstacles)
@@ -95,6 +109,8 @@ class World:
         if index == NOTHING:
             return "nothing"
         if index <= BOUNDS:
+            if BOUNDS - index > len(self.fences):
+                return "corridor"
             return "bounds" if index == BOUNDS else f"fence {BOUNDS - index}"
         obstacle = self.obstacles[index]
         if obstacle.name is not None:
@@ -126,8 +142,8 @@ class World:
         """Signed distance [m] and what is nearest.
 
         Returns:
-            (distance, index): the obstacle's index; -2 for the bounds, -3 - f for fence f (see
-            ``name``); -1 in an empty world.
+            (distance, index): the obstacle's index; -2 for the bounds, -3 - f for fence f, the
+            corridor being the last (see ``name``); -1 in an empty world.
         """
         flat, shape = _as_points(points)
         distance, index = kernels.distances(self.packed, flat)

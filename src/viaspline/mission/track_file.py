@@ -1,0 +1,112 @@
+"""The file of a corridor: rows x, y, right, left in metres."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path as FilePath
+from typing import Any
+
+from viaspline.mission.fields import FAR
+from viaspline.mission.flaws import Flaw, Path, children
+
+COLUMNS = "x, y, right, left"
+AT: Path = ("route", "corridor", "csv")
+MOST_FLAWS = 5  # of one file that are told
+
+
+def unfold_corridor(data: Any, folder: FilePath) -> tuple[Any, list[Flaw]]:
+    """Read the corridor's file of a mission.
+
+    Args:
+        data: What a mission file holds, sound or not.
+        folder: Where the file is looked for.
+
+    Returns:
+        The data with the line beside the file's absolute path, and what was wrong with the file;
+        ``data`` itself if there is no file to read.
+    """
+    top = children(data) or {}
+    route = children(top.get("route")) or {}
+    corridor = children(route.get("corridor")) or {}
+    name = corridor.get("csv")
+    if not isinstance(name, str | FilePath) or not str(name) or corridor.get("line") is not None:
+        return data, []
+    path = folder / name
+    rows, flaws = read_track(path)
+    unfolded = {**corridor, "csv": FilePath(path).resolve().as_posix(), "line": rows}
+    if flaws:
+        del unfolded["line"]
+    return {**top, "route": {**route, "corridor": unfolded}}, flaws
+
+
+def read_track(path: FilePath) -> tuple[list[list[float]], list[Flaw]]:
+    """The rows of a corridor's file, and what is wrong with it.
+
+    Rows are numbers separated by commas, semicolons or blanks. Lines that start with ``#`` are
+    comments, and so is a first line of names.
+    """
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError:
+        return [], [_flaw(f"{path}: is no text", f"give a file with rows {COLUMNS}")]
+    except OSError as error:
+        problem = f"{path}: {(error.strerror or str(error)).lower()}"
+        return [], [_flaw(problem, f"give the path of a file with rows {COLUMNS}")]
+    rows: list[list[float]] = []
+    flaws: list[Flaw] = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        if not line.strip() or line.lstrip().startswith("#"):
+            continue
+        cells = line.replace(";", ",").replace(",", " ").split()
+        row, wrong = _row(cells)
+        if wrong is not None:
+            if not rows and not flaws and not any(map(_is_number, cells)):
+                continue  # the names of the columns
+            flaws.append(_flaw(f"{path}:{number}: {wrong}", f"a row is {COLUMNS} in metres"))
+        rows.append(row)
+    if len(rows) < 2 and not flaws:
+        problem = f"{path}: has {len(rows)} rows, but a line needs two at least"
+        flaws.append(_flaw(problem, f"give rows {COLUMNS} in metres"))
+    more = len(flaws) - MOST_FLAWS
+    if more > 0:
+        rest = _flaw(f"{path}: {more} more rows are wrong", f"a row is {COLUMNS} in metres")
+        flaws = [*flaws[:MOST_FLAWS], rest]
+    return rows, flaws
+
+
+def _row(cells: list[str]) -> tuple[list[float], str | None]:
+    """The numbers of a row, or what is wrong with it."""
+    if len(cells) != 4:
+        return [], f"has {len(cells)} columns"
+    for cell in cells:
+        if not _is_number(cell):
+            return [], f"'{cell[:20]}' is not a number"
+    row = [float(cell) for cell in cells]
+    for name, value in zip(("x", "y", "right", "left"), row, strict=True):
+        if not abs(value) <= FAR:
+            return [], f"{name} is {'NaN' if math.isnan(value) else 'out of range'}"
+        if value < 0.0 and name in ("right", "left"):
+            return [], f"the width to the {name} is negative: {value:g}"
+    return row, None
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _flaw(problem: str, remedy: str) -> Flaw:
+    return Flaw(AT, problem, remedy, at_key=True)
+
+
+def given_twice(data: Any) -> list[Flaw]:
+    """What is wrong with a corridor that has both a line and a file of its own."""
+    route = children((children(data) or {}).get("route")) or {}
+    corridor = children(route.get("corridor")) or {}
+    if corridor.get("line") is None or corridor.get("csv") is None:
+        return []
+    problem = "corridor has line and csv, which exclude each other"
+    return [Flaw(AT, problem, "keep one of line and csv", at_key=True)]
