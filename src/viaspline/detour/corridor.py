@@ -37,7 +37,7 @@ ROUNDER = 0.999  # of the curvature that is allowed is what a line is held to
 
 
 @dataclass(frozen=True, eq=False)
-class Laid:
+class StripLine:
     """A line inside a strip.
 
     Attributes:
@@ -58,7 +58,7 @@ def line_through(
     directions: Sequence[Floats | None] | None = None,
     world: World | None = None,
     max_curvature: float | None = None,
-) -> Laid:
+) -> StripLine:
     """The line of least curvature in a strip, through places, proven to keep a margin.
 
     Args:
@@ -241,7 +241,7 @@ def _way(points: Floats, piece: Strip, task: Task, world: World) -> Floats:
     return PiecewiseCubic(spans).sample(0.5 * SHARE * task.width)[2]
 
 
-def _split(line: Line, task: Task) -> Laid:
+def _split(line: Line, task: Task) -> StripLine:
     """The spans of a line with joints at its gates, from the first gate on."""
     count = line.knots.count
     at = line.at.copy()
@@ -276,7 +276,7 @@ def _split(line: Line, task: Task) -> Laid:
             whole[joint - 1, 3] = gate.place
         if joint < len(whole):
             whole[joint, 0] = gate.place
-    return Laid(whole, joints)
+    return StripLine(whole, joints)
 
 
 def _halves(span: Floats, w: float) -> tuple[Floats, Floats]:
@@ -289,7 +289,7 @@ def _halves(span: Floats, w: float) -> tuple[Floats, Floats]:
     return left, right
 
 
-def _path_vias(course: Course, laid: Laid) -> tuple[PathVia, ...]:
+def _path_vias(course: Course, laid: StripLine) -> tuple[PathVia, ...]:
     kind: ViaKind = "user"
     vias = [
         PathVia(
@@ -338,7 +338,7 @@ def _no_room(
     return NoPathError(reason, where=where, remedy=remedy, obstacles=("corridor",))
 
 
-def _refuse_sharp(laid: Laid, max_curvature: float) -> None:
+def _refuse_sharp(laid: StripLine, max_curvature: float) -> None:
     curve = PiecewiseCubic(laid.spans)
     sharpest, u = curve.max_curvature()
     if sharpest > max_curvature * (1.0 + 1e-9):

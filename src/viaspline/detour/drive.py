@@ -57,7 +57,9 @@ def repeated(path: Path, laps: int) -> Path:
     spans = len(path.spans)
     vias = [
         replace(
-            via, u=via.u + spans * lap, index=None if via.index is None else via.index + points * lap
+            via,
+            u=via.u + spans * lap,
+            index=None if via.index is None else via.index + points * lap,
         )
         for lap in range(laps)
         for via in path.vias

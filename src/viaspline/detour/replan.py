@@ -276,4 +276,6 @@ def _course(
 
 def _slack_by_leg(path: Path, brief: Brief) -> tuple[float, ...]:
     count = max(via.index for via in path.vias if via.index is not None)
-    return span_slack(brief.spline, count)
+    given = brief.spline.slack if brief.spline.slack is not None else brief.spline.tension
+    lap = len(given) if isinstance(given, tuple) else count  # laps share what each span has
+    return span_slack(brief.spline, lap) * (count // lap)

@@ -224,7 +224,8 @@ class Route(Value):
         closed: Whether the path comes back to its start; then there is no goal.
         order: ``given``, or ``shortest``: the via points are served in the order that makes the
             round short.
-        laps: How often a closed route is driven.
+        laps: How often a closed route is driven, without a halt between laps. The path is that of
+            the whole drive, and every lap visits every point.
         corridor: A strip that the path stays inside of.
     """
 

@@ -79,7 +79,8 @@ def draw_vias(
     Returns:
         What belongs in a legend, and the centres of the markers [m], shape (k, 2).
     """
-    users = [via for via in vias if via.kind == "user"]
+    last = len(mission.route.via) + 1  # later laps come to the same places
+    users = [via for via in vias if via.kind == "user" and (via.index or 0) <= last]
     detours = [via for via in vias if via.kind == "detour"]
     places = np.array([via.at[:2] for via in users]).reshape(-1, 2)
     numbered = _are_apart(axes, places)

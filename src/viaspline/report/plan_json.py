@@ -64,6 +64,7 @@ def mission_summary(mission: Mission, name: str) -> dict[str, Any]:
         "knots": spline.knots,
         "tangents": mission.tangents,
         "closed": mission.route.closed,
+        "laps": mission.route.laps,
     }
 
 

@@ -76,9 +76,11 @@ def proof(certificate: Certificate) -> str:
 
 def via_ticks(path: Path, mission: Mission) -> list[tuple[float, str]]:
     """Where the points of the route lie along a path, and their numbers."""
-    names = {0: "S", len(mission.route.via) + 1: "S" if mission.route.closed else "G"}
+    last = len(mission.route.via) + 1
+    names = {0: "S", last: "G"}
+    lap = last if mission.route.closed else last + 1
     return [
-        (float(distance), names.get(via.index, str(via.index)))
+        (float(distance), names.get(via.index % lap, str(via.index % lap)))
         for via, distance in zip(path.vias, path.via_distances, strict=True)
         if via.index is not None
     ]

@@ -72,6 +72,8 @@ def _route(mission: Mission) -> str:
     words = [_count(len(points), "point"), f"{metres(straight, 1)} from point to point"]
     if mission.route.closed:
         words.insert(1, "back to the start")
+        if mission.route.laps > 1:
+            words.append(f"{mission.route.laps} laps")
     dwells = [point.dwell_s for point in points if point.dwell_s > 0]
     if dwells:
         words.append(f"{_count(len(dwells), 'station')} with stops of {sum(dwells):g} s together")

@@ -1,0 +1,103 @@
+"""Closed routes: seamless, and driven as often as asked."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viaspline as vs
+
+SQUARE = {"start": [0, 0], "via": [[40, 0], [40, 30], [0, 30]], "closed": True}
+ROCK = {"name": "rock", "circle": {"center": [2, 5], "radius": 2}}
+
+
+def planned(
+    laps: int = 1, known: list | None = None, tangents: str = "continuous", **more
+) -> vs.Plan:
+    return vs.plan(
+        vs.Mission.model_validate({
+            "world": {"known": known or []},
+            "robot": {"max_lateral_accel_mps2": 1.0} | more.pop("robot", {}),
+            "route": SQUARE | {"laps": laps} | more,
+            "spline": {"tangents": tangents},
+        })
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "known", [[], [ROCK], [ROCK, {"circle": {"center": [-1, 9], "radius": 1.5}}]]
+)
+def test_a_closed_course_has_no_seam_even_with_a_detour_next_to_it(known: list) -> None:
+    plan = planned(known=known)
+    assert plan.certificate.holds
+    loop = vs.PiecewiseCubic(plan.path.spans, closed=True)
+    assert loop.curvature_jumps()[0] < 1e-9
+    end = plan.path.domain[1]
+    np.testing.assert_array_equal(plan.path.evaluate(0.0), plan.path.evaluate(end))
+    assert plan.path.heading(0.0) == pytest.approx(float(plan.path.heading(end)), abs=1e-9)
+
+
+def test_laps_are_the_same_curve_over_and_over() -> None:
+    one, three = planned(1, [ROCK]), planned(3, [ROCK])
+    assert three.path.length == pytest.approx(3 * one.path.length)
+    np.testing.assert_array_equal(three.path.spans, np.tile(one.path.spans, (3, 1, 1)))
+    assert three.certificate.clearance == pytest.approx(one.certificate.clearance, abs=1e-9)
+    assert three.path.curvature_jumps().max() < 1e-9
+    seams = [via for via in three.path.vias if via.name == "start"]
+    assert [via.index for via in seams] == [0, 4, 8, 12]
+
+
+def test_the_robot_does_not_slow_down_at_the_seam() -> None:
+    plan = planned(3)
+    lap = plan.path.length / 3
+    law = plan.trajectory
+    at_seams = np.interp([lap, 2 * lap], law.distances, law.speeds)
+    assert at_seams[0] == pytest.approx(at_seams[1], rel=1e-6)
+    assert at_seams.min() > 0.5
+    assert law.speeds[0] == law.speeds[-1] == 0.0
+    # the middle lap is the one that is driven again and again
+    times = np.interp([lap, 2 * lap], law.distances, law.times)
+    again = vs.retime_lap(
+        vs.PiecewiseCubic(planned(1).path.spans, closed=True),
+        vs.Limits(max_speed=2, max_accel=1, max_lateral_accel=1.0),
+    )
+    assert times[1] - times[0] == pytest.approx(again.duration, rel=1e-3)
+
+
+def test_every_lap_visits_every_point_and_stops_at_its_stations() -> None:
+    mission = vs.Mission.model_validate({
+        "route": {"start": [0, 0], "via": [{"at": [40, 0], "name": "pump", "dwell_s": 3}, [40, 30]],
+                  "closed": True, "laps": 2},
+    })  # fmt: skip
+    run = vs.simulate(mission)
+    assert run.reached
+    assert [visit.status for visit in run.visits] == ["served"] * 7
+    assert [visit.name for visit in run.visits].count("pump") == 2
+    assert [event.kind for event in run.events].count("dwell") + [
+        event.kind for event in run.events
+    ].count("arrived") >= 2
+    assert run.duration == pytest.approx(run.plan.trajectory.duration, abs=0.1)
+
+
+def test_what_is_seen_in_a_later_lap_is_gone_round_and_the_drive_goes_on() -> None:
+    mission = vs.Mission.model_validate({
+        "world": {"unseen": [{"name": "crate", "circle": {"center": [41, 16], "radius": 1}}]},
+        "robot": {"sensor": {"range_m": 8}},
+        "route": SQUARE | {"laps": 3},
+        "spline": {"tension": [0.0, 0.1, 0.2, 0.0]},
+    })  # fmt: skip
+    run = vs.simulate(mission)
+    assert run.reached
+    assert run.certificate.holds
+    assert run.replans
+    assert [visit.status for visit in run.visits] == ["served"] * 13
+
+
+def test_laps_along_a_corridor_share_its_line() -> None:
+    angle = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    line = np.column_stack((30 * np.cos(angle), 20 * np.sin(angle), *np.full((2, 60), 3.0)))
+    route = {"start": [30, 0], "closed": True, "laps": 2, "corridor": {"line": line.tolist()}}
+    run = vs.simulate(vs.Mission.model_validate({"route": route}))
+    assert run.reached
+    assert run.certificate.holds
+    assert [visit.name for visit in run.visits] == ["start"] * 3
