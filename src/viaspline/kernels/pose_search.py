@@ -334,32 +334,74 @@ def go_on(
 
 
 @kernel
-def trace(moves: Moves, search: Search, k: int) -> tuple[Floats, int]:
-    """The way of an arrival.
+def path_to(moves: Moves, search: Search, node: int) -> tuple[Floats, int]:
+    """The way to a node.
 
     Returns:
         Segments (n, 3), see ``ground``, and the number of the start.
     """
-    node, size = search.ends[k], 0
-    while search.links[node, PARENT] >= 0:
-        node = search.links[node, PARENT]
+    size, at = 0, node
+    while search.links[at, PARENT] >= 0:
+        at = search.links[at, PARENT]
         size += 1
-    start = -1 - search.links[node, PARENT]
-    segments = np.zeros((2 * size + MOST, 3))
-    node = search.ends[k]
-    x, y, heading, _, _ = search.nodes[node]
-    dx, dy = search.goal[0] - x, search.goal[1] - y
-    arrival = search.arrivals[k]
-    count, _ = connection(
-        dx, dy, heading, search.headings[k], arrival[FIRST], arrival[SECOND], moves.sizes[0],
-        moves.sizes[1], segments[2 * size :],
-    )  # fmt: skip
+    segments = np.zeros((2 * size, 3))
+    start = -1 - search.links[at, PARENT]
+    at = node
     for step in range(size - 1, -1, -1):
-        parent = search.links[node, PARENT]
+        parent = search.links[at, PARENT]
         level = search.links[parent, LEVEL]
-        row = level * WAYS + search.links[node, LEVEL] - level + 1
+        row = level * WAYS + search.links[at, LEVEL] - level + 1
         for i in range(2):
             for column in range(3):
                 segments[2 * step + i, column] = moves.segments[row, i, column]
-        node = parent
-    return segments[: 2 * size + count].copy(), start
+        at = parent
+    return segments, start
+
+
+@kernel
+def connected(moves: Moves, dx: float, dy: float, start: float, goal: float, s1: float,
+              s2: float) -> Floats:  # fmt: skip
+    """The segments of a connection, see ``connect.connection``."""
+    segments = np.empty((MOST, 3))
+    count, _ = connection(dx, dy, start, goal, s1, s2, moves.sizes[0], moves.sizes[1], segments)
+    return segments[:count].copy()
+
+
+@kernel
+def bridge(
+    ground: Ground, moves: Moves, there: Search, back: Search, out: Ints, home: Ints
+) -> tuple[float, int, int, float, float]:
+    """Connect a search from the start with one that comes backwards from the goal.
+
+    Args:
+        ground: Ground.
+        moves: Moves.
+        there: The search from the start.
+        back: The search from the goal, with all headings turned round.
+        out: Nodes without curvature of the first, (n,).
+        home: The same of the second, (m,).
+
+    Returns:
+        Length of the shortest way [m], infinite if there is none; the two nodes; the sides of the
+        two turns between them.
+    """
+    segments = np.empty((MOST, 3))
+    best, first, last, side1, side2 = np.inf, NONE, NONE, 0.0, 0.0
+    for i in range(out.size):
+        x, y, heading, cost, _ = there.nodes[out[i]]
+        for j in range(home.size):
+            to_x, to_y, turned, rest, _ = back.nodes[home[j]]
+            dx, dy, goal = to_x - x, to_y - y, turned + math.pi
+            if cost + rest + math.hypot(dx, dy) >= best:
+                continue
+            for s1 in (1.0, -1.0):
+                for s2 in (1.0, -1.0):
+                    count, length = connection(
+                        dx, dy, heading, goal, s1, s2, moves.sizes[0], moves.sizes[1], segments
+                    )
+                    if cost + rest + length < best and is_clear(
+                        ground, x, y, heading, segments, count
+                    ):
+                        best, first, last = cost + rest + length, out[i], home[j]
+                        side1, side2 = s1, s2
+    return best, first, last, side1, side2

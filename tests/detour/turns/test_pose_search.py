@@ -167,3 +167,42 @@ def test_a_row_says_which_place_cannot_be_come_to():
     found = find_row(WALLS, DISC, RHO, RAMP, Pose(-10, 0, 0), goals)
     assert isinstance(found, NotFound)
     assert (found.reason, found.goal) == (Reason.GOAL_TAKEN, 1)
+
+
+def reachable(world, radius, start, goal, step=0.5, side=0.25, sectors=96):
+    """Whether a point goes with sudden turns from near a pose to near a place: all states."""
+    turns = np.array([-1.0, -0.5, 0.0, 0.5, 1.0]) * step / RHO
+    open_, seen = [start], set()
+    while open_:
+        x, y, heading = open_.pop()
+        if math.hypot(x - goal[0], y - goal[1]) < 1.0:
+            return True
+        half = heading + 0.5 * turns
+        places = np.column_stack((x + step * np.cos(half), y + step * np.sin(half)))
+        middles = 0.5 * (places + np.array([x, y]))
+        clear = np.minimum(world.distance(places), world.distance(middles)) > radius
+        for place, turn in zip(places[clear].tolist(), turns[clear].tolist(), strict=True):
+            turned = (heading + turn) % math.tau
+            key = (*(round(v / side) for v in place), round(turned / math.tau * sectors))
+            if key not in seen:
+                seen.add(key)
+                open_.append((*place, turned))
+    return False
+
+
+@pytest.mark.parametrize("width", [5.0, 7.0, 20.0])
+def test_what_is_refused_is_out_of_reach_even_with_sudden_turns(width):
+    # a yard with a gate behind the robot: it has to turn round in the yard
+    far = width + 1
+    yard = [box(-1, -1, far, 0), box(-1, width, far, far), box(width, 0, far, width)]
+    yard += [box(-1, 0, 0, 0.5 * width - 1), box(-1, 0.5 * width + 1, 0, width)]
+    world = World(yard, bounds=(-14, -4, width + 4, width + 4))
+    start, goal = Pose(1.5, 0.5 * width, 0.0), Goal(-8, 0.5 * width)
+    found = find_poses(world, DISC, RHO, 0.4, start, goal)
+    if isinstance(found, NotFound):
+        assert found.reason is Reason.START_SHUT_IN
+        pose = (start.x, start.y, start.heading)
+        assert not reachable(world, DISC.required, pose, (goal.x, goal.y))
+    else:
+        is_sound(found, world, DISC, start, goal)
+    assert isinstance(found, Chain) == (width > 10.0)

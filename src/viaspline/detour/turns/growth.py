@@ -15,9 +15,11 @@ from viaspline.kernels.heap import Heap
 from viaspline.kernels.pose_search import Ahead, Moves, Search
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 FIRST_SLICE, SLICE = 64, 4000  # states between which a search can be stopped
 FEW = 800
+MANY = 3000  # states of which some are chosen
 
 
 @dataclass(frozen=True)
@@ -100,12 +102,74 @@ class Growth:
 
     def arrivals(self) -> list[Arrival]:
         """The best with each heading, the shortest first."""
+        search = self.search
         found = []
-        for k in np.flatnonzero(self.search.ends >= 0):
-            segments, start = kernels.trace(self.moves, self.search, int(k))
-            cost = float(self.search.arrivals[k, kernels.LENGTH])
-            found.append(Arrival(int(start), float(self.search.headings[k]), cost, segments))
+        for k in np.flatnonzero(search.ends >= 0).tolist():
+            segments, start = kernels.path_to(self.moves, search, int(search.ends[k]))
+            x, y, heading = search.nodes[search.ends[k], :3].tolist()
+            cost, s1, s2 = search.arrivals[k].tolist()
+            goal = float(search.headings[k])
+            last = kernels.connected(
+                self.moves, search.goal[0] - x, search.goal[1] - y, heading, goal, s1, s2
+            )
+            found.append(Arrival(int(start), goal, cost, np.concatenate((segments, last))))
         return sorted(found, key=lambda arrival: arrival.cost)
+
+    def spread_out(self, count: int) -> Ints:
+        """Some states without curvature, as far from each other as may be: the farthest first.
+
+        Args:
+            count: How many at most.
+        """
+        size = int(self.search.counts[kernels.NODES])
+        level = self.search.links[:size, kernels.LEVEL]
+        nodes = np.flatnonzero(level == kernels.LEVELS // 2)
+        nodes = nodes[:: 1 + len(nodes) // MANY]
+        x, y, heading = self.search.nodes[nodes, :3].T
+        rho = self.moves.sizes[0]
+        states = np.column_stack((x / rho, y / rho, np.cos(heading), np.sin(heading)))
+        gaps = np.full(len(nodes), math.inf)
+        chosen = [0]
+        for _ in range(min(count, len(nodes)) - 1):
+            gaps = np.minimum(gaps, ((states - states[chosen[-1]]) ** 2).sum(axis=1))
+            chosen.append(int(np.argmax(gaps)))
+        return np.asarray(nodes[chosen], np.int64)
+
+
+@dataclass(frozen=True)
+class Bridge:
+    """A way from the start of one search to that of another, which came backwards.
+
+    Attributes:
+        cost: Its length [m].
+        start: Number of the start of the search that came backwards.
+        segments: See ``kernels.ground``, (n, 3).
+    """
+
+    cost: float
+    start: int
+    segments: Floats
+
+
+def bridged(there: Growth, back: Growth, count: int) -> Bridge | None:
+    """Connect ``count`` states of either search; None if no two of them can be."""
+    out, home = there.spread_out(count), back.spread_out(count)
+    cost, first, last, s1, s2 = kernels.bridge(
+        there.ground, there.moves, there.search, back.search, out, home
+    )
+    if first < 0:
+        return None
+    x, y, heading = there.search.nodes[first, :3].tolist()
+    to_x, to_y, turned = back.search.nodes[last, :3].tolist()
+    before, _ = kernels.path_to(there.moves, there.search, first)
+    after, start = kernels.path_to(back.moves, back.search, last)
+    between = kernels.connected(there.moves, to_x - x, to_y - y, heading, turned + math.pi, s1, s2)
+    return Bridge(cost, int(start), np.concatenate((before, between, backwards(after))))
+
+
+def backwards(segments: Floats) -> Floats:
+    """The same way driven from its end."""
+    return np.ascontiguousarray(segments[::-1][:, [1, 0, 2]] * (-1.0, -1.0, 1.0))
 
 
 def _empty(terrain: Terrain, moves: Moves, goal: Floats, headings: Floats, room: int) -> Search:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.detour.brief import Brief
-from viaspline.detour.turns.growth import Growth
+from viaspline.detour.turns.growth import Growth, backwards, bridged
 from viaspline.detour.turns.terrain import Body, Terrain, windows
 from viaspline.kernels.chain import chain_spans, merged, shortened
 from viaspline.kernels.pose_search import CELL, EMPTY, Moves, moves_of
@@ -24,6 +24,7 @@ from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
 
+FIRST_BRIDGE, PIERS = 1000, 24  # states after which, and between how many, a bridge is tried
 AFTER = 0.25  # what is looked at after the first arrival, see ``Growth``
 SECTORS = 16  # headings that are tried where any is allowed
 PASSES = 4  # of shortcuts
@@ -123,7 +124,11 @@ class Effort:
     room: int
 
 
-EFFORTS = (Effort(0.05, 1.0, 1 / 6, 60_000), Effort(0.025, 0.5, 1 / 12, 150_000))
+EFFORTS = (
+    Effort(0.05, 1.0, 1 / 3, 60_000),
+    Effort(0.05, 0.7, 1 / 6, 60_000),
+    Effort(0.025, 0.4, 1 / 12, 120_000),
+)
 LEAST_RAMP = 0.08  # of the radius
 
 
@@ -214,19 +219,23 @@ def _one_way(task: Task, start: Pose, goal: Goal) -> tuple[Chain | NotFound, boo
     to = headings if goal.headings else np.append(headings, math.nan)
     begin = np.array([[start.x, start.y, start.heading, 0.0]])
     both = (task.forwards(begin, goal, to), task.backwards(start, goal, headings))
-    while not any(growth.is_over for growth in both):
+    bridge, due = None, FIRST_BRIDGE
+    while bridge is None and not any(growth.is_over for growth in both):
         for growth in both:
             growth.go_on()
+        if both[0].expanded >= due and not any(growth.has_arrived for growth in both):
+            bridge, due = bridged(*both, PIERS), 2 * due
     expanded = sum(growth.expanded for growth in both)
-    found = [growth.arrivals()[:1] for growth in both]
-    if not any(found):
+    ways = [(way.cost, way.segments, way.heading) for way in both[0].arrivals()[:1]]
+    ways += [
+        (way.cost, backwards(way.segments), float(headings[way.start]))
+        for way in both[1].arrivals()[:1]
+    ]
+    if bridge is not None:
+        ways.append((bridge.cost, bridge.segments, float(headings[bridge.start])))
+    if not ways:
         return _failure(both, task.terrain.window.is_whole, expanded)
-    forward = min((arrival.cost for arrival in found[0]), default=math.inf)
-    backward = min((arrival.cost for arrival in found[1]), default=math.inf)
-    if forward <= backward:
-        segments, heading = found[0][0].segments, found[0][0].heading
-    else:
-        segments, heading = _reversed(found[1][0].segments), float(headings[found[1][0].start])
+    _, segments, heading = min(ways, key=lambda way: way[0])
     free = math.nan if not goal.headings else heading
     return finished(task, start, np.array([goal.x, goal.y, free]), segments, expanded), False
 

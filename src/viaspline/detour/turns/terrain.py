@@ -193,7 +193,7 @@ class Terrain:
     def has_room(self, x: float, y: float, heading: float) -> bool:
         """Whether the body may stand in a pose [m, rad]."""
         nothing = np.empty((0, 3))
-        return bool(is_clear(self.ground, x, y, float(heading), nothing, 0))
+        return bool(is_clear(self.ground, float(x), float(y), float(heading), nothing, 0))
 
     def ahead(self, places: Floats) -> Ahead:
         """How far it is to some places (n, 2) from everywhere."""
