@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
+from viaspline.mission.robot_parts import RobotSpec
 from viaspline.report import style
+from viaspline.report.bodies import draw_body
 from viaspline.report.column import Column
 from viaspline.report.drawing import Floats
 from viaspline.report.marks import draw_echoes, draw_path
@@ -24,7 +25,7 @@ def close_up(
     scene: Scene,
     path: Path,
     certificate: Certificate,
-    radius: float,
+    robot: RobotSpec,
     seen: Floats | None = None,
 ) -> None:
     """The tightest place, large enough to see the clearance.
@@ -34,6 +35,7 @@ def close_up(
     It is left out where nothing is tight, where there is no room for it in the column, and where
     the map shows it as large.
     """
+    radius = robot.outer_radius
     tight = certificate.clearance < 10 * max(certificate.required, radius)
     half = 5.0 * max(scene.required, 1.2 * certificate.clearance + radius)
     if certificate.obstacle is None or not tight or scene.required <= 0:
@@ -57,14 +59,11 @@ def close_up(
     near = np.linspace(max(distance - 3 * half, 0), min(distance + 3 * half, path.length), 400)
     line = np.asarray(path.at_distance(near))[:, :2]
     draw_path(axes, line)
-    axes.add_artist(
-        Circle(
-            (x, y), radius, facecolor=style.SENSOR, edgecolor=style.INK, zorder=10, linewidth=0.7
-        )
-    )
-    nearest = scene.nearest_to(certificate.tightest_at)
+    draw_body(axes, certificate, robot, float(path.heading(certificate.tightest_u)))
+    body = certificate.contact or (x, y)
+    nearest = scene.nearest_to(body)
     if nearest is not None:
-        _gap(axes, (x, y), nearest, radius)
+        _gap(axes, body, nearest, 0.0 if certificate.contact else radius)
 
 
 def _gap(axes: Axes, robot: tuple[float, float], wall: tuple[float, float], radius: float) -> None:

@@ -11,6 +11,7 @@ from viaspline.detour.brief import Brief
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.report import strips, style
+from viaspline.report.bodies import draw_swept, draw_zones
 from viaspline.report.close_up import close_up
 from viaspline.report.column import Column
 from viaspline.report.drawing import Floats, any_name, png, polyline
@@ -45,6 +46,8 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     labels = Labels(sheet.map)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre)
     scene.name(labels)
+    handles += draw_zones(sheet.map, labels, plan.mission.world.speed_zones)
+    handles += draw_swept(sheet.map, plan.path, plan.mission.robot, sheet.pixels_per_metre)
     handles += draw_losers(sheet, labels, plan)
     handles.append(draw_path(sheet.map, points))
     vias, places = draw_vias(sheet.map, labels, plan.path.vias, plan.mission)
@@ -54,7 +57,7 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     _fill_strips(sheet, plan)
     column = Column(sheet)
     column.legend(handles)
-    close_up(column, scene, plan.path, plan.certificate, plan.mission.robot.outer_radius)
+    close_up(column, scene, plan.path, plan.certificate, plan.mission.robot)
     return png(sheet.figure)
 
 
@@ -150,3 +153,4 @@ def _fill_strips(sheet: Sheet, plan: Plan) -> None:
     if len(sheet.strips) == 3:
         values.append(np.asarray(path.evaluate(u))[:, 2])
     strips.fill(sheet.strips, distances, values, via_ticks(path, plan.mission), style.PATH)
+    strips.limit(sheet.strips[1], plan.mission.robot.turn_radius)

@@ -11,6 +11,7 @@ from matplotlib.colors import Colormap, ListedColormap, Normalize
 from viaspline.curve.path import PathVia
 from viaspline.detour.brief import Brief
 from viaspline.report import strips, style
+from viaspline.report.bodies import draw_swept, draw_zones
 from viaspline.report.close_up import ROOM, close_up
 from viaspline.report.column import Column
 from viaspline.report.drawing import Floats, any_name, png, polyline
@@ -53,6 +54,8 @@ def run_picture(run: Run, name: str) -> bytes:
         handles += draw_echoes(sheet.map, echoes(run))
     else:
         scene.name(labels)
+    handles += draw_zones(sheet.map, labels, mission.world.speed_zones)
+    handles += draw_swept(sheet.map, run.path, mission.robot, sheet.pixels_per_metre)
     handles.append(_draw_planned(sheet, planned))
     colours, limits = speed_colours(run.speeds)
     draw_driven(sheet, run, colours, limits)
@@ -73,7 +76,7 @@ def run_picture(run: Run, name: str) -> bytes:
             scene,
             run.path,
             run.certificate,
-            mission.robot.outer_radius,
+            mission.robot,
             echoes(run) if scans else None,
         )
     column.notes("Under way", column_notes)

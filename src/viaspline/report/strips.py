@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from viaspline.report.drawing import Floats
-from viaspline.report.style import INK, MUTED, OBSTACLE, SMALL, TEXT
+from viaspline.report.style import INK, MUTED, OBSTACLE, SMALL, TEXT, TIGHTEST
 
 Ticks = Sequence[tuple[float, str]]  # distance [m] and the number of a via point
 
@@ -51,6 +51,19 @@ def fill(
             axes.axhline(0, color=MUTED, linewidth=0.5)
     strips[-1].set_xlabel("distance along the path [m]", size=TEXT, color=MUTED, labelpad=2)
     _number(strips[0], ticks, last)
+
+
+def limit(axes: Axes, radius: float | None) -> None:
+    """The curvature of a robot's turning circle, to either side, as far as the strip shows it."""
+    if radius is None:
+        return
+    low, high = axes.get_ylim()
+    for bound in (-1.0 / radius, 1.0 / radius):
+        if 1.4 * low < bound < 1.4 * high:
+            axes.axhline(bound, color=TIGHTEST, linewidth=0.8, linestyle=(0, (4, 2)))
+            axes.set_ylim(
+                min(axes.get_ylim()[0], 1.1 * bound), max(axes.get_ylim()[1], 1.1 * bound)
+            )
 
 
 def shown(value: Floats) -> tuple[float, float]:

@@ -36,6 +36,9 @@ START = "#009e73"
 GOAL = "#1b1f24"
 STATION = "#f0e442"
 SENSOR = "#56b4e9"
+BODY = "#2f6f9f"
+ZONE = "#fbeecb"
+ZONE_INK = "#8a5a00"
 SPEED_MAP = "viridis"
 
 TITLE = 13.0  # points

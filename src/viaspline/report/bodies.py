@@ -1,0 +1,105 @@
+"""The robot's body on pictures: what it sweeps along a path, and where it stands on it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.patches import Circle, PathPatch, Polygon, Rectangle
+
+from viaspline.curve.certificate import Certificate
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.curve.sweep import footprints_along, swept_area
+from viaspline.mission.parts import SpeedZone
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.report import style
+from viaspline.report.drawing import Floats, outline
+from viaspline.report.labels import Labels
+
+LEAST = 5.0  # width of a body that is worth drawing [pixels]
+BODIES = 90  # along a path, at most
+APART = 1.6  # from one body to the next, in its lengths
+
+
+def draw_swept(
+    axes: Axes, curve: PiecewiseCubic, robot: RobotSpec, pixels_per_metre: float
+) -> list[Artist]:
+    """The area that a body covers along a curve, and a long one's outline now and then.
+
+    Returns:
+        What belongs in a legend; nothing where the body is too small to be seen.
+    """
+    steers = robot.footprint is not None or robot.turn_radius is not None
+    if not steers or 2.0 * robot.inner_radius * pixels_per_metre < LEAST or curve.length <= 0.0:
+        return []
+    tolerance = max(0.5 / pixels_per_metre, 0.01 * robot.outer_radius)
+    area = swept_area(curve, robot.footprint, tolerance, radius=_disc(robot))
+    axes.add_artist(
+        PathPatch(outline(area), facecolor=style.SENSOR, alpha=0.28, edgecolor="none", zorder=3)
+    )
+    if robot.footprint is not None:
+        spacing = max(APART * 2.0 * robot.outer_radius, curve.length / BODIES)
+        axes.add_collection(
+            PolyCollection(
+                list(footprints_along(curve, robot.footprint, spacing)), facecolors="none",
+                edgecolors=style.BODY, linewidths=0.7, zorder=3.5,
+            ),
+            autolim=False,
+        )  # fmt: skip
+    return [Rectangle((0, 0), 1, 1, facecolor=style.SENSOR, alpha=0.28, label="swept by the body")]
+
+
+def draw_body(axes: Axes, certificate: Certificate, robot: RobotSpec, heading: float) -> None:
+    """The body at the tightest place.
+
+    Args:
+        axes: Where.
+        certificate: It says where, and how a long body stands there.
+        robot: Whose body.
+        heading: Of the path there [rad].
+    """
+    x, y = certificate.tightest_at[:2]
+    look: dict[str, Any] = {
+        "facecolor": style.SENSOR,
+        "edgecolor": style.INK,
+        "zorder": 10,
+        "linewidth": 0.7,
+    }
+    if robot.footprint is None:
+        axes.add_artist(Circle((x, y), robot.radius_m, **look))
+        return
+    if certificate.tightest_heading is not None:
+        heading = certificate.tightest_heading
+    axes.add_artist(Polygon(_placed(robot.footprint, x, y, heading), alpha=0.85, **look))
+
+
+def draw_zones(axes: Axes, labels: Labels, zones: tuple[SpeedZone, ...]) -> list[Artist]:
+    """Areas with a lower speed, with that speed; returns what belongs in a legend."""
+    look: dict[str, Any] = {
+        "facecolor": style.ZONE,
+        "edgecolor": style.DETOUR,
+        "linewidth": 0.9,
+        "alpha": 0.5,
+    }
+    for zone in zones:
+        axes.add_artist(Polygon(zone.polygon, zorder=1.5, **look))
+        x, y = np.mean(zone.polygon, axis=0).tolist()
+        name = f"{style.short(zone.name)}: " if zone.name else ""
+        labels.add(f"{name}{zone.max_speed_mps:g} m/s", (x, y), rank=5, colour=style.ZONE_INK)
+    return [Rectangle((0, 0), 1, 1, label="speed zone", **look)] if zones else []
+
+
+def _disc(robot: RobotSpec) -> float:
+    return robot.radius_m if robot.footprint is None else 0.0
+
+
+def _placed(
+    footprint: tuple[tuple[float, float], ...], x: float, y: float, heading: float
+) -> Floats:
+    c, s = math.cos(heading), math.sin(heading)
+    corners: Floats = np.array(footprint) @ np.array([[c, s], [-s, c]]) + (x, y)
+    return corners
