@@ -57,13 +57,33 @@ def trace(
         if not len(first):
             continue
         off = _bounds(positions, headings, along, first, width, reach)
+        off[along[first + width] - along[first] <= STANDS] = 0.0  # no cubic will stand for it
         good = (off <= TOLERANCE) | (width == 1)
         bound = max(bound, float(off[good].max(initial=0.0)))
         first = first[good]
         taken[(first[:, None] + np.arange(width)).ravel()] = True
         firsts.append(first)
         widths.append(np.full(len(first), width))
+    bound += reach * _swayed(headings, np.diff(along) > STANDS)
     return _curve(positions, headings, along, firsts, widths, bound)
+
+
+def _swayed(headings: Floats, moves: NDArray[np.bool_]) -> float:
+    """How far a robot that stands turns beyond the headings with which it came and goes [rad].
+
+    From one of these to the other the curve itself turns, at a corner.
+    """
+    edges = np.flatnonzero(np.diff(np.concatenate(([True], moves, [True])).astype(int)))
+    sway = 0.0
+    for begin, end in edges.reshape(-1, 2):  # rows begin to end stand in one place
+        seen = headings[begin : end + 1]
+        low, high = min(seen[0], seen[-1]), max(seen[0], seen[-1])
+        if end == len(moves):  # it stays: nothing goes on from there
+            low = high = seen[0]
+        if begin == 0:
+            low = high = seen[-1]
+        sway = max(sway, float(seen.max() - high), float(low - seen.min()))
+    return sway
 
 
 def _curve(
