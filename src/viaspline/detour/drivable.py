@@ -40,7 +40,8 @@ from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
 PUSHED = 40  # rows of headings for which legs are pushed clear
-NARROW = 0.5  # turning circle of a robot without one that has a long body, in inner radii
+WIDE = (6.0, 3.0, 1.5)  # radii of turns for a long body without a turning circle, and the last,
+NARROW = 0.5  # in distances that its path keeps
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,13 @@ class _Drive:
     def rho(self) -> float:
         """The least radius of turns that are laid [m]."""
         return OVERSHOOT * self.radius
+
+    @property
+    def radii(self) -> tuple[float, ...]:
+        """The least radii that are tried for turns [m]; wide ones first if none is given."""
+        if self.brief.turn_radius is not None:
+            return (self.rho,)
+        return (*(part * self.brief.required for part in WIDE), self.rho)
 
     def is_clear(self, spans: Floats) -> bool:
         """Whether the body keeps clear on planar spans."""
@@ -100,9 +108,10 @@ def _swung(drive: _Drive) -> Laid:
         NoPathError: When there are none.
     """
     bends = bends_along(drive.course, _ways_of(drive))
-    swing = clear_swing(bends, drive.rho, drive.world, drive.brief)
-    if swing is not None:
-        return _laid(drive, [swing])
+    for rho in drive.radii:
+        swing = clear_swing(bends, rho, drive.world, drive.brief)
+        if swing is not None:
+            return _laid(drive, [swing])
     legs, spots = legs_of(bends, _spots(drive)), _spots(drive)
     poses = _posed(drive, legs, drive.rho, bends.closed)
     if poses is not None:
