@@ -191,9 +191,11 @@ def check(mission: Path | None, schema: bool) -> None:
         return
     if mission is None:
         raise click.UsageError("give a mission, or --schema")
+    from viaspline.report.remarks import remarks
     from viaspline.report.summary import summary
 
-    lines = summary(_load(mission))
+    loaded = _load(mission)
+    lines = [*summary(loaded), *(("note", words) for words in remarks(loaded))]
     say(f"{mission} is sound", *(f"  {name:<7} {words}" for name, words in lines))
 
 

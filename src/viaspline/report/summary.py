@@ -139,7 +139,7 @@ def _obstacles(obstacles: Sequence[Obstacle], kind: str) -> str:
 def _robot(mission: Mission) -> str:
     robot = mission.robot
     words = [
-        body_words(robot),
+        body_words(robot).removeprefix("robot "),
         f"clearance {robot.clearance_m:g} m",
         f"at most {robot.max_speed_mps:g} m/s and {robot.max_accel_mps2:g} m/s²",
     ]
