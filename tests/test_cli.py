@@ -68,7 +68,7 @@ def test_every_help_has_an_example() -> None:
 
 
 def test_commands_that_come_later_are_not_offered() -> None:
-    assert set(cli.commands) == {"run", "plan", "check", "figures"}
+    assert set(cli.commands) == {"run", "plan", "check", "figures", "tension"}
 
 
 def test_the_version_is_told() -> None:

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
+    from viaspline.advice import TensionAdvice, advise_tension
     from viaspline.curve.cardinal import CardinalSpline
     from viaspline.curve.certificate import Certificate, certify
     from viaspline.curve.path import Path
@@ -72,7 +73,9 @@ _HOMES = {
     "Station": "trajectory.limits",
     "Trajectory": "trajectory.trajectory",
     "ViasplineError": "errors",
+    "TensionAdvice": "advice",
     "World": "world.world",
+    "advise_tension": "advice",
     "certify": "curve.certificate",
     "load": "formats.load",
     "load_map": "mission.load_map",

@@ -172,6 +172,37 @@ def plan(mission: Path, out: Path | None, quiet: bool) -> None:
 
 
 @cli.command()
+@MISSION
+@OUT
+@QUIET
+def tension(mission: Path, out: Path | None, quiet: bool) -> None:
+    r"""Advise a tension for each span: what it does to length, clearance, curvature and time.
+
+    Writes tension.png. In a mission, spline: {tension: auto} takes what is suggested.
+
+    \b
+    Example:
+      viaspline tension examples/fig8-patrol.yaml --out advice
+    """
+    asked = _load(mission)
+    with _folder(out or _default(mission), ("tension.png",)) as folder, _watch(quiet) as watch:
+        with watch.stage("advise", "trying tensions"):
+            from viaspline.advice import advise_tension
+            from viaspline.detour.order import ordered
+
+            advice = advise_tension(ordered(asked))
+        with watch.stage("report", "drawing and writing"):
+            from viaspline.report.tension_picture import tension_picture
+
+            file = folder.write("tension.png", tension_picture(advice, mission.stem))
+    if not quiet:
+        from viaspline.report.screen import advice_tables, show
+
+        show(advice_tables(advice, mission.stem))
+        _say_written([file])
+
+
+@cli.command()
 @click.argument("mission", type=click.Path(path_type=Path), required=False)
 @click.option("--schema", is_flag=True, help="Print the JSON Schema of missions, for editors.")
 def check(mission: Path | None, schema: bool) -> None:

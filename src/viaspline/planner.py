@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from viaspline.advice import with_advice
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.detour.account import Account
@@ -76,7 +77,7 @@ def plan(mission: Mission) -> Plan:
         >>> result.certificate.holds, round(result.path.length, 1), result.ledger[0].chosen.side
         (True, 50.8, 'right')
     """
-    mission = ordered(mission)
+    mission = with_advice(ordered(mission))
     world, robot = World.known(mission), mission.robot
     error = robot.tracking_error_m or 0.0
     if robot.tracking_error_m is not None or not is_driven(robot):

@@ -31,8 +31,13 @@ def tension(mission: Mission) -> float | list[float]:
 
 def spline_words(mission: Mission) -> str:
     """How the curve is asked to be; the tension by both of its names."""
-    value, spline = tension(mission), mission.spline
-    if isinstance(value, list):
+    spline = mission.spline
+    if mission.route.corridor is not None and mission.route.corridor.line is not None:
+        return "least curvature along the corridor"
+    value = 0.0 if spline.tension == "auto" else tension(mission)
+    if spline.tension == "auto":
+        pull = "the tension that is advised"
+    elif isinstance(value, list):
         pull = f"tension {min(value):g} to {max(value):g} by span"
     else:
         pull = f"tension {value:g} (slack {(1 - value) / 2:g})"

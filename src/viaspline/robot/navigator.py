@@ -99,7 +99,8 @@ class Navigator:
         limits = limits_of(mission.robot, reaction)
         self._plan = _planned(mission) if plan is None else plan
         journey = Journey(
-            mission=mission,
+            # with the tension that was advised
+            mission=mission.model_copy(update={"spline": self._plan.mission.spline}),
             limits=limits,
             reaction=reaction,
             world=self._plan.world,
