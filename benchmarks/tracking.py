@@ -43,8 +43,6 @@ def mission_of(name: str, drive: dict) -> vs.Mission:
     robot = mission.robot.model_dump(exclude_defaults=True)
     robot |= {"max_speed_mps": 2.0, "localization": PLACE}
     robot.setdefault("max_lateral_accel_mps2", 1.0)
-    if name == "barn-unseen" and drive:  # a trial drive without a map is along a straight line
-        robot["tracking_error_m"] = 0.1
     if drive:
         robot["drive"] = {**drive, **NOISE}
     data = mission.model_dump(exclude_defaults=True)

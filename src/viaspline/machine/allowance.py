@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
+from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.machine.follow import follow
+from viaspline.machine.limits import limits_of
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 
 SEEDS = (7001, 7002, 7003)
@@ -16,6 +21,9 @@ SEEDS = (7001, 7002, 7003)
 MARGIN = 1.5
 """By which the allowance is larger than what was measured. Errors from noise are about normal; in
 drives of some minutes the largest is about four standard deviations, so this covers six."""
+
+BENDS = 6
+"""Of the slalom that stands for paths that are laid under way."""
 
 LEAST = 0.005
 """What is added for what a trial drive leaves out: the curve through the steps, rounding [m]."""
@@ -54,6 +62,22 @@ def allowance(path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec) ->
     if not math.isfinite(largest):
         raise GeometryError(f"the robot can't follow its path at all; give it {SOFTER}")
     return MARGIN * largest + LEAST
+
+
+def allowance_on_bends(robot: RobotSpec, radius: float) -> float:
+    """The same for bends that nobody knows yet: a slalom as tight as a re-planned path may be [m].
+
+    Args:
+        robot: Its body, drive and localisation.
+        radius: The least radius of bends that is to be expected [m]; its turning circle if that is
+            wider.
+    """
+    tight = max(radius, 1.2 * (robot.turn_radius or 0.0))
+    posts = np.arange(BENDS + 2)
+    aside = np.where((posts == 0) | (posts == BENDS + 1), 0.0, (-1.0) ** posts)
+    points = tight * np.column_stack((4.0 * posts, aside))
+    slalom = CardinalSpline(points, knots="chordal", tangents="continuous")
+    return allowance(slalom, retime(slalom, limits_of(robot)), robot)
 
 
 SOFTER = "a lower max_speed_mps, softer limits (max_lateral_accel_mps2), less delay or less noise"
