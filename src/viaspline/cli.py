@@ -256,6 +256,30 @@ def figures(out: Path, quiet: bool) -> None:
         _say_written(files)
 
 
+@cli.command()
+@click.argument("mission", type=click.Path(path_type=Path), required=False)
+@click.option("--port", type=click.IntRange(0, 65535), default=8474, show_default=True,
+              help="0 takes any that is free.")  # fmt: skip
+@click.option("--host", default="127.0.0.1", show_default=True,
+              help="Another address lets others in, with a token.")  # fmt: skip
+@click.option("--token", help="What the page's address has to hold.  [default: made up for --host]")
+@click.option("--no-browser", is_flag=True, help="Only say where the page is.")
+def studio(
+    mission: Path | None, port: int, host: str, token: str | None, no_browser: bool
+) -> None:
+    r"""Lay out a mission in the browser, planned live and driven.
+
+    MISSION is a mission file, or a folder of them; only that folder is read and written.
+
+    \b
+    Example:
+      viaspline studio examples/fig8-patrol.yaml
+    """
+    from viaspline.studio.serve import serve
+
+    serve(mission, host=host, port=port, token=token, browser=not no_browser, say=say)
+
+
 PLAN_NAMES = ("plan.json", "path.csv", "plan.png", "timing.json")
 RUN_NAMES = (*PLAN_NAMES, "run.json", "run.csv", "run.png")
 FIGURE_NAMES = tuple(

@@ -6,6 +6,7 @@
     ├── MissionError        the mission is wrong: every fault at once          (exit code 2)
     ├── GeometryError       a curve, a world or an argument makes no sense     (exit code 2)
     ├── OutputError         a result can't be written                          (exit code 2)
+    ├── StudioError         the studio can't be served                         (exit code 2)
     └── NoPathError         there is no such path: where, why, what would help (exit code 3)
 
 Every error carries its data as attributes; its message names the thing and the remedy.
@@ -14,7 +15,7 @@ Every error carries its data as attributes; its message names the thing and the 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 
 class ViasplineError(Exception):
@@ -23,6 +24,19 @@ class ViasplineError(Exception):
 
 class MissionWarning(UserWarning):
     """Something in a mission file is legal but can't be represented; it is named, not dropped."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """One change of a mission that would help, for programs that offer it.
+
+    Attributes:
+        key: Of what is to be changed, e.g. ``route.via[2].at``.
+        value: What it is to be; None: it is to be left out.
+    """
+
+    key: str
+    value: float | tuple[float, ...] | str | None
 
 
 @dataclass(frozen=True)
@@ -36,6 +50,7 @@ class Fault:
         source: The file, or ``<mission>`` when it came from Python.
         line: Line in the file, from 1; ``None`` when there is no file.
         column: Column in the file, from 1.
+        changes: What the remedy says, each by itself enough for this fault; it need not be all.
     """
 
     key: str
@@ -44,6 +59,7 @@ class Fault:
     source: str = "<mission>"
     line: int | None = None
     column: int | None = None
+    changes: tuple[Change, ...] = field(default=(), compare=False)
 
     def __str__(self) -> str:
         place = self.source if self.line is None else f"{self.source}:{self.line}:{self.column}"
@@ -79,6 +95,10 @@ class OutputError(ViasplineError):
         super().__init__(f"{self.path}: {problem}")
 
 
+class StudioError(ViasplineError):
+    """The studio can't be served: something isn't installed, or its address can't be had."""
+
+
 class NoPathError(ViasplineError):
     """There is no path that serves every via point with the clearance that was asked for.
 
@@ -88,6 +108,8 @@ class NoPathError(ViasplineError):
         remedy: The least change that would serve.
         via: The via point that can't be served, if it is one.
         obstacles: The names of the obstacles in the way.
+        changes: What the remedy says, each by itself; it need not be all. The route is the one
+            that was planned, with its via points in the order in which they are served.
     """
 
     def __init__(
@@ -98,10 +120,12 @@ class NoPathError(ViasplineError):
         remedy: str,
         via: str | None = None,
         obstacles: Sequence[str] = (),
+        changes: Sequence[Change] = (),
     ) -> None:
         self.reason = reason
         self.where = tuple(float(x) for x in where)
         self.remedy = remedy
         self.via = via
         self.obstacles = tuple(obstacles)
+        self.changes = tuple(changes)
         super().__init__(f"{reason}: {remedy}")

@@ -13,7 +13,7 @@ from viaspline.curve.certificate import SPARE
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course, RouteVia
 from viaspline.detour.route import NO_BARRIERS, Floats, Router, Way, on_the_line
-from viaspline.errors import NoPathError
+from viaspline.errors import Change, NoPathError
 from viaspline.kernels.corners import X, Y
 from viaspline.world.world import World
 
@@ -35,8 +35,11 @@ def _no_room(via: RouteVia, room: float, index: int, world: World, brief: Brief)
     free = room - brief.radius
     place = _nearest_free(via.at, world, brief.required)
     moves = [] if place is None else [f"move it to ({place[0]:.3f}, {place[1]:.3f})"]
+    changes = _moved(via, place)
     if 0 <= free < brief.clearance:
-        moves.append(f"set robot.clearance_m to at most {np.floor(free * 1000) / 1000:.3f}")
+        most = float(np.floor(free * 1000) / 1000)
+        moves.append(f"set robot.clearance_m to at most {most:.3f}")
+        changes += (Change("robot.clearance_m", most),)
     missing = brief.required - room
     what = "outside" if index < -1 and room < 0 else f"{missing:.3f} m inside the clearance of"
     return NoPathError(
@@ -45,7 +48,16 @@ def _no_room(via: RouteVia, room: float, index: int, world: World, brief: Brief)
         remedy=" or ".join(moves) or "move it",
         via=via.name,
         obstacles=(name,),
+        changes=changes,
     )
+
+
+def _moved(via: RouteVia, place: Floats | None) -> tuple[Change, ...]:
+    """The change that moves a via point to a place [m], shape (2,), if there is one."""
+    if place is None or not via.key:
+        return ()
+    at = [round(x, 3) for x in place.tolist()]
+    return (Change(f"{via.key}.at", (*at, *via.at[2:].tolist())),)
 
 
 def _nearest_free(at: Floats, world: World, required: float) -> Floats | None:
@@ -91,11 +103,11 @@ class BlockedLegError(NoPathError):
         self._explain = explain
 
     def __getattr__(self, name: str) -> Any:
-        if name not in ("reason", "where", "remedy", "obstacles"):
+        if name not in ("reason", "where", "remedy", "obstacles", "changes"):
             raise AttributeError(name)
         told = self._explain()
         self.reason, self.where, self.remedy = told.reason, told.where, told.remedy
-        self.obstacles = told.obstacles
+        self.obstacles, self.changes = told.obstacles, told.changes
         return vars(self)[name]
 
     def __str__(self) -> str:
@@ -112,6 +124,7 @@ def explain_blocked_leg(
     opened = _widest(start, goal, world, brief.required)
     moved = reachable_near(start.at, goal.at, world, brief.required)
     moves = [] if moved is None else [f"move {goal.name!r} to ({moved[0]:.3f}, {moved[1]:.3f})"]
+    changes = _moved(goal, moved)
     if opened is None:
         walls = _walls(start, goal, world)
         moves.append(f"open a gap of {2 * brief.required:.3f} m")
@@ -121,12 +134,14 @@ def explain_blocked_leg(
             remedy=" or ".join(moves),
             via=goal.name,
             obstacles=walls,
+            changes=changes,
         )
     required, way = opened
     gap = _narrowest(way, world)
     clearance = np.floor((required - brief.radius) * 1000) / 1000
     if clearance >= 0:
         moves.insert(0, f"set robot.clearance_m to at most {clearance:.3f}")
+        changes = (Change("robot.clearance_m", float(clearance)), *changes)
     else:
         most = np.floor(required * 1000) / 1000
         moves.insert(0, f"the body's radius may be at most {most:.3f} m there")
@@ -138,6 +153,7 @@ def explain_blocked_leg(
         remedy=" or ".join(moves),
         via=goal.name,
         obstacles=gap.sides,
+        changes=changes,
     )
 
 
@@ -197,8 +213,14 @@ def explain_tight_leg(course: Course, leg: int, world: World, brief: Brief) -> N
 
 
 def _forced(start: RouteVia, goal: RouteVia, world: World) -> NoPathError:
-    forced = tuple(
-        world.name(i) for i, obstacle in enumerate(world.obstacles) if obstacle.forced_side
+    sided = [i for i, obstacle in enumerate(world.obstacles) if obstacle.forced_side]
+    forced = tuple(world.name(i) for i in sided)
+    keys = ("pass_on", "never_pass_on")
+    changes = tuple(
+        Change(f"world.known[{i}].{key}", None)
+        for i in sided
+        for key in keys
+        if getattr(world.obstacles[i], key) is not None
     )
     return NoPathError(
         f"from {start.name!r} to {goal.name!r} there is no way on the sides that are asked for",
@@ -206,6 +228,7 @@ def _forced(start: RouteVia, goal: RouteVia, world: World) -> NoPathError:
         remedy=f"drop pass_on or never_pass_on of {', '.join(map(repr, forced))}",
         via=goal.name,
         obstacles=forced,
+        changes=changes,
     )
 
 

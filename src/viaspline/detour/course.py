@@ -25,12 +25,14 @@ class RouteVia:
         at: [m], shape (d,).
         index: Its place in the route, 0 for the start; None for a place under way.
         dwell: [s].
+        key: Its key in the mission that is planned; empty for a place under way.
     """
 
     name: str
     at: Floats
     index: int | None
     dwell: float = 0.0
+    key: str = ""
 
 
 @dataclass(frozen=True)
@@ -121,7 +123,7 @@ def course_of(mission: Mission) -> Course:
     route = mission.route
     named = list(route.points())
     vias = tuple(
-        RouteVia(via.name or _default_name(key), np.array(via.at, np.float64), i, via.dwell_s)
+        RouteVia(via.name or _default_name(key), np.array(via.at, np.float64), i, via.dwell_s, key)
         for i, (key, via) in enumerate(named)
     )
     dimension = len(vias[0].at)

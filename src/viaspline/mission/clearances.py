@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection
 from typing import NamedTuple
 
+from viaspline.errors import Change
 from viaspline.maps.squares import is_unknown
 from viaspline.mission.corridors import CORRIDOR, corridor_of
 from viaspline.mission.draft import Corners, Draft, obstacle_label
@@ -40,11 +41,11 @@ def clearance_flaws(draft: Draft, misshapen: Collection[Path]) -> list[Flaw]:
     margin = robot.inner_radius + robot.clearance_m
     space = FreeSpace(bounds, [area for _, area in rings], [item for _, item in known], margin)
     return [
-        Flaw((*points[i][0], "at"), _problem(points[i], near, margin), remedy)
+        Flaw((*points[i][0], "at"), _problem(points[i], near, margin), remedy, changes=changes)
         for i, nears in _too_near(
             space, points, known, [path for path, _ in rings], draft.edge
         ).items()
-        for remedy in [_remedy(points[i][1], nears, robot, space)]
+        for remedy, changes in [_remedy(*points[i], nears, robot, space)]
         for near in nears
     ]
 
@@ -111,11 +112,15 @@ def _metres(length: float) -> str:
     return f"{number(length)} m" if length >= 5e-4 else "less than 1 mm"
 
 
-def _remedy(point: ViaPoint, nears: list[_Near], robot: RobotSpec, space: FreeSpace) -> str:
+def _remedy(
+    path: Path, point: ViaPoint, nears: list[_Near], robot: RobotSpec, space: FreeSpace
+) -> tuple[str, tuple[Change, ...]]:
     remedies = []
+    changes = []
     place = space.nearest(point.at[:2])
     if place is not None:
         remedies.append(f"move it to ({', '.join(number(x, 6) for x in place)})")
+        changes.append(Change(spell((*path, "at")), (*place, *point.at[2:])))
     if all(near.is_unknown for near in nears):
         remedies.append("set unknown: free for the map")
     tightest = min(near.distance for near in nears)
@@ -123,9 +128,10 @@ def _remedy(point: ViaPoint, nears: list[_Near], robot: RobotSpec, space: FreeSp
     clearance = math.floor((tightest - robot.inner_radius - 1e-6) * 1e3) / 1e3
     if clearance >= 0:
         remedies.append(f"set robot.clearance_m to at most {number(clearance)}")
+        changes.append(Change("robot.clearance_m", clearance))
     if not remedies:
-        return "there is no room for the robot near it: move it, or make the robot smaller"
-    return " or ".join(remedies)
+        return "there is no room for the robot near it: move it, or make the robot smaller", ()
+    return " or ".join(remedies), tuple(changes)
 
 
 def _label(path: Path, point: ViaPoint) -> str:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 
 from pydantic import BaseModel
 
-from viaspline.errors import Fault
+from viaspline.errors import Change, Fault
 
 Path: TypeAlias = tuple[str | int, ...]
 """Keys and indices from the mission down, e.g. ``("route", "via", 2, "at")``."""
@@ -30,6 +30,7 @@ class Flaw(NamedTuple):
         remedy: What would be right.
         at_key: Whether the key itself is wrong, rather than its value.
         mark: Where in the file, if ``path`` doesn't tell it.
+        changes: The remedy for programs, see `Fault`.
     """
 
     path: Path
@@ -37,6 +38,7 @@ class Flaw(NamedTuple):
     remedy: str
     at_key: bool = False
     mark: Mark | None = None
+    changes: tuple[Change, ...] = ()
 
 
 class Origin(Protocol):
@@ -76,11 +78,17 @@ def located(flaws: list[Flaw], data: Any, origin: Origin | None) -> list[Fault]:
     """The flaws as faults, in the order of the file (or of the data, where there is no file)."""
     if origin is None:
         ordered = sorted(flaws, key=lambda flaw: _rank(data, flaw.path))
-        return [Fault(spell(flaw.path), flaw.problem, flaw.remedy) for flaw in ordered]
+        return [
+            Fault(spell(flaw.path), flaw.problem, flaw.remedy, changes=flaw.changes)
+            for flaw in ordered
+        ]
     placed = [(flaw.mark or origin.mark(flaw.path, at_key=flaw.at_key), flaw) for flaw in flaws]
     placed.sort(key=lambda pair: pair[0])
     return [
-        Fault(spell(flaw.path), flaw.problem, flaw.remedy, origin.source, mark.line, mark.column)
+        Fault(
+            spell(flaw.path), flaw.problem, flaw.remedy, origin.source, mark.line, mark.column,
+            flaw.changes,
+        )  # fmt: skip
         for mark, flaw in placed
     ]
 

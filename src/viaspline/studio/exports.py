@@ -1,0 +1,53 @@
+"""What the page can take away: the very files that the command line writes."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from viaspline.planner import Plan
+from viaspline.report.plan_json import plan_json
+from viaspline.report.run_json import run_json
+from viaspline.report.tables import path_csv, run_csv, spacing
+from viaspline.robot.run import Run
+from viaspline.studio.refusal import Refusal
+
+OF_PLANS: Final = ("plan.json", "path.csv", "plan.png")
+OF_RUNS: Final = ("run.json", "run.csv", "run.png")
+
+
+def plan_file(plan: Plan, kind: str, name: str) -> bytes:
+    """One of the files of a plan.
+
+    Args:
+        plan: The plan.
+        kind: ``plan.json``, ``path.csv`` or ``plan.png``.
+        name: The mission's name.
+    """
+    if kind == "plan.json":
+        return plan_json(plan, name, spacing=spacing(plan.path.length)).encode()
+    if kind == "path.csv":
+        return path_csv(plan).encode()
+    from viaspline.report.plan_picture import plan_picture
+
+    return plan_picture(plan, name)
+
+
+def run_file(run: Run, kind: str, name: str, seed: int) -> bytes:
+    """One of the files of a run: ``run.json``, ``run.csv`` or ``run.png``."""
+    if kind == "run.json":
+        return run_json(run, name, seed=seed).encode()
+    if kind == "run.csv":
+        return run_csv(run).encode()
+    from viaspline.report.run_picture import run_picture
+
+    return run_picture(run, name)
+
+
+def check_kind(kind: str) -> None:
+    """Refuse what can't be exported.
+
+    Raises:
+        Refusal: Naming what can.
+    """
+    if kind not in OF_PLANS + OF_RUNS:
+        raise Refusal(f"'{kind}' can't be exported; {', '.join(OF_PLANS + OF_RUNS)} can")

@@ -1,0 +1,131 @@
+"""The one folder that the studio reads and writes, and the mission files and maps in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Final
+
+from viaspline.errors import OutputError
+from viaspline.report.files import write
+from viaspline.studio.refusal import Refusal
+
+MISSIONS: Final = (".yaml", ".yml", ".plan", ".mission", ".waypoints", ".txt")
+MAPS: Final = (".map", ".svg", ".geojson")
+SAVED: Final = (".yaml", ".yml")
+DEEPEST: Final = 3
+MOST_FILES: Final = 500
+SKIPPED: Final = ("node_modules", "__pycache__", "viaspline-out")
+
+
+class Folder:
+    """A folder out of which no path leads: not by ``..``, not by being absolute, not by a link.
+
+    Args:
+        root: The folder.
+    """
+
+    def __init__(self, root: Path) -> None:
+        self.root = root.resolve()
+
+    def inside(self, name: str, base: Path | None = None) -> Path:
+        """The path of a file by its name, relative to a folder within (by default the whole).
+
+        Raises:
+            Refusal: It lies elsewhere.
+        """
+        if not name or "\0" in name:
+            raise Refusal("give the name of a file")
+        path = ((base or self.root) / name).resolve()
+        if path == self.root or not path.is_relative_to(self.root):
+            raise Refusal(f"'{name}' lies outside of the studio's folder '{self.root.name}'")
+        return path
+
+    def to_open(self, name: str) -> Path:
+        """The path of a mission file that is there.
+
+        Raises:
+            Refusal: It lies elsewhere, or isn't a file.
+        """
+        path = self._named(name)
+        if not path.is_file():
+            raise Refusal(f"there is no file '{name}' in the folder '{self.root.name}'")
+        return path
+
+    def to_save(self, name: str) -> Path:
+        """The path that a mission is saved under.
+
+        Raises:
+            Refusal: It lies elsewhere, its folder isn't there, or it isn't YAML.
+        """
+        path = self._named(name)
+        if path.suffix.lower() not in SAVED:
+            raise Refusal(f"missions are saved as YAML: call it '{Path(name).stem}.yaml'")
+        if not path.parent.is_dir():
+            raise Refusal(f"there is no folder '{Path(name).parent}' to save it in")
+        if path.is_dir():
+            raise Refusal(f"'{name}' is a folder")
+        return path
+
+    def _named(self, name: str) -> Path:
+        if Path(name).is_absolute() or name.startswith("~"):
+            raise Refusal(f"give the name of a file within the folder '{self.root.name}'")
+        return self.inside(name)
+
+    def name_of(self, path: Path) -> str:
+        """What a file within is called by the page."""
+        return path.resolve().relative_to(self.root).as_posix()
+
+    def save(self, path: Path, text: str) -> None:
+        """Write a whole file, or leave what was there.
+
+        Raises:
+            Refusal: It can't be written.
+        """
+        try:
+            write(path, text)
+        except OutputError as error:
+            raise Refusal(str(error)) from None
+
+    def missions(self) -> list[str]:
+        """Names of the files that may be missions, in order."""
+        found = (path for path in self._files() if path.suffix.lower() in MISSIONS)
+        return [self.name_of(path) for path in found if not is_map(path)]
+
+    def maps(self) -> list[str]:
+        """Names of the files that are maps, in order."""
+        return [self.name_of(path) for path in self._files() if is_map(path)]
+
+    def _files(self) -> list[Path]:
+        found: list[Path] = []
+        for path in self._walk(self.root, DEEPEST):
+            if len(found) >= MOST_FILES:
+                break
+            found.append(path)
+        return sorted(found)
+
+    def _walk(self, folder: Path, depth: int) -> Iterator[Path]:
+        try:
+            entries = sorted(folder.iterdir())
+        except OSError:
+            return
+        for path in entries:
+            if path.name.startswith(".") or not path.resolve().is_relative_to(self.root):
+                continue
+            if path.is_file() and path.suffix.lower() in MISSIONS + MAPS:
+                yield path
+            elif depth > 1 and path.is_dir() and path.name not in SKIPPED:
+                yield from self._walk(path, depth - 1)
+
+
+def is_map(path: Path) -> bool:
+    """Whether a file is a map rather than a mission; YAML is when it names a picture."""
+    suffix = path.suffix.lower()
+    if suffix not in (".yaml", ".yml"):
+        return suffix in MAPS
+    try:
+        with path.open("rb") as file:
+            lines = file.read(4096).splitlines()
+    except OSError:
+        return False
+    return {b"image", b"resolution"} <= {line.split(b":")[0].strip() for line in lines}

@@ -1,0 +1,61 @@
+"""Mission files of every kind as documents."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+from viaspline.errors import Fault, MissionError
+from viaspline.mission.document import read_document
+from viaspline.mission.flaws import located
+from viaspline.studio import keeping
+from viaspline.studio.document import Document, check_size
+
+
+@dataclass(frozen=True)
+class Opened:
+    """A mission file.
+
+    Attributes:
+        document: What it holds, sound or not.
+        warnings: What of it a mission can't represent.
+    """
+
+    document: Document
+    warnings: tuple[str, ...] = ()
+
+
+def opened(path: Path) -> Opened:
+    """Open a mission file: YAML as it stands there, other kinds as what they mean.
+
+    Raises:
+        MissionError: It can't be read, or isn't what its name says.
+        Refusal: It is too large for the studio.
+    """
+    if path.suffix.lower() in (".yaml", ".yml"):
+        found = read_document(path)
+        if found.flaws:  # a key that stands there twice would be lost on saving
+            raise MissionError(located(list(found.flaws), found.data, found))
+        document, notes = found.data, ()
+    else:
+        document, notes = _understood(path)
+    try:
+        json.dumps(document, allow_nan=False)
+    except ValueError:
+        fault = Fault("", "has a number that is infinite or none", "write it out", str(path))
+        raise MissionError([fault]) from None
+    check_size(document)
+    return Opened(document, notes)
+
+
+def _understood(path: Path) -> tuple[Document, tuple[str, ...]]:
+    from viaspline.formats.load import load
+    from viaspline.mission.writer import yaml_text
+
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        mission = load(path)
+    document = keeping.read(yaml_text(mission, path.parent))
+    return document, tuple(str(warning.message) for warning in caught)

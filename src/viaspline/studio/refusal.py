@@ -1,0 +1,9 @@
+"""What the studio answers to a message that it can't or won't obey."""
+
+from __future__ import annotations
+
+from viaspline.errors import ViasplineError
+
+
+class Refusal(ViasplineError):
+    """A message that is refused, with the reason for the person at the page."""
