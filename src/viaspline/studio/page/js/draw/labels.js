@@ -1,0 +1,74 @@
+/** Names and figures beside what they belong to, where they cover nothing that matters. */
+
+/** @typedef {{text: string, x: number, y: number, away: number, colour: string, bold?: boolean, rank: number, plate?: boolean}} Label */
+
+const FONT = "Inter, system-ui, sans-serif";
+const DIRECTIONS = [[1, 0], [-1, 0], [0, -1], [0, 1], [0.8, -0.8], [0.8, 0.8], [-0.8, -0.8], [-0.8, 0.8]];
+
+/** @type {Map<string, number>} */ const widths = new Map();
+
+/** @param {CanvasRenderingContext2D} ctx @param {string} text @param {boolean} bold */
+function widthOf(ctx, text, bold) {
+  const key = `${bold ? 1 : 0}${text}`;
+  let width = widths.get(key);
+  if (width === undefined) {
+    if (widths.size > 2000) widths.clear();
+    ctx.font = `${bold ? 600 : 500} 12px ${FONT}`;
+    width = ctx.measureText(text).width;
+    widths.set(key, width);
+  }
+  return width;
+}
+
+/**
+ * Draw labels, the lowest rank first; one that finds no place and isn't important is left out.
+ * @param {import("./pen.js").Pen} pen
+ * @param {Label[]} labels
+ * @param {number[][]} avoid boxes that are taken
+ * @param {number[][]} line points of the path [CSS pixel]
+ */
+export function drawLabels(pen, labels, avoid, line) {
+  const { ctx, camera, colours } = pen;
+  const taken = [...avoid];
+  const cells = new Set(line.map(([x, y]) => cell(x, y)));
+  ctx.textBaseline = "middle";
+  ctx.textAlign = "left";
+  for (const label of [...labels].sort((a, b) => a.rank - b.rank)) {
+    const w = widthOf(ctx, label.text, !!label.bold) + 8, h = 18;
+    /** @type {number[]|null} */ let best = null;
+    let least = Infinity;
+    DIRECTIONS.forEach(([dx, dy], i) => {
+      const x = label.x + dx * label.away + (dx > 0.1 ? 0 : dx < -0.1 ? -w : -w / 2);
+      const y = label.y + dy * label.away + (dy > 0.1 ? 0 : dy < -0.1 ? -h : -h / 2);
+      const box = [x, y, x + w, y + h];
+      let cost = i * 0.4;
+      if (x < 4 || y < 4 || x + w > camera.width - 4 || y + h > camera.height - 4) cost += 60;
+      for (const other of taken) if (overlaps(box, other)) cost += 40;
+      for (let cx = x; cx <= x + w; cx += 8) for (let cy = y; cy <= y + h; cy += 8) if (cells.has(cell(cx, cy))) cost += 4;
+      if (cost < least) {
+        least = cost;
+        best = box;
+      }
+    });
+    if (!best || (least >= 40 && label.rank > 2)) continue;
+    const box = /** @type {number[]} */ (best);
+    taken.push(box);
+    ctx.font = `${label.bold ? 600 : 500} 12px ${FONT}`;
+    ctx.beginPath();
+    ctx.roundRect(box[0], box[1], w, h, 4);
+    if (label.plate) {
+      pen.fill(colours.plate);
+    } else {
+      ctx.globalAlpha = 0.7;
+      pen.fill(colours.plate);
+      ctx.globalAlpha = 1;
+    }
+    ctx.fillStyle = label.colour;
+    ctx.fillText(label.text, box[0] + 4, box[1] + h / 2 + 0.5);
+  }
+}
+
+const cell = (/** @type {number} */ x, /** @type {number} */ y) => `${Math.floor(x / 8)},${Math.floor(y / 8)}`;
+
+/** @param {number[]} a @param {number[]} b */
+const overlaps = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[1];

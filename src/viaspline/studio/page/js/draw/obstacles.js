@@ -1,0 +1,102 @@
+/** Obstacles, the room that is kept round them, and what is not on the robot's map. */
+
+/** @typedef {import("./pen.js").Pen} Pen */
+
+/** One ring round all obstacles together: strokes that join, an edge first and then its inside. @param {Pen} pen @param {any[]} known @param {number} required [m] */
+export function drawHalos(pen, known, required) {
+  const { ctx, camera, colours } = pen;
+  const reach = required * camera.scale;
+  if (reach < 1.5) return;
+  ctx.lineJoin = "round";
+  ctx.beginPath();
+  for (const obstacle of known) pen.shape(obstacle);
+  pen.stroke(colours.haloEdge, 2 * reach + 1.6);
+  pen.stroke(colours.halo, 2 * reach - 0.4);
+}
+
+/** @param {Pen} pen @param {any[]} known @param {string|null} hover */
+export function drawKnown(pen, known, hover) {
+  const { ctx, colours } = pen;
+  ctx.lineJoin = "round";
+  ctx.beginPath();
+  for (const obstacle of known) pen.shape(obstacle);
+  pen.fill(colours.obstacle, "nonzero");
+  pen.stroke(colours.obstacleEdge, 1.2);
+  for (const obstacle of known) if (obstacle.side) drawSide(pen, obstacle);
+  const under = known.find((obstacle) => obstacle.id === hover);
+  if (under) {
+    ctx.beginPath();
+    pen.shape(under);
+    pen.stroke(colours.select, 1.5);
+  }
+}
+
+/** Polygons with holes can't be filled together with others. @param {Pen} pen @param {any} obstacle */
+export function drawPierced(pen, obstacle) {
+  pen.ctx.beginPath();
+  pen.shape(obstacle);
+  pen.fill(pen.colours.obstacle, "evenodd");
+  pen.stroke(pen.colours.obstacleEdge, 1.2);
+}
+
+/** @param {Pen} pen @param {any[]} unseen @param {(obstacle: any, index: number) => boolean} isFound @param {string|null} hover */
+export function drawUnseen(pen, unseen, isFound, hover) {
+  const { ctx, colours } = pen;
+  unseen.forEach((obstacle, i) => {
+    if (!obstacle.circle && !obstacle.polygon) return;
+    const found = isFound(obstacle, i);
+    ctx.beginPath();
+    pen.shape(obstacle);
+    pen.fill(found ? colours.unseenFill : colours.paper, "evenodd");
+    ctx.save();
+    ctx.clip("evenodd");
+    hatch(pen, obstacle, found ? colours.unseen : colours.unseenFill);
+    ctx.restore();
+    ctx.beginPath();
+    pen.shape(obstacle);
+    const isHovered = obstacle.id === hover;
+    pen.stroke(isHovered ? colours.select : colours.unseen, found ? 2 : 1.2, found ? [] : [5, 3]);
+  });
+}
+
+/** @param {Pen} pen @param {any} obstacle @param {string} colour */
+function hatch(pen, obstacle, colour) {
+  const { ctx, camera } = pen;
+  const box = screenBox(camera, obstacle);
+  const [x0, y0, x1, y1] = [Math.max(box[0], -9), Math.max(box[1], -9), Math.min(box[2], camera.width + 9), Math.min(box[3], camera.height + 9)];
+  if (x1 <= x0 || y1 <= y0) return;
+  ctx.beginPath();
+  for (let c = Math.floor((x0 - (y1 - y0)) / 7) * 7; c < x1; c += 7) {
+    ctx.moveTo(c, y1);
+    ctx.lineTo(c + (y1 - y0), y0);
+  }
+  pen.stroke(colour, 1.2);
+}
+
+/** @param {import("../geometry/camera.js").Camera} camera @param {any} obstacle */
+export function screenBox(camera, obstacle) {
+  if (obstacle.circle) {
+    const [x, y] = camera.toScreen(obstacle.circle.center[0], obstacle.circle.center[1]);
+    const r = obstacle.circle.radius * camera.scale;
+    return [x - r, y - r, x + r, y + r];
+  }
+  const points = (obstacle.polygon ?? []).map((/** @type {number[]} */ p) => camera.toScreen(p[0], p[1]));
+  const xs = points.map((/** @type {number[]} */ p) => p[0]), ys = points.map((/** @type {number[]} */ p) => p[1]);
+  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+}
+
+/** The side that is asked for, as a letter in the obstacle's middle. @param {Pen} pen @param {any} obstacle */
+function drawSide(pen, obstacle) {
+  const { ctx, camera, colours } = pen;
+  const [x0, y0, x1, y1] = screenBox(camera, obstacle);
+  if (x1 - x0 < 16) return;
+  const [x, y] = [(x0 + x1) / 2, (y0 + y1) / 2];
+  ctx.beginPath();
+  ctx.roundRect(x - 8, y - 8, 16, 16, 4);
+  pen.fill(colours.loser);
+  ctx.fillStyle = colours.paper;
+  ctx.font = "600 10px Inter, system-ui, sans-serif";
+  ctx.textAlign = "center";
+  ctx.textBaseline = "middle";
+  ctx.fillText(obstacle.side === "left" ? "L" : "R", x, y + 0.5);
+}

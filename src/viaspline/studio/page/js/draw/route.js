@@ -1,0 +1,138 @@
+/** The points of the route, their headings, the detour points, and the handles of what is selected. */
+
+import { anchorOf, isPoint, part, pathOf } from "../core/mission.js";
+
+/** @typedef {import("./pen.js").Pen} Pen */
+
+export const HEADING_REACH = 44; // pixels from a point to the handle of its heading
+
+/** @param {Pen} pen @param {any[]} points @param {{selection: string|null, hover: string|null, isClosed: boolean}} state */
+export function drawPoints(pen, points, { selection, hover, isClosed }) {
+  const { ctx, camera, colours } = pen;
+  points.forEach((point, i) => {
+    if (!point.at) return;
+    const [x, y] = camera.toScreen(point.at[0], point.at[1]);
+    const isSelected = selection === point.id;
+    if (isSelected || hover === point.id) {
+      ctx.beginPath();
+      ctx.arc(x, y, isSelected ? 17 : 14, 0, 2 * Math.PI);
+      pen.fill(colours.selectSoft);
+      if (isSelected) pen.stroke(colours.select, 2);
+    }
+    if (point.heading !== null) drawHeading(pen, x, y, point.heading, isSelected);
+    ctx.beginPath();
+    if (point.dwell > 0) ctx.roundRect(x - 9, y - 9, 18, 18, 4); // a station is square
+    else ctx.arc(x, y, point.id === "start" || point.id === "goal" ? 9 : 8, 0, 2 * Math.PI);
+    const fill = point.id === "start" ? colours.start : point.id === "goal" ? colours.goal : point.dwell > 0 ? colours.station : colours.paper;
+    pen.fill(fill);
+    pen.stroke(isSelected ? colours.select : point.dwell > 0 ? "#5a5200" : colours.ink, isSelected ? 2.4 : 1.8);
+    ctx.font = "600 10px Inter, system-ui, sans-serif";
+    ctx.textAlign = "center";
+    ctx.textBaseline = "middle";
+    ctx.fillStyle = point.id === "start" || point.id === "goal" ? colours.paper : point.dwell > 0 ? "#1b1f24" : colours.ink;
+    const letter = point.id === "start" ? (isClosed ? "S" : "S") : point.id === "goal" ? "G" : String(i);
+    ctx.fillText(letter, x, y + 0.5);
+  });
+}
+
+/** @param {Pen} pen @param {number} x @param {number} y @param {number} heading [deg] @param {boolean} isSelected */
+function drawHeading(pen, x, y, heading, isSelected) {
+  const { ctx, colours } = pen;
+  const angle = (-heading * Math.PI) / 180;
+  const [hx, hy] = [x + Math.cos(angle) * HEADING_REACH, y + Math.sin(angle) * HEADING_REACH];
+  ctx.beginPath();
+  ctx.moveTo(x, y);
+  ctx.lineTo(hx, hy);
+  pen.stroke(isSelected ? colours.select : colours.ink, 1.6);
+  ctx.save();
+  ctx.translate(hx, hy);
+  ctx.rotate(angle);
+  ctx.beginPath();
+  ctx.moveTo(6, 0);
+  ctx.lineTo(-5, 5);
+  ctx.lineTo(-5, -5);
+  ctx.closePath();
+  pen.fill(isSelected ? colours.select : colours.ink);
+  ctx.restore();
+}
+
+/** @param {Pen} pen @param {any[]} vias of the plan */
+export function drawDetours(pen, vias) {
+  const { ctx, camera, colours } = pen;
+  for (const via of vias) {
+    if (via[3] !== "detour") continue;
+    const [x, y] = camera.toScreen(via[1], via[2]);
+    ctx.beginPath();
+    ctx.moveTo(x, y - 5);
+    ctx.lineTo(x + 5, y);
+    ctx.lineTo(x, y + 5);
+    ctx.lineTo(x - 5, y);
+    ctx.closePath();
+    pen.fill(colours.detour);
+    pen.stroke(colours.ink, 1);
+  }
+}
+
+/**
+ * The handles of what is selected, each with the id or the role that dragging it changes.
+ * @param {any} doc @param {string|null} selection @param {import("../geometry/camera.js").Camera} camera
+ * @returns {{id: string, role: string, x: number, y: number}[]}
+ */
+export function handlesOf(doc, selection, camera) {
+  if (!selection || selection.startsWith("span:")) return [];
+  const handles = [];
+  const owner = selection.split(":").slice(0, 2).join(":");
+  const item = part(doc, pathOf(selection));
+  const on = (/** @type {number} */ x, /** @type {number} */ y) => {
+    const [px, py] = camera.toScreen(x, y);
+    return { x: px, y: py };
+  };
+  if (isPoint(selection) && (selection === "start" || selection === "goal")) {
+    const at = anchorOf(doc, selection);
+    const heading = Array.isArray(item) ? null : item?.heading_deg;
+    if (at) {
+      const angle = (-(Number.isFinite(heading) ? heading : 0) * Math.PI) / 180;
+      const { x, y } = on(at[0], at[1]);
+      const role = Number.isFinite(heading) ? "heading" : "free-heading";
+      handles.push({ id: selection, role, x: x + Math.cos(angle) * HEADING_REACH, y: y + Math.sin(angle) * HEADING_REACH });
+    }
+  } else if (item?.circle) {
+    const { center: [x, y], radius } = item.circle;
+    handles.push({ id: owner, role: "radius", ...on(x + radius, y) });
+  } else if (item?.polygon) {
+    const ring = item.polygon;
+    ring.forEach((/** @type {number[]} */ p, /** @type {number} */ i) => handles.push({ id: `${owner}:${i}`, role: "corner", ...on(p[0], p[1]) }));
+    ring.forEach((/** @type {number[]} */ p, /** @type {number} */ i) => {
+      const q = ring[(i + 1) % ring.length];
+      const mid = on((p[0] + q[0]) / 2, (p[1] + q[1]) / 2);
+      const ends = [on(p[0], p[1]), on(q[0], q[1])];
+      if (Math.hypot(ends[0].x - ends[1].x, ends[0].y - ends[1].y) > 44) handles.push({ id: `${owner}:${i}`, role: "new-corner", ...mid });
+    });
+  } else if (selection.startsWith("bounds") && Array.isArray(item)) {
+    for (let i = 0; i < 4; i += 1) {
+      const [x, y] = /** @type {number[]} */ (anchorOf(doc, `bounds:${i}`));
+      handles.push({ id: `bounds:${i}`, role: "corner", ...on(x, y) });
+    }
+  }
+  return handles;
+}
+
+/** @param {Pen} pen @param {any} doc @param {string|null} selection */
+export function drawHandles(pen, doc, selection) {
+  const { ctx, colours, camera } = pen;
+  const item = selection && !selection.startsWith("span:") ? part(doc, pathOf(selection)) : null;
+  if (item?.circle || item?.polygon) {
+    ctx.beginPath();
+    pen.shape({ circle: item.circle ?? null, polygon: item.polygon ?? null, holes: item.holes ?? [] });
+    pen.stroke(colours.select, 2);
+  }
+  for (const handle of handlesOf(doc, selection, camera)) {
+    ctx.beginPath();
+    if (handle.role === "new-corner") ctx.arc(handle.x, handle.y, 3.5, 0, 2 * Math.PI);
+    else if (handle.role === "corner") ctx.rect(handle.x - 5, handle.y - 5, 10, 10);
+    else ctx.arc(handle.x, handle.y, 6, 0, 2 * Math.PI);
+    const isNow = handle.role === "corner" && handle.id === selection;
+    pen.fill(isNow ? colours.select : handle.role === "heading" ? colours.select : colours.paper);
+    pen.stroke(colours.select, handle.role === "new-corner" ? 1.2 : 1.8, handle.role === "free-heading" ? [2, 2] : []);
+  }
+}

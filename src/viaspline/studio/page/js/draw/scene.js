@@ -1,0 +1,181 @@
+/** The whole picture, layer by layer; it is drawn at most once a frame, when something has changed. */
+
+import { obstaclesOf, pointsOf, requiredOf } from "../core/mission.js";
+import { metres, down } from "../units.js";
+import { drawFollowed, drawRobot, drawSight, drawTrail } from "./drive.js";
+import { drawGrid, drawLimits, drawOutside, MapPictures } from "./ground.js";
+import { drawLabels } from "./labels.js";
+import { drawCross, drawCursor, drawDraft, drawProblem, drawScale, drawTightest } from "./marks.js";
+import { drawHalos, drawKnown, drawPierced, drawUnseen, screenBox } from "./obstacles.js";
+import { drawArrows, drawComb, drawLeg, drawLosers, drawPath } from "./path.js";
+import { Pen } from "./pen.js";
+import { drawDetours, drawHandles, drawPoints } from "./route.js";
+import { theme } from "./theme.js";
+
+export class Scene {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {import("../core/store.js").Store} store
+   * @param {import("../geometry/camera.js").Camera} camera
+   * @param {import("../drive.js").Drive} drive
+   */
+  constructor(canvas, store, camera, drive) {
+    this.canvas = canvas;
+    this.store = store;
+    this.camera = camera;
+    this.drive = drive;
+    this.ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
+    this.maps = new MapPictures(() => this.later());
+    this.isDue = false;
+    /** @type {any} */ this.draft = null; // what a tool is about to make
+    /** @type {number[]|null} */ this.cross = null; // the keyboard's cursor [m]
+    /** @type {any} */ this.hoveredSide = null;
+    /** @type {((time: number) => void)[]} */ this.drawn = []; // told once, after the next drawing
+  }
+
+  /** Draw in the next frame. */
+  later() {
+    if (this.isDue) return;
+    this.isDue = true;
+    requestAnimationFrame(() => {
+      this.isDue = false;
+      this.draw();
+      const waiting = this.drawn;
+      this.drawn = [];
+      if (waiting.length) {
+        const channel = new MessageChannel(); // its task comes after the frame was given away
+        channel.port1.onmessage = () => waiting.forEach((tell) => tell(performance.now()));
+        channel.port2.postMessage(0);
+      }
+    });
+  }
+
+  /** Fit the canvas to its place. */
+  resize() {
+    const { width, height } = this.canvas.getBoundingClientRect();
+    const ratio = Math.min(devicePixelRatio || 1, 3);
+    this.camera.width = width;
+    this.camera.height = height;
+    this.canvas.width = Math.max(1, Math.round(width * ratio));
+    this.canvas.height = Math.max(1, Math.round(height * ratio));
+    this.later();
+  }
+
+  draw() {
+    const { ctx, canvas, camera, store, drive } = this;
+    const { doc, show } = store;
+    const colours = theme();
+    const pen = new Pen(ctx, camera, colours);
+    const ratio = canvas.width / camera.width;
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.fillStyle = colours.paper;
+    ctx.fillRect(0, 0, camera.width, camera.height);
+    const obstacles = obstaclesOf(doc);
+    const known = obstacles.filter((o) => o.list === "known" && (o.circle || o.polygon));
+    const unseen = obstacles.filter((o) => o.list === "unseen");
+    const drawnMaps = (store.plan?.grids?.length ? store.plan : store.goodPlan)?.grids ?? [];
+    const required = requiredOf(doc);
+    const maxSpeed = Number(doc.robot?.max_speed_mps ?? 2) || 1;
+    drawOutside(pen, doc);
+    this.maps.draw(pen, drawnMaps, required, show.rings);
+    const areas = drawnMaps.filter((/** @type {any} */ g) => g.rings).map((/** @type {any} */ g) => ({ id: "", circle: null, polygon: g.rings[0], holes: g.rings.slice(1), side: null, list: g.list }));
+    const shapes = [...known, ...areas.filter((/** @type {any} */ a) => a.list === "known")];
+    if (show.rings) drawHalos(pen, shapes, required);
+    if (show.grid) drawGrid(pen);
+    drawKnown(pen, shapes.filter((o) => !o.holes.length), store.hover);
+    shapes.filter((o) => o.holes.length).forEach((o) => drawPierced(pen, o));
+    drawLimits(pen, doc, required, show.rings);
+    const isDriving = !!drive.run;
+    if (isDriving) drawSight(pen, drive);
+    drawUnseen(pen, unseen, (_, i) => isDriving && drive.hasSeen(i), store.hover);
+    this.drawWays(pen, isDriving, maxSpeed);
+    if (show.detours && store.curve && store.plan?.ok && !isDriving) drawDetours(pen, store.curve.vias);
+    const points = pointsOf(doc);
+    drawPoints(pen, points, { selection: store.selection, hover: store.hover, isClosed: !!doc.route?.closed });
+    drawHandles(pen, doc, store.selection);
+    if (!isDriving && store.plan?.ok) drawTightest(pen, store.plan.certificate, known);
+    for (const problem of store.plan?.ok === false ? store.plan.problems : []) {
+      const where = problem.where ?? this.placeOfProblem(problem);
+      if (where) drawProblem(pen, where);
+    }
+    if (store.cursor !== null && store.curve && !isDriving) drawCursor(pen, store.curve.at(store.cursor), Number(doc.robot?.radius_m ?? 0.5));
+    if (isDriving) drawRobot(pen, drive, Number(doc.robot?.radius_m ?? 0.5));
+    if (this.draft) drawDraft(pen, this.draft);
+    if (this.cross) drawCross(pen, this.cross);
+    this.drawNames(pen, points, obstacles, isDriving);
+    drawScale(pen, 16, 16);
+  }
+
+  /** @param {Pen} pen @param {boolean} isDriving @param {number} maxSpeed */
+  drawWays(pen, isDriving, maxSpeed) {
+    const { store, drive } = this;
+    const { show, curve } = store;
+    if (!curve) return;
+    const isStale = store.plan?.ok === false;
+    if (isDriving) {
+      drawFollowed(pen, drive, curve.spans);
+      drawTrail(pen, drive, maxSpeed);
+      return;
+    }
+    if (show.losers && !isStale) drawLosers(pen, store.ledger, this.hoveredSide);
+    if (store.selection?.startsWith("span:") && !isStale) drawLeg(pen, curve, Number(store.selection.slice(5)));
+    if (show.comb && !isStale) drawComb(pen, curve);
+    drawPath(pen, curve, { speed: show.speed, isStale, maxSpeed });
+    if (!isStale) drawArrows(pen, curve);
+  }
+
+  /** @param {any} problem */
+  placeOfProblem(problem) {
+    const [section, key, index] = problem.path;
+    if (section !== "route") return null;
+    const id = key === "via" ? `via:${index}` : key;
+    return pointsOf(this.store.doc).find((point) => point.id === id)?.at ?? null;
+  }
+
+  /** @param {Pen} pen @param {any[]} points @param {any[]} obstacles @param {boolean} isDriving */
+  drawNames(pen, points, obstacles, isDriving) {
+    const { camera, store } = this;
+    const { colours } = pen;
+    /** @type {import("./labels.js").Label[]} */ const labels = [];
+    const avoid = points.filter((p) => p.at).map((p) => {
+      const [x, y] = camera.toScreen(p.at[0], p.at[1]);
+      return [x - 11, y - 11, x + 11, y + 11];
+    });
+    avoid.push([0, camera.height - 40, 140, camera.height]);
+    const line = (isDriving ? [] : store.curve?.samples ?? []).map((s) => camera.toScreen(s.x, s.y));
+    if (store.show.names) {
+      for (const point of points) {
+        if (!point.at || (!point.given && store.selection !== point.id)) continue;
+        const [x, y] = camera.toScreen(point.at[0], point.at[1]);
+        const dwell = point.dwell > 0 ? ` · ${point.dwell} s` : "";
+        labels.push({ text: point.name + dwell, x, y, away: 13, colour: colours.label, bold: true, rank: store.selection === point.id ? 0 : 1 });
+      }
+      for (const obstacle of obstacles) {
+        if (!obstacle.given || (!obstacle.circle && !obstacle.polygon)) continue;
+        const box = screenBox(camera, obstacle);
+        const w = box[2] - box[0];
+        if (box[2] < 0 || box[3] < 0 || box[0] > camera.width || box[1] > camera.height || w < 10) continue;
+        const away = Math.min(w, box[3] - box[1]) / 2 + 4;
+        labels.push({ text: obstacle.name, x: (box[0] + box[2]) / 2, y: (box[1] + box[3]) / 2, away: obstacle.side || w < 70 ? away : 0, colour: obstacle.list === "unseen" ? colours.unseen : colours.muted, rank: store.selection === obstacle.id ? 1 : 4 });
+      }
+    }
+    const proof = store.plan?.ok ? store.plan.certificate : null;
+    if (proof && proof.clearance !== null && !isDriving) {
+      const [x, y] = camera.toScreen(proof.at[0], proof.at[1]);
+      labels.push({ text: `${down(proof.clearance)} clear`, x, y, away: 12, colour: colours.tightest, bold: true, rank: 0, plate: true });
+    }
+    if (store.show.losers && !isDriving && store.plan?.ok && store.ledger.length <= 8) {
+      for (const entry of store.ledger) {
+        const taken = entry.candidates.find((/** @type {any} */ c) => c.chosen);
+        for (const loser of entry.candidates) {
+          if (loser.chosen || !loser.spans.length || !taken?.length || !loser.length) continue;
+          const k = Math.floor(loser.spans.length / 16);
+          const [x, y] = camera.toScreen(loser.spans[8 * k], loser.spans[8 * k + 1]);
+          const more = loser.length - taken.length;
+          labels.push({ text: `${loser.side} ${more >= 0 ? "+" : "−"}${metres(Math.abs(more), 1)}`, x, y, away: 9, colour: colours.loser, rank: 3 });
+        }
+      }
+    }
+    drawLabels(pen, labels, avoid, line);
+  }
+}

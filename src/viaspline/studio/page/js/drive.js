@@ -1,0 +1,133 @@
+/** A drive that is played: where the robot is at a time, what it has seen, what it is doing. */
+
+export const FACTORS = [0.5, 1, 2, 5, 10, 20, 50];
+
+export class Drive {
+  /** @param {import("./core/store.js").Store} store */
+  constructor(store) {
+    this.store = store;
+    /** @type {any} */ this.run = null;
+    this.time = 0;
+    this.factor = 10;
+    this.isPlaying = false;
+    this.last = 0;
+    /** @type {(() => void)[]} */ this.listeners = [];
+    store.on("run", () => {
+      if (store.run === this.run) return;
+      this.run = store.run;
+      this.time = 0;
+      this.isPlaying = false;
+      this.tell();
+    });
+  }
+
+  /** @param {() => void} listener */
+  on(listener) {
+    this.listeners.push(listener);
+  }
+
+  tell() {
+    this.listeners.forEach((listener) => listener());
+  }
+
+  play() {
+    if (!this.run) return;
+    if (this.time >= this.run.duration) this.time = 0;
+    this.isPlaying = true;
+    this.last = performance.now();
+    const frame = (/** @type {number} */ now) => {
+      if (!this.isPlaying || !this.run) return;
+      this.time = Math.min(this.run.duration, this.time + (Math.max(0, now - this.last) / 1000) * this.factor);
+      this.last = now;
+      if (this.time >= this.run.duration) this.isPlaying = false;
+      this.tell();
+      if (this.isPlaying) requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+    this.tell();
+  }
+
+  pause() {
+    this.isPlaying = false;
+    this.tell();
+  }
+
+  /** @param {number} time [s] */
+  seek(time) {
+    if (!this.run) return;
+    this.time = Math.min(this.run.duration, Math.max(0, time));
+    this.tell();
+  }
+
+  /** To the event before or after. @param {1|-1} way */
+  step(way) {
+    if (!this.run) return;
+    this.pause();
+    const times = this.run.events.map((/** @type {any} */ event) => event.time);
+    const next = way > 0 ? times.find((/** @type {number} */ t) => t > this.time + 1e-6) : times.filter((/** @type {number} */ t) => t < this.time - 1e-6).at(-1);
+    this.seek(next ?? (way > 0 ? this.run.duration : 0));
+  }
+
+  /** The last sample that is not later than now. */
+  index(time = this.time) {
+    const list = this.run.samples.time;
+    let low = 0, high = list.length - 1;
+    while (low < high) {
+      const mid = (low + high + 1) >> 1;
+      if (list[mid] <= time) low = mid;
+      else high = mid - 1;
+    }
+    return low;
+  }
+
+  state() {
+    return this.stateAt(this.time);
+  }
+
+  /** @param {number} time */
+  stateAt(time) {
+    const s = this.run.samples;
+    const i = this.index(time), j = Math.min(i + 1, s.time.length - 1);
+    const t = s.time[j] > s.time[i] ? Math.min(1, (time - s.time[i]) / (s.time[j] - s.time[i])) : 0;
+    const mix = (/** @type {number[]} */ list) => list[i] + t * (list[j] - list[i]);
+    return { x: mix(s.x), y: mix(s.y), heading: mix(s.heading), speed: mix(s.speed) };
+  }
+
+  /** The look of a lidar that is nearest to now. */
+  frame() {
+    const times = this.run.sight.times;
+    let best = 0;
+    times.forEach((/** @type {number} */ time, /** @type {number} */ i) => {
+      if (time <= this.time) best = i;
+    });
+    return best;
+  }
+
+  /** Whether the sensor has shown an unseen obstacle by now. @param {number} index */
+  hasSeen(index) {
+    const seen = this.run?.sight?.kind === "range" ? this.run.sight.seen[index] : null;
+    return seen !== null && seen !== undefined && seen <= this.time;
+  }
+
+  /** The re-plans so far. @returns {any[]} */
+  replans() {
+    return this.run.replans.filter((/** @type {any} */ replan) => replan.time <= this.time);
+  }
+
+  /** The events so far. @returns {any[]} */
+  events() {
+    return this.run.events.filter((/** @type {any} */ event) => event.time <= this.time + 1e-6);
+  }
+
+  /** The stay at a station: seconds left, and which part of it. @returns {{left: number, part: number}|null} */
+  stay() {
+    for (const event of this.run.events) {
+      const dwell = event.kind === "arrived" ? Number(event.data?.dwell_s) : 0;
+      if (dwell > 0 && event.time <= this.time && this.time < event.time + dwell) {
+        const left = event.time + dwell - this.time;
+        return { left, part: left / dwell };
+      }
+    }
+    return null;
+  }
+}

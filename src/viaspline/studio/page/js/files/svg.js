@@ -1,0 +1,63 @@
+/** The scene as SVG: the path as the very Bézier curves that were proven, in metres. */
+
+import { obstaclesOf, pointsOf, requiredOf } from "../core/mission.js";
+import { boxOf } from "../geometry/shapes.js";
+
+/** @param {import("../core/store.js").Store} store @returns {string} */
+export function svgOf(store) {
+  const { doc } = store;
+  const obstacles = obstaclesOf(doc).filter((o) => o.circle || o.polygon);
+  const required = requiredOf(doc);
+  const box = boxAll(store) ?? [0, 0, 1, 1];
+  const size = Math.max(box[2] - box[0], box[3] - box[1]);
+  const pad = size * 0.04, line = size / 400;
+  const spans = store.goodPlan?.spans ?? [];
+  const shape = (/** @type {any} */ o, /** @type {string} */ rest) => o.circle
+    ? `<circle cx="${o.circle.center[0]}" cy="${o.circle.center[1]}" r="${o.circle.radius}" ${rest}/>`
+    : `<path d="${[o.polygon, ...o.holes].map((ring) => `M${ring.map((/** @type {number[]} */ p) => p.slice(0, 2).join(" ")).join("L")}Z`).join("")}" fill-rule="evenodd" ${rest}/>`;
+  const bounds = doc.world?.bounds;
+  const parts = [
+    ...obstacles.filter((o) => o.list === "known").map((o) => shape(o, `fill="#f0f2f5" stroke="#f0f2f5" stroke-width="${2 * required}" stroke-linejoin="round"`)),
+    ...obstacles.map((o) => shape(o, o.list === "known" ? `fill="#aeb5bf" stroke="#4d5661" stroke-width="${line / 2}"` : `fill="#fbe3d3" stroke="#c24e00" stroke-width="${line / 2}" stroke-dasharray="${2 * line} ${line}"`)),
+    Array.isArray(bounds) ? `<rect x="${bounds[0]}" y="${bounds[1]}" width="${bounds[2] - bounds[0]}" height="${bounds[3] - bounds[1]}" fill="none" stroke="#6f7985" stroke-width="${line / 2}"/>` : "",
+    `<path d="${pathData(spans)}" fill="none" stroke="#0072b2" stroke-width="${line}" stroke-linecap="round"/>`,
+    ...pointsOf(doc).filter((p) => p.at).map((p) => {
+      const [x, y] = /** @type {number[]} */ (p.at);
+      const fill = p.id === "start" ? "#008f68" : p.id === "goal" ? "#1b1f24" : p.dwell ? "#f0e442" : "#ffffff";
+      const name = p.given ? `<text transform="translate(${x + 3 * line} ${y + 3 * line}) scale(1 -1)" font-size="${6 * line}" font-family="sans-serif" fill="#1b1f24">${escaped(p.given)}</text>` : "";
+      return `<circle cx="${x}" cy="${y}" r="${2 * line}" fill="${fill}" stroke="#1b1f24" stroke-width="${line / 2}"/>${name}`;
+    }),
+  ];
+  const [w, h] = [box[2] - box[0] + 2 * pad, box[3] - box[1] + 2 * pad];
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${box[0] - pad} ${-box[3] - pad} ${w} ${h}" width="${w}" height="${h}">\n<rect x="${box[0] - pad}" y="${-box[3] - pad}" width="${w}" height="${h}" fill="#fff"/>\n<g transform="scale(1 -1)">\n${parts.filter(Boolean).join("\n")}\n</g>\n</svg>\n`;
+}
+
+/** @param {number[]} p */
+function pathData(p) {
+  let text = "";
+  for (let i = 0; i < p.length; i += 8) {
+    if (i === 0 || p[i] !== p[i - 2] || p[i + 1] !== p[i - 1]) text += `M${p[i]} ${p[i + 1]}`;
+    text += `C${p.slice(i + 2, i + 8).join(" ")}`;
+  }
+  return text;
+}
+
+/** The box round everything in a scene [m]. @param {import("../core/store.js").Store} store */
+export function boxAll(store) {
+  const { doc } = store;
+  const points = pointsOf(doc).flatMap((p) => (p.at ? [p.at] : []));
+  for (const o of obstaclesOf(doc)) {
+    if (o.circle) {
+      const { center: [x, y], radius: r } = o.circle;
+      points.push([x - r, y - r], [x + r, y + r]);
+    } else points.push(...(o.polygon ?? []));
+  }
+  const bounds = doc.world?.bounds;
+  if (Array.isArray(bounds)) points.push([bounds[0], bounds[1]], [bounds[2], bounds[3]]);
+  for (const ring of doc.world?.fences ?? []) points.push(...ring);
+  for (const grid of store.plan?.grids ?? []) if (grid.extent) points.push(grid.extent.slice(0, 2), grid.extent.slice(2));
+  return boxOf(points);
+}
+
+/** @param {string} text */
+const escaped = (text) => text.replace(/[&<>"]/g, (c) => /** @type {any} */ ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);

@@ -1,0 +1,233 @@
+/** Everything by keyboard. What the keys do stands in the help sheet as well. */
+
+import {
+  addObstacle, moveTo, moveVia, remove, setTension, shifted, toggleUnseen,
+} from "../core/edits.js";
+import { anchorOf, idsOf, isObstacle, isPoint, refOf, tensionsOf, whole } from "../core/mission.js";
+
+const TOOLS = { v: "select", a: "via", c: "circle", p: "polygon", h: "pan" };
+const SHOWN = { g: "grid", s: "snap", l: "losers", r: "rings", k: "comb", d: "detours", x: "speed" };
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+/** @param {any} app */
+export function listenToKeys(app) {
+  const { store, scene, camera, pointer } = app;
+  addEventListener("keydown", (event) => {
+    if (document.querySelector("dialog[open]")) return;
+    const isTyping = event.target instanceof HTMLElement && event.target.matches("input:not([type=range]):not([type=checkbox]), select, textarea");
+    if (event.ctrlKey || event.metaKey) {
+      if (command(app, event, isTyping)) event.preventDefault();
+      return;
+    }
+    if (isTyping) {
+      if (event.key === "Escape") scene.canvas.focus();
+      return;
+    }
+    const onMap = document.activeElement === scene.canvas || document.activeElement === document.body;
+    const onSlider = event.target instanceof HTMLInputElement && event.target.type === "range";
+    if (event.altKey && (event.key === "ArrowUp" || event.key === "ArrowDown")) {
+      reorder(app, event.key === "ArrowUp" ? -1 : 1);
+      event.preventDefault();
+      return;
+    }
+    if (onMap && event.key in ARROWS) {
+      arrow(app, /** @type {number[]} */ (/** @type {any} */ (ARROWS)[event.key]), event.shiftKey);
+      event.preventDefault();
+    } else if (onMap && onKey(app, event)) event.preventDefault();
+    else if (!event.altKey && single(app, event, onSlider)) event.preventDefault();
+  });
+  addEventListener("keyup", (event) => {
+    if (event.code === "Space") pointer.isPanning = false;
+  });
+  void store;
+  void camera;
+}
+
+/** Keys with Ctrl. @param {any} app @param {KeyboardEvent} event @param {boolean} isTyping */
+function command(app, event, isTyping) {
+  const key = event.key.toLowerCase();
+  if (key === "s") app.files.save();
+  else if (key === "o") app.files.open();
+  else if (key === "e") app.files.export();
+  else if (isTyping) return false;
+  else if (key === "z") event.shiftKey ? app.redo() : app.undo();
+  else if (key === "y") app.redo();
+  else return false;
+  return true;
+}
+
+/** Keys that mean something on the map only. @param {any} app @param {KeyboardEvent} event */
+function onKey(app, event) {
+  const { store, scene, pointer, say } = app;
+  if (event.key === "Tab") return next(app, event.shiftKey ? -1 : 1);
+  if (event.key === "Enter") {
+    if (scene.draft?.corners && !scene.cross) pointer.closePolygon();
+    else if (scene.cross) place(app);
+    else if (store.selection) app.inspector.focus();
+    else return false;
+    return true;
+  }
+  if (event.key === "Delete" || event.key === "Backspace") {
+    if (scene.draft?.corners?.length) {
+      scene.draft = { corners: scene.draft.corners.slice(0, -1), at: null };
+      scene.later();
+    } else erase(app);
+    return true;
+  }
+  void say;
+  return false;
+}
+
+/** Take out what is selected. @param {any} app */
+export function erase({ store, say }) {
+  if (!store.selection || store.selection.startsWith("span:")) return;
+  const doc = remove(store.doc, store.selection);
+  if (doc === store.doc) {
+    say(store.selection === "start" ? "a route needs its start" : "that can't be deleted");
+    return;
+  }
+  store.edit(doc, { select: null });
+  say("deleted");
+}
+
+/** Keys that work wherever the focus is. @param {any} app @param {KeyboardEvent} event @param {boolean} onSlider */
+function single(app, event, onSlider) {
+  const { store, scene, drive, camera, pointer } = app;
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  const isButton = event.target instanceof HTMLButtonElement || event.target instanceof HTMLInputElement;
+  if (event.key === "?") app.help();
+  else if (event.key === "Escape") {
+    if (!pointer.drop()) {
+      if (scene.cross) scene.cross = null;
+      else if (store.tool !== "select") store.setTool("select");
+      else store.select(null);
+    }
+    scene.canvas.focus();
+    scene.later();
+  } else if (event.key === " ") {
+    if (isButton && !onSlider) return false;
+    drive.run ? (drive.isPlaying ? drive.pause() : drive.play()) : app.timeline.drive();
+  } else if (key in TOOLS) {
+    store.setTool(/** @type {any} */ (TOOLS)[key]);
+    scene.canvas.focus();
+    if (store.tool !== "select" && store.tool !== "pan") showCross(app);
+  } else if (key in SHOWN) store.toggle(/** @type {any} */ (SHOWN)[key]);
+  else if (key === "u" && isObstacle(store.selection)) app.toggleUnseen();
+  else if (key === "n" && store.selection) app.inspector.focus();
+  else if (key === "f") app.fit();
+  else if (key === "+" || key === "=") zoom(app, 1.25);
+  else if (key === "-") zoom(app, 0.8);
+  else if (key === "t") tension(app, event.shiftKey ? -0.1 : 0.1);
+  else if (key === ".") drive.step(1);
+  else if (key === ",") drive.step(-1);
+  else return false;
+  void camera;
+  return true;
+}
+
+/** @param {any} app @param {number} factor */
+function zoom({ camera, store }, factor) {
+  camera.zoom(factor, camera.width / 2, camera.height / 2);
+  store.tell("view");
+}
+
+/** To the next thing on the map; past the last one the focus moves on. @param {any} app @param {1|-1} way */
+function next({ store, say, describe, camera }, way) {
+  const ids = idsOf(store.doc);
+  const at = store.selection ? ids.indexOf(store.selection) : way > 0 ? -1 : ids.length;
+  const id = ids[at + way];
+  if (!id) {
+    store.select(null);
+    return false;
+  }
+  store.select(id);
+  const anchor = anchorOf(store.doc, id);
+  if (anchor) {
+    const [x, y] = camera.toScreen(anchor[0], anchor[1]);
+    if (x < 0 || y < 0 || x > camera.width || y > camera.height) {
+      [camera.x, camera.y] = anchor;
+      store.tell("view");
+    }
+  }
+  say(describe(id));
+  return true;
+}
+
+/** Move what is selected, the cross, or the map. @param {any} app @param {number[]} way @param {boolean} far */
+function arrow({ store, scene, camera, pointer, say }, way, far) {
+  const step = store.show.snap ? camera.step(28) : camera.step(5);
+  const [dx, dy] = way.map((part) => part * step * (far ? 10 : 1));
+  if (scene.cross) {
+    scene.cross = pointer.snapped([scene.cross[0] + dx * 2, scene.cross[1] + dy * 2]);
+    if (scene.draft?.corners) scene.draft = { ...scene.draft, at: scene.cross };
+    scene.later();
+    return;
+  }
+  const id = store.selection;
+  const anchor = id && !id.startsWith("span:") ? anchorOf(store.doc, id) : null;
+  if (!anchor || !id) {
+    camera.pan(-way[0] * 60, way[1] * 60);
+    store.tell("view");
+    return;
+  }
+  const at = pointer.snapped([anchor[0] + dx, anchor[1] + dy]);
+  const ref = /** @type {import("../core/mission.js").Ref} */ (refOf(id));
+  const isWhole = isObstacle(id) && ref.vertex < 0 && !store.doc.world[ref.kind][ref.index].circle;
+  const doc = isWhole ? shifted(store.doc, id, at[0] - anchor[0], at[1] - anchor[1]) : moveTo(store.doc, id, at);
+  store.edit(doc, { merge: `nudge:${id}` });
+  say(`${at[0]}, ${at[1]}`);
+}
+
+/** A cross in the middle of the map, for tools without a mouse. @param {any} app */
+function showCross({ scene, camera, pointer, say }) {
+  scene.cross = pointer.snapped([camera.x, camera.y]);
+  scene.later();
+  say("move the cross with the arrows, Enter sets a point");
+}
+
+/** @param {any} app */
+function place(app) {
+  const { store, scene, pointer, camera } = app;
+  if (store.tool === "via") {
+    pointer.gestures += 1;
+    pointer.addViaAt(scene.cross, null);
+    app.say("via point added");
+  } else if (store.tool === "polygon") {
+    const corners = scene.draft?.corners ?? [];
+    const [x, y] = pointer.snapped(scene.cross);
+    const last = corners.at(-1);
+    if (corners.length > 2 && ((last[0] === x && last[1] === y) || (corners[0][0] === x && corners[0][1] === y))) {
+      scene.cross = null;
+      pointer.closePolygon();
+    } else pointer.addPolygonCorner(scene.cross);
+  } else if (store.tool === "circle") {
+    const doc = addObstacle(store.doc, "known", { circle: { center: scene.cross, radius: camera.step(40) } });
+    scene.cross = null;
+    store.edit(doc, { select: `known:${doc.world.known.length - 1}` });
+    store.setTool("select");
+    app.say("circle added");
+  }
+  scene.later();
+}
+
+/** Earlier or later in the route. @param {any} app @param {1|-1} way */
+export function reorder({ store, say }, way) {
+  const ref = refOf(store.selection);
+  if (ref?.kind !== "via") return;
+  const to = ref.index + way;
+  const doc = moveVia(store.doc, ref.index, to);
+  if (doc === store.doc) return;
+  store.edit(doc, { select: `via:${to}` });
+  say(`now via point ${to + 1}`);
+}
+
+/** @param {any} app @param {number} by */
+function tension({ store, say }, by) {
+  const span = store.selection?.startsWith("span:") ? Number(store.selection.slice(5)) : null;
+  const list = tensionsOf(store.doc);
+  const now = Math.min(1, Math.max(-1, (span === null ? list[0] ?? 0 : list[span]) + by));
+  store.edit(setTension(store.doc, span, now), { merge: "tension" });
+  say(`tension ${now.toFixed(1)}`);
+}
+
+export { isPoint, toggleUnseen, whole };

@@ -1,0 +1,82 @@
+/** What lies under a pixel. */
+
+import { obstaclesOf, pointsOf } from "../core/mission.js";
+import { HEADING_REACH, handlesOf } from "../draw/route.js";
+import { covers, edgeNear } from "../geometry/shapes.js";
+
+/**
+ * @typedef {{kind: "handle", handle: {id: string, role: string}}
+ *   | {kind: "item", id: string}
+ *   | {kind: "side", entry: any, candidate: any}
+ *   | {kind: "path", leg: number, s: number, span: number}} Picked
+ */
+
+/**
+ * @param {import("../core/store.js").Store} store
+ * @param {import("../geometry/camera.js").Camera} camera
+ * @param {number} px @param {number} py [CSS pixel]
+ * @param {number} reach how far a finger or a mouse may be off [CSS pixel]
+ * @returns {Picked|null}
+ */
+export function pick(store, camera, px, py, reach) {
+  const at = camera.toWorld(px, py);
+  const near = (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ r) => Math.hypot(x - px, y - py) <= r;
+  const handles = handlesOf(store.doc, store.selection, camera);
+  const solid = handles.filter((h) => h.role !== "new-corner" && near(h.x, h.y, reach));
+  const handle = solid[0] ?? handles.find((h) => near(h.x, h.y, reach));
+  if (handle) return { kind: "handle", handle };
+  /** @type {Picked|null} */ let found = null;
+  let best = reach + 6;
+  for (const point of pointsOf(store.doc)) {
+    if (!point.at) continue;
+    const [x, y] = camera.toScreen(point.at[0], point.at[1]);
+    const away = Math.hypot(x - px, y - py);
+    if (away < best) {
+      best = away;
+      found = { kind: "item", id: point.id };
+    }
+    if (point.heading !== null && !found) {
+      const angle = (-point.heading * Math.PI) / 180;
+      if (near(x + Math.cos(angle) * HEADING_REACH, y + Math.sin(angle) * HEADING_REACH, reach)) {
+        found = { kind: "handle", handle: { id: point.id, role: "heading" } };
+      }
+    }
+  }
+  if (found) return found;
+  const { curve } = store;
+  const onPath = curve && store.plan?.ok ? curve.nearest(at[0], at[1]) : null;
+  const pathAway = onPath ? onPath.away * camera.scale : Infinity;
+  const side = store.show.losers && store.plan?.ok ? pickSide(store.ledger, camera, px, py) : null;
+  if (side && side.away < Math.min(reach, pathAway)) return { kind: "side", entry: side.entry, candidate: side.candidate };
+  if (curve && onPath && pathAway < reach) {
+    return { kind: "path", leg: curve.legOf(onPath.span), s: onPath.s, span: onPath.span };
+  }
+  for (const obstacle of obstaclesOf(store.doc).reverse()) {
+    if (covers(at, obstacle)) return { kind: "item", id: obstacle.id };
+    const edge = edgeNear(at, obstacle);
+    if (edge && Math.hypot(edge[0] - at[0], edge[1] - at[1]) * camera.scale < reach * 0.6) return { kind: "item", id: obstacle.id };
+  }
+  return null;
+}
+
+/** @param {any[]} ledger @param {import("../geometry/camera.js").Camera} camera @param {number} px @param {number} py */
+function pickSide(ledger, camera, px, py) {
+  /** @type {{entry: any, candidate: any, away: number}|null} */ let best = null;
+  for (const entry of ledger) {
+    if (!entry.forceable) continue;
+    for (const candidate of entry.candidates) {
+      if (candidate.chosen) continue;
+      const p = candidate.spans;
+      for (let k = 0; k < p.length / 8; k += 1) {
+        for (let j = 0; j <= 12; j += 1) {
+          const w = j / 12, v = 1 - w, i = 8 * k;
+          const mix = (/** @type {number} */ o) => v ** 3 * p[i + o] + 3 * v * v * w * p[i + 2 + o] + 3 * v * w * w * p[i + 4 + o] + w ** 3 * p[i + 6 + o];
+          const [x, y] = camera.toScreen(mix(0), mix(1));
+          const away = Math.hypot(x - px, y - py);
+          if (!best || away < best.away) best = { entry, candidate, away };
+        }
+      }
+    }
+  }
+  return best;
+}

@@ -1,0 +1,269 @@
+/** Puts the page together: state, connection, map, panels. */
+
+import { replaced, toggleUnseen } from "./core/edits.js";
+import { Link } from "./core/link.js";
+import { exists, isObstacle, obstaclesOf, pointsOf, refOf, whole } from "./core/mission.js";
+import { Store } from "./core/store.js";
+import { Drive } from "./drive.js";
+import { onTheme } from "./draw/theme.js";
+import { Scene } from "./draw/scene.js";
+import { Files } from "./files/files.js";
+import { keepSaving, kept } from "./files/autosave.js";
+import { unpacked } from "./files/share.js";
+import { boxAll } from "./files/svg.js";
+import { Camera } from "./geometry/camera.js";
+import { Curve } from "./geometry/curve.js";
+import { listenToKeys } from "./input/keyboard.js";
+import { Pointer } from "./input/pointer.js";
+import { Inspector } from "./panels/inspector.js";
+import { Lists } from "./panels/lists.js";
+import { Plots } from "./panels/plots.js";
+import { Settings } from "./panels/settings.js";
+import { Summary } from "./panels/summary.js";
+import { Timeline } from "./panels/timeline.js";
+import { listenToBars } from "./panels/bars.js";
+import { h } from "./panels/dom.js";
+import { place } from "./units.js";
+
+/** @type {any} */
+const app = {};
+/** @type {any} */ (window).studio = app; // for tests, benchmarks and the curious
+
+app.store = new Store();
+app.camera = new Camera();
+app.drive = new Drive(app.store);
+app.scene = new Scene(/** @type {HTMLCanvasElement} */ (document.querySelector("#map")), app.store, app.camera, app.drive);
+/** How long each drag took from the hand to the screen [ms]. @type {number[]} */ app.latencies = [];
+app.ready = false;
+
+// --- what is said
+
+const live = /** @type {HTMLElement} */ (document.querySelector("#live"));
+/** Tell a screen reader. @param {string} text */
+app.say = (text) => { live.textContent = text; };
+
+/** A passing note. @param {string} text @param {string} [kind] @param {{label: string, act: () => void}} [button] */
+app.toast = (text, kind = "", button = undefined) => {
+  const box = /** @type {HTMLElement} */ (document.querySelector("#toasts"));
+  const note = h("div", { class: `toast ${kind}`, role: kind === "is-bad" ? "alert" : "status" }, h("span", {}, text));
+  if (button) note.append(h("button", { type: "button", class: "link", onclick: () => { note.remove(); button.act(); } }, button.label));
+  box.replaceChildren(note);
+  setTimeout(() => note.remove(), button ? 15000 : 5000);
+};
+
+/** @param {string} id */
+app.describe = (id) => {
+  const { doc } = app.store;
+  const point = pointsOf(doc).find((p) => p.id === id);
+  if (point) return `${point.name} at ${place(/** @type {number[]} */ (point.at))}`;
+  const one = obstaclesOf(doc).find((o) => o.id === whole(id));
+  const ref = refOf(id);
+  const corner = ref && ref.vertex >= 0 ? `, corner ${ref.vertex + 1}` : "";
+  return `${one?.name ?? id}${corner}${one?.list === "unseen" ? ", unseen" : ""}`;
+};
+
+// --- the connection
+
+app.link = new Link(hear);
+
+/** @param {any} message */
+function hear(message) {
+  const { store, summary } = app;
+  if (message.type === "hello") greet(message);
+  else if (message.type === "planned") planned(message);
+  else if (message.type === "ledger") {
+    if (message.rev === store.plan?.rev) putLedger(message.entries);
+  } else if (message.type === "compiling") {
+    summary.busy = message.done ? "" : `compiling the planner, once on this machine: ${message.count} parts so far`;
+    store.tell("status");
+  } else if (message.type === "driving") app.timeline.progress(message.done);
+  else if (message.type === "closed") {
+    summary.busy = "the studio has gone; waiting for it";
+    store.tell("status");
+  } else if (message.type === "refused") app.toast(message.message, "is-bad");
+}
+
+let greeted = false;
+
+/** @param {any} hello */
+async function greet(hello) {
+  const { store } = app;
+  app.summary.busy = "";
+  app.empty = hello.empty;
+  if (greeted) { // the studio came back: go on with what is here
+    app.link.plan(store.doc, store.revision, store.inputAt);
+    store.tell("status");
+    return;
+  }
+  greeted = true;
+  store.folder = hello.folder;
+  const scene = location.hash.startsWith("#m=") ? await unpacked(location.hash.slice(3)) : null;
+  store.open(hello.document, hello.name);
+  if (scene) {
+    if (JSON.stringify(scene.doc) !== JSON.stringify(store.doc)) store.edit(scene.doc);
+    app.toast("The scene of this address is open.");
+  } else restore();
+  app.fit();
+  if (hello.problem) app.toast(hello.problem, "is-bad");
+  else if (hello.warnings.length) app.toast(hello.warnings.join("; "));
+}
+
+/** Bring back what wasn't saved. */
+function restore() {
+  const { store } = app;
+  const found = kept(store.folder, store.name, store.doc);
+  if (!found) return;
+  const file = store.doc;
+  store.edit(found.doc);
+  const text = found.isOfOtherFile ? "Unsaved changes are back; the file has changed since." : "Your unsaved changes are back.";
+  app.toast(text, "", { label: "Drop them", act: () => store.edit(file) });
+}
+
+/** @param {any} answer */
+function planned(answer) {
+  const { store } = app;
+  store.plan = answer;
+  if (answer.ok) {
+    store.goodPlan = answer;
+    store.curve = new Curve(answer);
+    if (answer.ledger) putLedger(answer.ledger);
+    if (store.cursor !== null && store.cursor > answer.length) store.lookAt(null);
+  }
+  if (app.fitWhenPlanned) {
+    app.fitWhenPlanned = false;
+    app.fit();
+  }
+  if (answer.inputAt !== undefined) {
+    app.scene.drawn.push((/** @type {number} */ now) => {
+      app.latencies.push(now - answer.inputAt);
+      if (app.latencies.length > 5000) app.latencies.shift();
+    });
+  }
+  app.scene.later();
+  if (!app.ready) {
+    app.scene.drawn.push(() => {
+      app.ready = true;
+      performance.mark("studio-ready");
+      document.body.dataset.ready = "yes";
+    });
+  }
+  store.tell("plan");
+}
+
+/** @param {any[]} entries */
+function putLedger(entries) {
+  app.store.ledger = entries;
+  app.scene.later();
+  app.store.tell("ledger");
+}
+
+/** Wait until the server has planned what is on the screen. @returns {Promise<void>} */
+app.settled = async () => {
+  const { store } = app;
+  for (let i = 0; store.plan?.rev !== store.revision; i += 1) {
+    if (i > 3000) throw new Error("the studio doesn't answer");
+    await new Promise((resolve) => setTimeout(resolve, 10));
+  }
+};
+
+// --- files
+
+/** @param {any} answer */
+app.opened = (answer) => {
+  app.store.open(answer.document, answer.name);
+  app.link.sent = answer.document;
+  history.replaceState(null, "", location.pathname + location.search);
+  restore();
+  app.fitSoon();
+  if (answer.warnings.length) app.toast(answer.warnings.join("; "));
+};
+
+/** @param {any} answer @param {any} doc as it was when it was sent */
+app.saved = (answer, doc) => {
+  const { store } = app;
+  if (JSON.stringify(answer.document) !== JSON.stringify(doc) && store.doc === doc) {
+    store.put(answer.document); // maps have other names from another folder
+    app.link.sent = store.doc;
+    doc = store.doc;
+  }
+  store.name = answer.name;
+  store.savedDoc = doc;
+  store.tell("file");
+};
+
+// --- deeds that several places ask for
+
+app.undo = () => { app.say(app.store.undo() ? "undone" : "nothing to undo"); };
+app.redo = () => { app.say(app.store.redo() ? "redone" : "nothing to redo"); };
+
+app.toggleUnseen = () => {
+  const { store } = app;
+  if (!isObstacle(store.selection)) return;
+  const [doc, id] = toggleUnseen(store.doc, whole(store.selection));
+  store.edit(doc, { select: id });
+  app.say(id.startsWith("unseen") ? "not on the map: only the sensor finds it" : "on the map");
+};
+
+app.fit = () => {
+  const box = boxAll(app.store);
+  if (!box) return;
+  const narrow = app.camera.width < 700;
+  app.camera.fit(box, narrow ? { top: 70, right: 24, bottom: 40, left: 24 } : { top: 62, right: 40, bottom: 48, left: 76 });
+  app.store.tell("view");
+};
+app.fitSoon = () => {
+  app.fitWhenPlanned = true;
+  app.fit();
+};
+
+/** @param {number[]} at @param {number|null} distance */
+app.lookAtPlace = (at, distance) => {
+  [app.camera.x, app.camera.y] = at;
+  app.camera.scale = Math.max(app.camera.scale, 60 / Math.max(0.5, Number(app.store.doc.robot?.radius_m ?? 0.5) * 4));
+  app.store.lookAt(distance);
+  app.store.tell("view");
+};
+
+app.boundAll = () => {
+  const box = boxAll(app.store);
+  if (!box) return;
+  const pad = Math.max(5, 0.1 * Math.max(box[2] - box[0], box[3] - box[1]));
+  const bounds = [box[0] - pad, box[1] - pad, box[2] + pad, box[3] + pad].map((v) => Math.round(v));
+  app.store.edit(replaced(app.store.doc, ["world", "bounds"], bounds), { select: "bounds:0" });
+};
+
+app.help = () => /** @type {HTMLDialogElement} */ (document.querySelector("#help")).showModal();
+
+/** Show a panel on a narrow screen. @param {string} name */
+app.openSheet = (name) => {
+  document.body.dataset.sheet = name;
+  document.querySelectorAll("#tabs button").forEach((tab) => tab.setAttribute("aria-selected", String(tab.getAttribute("data-sheet") === name)));
+};
+
+// --- everything together
+
+app.pointer = new Pointer(app.store, app.camera, app.scene, app.say);
+app.files = new Files(app);
+app.lists = new Lists(app);
+app.inspector = new Inspector(app);
+app.settings = new Settings(app);
+app.summary = new Summary(app);
+app.plots = new Plots(app);
+app.timeline = new Timeline(app);
+listenToKeys(app);
+listenToBars(app);
+keepSaving(app.store);
+
+app.store.on("document", () => {
+  app.link.plan(app.store.doc, app.store.revision, app.store.inputAt);
+  app.scene.later();
+});
+app.store.on("selection view hover run", () => app.scene.later());
+app.drive.on(() => app.scene.later());
+onTheme(() => app.scene.later());
+app.exists = exists;
+new ResizeObserver(() => {
+  const first = app.camera.width === 1;
+  app.scene.resize();
+  if (first && app.store.name !== undefined) app.fit();
+}).observe(app.scene.canvas);

@@ -1,0 +1,137 @@
+/** What is selected, in fields: name, place, dwell, heading, size, side, tension. */
+
+import { forceSide, moveTo, setKey, setOnPoint, setRadius, setTension } from "../core/edits.js";
+import { anchorOf, isPoint, obstaclesOf, part, pathOf, pointsOf, refOf, tensionsOf, whole } from "../core/mission.js";
+import { erase } from "../input/keyboard.js";
+import { metres } from "../units.js";
+import { checkbox, choice, fill, h, icon, lazily, numberField, textField } from "./dom.js";
+
+export class Inspector {
+  /** @param {any} app */
+  constructor(app) {
+    this.app = app;
+    this.panel = /** @type {HTMLElement} */ (document.querySelector("#inspector"));
+    this.isSliding = false;
+    const render = lazily(() => this.render(), 60);
+    app.store.on("document selection", render);
+    app.store.on("plan", () => { if (app.store.selection?.startsWith("span:")) render(); });
+  }
+
+  /** Put the keyboard's focus into the first field. */
+  focus() {
+    this.app.openSheet("edit");
+    this.render();
+    /** @type {HTMLElement|null} */ (this.panel.querySelector("input, select"))?.focus();
+    /** @type {HTMLInputElement|null} */ (this.panel.querySelector("input[type=text]"))?.select();
+  }
+
+  render() {
+    if (this.isSliding) return;
+    const { store } = this.app;
+    const id = store.selection;
+    if (!id) fill(this.panel, h("p", { class: "hint" }, "Nothing is selected. Click a point, an obstacle or a span of the path; or press Tab on the map."));
+    else if (id.startsWith("span:")) fill(this.panel, ...this.span(Number(id.slice(5))));
+    else if (isPoint(id)) fill(this.panel, ...this.point(id));
+    else fill(this.panel, ...this.obstacle(id));
+  }
+
+  /** @param {string} id @param {number[]} at @param {string} [what] */
+  placeFields(id, at, what = "") {
+    const { store } = this.app;
+    const put = (/** @type {number} */ axis) => (/** @type {number|null} */ value) => {
+      if (value === null) return;
+      const now = [.../** @type {number[]} */ (anchorOf(store.doc, id))].slice(0, 2);
+      now[axis] = value;
+      store.edit(moveTo(store.doc, id, now), { merge: `place:${id}` });
+    };
+    return h("div", { class: "pair" },
+      numberField({ label: `${what}x`, value: at[0], unit: "m", set: put(0) }),
+      numberField({ label: `${what}y`, value: at[1], unit: "m", set: put(1) }));
+  }
+
+  /** @param {string} id */
+  point(id) {
+    const { store } = this.app;
+    const all = pointsOf(store.doc);
+    const point = all.find((p) => p.id === id);
+    if (!point) return [];
+    const isEnd = id === "start" || id === "goal";
+    return [
+      this.title(point.name, isEnd ? (id === "start" ? "start of the route" : "goal of the route") : `via point ${all.indexOf(point)} of ${all.length - (store.doc.route?.goal ? 2 : 1)}`),
+      textField({ label: "Name", value: point.given ?? "", placeholder: point.name, set: (value) => store.edit(setOnPoint(store.doc, id, "name", value || undefined)) }),
+      point.at ? this.placeFields(id, point.at) : null,
+      h("div", { class: "pair" },
+        numberField({ label: "Dwell", value: point.dwell || null, unit: "s", step: 1, min: 0, placeholder: "0", set: (value) => store.edit(setOnPoint(store.doc, id, "dwell_s", value || undefined), { merge: `dwell:${id}` }) }),
+        isEnd ? numberField({ label: "Heading", value: point.heading, unit: "°", step: 5, placeholder: "free", set: (value) => store.edit(setOnPoint(store.doc, id, "heading_deg", value ?? undefined), { merge: `heading:${id}` }) }) : null),
+      this.delete(id === "start" ? null : "Delete"),
+    ];
+  }
+
+  /** @param {string} id */
+  obstacle(id) {
+    const { store, app } = /** @type {any} */ ({ store: this.app.store, app: this.app });
+    const owner = whole(id);
+    const ref = /** @type {import("../core/mission.js").Ref} */ (refOf(id));
+    const one = obstaclesOf(store.doc).find((o) => o.id === owner);
+    if (!one) return [];
+    const item = part(store.doc, pathOf(owner));
+    const isUnseen = one.list === "unseen";
+    const at = anchorOf(store.doc, id);
+    return [
+      this.title(one.name, `${one.map ? "map" : one.circle ? "circle" : `polygon of ${one.polygon?.length ?? 0} corners`}${ref.vertex >= 0 ? `, corner ${ref.vertex + 1}` : ""}`),
+      textField({ label: "Name", value: one.given ?? "", placeholder: one.name, set: (value) => store.edit(setKey(store.doc, owner, "name", value || undefined)) }),
+      at && !one.map ? this.placeFields(id, at) : null,
+      one.circle ? numberField({ label: "Radius", value: one.circle.radius, unit: "m", min: 0.01, set: (value) => value !== null && store.edit(setRadius(store.doc, owner, value), { merge: `radius:${owner}` }) }) : null,
+      one.map ? h("p", { class: "hint" }, item.map) : null,
+      checkbox({ label: "Unseen: only the sensor finds it", value: isUnseen, set: () => app.toggleUnseen() }),
+      !isUnseen && !one.map ? choice({
+        label: "Pass on", value: one.side ?? "", options: [["", "either side"], ["left", "left"], ["right", "right"]],
+        set: (value) => store.edit(forceSide(store.doc, [one.index], value || null)),
+      }) : null,
+      this.delete(ref.vertex >= 0 ? "Delete corner" : "Delete"),
+    ];
+  }
+
+  /** @param {number} leg */
+  span(leg) {
+    const { store } = this.app;
+    const points = pointsOf(store.doc);
+    const from = points[leg]?.name ?? "", to = (points[leg + 1] ?? points[0])?.name ?? "";
+    const range = store.curve && store.plan?.ok ? store.curve.legRange(leg) : null;
+    const own = Array.isArray(store.doc.spline?.tension ?? store.doc.spline?.slack);
+    return [
+      this.title(`${from} → ${to}`, range ? `span ${leg + 1}, ${metres(range[1] - range[0], 1)}` : `span ${leg + 1}`),
+      this.tension("Tension of this span", tensionsOf(store.doc)[leg], (value) => store.edit(setTension(store.doc, leg, value), { merge: `tension:${leg}` })),
+      h("p", { class: "hint" }, "1 is the straight line, 0 Catmull–Rom, −1 loose. Or drag the span on the map. Double-click on it adds a via point."),
+      own ? h("button", { type: "button", class: "button", onclick: () => store.edit(setTension(store.doc, null, tensionsOf(store.doc)[leg])) }, "Use for all spans") : null,
+    ];
+  }
+
+  /** @param {string} label @param {number} value @param {(value: number) => void} set */
+  tension(label, value, set) {
+    const output = h("output", { class: "slider-value" }, value.toFixed(2));
+    const slider = h("input", {
+      type: "range", min: -1, max: 1, step: 0.05, value: String(value), "aria-label": label,
+      onpointerdown: () => { this.isSliding = true; },
+      oninput: () => {
+        output.textContent = Number(slider.value).toFixed(2);
+        set(Number(slider.value));
+      },
+      onchange: () => {
+        this.isSliding = false;
+        this.render();
+      },
+    });
+    return h("label", { class: "field" }, h("span", { class: "field-name" }, label, output), slider);
+  }
+
+  /** @param {string} name @param {string} kind */
+  title(name, kind) {
+    return h("header", { class: "inspector-title" }, h("h3", {}, name), h("span", { class: "row-note" }, kind));
+  }
+
+  /** @param {string|null} label */
+  delete(label) {
+    return label ? h("button", { type: "button", class: "button is-danger", onclick: () => erase(this.app) }, icon("trash", 15), label) : null;
+  }
+}

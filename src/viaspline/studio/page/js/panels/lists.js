@@ -1,0 +1,128 @@
+/** The list of the route's points and of the obstacles: select, put in another order, delete. */
+
+import { moveVia } from "../core/edits.js";
+import { obstaclesOf, pointsOf, refOf, whole } from "../core/mission.js";
+import { erase, reorder } from "../input/keyboard.js";
+import { place } from "../units.js";
+import { fill, h, icon, iconButton, lazily } from "./dom.js";
+
+export class Lists {
+  /** @param {any} app */
+  constructor(app) {
+    this.app = app;
+    this.route = /** @type {HTMLElement} */ (document.querySelector("#route-list"));
+    this.obstacles = /** @type {HTMLElement} */ (document.querySelector("#obstacle-list"));
+    /** @type {number|null} */ this.dragged = null;
+    const render = lazily(() => this.render(), 80);
+    app.store.on("document selection file", render);
+    this.route.addEventListener("keydown", (event) => this.key(event));
+    this.obstacles.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  /** @param {KeyboardEvent} event */
+  key(event) {
+    const rows = [.../** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("#route-list .row-main, #obstacle-list .row-main"))];
+    const i = rows.indexOf(/** @type {HTMLElement} */ (document.activeElement));
+    if (i < 0 || event.altKey) return;
+    const to = event.key === "ArrowDown" ? i + 1 : event.key === "ArrowUp" ? i - 1 : -1;
+    if (rows[to]) {
+      rows[to].focus();
+      rows[to].click();
+      event.preventDefault();
+    }
+    if (event.key === "Delete" || event.key === "Backspace") {
+      erase(this.app);
+      event.preventDefault();
+    }
+    event.key === "ArrowDown" || event.key === "ArrowUp" ? event.stopPropagation() : null;
+  }
+
+  render() {
+    if (this.dragged !== null) return;
+    const { store } = this.app;
+    const points = pointsOf(store.doc);
+    fill(this.route, ...points.map((point, i) => this.pointRow(point, i)));
+    const obstacles = obstaclesOf(store.doc);
+    fill(
+      this.obstacles,
+      ...(obstacles.length ? obstacles.map((one) => this.obstacleRow(one)) : [h("li", { class: "empty" }, "None yet: draw a circle (C) or a polygon (P).")]),
+    );
+    const many = (/** @type {number} */ n, /** @type {string} */ word) => `${n} ${word}${n === 1 ? "" : "s"}`;
+    /** @type {HTMLElement} */ (document.querySelector("#route-count")).textContent = many(points.length, "point");
+    /** @type {HTMLElement} */ (document.querySelector("#obstacle-count")).textContent = String(obstacles.length);
+  }
+
+  /** @param {any} point @param {number} i */
+  pointRow(point, i) {
+    const { app } = this;
+    const { store } = app;
+    const isSelected = store.selection === point.id;
+    const ref = refOf(point.id);
+    const badge = point.id === "start" ? "S" : point.id === "goal" ? "G" : String(i);
+    const main = h(
+      "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${point.name}${point.at ? ` at ${place(point.at)}` : ""}${point.dwell ? `, stays ${point.dwell} seconds` : ""}`, onclick: () => store.select(point.id) },
+      h("span", { class: `badge ${point.id === "start" ? "is-start" : point.id === "goal" ? "is-goal" : point.dwell > 0 ? "is-station" : ""}` }, badge),
+      h("span", { class: "row-name" }, point.name),
+      point.dwell > 0 ? h("span", { class: "row-note" }, `${point.dwell} s`) : null,
+    );
+    const row = h("li", { class: `row${isSelected ? " is-selected" : ""}`, "data-id": point.id }, main);
+    if (ref?.kind === "via" && store.doc.route?.order !== "shortest") {
+      if (isSelected) {
+        row.append(
+          iconButton("up", `${point.name}: earlier`, () => reorder(app, -1), { class: "icon-button small" }),
+          iconButton("down", `${point.name}: later`, () => reorder(app, 1), { class: "icon-button small" }),
+        );
+      }
+      this.draggable(row, main, ref.index);
+    }
+    return row;
+  }
+
+  /** Rows are dragged into another order. @param {HTMLElement} row @param {HTMLElement} grip @param {number} index */
+  draggable(row, grip, index) {
+    const { store } = this.app;
+    grip.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0 || event.pointerType === "touch") return;
+      const startY = event.clientY;
+      let to = index;
+      const move = (/** @type {PointerEvent} */ e) => {
+        if (this.dragged === null && Math.abs(e.clientY - startY) < 6) return;
+        this.dragged = index;
+        row.classList.add("is-dragged");
+        const rows = [...this.route.children].filter((r) => r.getAttribute("data-id")?.startsWith("via:"));
+        const over = rows.findIndex((r) => e.clientY < r.getBoundingClientRect().bottom);
+        to = over < 0 ? rows.length - 1 : over;
+        rows.forEach((r, i) => r.classList.toggle("is-target", i === to && i !== index));
+      };
+      const end = () => {
+        removeEventListener("pointermove", move);
+        removeEventListener("pointerup", end);
+        if (this.dragged === null) return;
+        this.dragged = null;
+        if (to !== index) store.edit(moveVia(store.doc, index, to), { select: `via:${to}` });
+        this.render();
+      };
+      addEventListener("pointermove", move);
+      addEventListener("pointerup", end);
+    });
+  }
+
+  /** @param {any} one */
+  obstacleRow(one) {
+    const { app } = this;
+    const { store } = app;
+    const isSelected = store.selection !== null && whole(store.selection) === one.id;
+    const kind = one.map ? "map" : one.circle ? "circle" : "polygon";
+    const isUnseen = one.list === "unseen";
+    return h(
+      "li", { class: `row${isSelected ? " is-selected" : ""}` },
+      h(
+        "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${kind}${isUnseen ? ", unseen" : ""}`, onclick: () => store.select(one.id) },
+        h("span", { class: `glyph${isUnseen ? " is-unseen" : ""}` }, icon(kind, 16)),
+        h("span", { class: "row-name" }, one.name),
+        one.side ? h("span", { class: "row-note" }, `pass ${one.side}`) : null,
+        isUnseen ? h("span", { class: "row-note is-unseen" }, "unseen") : null,
+      ),
+    );
+  }
+}

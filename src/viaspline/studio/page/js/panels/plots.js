@@ -1,0 +1,179 @@
+/** Curvature and speed along the path; they follow the cursor on the map, and the map follows theirs. */
+
+import { onTheme, theme } from "../draw/theme.js";
+import { lazily } from "./dom.js";
+
+const LEFT = 58, RIGHT = 14, TOP = 8, GAP = 20, BOTTOM = 20;
+
+export class Plots {
+  /** @param {any} app */
+  constructor(app) {
+    this.app = app;
+    this.canvas = /** @type {HTMLCanvasElement} */ (document.querySelector("#plots"));
+    this.ctx = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext("2d"));
+    const draw = lazily(() => this.draw(), 40);
+    app.store.on("plan hover run document", draw);
+    app.drive.on(draw);
+    onTheme(draw);
+    new ResizeObserver(() => this.resize()).observe(this.canvas);
+    this.canvas.addEventListener("pointermove", (event) => this.follow(event));
+    this.canvas.addEventListener("pointerdown", (event) => this.follow(event));
+    this.canvas.addEventListener("pointerleave", () => app.store.lookAt(null));
+    this.canvas.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  resize() {
+    const { width, height } = this.canvas.getBoundingClientRect();
+    if (!width) return;
+    const ratio = Math.min(devicePixelRatio || 1, 3);
+    this.width = width;
+    this.height = height;
+    this.canvas.width = Math.round(width * ratio);
+    this.canvas.height = Math.round(height * ratio);
+    this.draw();
+  }
+
+  /** @param {PointerEvent} event */
+  follow(event) {
+    const { curve } = this.app.store;
+    if (!curve || !this.width) return;
+    const part = (event.offsetX - LEFT) / (this.width - LEFT - RIGHT);
+    this.app.store.lookAt(part < 0 || part > 1 ? null : part * curve.length);
+  }
+
+  /** Arrows move the cursor along the path. @param {KeyboardEvent} event */
+  key(event) {
+    const { store } = this.app;
+    const way = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+    if (!way || !store.curve) return;
+    const step = store.curve.length / (event.shiftKey ? 20 : 200);
+    store.lookAt(Math.min(store.curve.length, Math.max(0, (store.cursor ?? 0) + way * step)));
+    const at = store.curve.at(store.cursor ?? 0);
+    this.app.say(`${at.s.toFixed(1)} m, ${at.speed.toFixed(2)} metres a second`);
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  draw() {
+    const { ctx, width, height } = this;
+    if (!width || !height) return;
+    const { store, drive } = this.app;
+    const { curve } = store;
+    const colours = theme();
+    const ratio = this.canvas.width / width;
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.clearRect(0, 0, width, height);
+    if (!curve) return;
+    const tall = (height - TOP - BOTTOM - GAP) / 2;
+    const x = (/** @type {number} */ s) => LEFT + (s / (curve.length || 1)) * (width - LEFT - RIGHT);
+    ctx.globalAlpha = store.plan?.ok === false ? 0.4 : 1;
+    this.ticks(curve, x, colours);
+    const list = curve.samples;
+    const most = Math.max(...list.map((p) => Math.abs(p.curvature)).filter(Number.isFinite), 1e-6);
+    const top = Number(store.doc.robot?.max_speed_mps ?? 2) || 1;
+    this.strip("curvature", "1/m", [-most, most], TOP, tall, colours);
+    this.line(list.map((p) => [x(p.s), TOP + tall * (0.5 - p.curvature / most / 2)]), colours.comb);
+    this.strip("speed", "m/s", [0, top], TOP + tall + GAP, tall, colours);
+    const fast = TOP + tall + GAP;
+    const speeds = [];
+    for (let i = 0; i <= width; i += 1) {
+      const s = (i / width) * curve.length;
+      speeds.push([x(s), fast + tall * (1 - curve.speedAt(s) / top)]);
+    }
+    this.line(speeds, colours.path);
+    ctx.globalAlpha = 1;
+    const cursor = drive.run ? this.driven(curve) : store.cursor;
+    if (cursor !== null) this.cursor(curve, cursor, x, tall, most, colours);
+  }
+
+  /** Where on the planned path the robot is: it may be driving on another one. @param {any} curve */
+  driven(curve) {
+    const state = this.app.drive.state();
+    return curve.nearest(state.x, state.y).s;
+  }
+
+  /** @param {any} curve @param {(s: number) => number} x @param {any} colours */
+  ticks(curve, x, colours) {
+    const { ctx, height } = this;
+    ctx.font = "500 10px Inter, system-ui, sans-serif";
+    ctx.textAlign = "center";
+    ctx.textBaseline = "alphabetic";
+    let free = -Infinity;
+    let count = 0;
+    const users = curve.vias.filter((/** @type {any} */ v) => v[3] === "user");
+    for (const via of users) {
+      const px = x(via[5]);
+      ctx.strokeStyle = colours.gridBold;
+      ctx.lineWidth = 1;
+      ctx.beginPath();
+      ctx.moveTo(px, TOP);
+      ctx.lineTo(px, /** @type {number} */ (height) - BOTTOM);
+      ctx.stroke();
+      const text = count === 0 ? "S" : count === users.length - 1 ? (this.app.store.doc.route?.closed ? "S" : "G") : String(count);
+      count += 1;
+      if (px - free < 16) continue;
+      ctx.fillStyle = colours.muted;
+      ctx.fillText(text, px, /** @type {number} */ (height) - 6);
+      free = px;
+    }
+  }
+
+  /** @param {string} name @param {string} unit @param {number[]} range @param {number} y @param {number} tall @param {any} colours */
+  strip(name, unit, range, y, tall, colours) {
+    const { ctx } = this;
+    const width = /** @type {number} */ (this.width);
+    ctx.strokeStyle = colours.haloEdge;
+    ctx.lineWidth = 1;
+    ctx.beginPath();
+    const base = range[0] < 0 ? y + tall / 2 : y + tall;
+    ctx.moveTo(LEFT, Math.round(base) + 0.5);
+    ctx.lineTo(width - RIGHT, Math.round(base) + 0.5);
+    ctx.stroke();
+    ctx.font = "500 10px Inter, system-ui, sans-serif";
+    ctx.textAlign = "right";
+    ctx.textBaseline = "middle";
+    ctx.fillStyle = colours.muted;
+    ctx.fillText(String(Number(range[1].toPrecision(2))), LEFT - 6, y + 4);
+    ctx.fillText(String(Number(range[0].toPrecision(2))), LEFT - 6, y + tall - 3);
+    ctx.textAlign = "left";
+    ctx.fillText(`${name} [${unit}]`, LEFT + 4, y + 3);
+  }
+
+  /** @param {number[][]} points @param {string} colour */
+  line(points, colour) {
+    const { ctx } = this;
+    ctx.beginPath();
+    points.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = 1.6;
+    ctx.lineJoin = "round";
+    ctx.stroke();
+  }
+
+  /** @param {any} curve @param {number} s @param {(s: number) => number} x @param {number} tall @param {number} most @param {any} colours */
+  cursor(curve, s, x, tall, most, colours) {
+    const { ctx } = this;
+    const width = /** @type {number} */ (this.width), height = /** @type {number} */ (this.height);
+    const at = curve.at(s);
+    const px = x(s);
+    ctx.beginPath();
+    ctx.moveTo(px, TOP);
+    ctx.lineTo(px, height - BOTTOM);
+    ctx.strokeStyle = colours.ink;
+    ctx.lineWidth = 1.2;
+    ctx.stroke();
+    const speed = this.app.drive.run ? this.app.drive.state().speed : at.speed;
+    const texts = [[`${at.curvature.toFixed(3)}`, TOP + tall * (0.5 - at.curvature / most / 2)], [`${speed.toFixed(2)} m/s`, TOP + tall + GAP + 10], [`${s.toFixed(1)} m · ${curve.timeAt(s).toFixed(1)} s`, height - 9]];
+    ctx.font = "600 11px Inter, system-ui, sans-serif";
+    for (const [text, y] of /** @type {[string, number][]} */ (texts)) {
+      const w = ctx.measureText(text).width + 8;
+      const left = px + w + 8 > width ? px - w - 4 : px + 4;
+      ctx.fillStyle = colours.plate;
+      ctx.fillRect(left, Math.max(1, y - 8), w, 16);
+      ctx.fillStyle = colours.ink;
+      ctx.textAlign = "left";
+      ctx.textBaseline = "middle";
+      ctx.fillText(text, left + 4, Math.max(9, y));
+    }
+  }
+}

@@ -1,0 +1,155 @@
+/** What has been proven, what it costs, what was weighed; or why there is no path, and the way out. */
+
+import { forceSide, replaced } from "../core/edits.js";
+import { idAt, obstaclesOf, part, pointsOf } from "../core/mission.js";
+import { bend, down, metres, number, place, seconds } from "../units.js";
+import { fill, h, icon, lazily } from "./dom.js";
+
+export class Summary {
+  /** @param {any} app */
+  constructor(app) {
+    this.app = app;
+    this.panel = /** @type {HTMLElement} */ (document.querySelector("#summary"));
+    this.status = /** @type {HTMLElement} */ (document.querySelector("#status"));
+    this.busy = "";
+    this.wasOk = true;
+    const render = lazily(() => this.render(), 80);
+    app.store.on("plan ledger status", render);
+    app.store.on("plan", () => this.announce());
+  }
+
+  /** Tell people who don't see the map when a path is lost or found. */
+  announce() {
+    const { plan } = this.app.store;
+    if (!plan || plan.ok === this.wasOk) return;
+    this.wasOk = plan.ok;
+    this.app.say(plan.ok ? `there is a path again, ${metres(plan.length, 1)}` : `no path: ${plan.problems[0]?.text ?? ""}`);
+  }
+
+  render() {
+    const { plan } = this.app.store;
+    if (this.busy) this.pill("is-busy", "…", this.busy);
+    else if (!plan) this.pill("is-busy", "…", "planning");
+    else if (plan.ok) this.pill("is-good", "check", `proven clear · ${metres(plan.length, 1)} · ${seconds(plan.duration)}`);
+    else this.pill("is-bad", "warn", `no path: ${plan.problems[0]?.text ?? ""}`);
+    if (!plan) return;
+    if (plan.ok) fill(this.panel, ...this.good(plan));
+    else fill(this.panel, ...this.bad(plan));
+  }
+
+  /** @param {string} kind @param {string} sign @param {string} text */
+  pill(kind, sign, text) {
+    this.status.className = `status ${kind}`;
+    fill(this.status, sign === "…" ? h("span", { class: "spinner", "aria-hidden": "true" }) : icon(/** @type {any} */ (sign), 16), h("span", { class: "status-text" }, text));
+    this.status.title = text;
+  }
+
+  /** @param {any} plan */
+  good(plan) {
+    const proof = plan.certificate;
+    const row = (/** @type {string} */ name, /** @type {string} */ value) => [h("dt", {}, name), h("dd", {}, value)];
+    return [
+      h("div", { class: "proof" },
+        h("span", { class: "proof-figure" }, down(proof.clearance)),
+        h("span", { class: "proof-words" }, proof.clearance === null ? "nothing to keep clear of" : `proven clear of everything (${metres(proof.required)} asked)`,
+          proof.nearest ? h("button", { type: "button", class: "link", onclick: () => this.app.lookAtPlace(proof.at, proof.distance) }, `tightest at ${proof.nearest}`) : null)),
+      h("dl", { class: "figures" },
+        ...row("Length", metres(plan.length, 1)), ...row("Duration", seconds(plan.duration)),
+        ...row("Sharpest", bend(plan.curvature)), ...row("Planned in", `${plan.ms.toFixed(1)} ms`)),
+      ...this.groups(),
+    ];
+  }
+
+  groups() {
+    const { store } = this.app;
+    if (!store.ledger.length) return [];
+    const shown = store.ledger.slice(0, 12);
+    const more = store.ledger.length - shown.length;
+    return [
+      h("h3", {}, "Either side"),
+      h("ul", { class: "groups" }, ...shown.map((/** @type {any} */ entry) => this.group(entry))),
+      more > 0 ? h("p", { class: "hint" }, `and ${more} more groups`) : null,
+    ];
+  }
+
+  /** @param {any} entry */
+  group(entry) {
+    const { store, app } = { store: this.app.store, app: this.app };
+    const name = entry.members.length > 2 ? `${entry.members[0]} and ${entry.members.length - 1} more` : entry.members.join(" and ");
+    const all = obstaclesOf(store.doc);
+    const forced = entry.items.some((/** @type {number} */ i) => all.find((o) => o.id === `known:${i}`)?.side);
+    const side = (/** @type {"left"|"right"} */ which) => {
+      const candidate = entry.candidates.find((/** @type {any} */ c) => c.side === which);
+      const text = candidate?.length ? metres(candidate.length, 1) : candidate?.impossible ? "blocked" : "–";
+      return h("button", {
+        type: "button", class: "side", "aria-pressed": String(!!candidate?.chosen), disabled: !entry.forceable,
+        "aria-label": `pass ${name} on the ${which}, ${text}`, title: candidate?.impossible ?? `pass on the ${which}`,
+        onclick: () => {
+          store.edit(forceSide(store.doc, entry.items, which));
+          app.say(`${name}: passed on the ${which}`);
+        },
+      }, h("span", { class: "side-name" }, which), h("span", {}, text));
+    };
+    return h("li", { class: "group" },
+      h("div", { class: "group-name" }, h("span", {}, name),
+        forced ? h("button", { type: "button", class: "link", onclick: () => store.edit(forceSide(store.doc, entry.items, null)) }, "forced · free it") : null),
+      h("div", { class: "sides" }, side("left"), side("right")));
+  }
+
+  /** @param {any} plan */
+  bad(plan) {
+    const { store } = this.app;
+    const shown = plan.problems.slice(0, 6);
+    return [
+      h("div", { class: "problem-head" }, icon("warn", 18), h("span", {}, plan.problems.length > 1 ? `No path: ${plan.problems.length} faults` : "No path")),
+      ...shown.map((/** @type {any} */ problem) => {
+        const id = idAt(problem.path);
+        const key = problem.path.length ? this.nameOf(problem.path) : null;
+        return h("div", { class: "problem" },
+          key ? h("button", { type: "button", class: "link problem-key", onclick: () => id && store.select(id) }, key) : null,
+          h("p", {}, sentence(problem.text)),
+          h("div", { class: "remedies" }, ...this.remedies(problem)),
+          problem.changes.length ? null : h("p", { class: "hint" }, sentence(problem.remedy)));
+      }),
+      plan.problems.length > shown.length ? h("p", { class: "hint" }, `and ${plan.problems.length - shown.length} more`) : null,
+    ];
+  }
+
+  /** @param {any} problem */
+  remedies(problem) {
+    const { store, app } = { store: this.app.store, app: this.app };
+    return problem.changes.map((/** @type {any} */ change) => {
+      const label = this.changeLabel(change);
+      return h("button", {
+        type: "button", class: "button is-remedy",
+        onclick: () => {
+          let { path } = change;
+          const isAt = path.at(-1) === "at";
+          if (isAt && Array.isArray(part(store.doc, path.slice(0, -1)))) path = path.slice(0, -1); // the short form [x, y]
+          store.edit(replaced(store.doc, path, change.value ?? undefined));
+          app.say(label);
+        },
+      }, label);
+    });
+  }
+
+  /** @param {{path: (string|number)[], value: any}} change */
+  changeLabel({ path, value }) {
+    const last = path.at(-1);
+    if (last === "at") return `Move ${this.nameOf(path)} to ${place(value)}`;
+    if (last === "clearance_m") return `Set the clearance to ${number(value)} m`;
+    if (last === "pass_on" || last === "never_pass_on") return `Let ${this.nameOf(path)} be passed on either side`;
+    return `Set ${path.join(".")} to ${value}`;
+  }
+
+  /** @param {(string|number)[]} path */
+  nameOf(path) {
+    const { doc } = this.app.store;
+    const id = idAt(path);
+    const point = pointsOf(doc).find((p) => p.id === id) ?? obstaclesOf(doc).find((o) => id?.startsWith(o.id));
+    return point?.name ?? path.reduce((/** @type {string} */ text, step) => (typeof step === "number" ? `${text}[${step}]` : text ? `${text}.${step}` : String(step)), "");
+  }
+}
+
+/** @param {string} text */
+const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
