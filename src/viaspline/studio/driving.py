@@ -57,13 +57,12 @@ def drive(plan: Plan, *, seed: int, stop: Flag, tell: Callable[[float], None]) -
     return simulate(plan.mission, seed=seed, progress=progress, plan=plan)
 
 
-def driven(run: Run, revision: int) -> dict[str, Any]:
+def driven(run: Run) -> dict[str, Any]:
     """What the page is told of a drive."""
     count = len(run.times)
     some = np.unique(np.linspace(0, count - 1, min(count, MOST_SAMPLES)).round().astype(int))
     return {
         "type": "driven",
-        "rev": revision,
         "reached": run.reached,
         "reason": run.reason,
         "duration": run.duration,

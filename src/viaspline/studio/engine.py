@@ -7,11 +7,11 @@ is there before numba is.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from threading import Event as Flag
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from viaspline.studio.document import EMPTY, Document
 from viaspline.studio.folder import Folder
@@ -32,6 +32,7 @@ FIRST: Final[Document] = {
 """What is planned before anybody asks, so that the kernels are there when somebody does."""
 
 Hears = Callable[[str, int], None]
+Tells = Callable[[float], None]
 
 
 class Engine:
@@ -129,9 +130,17 @@ class Engine:
         return self._pictures.get(name)
 
     async def drive(
-        self, plan: Plan, *, revision: int, seed: int, stop: Flag, tell: Callable[[float], None]
+        self, plan: Plan, *, head: Mapping[str, Any], seed: int, stop: Flag, tell: Tells
     ) -> tuple[Run, str] | None:
-        """Drive a plan; None if it was broken off."""
+        """Drive a plan; the run and the answer as text, or None if it was broken off.
+
+        Args:
+            plan: What is driven.
+            head: What the answer begins with.
+            seed: For the noise of a lidar.
+            stop: Set to break it off.
+            tell: Hears how much is done, from 0 to 1.
+        """
 
         def work() -> tuple[Run, str] | None:
             from viaspline.studio import driving
@@ -140,7 +149,7 @@ class Engine:
                 run = driving.drive(plan, seed=seed, stop=stop, tell=tell)
             except driving.Stopped:
                 return None
-            return run, encoded(driving.driven(run, revision))
+            return run, encoded({**head, **driving.driven(run)})
 
         return await self._others.run(work)
 

@@ -198,7 +198,6 @@ class Session:
         seed, number = count_of(message, "seed"), message.get("id")
         self._stop.set()
         self._stop = stop = Flag()
-        revision = self._revision
         planned = await self._planned()
         if planned.plan is None:
             raise Refusal("there is no path to drive")
@@ -209,7 +208,7 @@ class Session:
             )
 
         driven = await self._engine.drive(
-            planned.plan, revision=revision, seed=seed, stop=stop, tell=tell
+            planned.plan, head={"id": number}, seed=seed, stop=stop, tell=tell
         )
         if driven is None:
             await self._send(type="stopped", id=number)

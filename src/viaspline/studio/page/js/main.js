@@ -10,7 +10,7 @@ import { Scene } from "./draw/scene.js";
 import { Files } from "./files/files.js";
 import { keepSaving, kept } from "./files/autosave.js";
 import { unpacked } from "./files/share.js";
-import { boxAll } from "./files/svg.js";
+import { boxAll, boxOfInterest } from "./files/svg.js";
 import { Camera } from "./geometry/camera.js";
 import { Curve } from "./geometry/curve.js";
 import { listenToKeys } from "./input/keyboard.js";
@@ -103,7 +103,7 @@ async function greet(hello) {
     if (JSON.stringify(scene.doc) !== JSON.stringify(store.doc)) store.edit(scene.doc);
     app.toast("The scene of this address is open.");
   } else restore();
-  app.fit();
+  app.fitSoon();
   if (hello.problem) app.toast(hello.problem, "is-bad");
   else if (hello.warnings.length) app.toast(hello.warnings.join("; "));
 }
@@ -205,7 +205,7 @@ app.toggleUnseen = () => {
 };
 
 app.fit = () => {
-  const box = boxAll(app.store);
+  const box = boxOfInterest(app.store);
   if (!box) return;
   const narrow = app.camera.width < 700;
   app.camera.fit(box, narrow ? { top: 70, right: 24, bottom: 40, left: 24 } : { top: 62, right: 40, bottom: 48, left: 76 });
@@ -256,7 +256,7 @@ keepSaving(app.store);
 
 app.store.on("document", () => {
   app.link.plan(app.store.doc, app.store.revision, app.store.inputAt);
-  app.scene.later();
+  app.scene.soon();
 });
 app.store.on("selection view hover run", () => app.scene.later());
 app.drive.on(() => app.scene.later());

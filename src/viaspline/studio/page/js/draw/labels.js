@@ -5,6 +5,8 @@
 const FONT = "Inter, system-ui, sans-serif";
 const DIRECTIONS = [[1, 0], [-1, 0], [0, -1], [0, 1], [0.8, -0.8], [0.8, 0.8], [-0.8, -0.8], [-0.8, 0.8]];
 
+const MIDDLE = [[0, 0], [0, -1.1], [0, 1.1]]; // on what is large enough
+
 /** @type {Map<string, number>} */ const widths = new Map();
 
 /** @param {CanvasRenderingContext2D} ctx @param {string} text @param {boolean} bold */
@@ -37,9 +39,10 @@ export function drawLabels(pen, labels, avoid, line) {
     const w = widthOf(ctx, label.text, !!label.bold) + 8, h = 18;
     /** @type {number[]|null} */ let best = null;
     let least = Infinity;
-    DIRECTIONS.forEach(([dx, dy], i) => {
-      const x = label.x + dx * label.away + (dx > 0.1 ? 0 : dx < -0.1 ? -w : -w / 2);
-      const y = label.y + dy * label.away + (dy > 0.1 ? 0 : dy < -0.1 ? -h : -h / 2);
+    (label.away ? DIRECTIONS : MIDDLE).forEach(([dx, dy], i) => {
+      const away = label.away || 20;
+      const x = label.x + dx * away + (dx > 0.1 ? 0 : dx < -0.1 ? -w : -w / 2);
+      const y = label.y + dy * away + (label.away === 0 ? -h / 2 : dy > 0.1 ? 0 : dy < -0.1 ? -h : -h / 2);
       const box = [x, y, x + w, y + h];
       let cost = i * 0.4;
       if (x < 4 || y < 4 || x + w > camera.width - 4 || y + h > camera.height - 4) cost += 60;

@@ -53,7 +53,9 @@ function drawShaded(pen, curve, maxSpeed) {
 export function drawComb(pen, curve) {
   const { ctx, camera, colours } = pen;
   const list = curve.samples;
-  const most = Math.max(...list.map((sample) => Math.abs(sample.curvature)).filter(Number.isFinite), 1e-9);
+  const bends = list.map((sample) => Math.abs(sample.curvature)).filter(Number.isFinite).sort((a, b) => a - b);
+  // The sharpest few don't make all others vanish: their teeth are cut off.
+  const most = Math.max(Math.min(bends.at(-1) ?? 0, 5 * (bends[Math.floor(0.85 * bends.length)] ?? 0)), 1e-9);
   const tall = 46;
   /** @type {number[][]} */ const tips = [];
   ctx.beginPath();

@@ -12,6 +12,8 @@ import { Pen } from "./pen.js";
 import { drawDetours, drawHandles, drawPoints } from "./route.js";
 import { theme } from "./theme.js";
 
+const PATIENCE_MS = 30;
+
 export class Scene {
   /**
    * @param {HTMLCanvasElement} canvas
@@ -27,14 +29,22 @@ export class Scene {
     this.ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
     this.maps = new MapPictures(() => this.later());
     this.isDue = false;
+    this.patience = 0;
     /** @type {any} */ this.draft = null; // what a tool is about to make
     /** @type {number[]|null} */ this.cross = null; // the keyboard's cursor [m]
     /** @type {any} */ this.hoveredSide = null;
     /** @type {((time: number) => void)[]} */ this.drawn = []; // told once, after the next drawing
   }
 
+  /** Draw with the plan that is on its way, or without it if it takes long: one frame, not two. */
+  soon() {
+    if (!this.patience) this.patience = setTimeout(() => this.later(), PATIENCE_MS);
+  }
+
   /** Draw in the next frame. */
   later() {
+    clearTimeout(this.patience);
+    this.patience = 0;
     if (this.isDue) return;
     this.isDue = true;
     requestAnimationFrame(() => {

@@ -42,8 +42,18 @@ function pathData(p) {
   return text;
 }
 
-/** The box round everything in a scene [m]. @param {import("../core/store.js").Store} store */
-export function boxAll(store) {
+/** What is looked at: the route, the path and the obstacles, without bounds that lie far out. @param {import("../core/store.js").Store} store */
+export function boxOfInterest(store) {
+  const all = boxAll(store);
+  const inner = boxAll(store, { bounds: false });
+  if (!all || !inner) return all;
+  const size = Math.max(inner[2] - inner[0], inner[3] - inner[1], 1);
+  const near = (/** @type {number} */ a, /** @type {number} */ b) => Math.abs(a - b) < 0.12 * size;
+  return inner.map((value, i) => (near(value, all[i]) ? all[i] : value + (i < 2 ? -0.04 : 0.04) * size));
+}
+
+/** The box round everything in a scene [m]. @param {import("../core/store.js").Store} store @param {{bounds: boolean}} [what] */
+export function boxAll(store, what = { bounds: true }) {
   const { doc } = store;
   const points = pointsOf(doc).flatMap((p) => (p.at ? [p.at] : []));
   for (const o of obstaclesOf(doc)) {
@@ -53,6 +63,11 @@ export function boxAll(store) {
     } else points.push(...(o.polygon ?? []));
   }
   const bounds = doc.world?.bounds;
+  if (!what.bounds) {
+    for (const span of [store.goodPlan?.spans ?? []]) for (let i = 0; i < span.length; i += 2) points.push([span[i], span[i + 1]]);
+    for (const grid of store.plan?.grids ?? []) if (grid.extent) points.push(grid.extent.slice(0, 2), grid.extent.slice(2));
+    return boxOf(points);
+  }
   if (Array.isArray(bounds)) points.push([bounds[0], bounds[1]], [bounds[2], bounds[3]]);
   for (const ring of doc.world?.fences ?? []) points.push(...ring);
   for (const grid of store.plan?.grids ?? []) if (grid.extent) points.push(grid.extent.slice(0, 2), grid.extent.slice(2));

@@ -152,7 +152,7 @@ function lower(d, s) {
   let low = 0, high = d.length - 2;
   while (low < high) {
     const mid = (low + high) >> 1;
-    if (d[mid + 1] < s) low = mid + 1;
+    if (d[mid + 1] < s - 1e-9) low = mid + 1;
     else high = mid;
   }
   return Math.max(low, 0);

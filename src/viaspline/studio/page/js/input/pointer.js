@@ -26,6 +26,7 @@ export class Pointer {
     /** @type {Map<number, [number, number]>} */ this.pointers = new Map();
     /** @type {Gesture|null} */ this.gesture = null;
     this.start = [0, 0];
+    this.last = [0, 0];
     this.moved = false;
     this.isPanning = false; // while the space bar is held
     this.gestures = 0;
@@ -96,7 +97,9 @@ export class Pointer {
   drag(event) {
     const [px, py] = this.place(event);
     if (!this.moved && Math.hypot(px - this.start[0], py - this.start[1]) < SLOP) return;
+    if (this.moved && px === this.last[0] && py === this.last[1]) return; // told raw already
     this.moved = true;
+    this.last = [px, py];
     this.gesture?.move(this.camera.toWorld(px, py), event);
   }
 

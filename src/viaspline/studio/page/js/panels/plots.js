@@ -3,7 +3,7 @@
 import { onTheme, theme } from "../draw/theme.js";
 import { lazily } from "./dom.js";
 
-const LEFT = 58, RIGHT = 14, TOP = 8, GAP = 20, BOTTOM = 20;
+const LEFT = 58, RIGHT = 14, TOP = 18, GAP = 24, BOTTOM = 20;
 
 export class Plots {
   /** @param {any} app */
@@ -75,12 +75,9 @@ export class Plots {
     this.line(list.map((p) => [x(p.s), TOP + tall * (0.5 - p.curvature / most / 2)]), colours.comb);
     this.strip("speed", "m/s", [0, top], TOP + tall + GAP, tall, colours);
     const fast = TOP + tall + GAP;
-    const speeds = [];
-    for (let i = 0; i <= width; i += 1) {
-      const s = (i / width) * curve.length;
-      speeds.push([x(s), fast + tall * (1 - curve.speedAt(s) / top)]);
-    }
-    this.line(speeds, colours.path);
+    const even = Array.from({ length: Math.ceil(width) + 1 }, (_, i) => (i / Math.ceil(width)) * curve.length);
+    const places = [...even, ...curve.law.distances].sort((a, b) => a - b); // the stops themselves as well
+    this.line(places.map((s) => [x(s), fast + tall * (1 - curve.speedAt(s) / top)]), colours.path);
     ctx.globalAlpha = 1;
     const cursor = drive.run ? this.driven(curve) : store.cursor;
     if (cursor !== null) this.cursor(curve, cursor, x, tall, most, colours);
@@ -136,7 +133,7 @@ export class Plots {
     ctx.fillText(String(Number(range[1].toPrecision(2))), LEFT - 6, y + 4);
     ctx.fillText(String(Number(range[0].toPrecision(2))), LEFT - 6, y + tall - 3);
     ctx.textAlign = "left";
-    ctx.fillText(`${name} [${unit}]`, LEFT + 4, y + 3);
+    ctx.fillText(`${name} [${unit}]`, LEFT, y - 9);
   }
 
   /** @param {number[][]} points @param {string} colour */
