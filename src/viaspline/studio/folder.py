@@ -74,7 +74,7 @@ class Folder:
 
     def name_of(self, path: Path) -> str:
         """What a file within is called by the page."""
-        return path.resolve().relative_to(self.root).as_posix()
+        return path.relative_to(self.root).as_posix()
 
     def save(self, path: Path, text: str) -> None:
         """Write a whole file, or leave what was there.

@@ -111,7 +111,7 @@ export class Inspector {
   tension(label, value, set) {
     const output = h("output", { class: "slider-value" }, value.toFixed(2));
     const slider = h("input", {
-      type: "range", min: -1, max: 1, step: 0.05, value: String(value), "aria-label": label,
+      type: "range", min: Math.min(-1, Math.floor(value)), max: 1, step: 0.05, value: String(value), "aria-label": label,
       onpointerdown: () => { this.isSliding = true; },
       oninput: () => {
         output.textContent = Number(slider.value).toFixed(2);

@@ -137,10 +137,14 @@ export class Timeline {
   drawMarks() {
     const { drive } = this.app;
     const { run } = drive;
+    const wide = this.marks.clientWidth || 400;
+    let free = -Infinity; // events at the same time stand side by side
     fill(this.marks, ...(run?.events ?? []).map((/** @type {any} */ event) => {
       const [sign, kind] = /** @type {any} */ (SIGNS)[event.kind] ?? ["•", "is-plain"];
       const mark = h("button", { type: "button", class: `mark ${kind}`, tabindex: "-1", title: `${clock(event.time)} ${event.message}`, "aria-label": `${clock(event.time)} ${event.message}`, "data-time": event.time, onclick: () => { drive.pause(); drive.seek(event.time); } }, sign);
-      mark.style.left = `${(100 * event.time) / run.duration}%`;
+      const left = Math.max((wide * event.time) / run.duration, free);
+      free = left + 15;
+      mark.style.left = `${(100 * left) / wide}%`;
       return mark;
     }));
   }

@@ -1,0 +1,136 @@
+"""A studio on a free port, a client that speaks its protocol, and a real browser."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from threading import Thread
+from typing import Any
+
+import pytest
+from websockets.sync.client import ClientConnection, connect
+
+from viaspline.studio.serve import Address, server_of
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+PATIENCE = 60.0  # the first plan on a machine compiles [s]
+
+Message = dict[str, Any]
+
+
+@dataclass
+class Client:
+    """Somebody who talks to a studio as its page does."""
+
+    socket: ClientConnection
+    hello: Message
+    revision: int = 0
+    heard: list[Message] = field(default_factory=list)
+
+    def send(self, **message: Any) -> None:
+        self.socket.send(json.dumps(message))
+
+    def hear(self, kind: str) -> Message:
+        """The next message of a type; others are kept in ``heard``."""
+        deadline = time.monotonic() + PATIENCE
+        while True:
+            message: Message = json.loads(self.socket.recv(deadline - time.monotonic()))
+            if message["type"] == kind:
+                return message
+            self.heard.append(message)
+
+    def edit(self, *changes: list[Any]) -> Message:
+        """Change the document; what came of it."""
+        self.revision += 1
+        self.send(type="edit", rev=self.revision, changes=list(changes))
+        while (answer := self.hear("planned"))["rev"] != self.revision:
+            pass
+        return answer
+
+    def ask(self, kind: str, answer: str, /, **message: Any) -> Message:
+        self.send(**{"type": kind, "id": 7, **message})
+        return self.hear(answer)
+
+
+@dataclass
+class Studio:
+    """A running studio."""
+
+    address: Address
+    folder: Path
+
+    @property
+    def url(self) -> str:
+        return self.address.url
+
+    @contextmanager
+    def client(self, origin: str | None = "own", query: str = "") -> Iterator[Client]:
+        host = f"127.0.0.1:{self.address.port}"
+        asked: Any = f"http://{host}" if origin == "own" else origin
+        with connect(f"ws://{host}/talk{query}", origin=asked, max_size=None) as socket:
+            yield Client(socket, json.loads(socket.recv(PATIENCE)))
+
+
+Start = Callable[..., Studio]
+
+
+@contextmanager
+def running(mission: Path | None, host: str = "127.0.0.1", token: str | None = None) -> Iterator[Studio]:
+    address = Address.bound(host, 0, token)
+    server = server_of(address, mission)
+    thread = Thread(target=server.run, kwargs={"sockets": [address.listener]}, daemon=True)
+    thread.start()
+    while not server.started:
+        time.sleep(0.005)
+    root = Path() if mission is None else mission if mission.is_dir() else mission.parent
+    try:
+        yield Studio(address, root)
+    finally:
+        server.should_exit = True
+        thread.join(10)
+        address.listener.close()
+
+
+@pytest.fixture
+def start() -> Iterator[Start]:
+    """Starts studios, which end with the test."""
+    from contextlib import ExitStack
+
+    with ExitStack() as stack:
+        yield lambda *args, **kwargs: stack.enter_context(running(*args, **kwargs))
+
+
+@pytest.fixture
+def patrol(tmp_path: Path) -> Path:
+    """A copy of the patrol in a folder of its own."""
+    return Path(shutil.copy(EXAMPLES / "fig8-patrol.yaml", tmp_path))
+
+
+def _browsers() -> Iterator[str | None]:
+    for name in ("chromium", "chromium-browser", "google-chrome", "chrome"):
+        yield shutil.which(name)
+    yield None  # playwright's own
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    """Chromium without a screen, or a skip that says what is missing."""
+    api = pytest.importorskip("playwright.sync_api", reason="playwright isn't installed")
+    with api.sync_playwright() as playwright:
+        for path in _browsers():
+            is_last = path is None
+            if is_last and not Path(playwright.chromium.executable_path).exists():
+                break
+            if not is_last and not path:
+                continue
+            with suppress(api.Error):
+                started = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+                yield started
+                started.close()
+                return
+        pytest.skip("no chromium on the PATH and none of playwright's: apt install chromium")
