@@ -80,7 +80,9 @@ Start = Callable[..., Studio]
 
 
 @contextmanager
-def running(mission: Path | None, host: str = "127.0.0.1", token: str | None = None) -> Iterator[Studio]:
+def running(
+    mission: Path | None, host: str = "127.0.0.1", token: str | None = None
+) -> Iterator[Studio]:
     address = Address.bound(host, 0, token)
     server = server_of(address, mission)
     thread = Thread(target=server.run, kwargs={"sockets": [address.listener]}, daemon=True)

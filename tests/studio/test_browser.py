@@ -92,9 +92,13 @@ def visit(browser: Any, start: Start) -> Iterator[Callable[..., Page]]:
     """Opens pages, and finds no error in any of them at the end."""
     contexts, pages = [], []
 
-    def open_page(mission: Path | Any, *, width: int = 1280, height: int = 820, **options: Any) -> Page:
+    def open_page(
+        mission: Path | Any, *, width: int = 1280, height: int = 820, **options: Any
+    ) -> Page:
         studio = mission if hasattr(mission, "url") else start(mission)
-        context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True, **options)
+        context = browser.new_context(
+            viewport={"width": width, "height": height}, accept_downloads=True, **options
+        )
         contexts.append(context)
         pages.append(Page(context.new_page(), studio.url))
         return pages[-1]
@@ -110,7 +114,9 @@ def near(a: list[float], b: list[float], tolerance: float = 2.0) -> bool:
     return abs(a[0] - b[0]) < tolerance and abs(a[1] - b[1]) < tolerance
 
 
-def test_points_are_added_dragged_deleted_and_all_of_it_undone(visit: Callable[..., Page], patrol: Path) -> None:
+def test_points_are_added_dragged_deleted_and_all_of_it_undone(
+    visit: Callable[..., Page], patrol: Path
+) -> None:
     page = visit(patrol)
     before = page.doc
     page.press("a")
@@ -130,16 +136,22 @@ def test_points_are_added_dragged_deleted_and_all_of_it_undone(visit: Callable[.
     assert near(page.doc["route"]["via"][5], [380, 440])
 
 
-def test_a_double_click_on_the_path_adds_a_point_in_its_leg(visit: Callable[..., Page], patrol: Path) -> None:
+def test_a_double_click_on_the_path_adds_a_point_in_its_leg(
+    visit: Callable[..., Page], patrol: Path
+) -> None:
     page = visit(patrol)
-    at = page.js("(() => { const p = studio.store.curve.at(studio.store.curve.length * 0.55); return [p.x, p.y]; })()")
+    at = page.js(
+        "(() => { const c = studio.store.curve; const p = c.at(0.55 * c.length); return [p.x, p.y]; })()"
+    )
     page.page.mouse.dblclick(*page.place(at))
     page.settle()
     assert near(page.doc["route"]["via"][3], at)
     assert len(page.doc["route"]["via"]) == 6
 
 
-def test_obstacles_are_drawn_moved_sized_and_marked_as_unseen(visit: Callable[..., Page], patrol: Path) -> None:
+def test_obstacles_are_drawn_moved_sized_and_marked_as_unseen(
+    visit: Callable[..., Page], patrol: Path
+) -> None:
     page = visit(patrol)
     count = len(page.doc["world"]["known"])
     page.press("c")
@@ -179,7 +191,9 @@ def test_a_heading_is_turned_by_its_handle(visit: Callable[..., Page], patrol: P
     assert abs(page.doc["route"]["start"]["heading_deg"] - 90) <= 2
 
 
-def test_the_losing_side_is_taken_by_a_click_and_freed_again(visit: Callable[..., Page], patrol: Path) -> None:
+def test_the_losing_side_is_taken_by_a_click_and_freed_again(
+    visit: Callable[..., Page], patrol: Path
+) -> None:
     page = visit(patrol)
     (entry,) = page.js("studio.store.ledger")
     loser = next(c for c in entry["candidates"] if not c["chosen"])
@@ -193,9 +207,14 @@ def test_the_losing_side_is_taken_by_a_click_and_freed_again(visit: Callable[...
     assert "pass_on" not in page.doc["world"]["known"][0]
 
 
-def test_a_span_is_tightened_by_dragging_it_and_by_its_slider(visit: Callable[..., Page], patrol: Path) -> None:
+def test_a_span_is_tightened_by_dragging_it_and_by_its_slider(
+    visit: Callable[..., Page], patrol: Path
+) -> None:
     page = visit(patrol)
-    at = page.js("(() => { const [a, b] = studio.store.curve.legRange(2); const p = studio.store.curve.at((a + b) / 2); return [p.x, p.y]; })()")
+    at = page.js(
+        "(() => { const c = studio.store.curve; const [a, b] = c.legRange(2);"
+        "const p = c.at((a + b) / 2); return [p.x, p.y]; })()"
+    )
     page.drag(at, [at[0], at[1] - 12])
     tension = page.doc["spline"]["tension"]
     assert len(tension) == 6
@@ -207,7 +226,9 @@ def test_a_span_is_tightened_by_dragging_it_and_by_its_slider(visit: Callable[..
     assert page.plan["ok"]
 
 
-def test_without_a_path_the_page_says_why_and_its_button_helps(visit: Callable[..., Page], patrol: Path) -> None:
+def test_without_a_path_the_page_says_why_and_its_button_helps(
+    visit: Callable[..., Page], patrol: Path
+) -> None:
     page = visit(patrol)
     page.drag([90, 330], [120, 255])
     assert not page.plan["ok"]
@@ -217,7 +238,9 @@ def test_without_a_path_the_page_says_why_and_its_button_helps(visit: Callable[.
     assert page.plan["ok"]
 
 
-def test_a_drive_is_played_to_the_goal_with_its_events(visit: Callable[..., Page], patrol: Path) -> None:
+def test_a_drive_is_played_to_the_goal_with_its_events(
+    visit: Callable[..., Page], patrol: Path
+) -> None:
     page = visit(patrol)
     page.page.get_by_role("button", name="Drive", exact=True).click()
     page.page.wait_for_selector("body.is-driving")
@@ -239,7 +262,9 @@ def test_a_drive_is_played_to_the_goal_with_its_events(visit: Callable[..., Page
     page.until("studio.drive.run === null")
 
 
-def test_what_is_saved_opens_again_and_plans_the_same_bytes(visit: Callable[..., Page], patrol: Path) -> None:
+def test_what_is_saved_opens_again_and_plans_the_same_bytes(
+    visit: Callable[..., Page], patrol: Path
+) -> None:
     page = visit(patrol)
     page.drag([270, 150], [260, 120])
     assert "edited" in page.page.locator("#file-name").inner_text()
@@ -250,7 +275,9 @@ def test_what_is_saved_opens_again_and_plans_the_same_bytes(visit: Callable[...,
     with page.page.expect_download() as caught:
         page.press("Control+e")
         page.page.get_by_role("button", name="plan.json").click()
-    result = CliRunner().invoke(cli, ["plan", str(patrol), "--out", str(patrol.parent / "out"), "-q"])
+    result = CliRunner().invoke(
+        cli, ["plan", str(patrol), "--out", str(patrol.parent / "out"), "-q"]
+    )
     assert result.exit_code == 0
     assert Path(caught.value.path()).read_bytes() == (patrol.parent / "out/plan.json").read_bytes()
     page.press("Escape")
@@ -274,7 +301,9 @@ def test_a_closed_tab_loses_nothing(visit: Callable[..., Page], patrol: Path) ->
     assert again.doc == read_document(patrol).data
 
 
-def test_an_address_restores_the_scene(visit: Callable[..., Page], patrol: Path, start: Start) -> None:
+def test_an_address_restores_the_scene(
+    visit: Callable[..., Page], patrol: Path, start: Start
+) -> None:
     studio = start(patrol)
     page = visit(studio)
     page.drag([270, 150], [260, 120])
@@ -352,16 +381,24 @@ def test_a_narrow_screen_with_fingers_works(visit: Callable[..., Page], patrol: 
 
 PINCH = """() => {
   const map = studio.scene.canvas, box = map.getBoundingClientRect();
-  const send = (type, id, x) => map.dispatchEvent(new PointerEvent(type, {pointerId: id, pointerType: "touch", clientX: box.left + x, clientY: box.top + 200, bubbles: true}));
+  const send = (type, id, x) => map.dispatchEvent(new PointerEvent(type, {
+    pointerId: id, pointerType: "touch", clientX: box.left + x, clientY: box.top + 200,
+  }));
   send("pointerdown", 1, 150); send("pointerdown", 2, 200);
-  for (let i = 1; i <= 10; i++) { send("pointermove", 1, 150 - 4 * i); send("pointermove", 2, 200 + 4 * i); }
+  for (let i = 1; i <= 10; i++) {
+    send("pointermove", 1, 150 - 4 * i);
+    send("pointermove", 2, 200 + 4 * i);
+  }
   send("pointerup", 1, 110); send("pointerup", 2, 240);
 }"""
 
 
 def test_a_map_is_put_underneath(visit: Callable[..., Page]) -> None:
     page = visit(EXAMPLES / "depot-round.yaml")
-    page.until("[...studio.scene.maps.images.values()].length === 2 && [...studio.scene.maps.images.values()].every(i => i.complete)")
+    page.until(
+        "(() => { const all = [...studio.scene.maps.images.values()];"
+        "return all.length === 2 && all.every(i => i.complete); })()"
+    )
     assert page.plan["ok"]
     page.js("studio.files.addMap()")
     page.page.get_by_role("button", name="maps/Boston_0_256.map").click()
@@ -373,12 +410,17 @@ def test_the_page_comes_back_when_the_studio_does(visit: Callable[..., Page], pa
     page = visit(patrol)
     page.js("studio.link.socket.close()")
     page.until("studio.link.socket === null")
-    page.js("studio.store.edit(structuredClone({...studio.store.doc, robot: {...studio.store.doc.robot, radius_m: 0.7}}))")
+    page.js(
+        "(() => { const { doc } = studio.store;"
+        "studio.store.edit({...doc, robot: {...doc.robot, radius_m: 0.7}}); })()"
+    )
     page.settle()
     assert page.plan["ok"]
 
 
-def test_three_hundred_random_edits_end_where_the_command_line_does(visit: Callable[..., Page], patrol: Path) -> None:
+def test_three_hundred_random_edits_end_where_the_command_line_does(
+    visit: Callable[..., Page], patrol: Path
+) -> None:
     page = visit(patrol)
     random_edits(page, random.Random(5), 300)
     page.settle()
@@ -386,7 +428,9 @@ def test_three_hundred_random_edits_end_where_the_command_line_does(visit: Calla
     page.js(f"studio.files.write('{name}', true)")
     page.until(f"studio.store.name === '{name}'")
     assert read_document(patrol.parent / name).data == page.doc
-    result = CliRunner().invoke(cli, ["plan", str(patrol.parent / name), "--out", str(patrol.parent / "out"), "-q"])
+    result = CliRunner().invoke(
+        cli, ["plan", str(patrol.parent / name), "--out", str(patrol.parent / "out"), "-q"]
+    )
     assert (result.exit_code == 0) == page.plan["ok"], result.output
     if page.plan["ok"]:
         answer = page.js("studio.link.ask({type: 'export', kind: 'plan.json'})")

@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from viaspline.studio.folder import Folder
-from viaspline.studio.refusal import Refusal
+from viaspline.studio.refused import RefusedError
 
 
 @pytest.fixture
@@ -21,16 +21,40 @@ def folder(tmp_path: Path) -> Folder:
 
 @pytest.mark.parametrize(
     "name",
-    ["../secret.yaml", "maps/../../secret.yaml", "link.yaml", "out/secret.yaml", "/etc/passwd", "~/x.yaml", "", ".", "a\0.yaml", "nothing.yaml", "maps"],
+    [
+        "../secret.yaml",
+        "maps/../../secret.yaml",
+        "link.yaml",
+        "out/secret.yaml",
+        "/etc/passwd",
+        "~/x.yaml",
+        "",
+        ".",
+        "a\0.yaml",
+        "nothing.yaml",
+        "maps",
+    ],
 )
 def test_nothing_outside_of_the_folder_is_opened(folder: Folder, name: str) -> None:
-    with pytest.raises(Refusal):
+    with pytest.raises(RefusedError):
         folder.to_open(name)
 
 
-@pytest.mark.parametrize("name", ["../new.yaml", "link.yaml", "out/new.yaml", "/tmp/new.yaml", "x.txt", "no/new.yaml", "maps", "a.yaml/b.yaml"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "../new.yaml",
+        "link.yaml",
+        "out/new.yaml",
+        "/tmp/new.yaml",
+        "x.txt",
+        "no/new.yaml",
+        "maps",
+        "a.yaml/b.yaml",
+    ],
+)
 def test_nothing_outside_of_the_folder_is_saved(folder: Folder, name: str) -> None:
-    with pytest.raises(Refusal):
+    with pytest.raises(RefusedError):
         folder.to_save(name)
 
 

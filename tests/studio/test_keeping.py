@@ -30,7 +30,9 @@ route:
 
 def test_what_is_not_edited_stays_as_it_was_written() -> None:
     data = read(TEXT)
-    assert text_of(data, TEXT) == TEXT.replace("   # leaks", "  # leaks").replace("  # leaks", "   # leaks")
+    assert text_of(data, TEXT) == TEXT.replace("   # leaks", "  # leaks").replace(
+        "  # leaks", "   # leaks"
+    )
 
 
 def test_an_edit_keeps_comments_order_and_unknown_keys() -> None:
@@ -39,7 +41,14 @@ def test_an_edit_keeps_comments_order_and_unknown_keys() -> None:
     data["robot"]["max_speed_mps"] = 1.5
     text = text_of(data, TEXT)
     assert read(text) == data
-    for kept in ("# the round", "# all of it", "radius_m: 0.50", "# a station", "# of a later version", "# leaks"):
+    for kept in (
+        "# the round",
+        "# all of it",
+        "radius_m: 0.50",
+        "# a station",
+        "# of a later version",
+        "# leaks",
+    ):
         assert kept in text
     assert "    - [91.5, 330]\n" in text
 
@@ -74,12 +83,18 @@ numbers = st.integers(-1000, 1000) | st.floats(allow_nan=False, allow_infinity=F
 names = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc")), max_size=8)
 values = st.recursive(
     numbers | st.booleans() | st.none() | names,
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from("abcd"), inner, max_size=3),
+    lambda inner: (
+        st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from("abcd"), inner, max_size=3)
+    ),
     max_leaves=12,
 )
-documents = st.dictionaries(st.sampled_from(["world", "robot", "route", "later"]), values, min_size=1)
+documents = st.dictionaries(
+    st.sampled_from(["world", "robot", "route", "later"]), values, min_size=1
+)
 
 
 @given(documents, documents)
-def test_any_document_is_read_as_it_was_saved_over_any_other(first: dict[str, object], second: dict[str, object]) -> None:
+def test_any_document_is_read_as_it_was_saved_over_any_other(
+    first: dict[str, object], second: dict[str, object]
+) -> None:
     assert read(text_of(second, text_of(first))) == second

@@ -6,6 +6,7 @@ import base64
 import json
 import urllib.error
 import urllib.request
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,9 @@ def fetch(url: str, **headers: str) -> tuple[int, bytes, Any]:
             return error.code, error.read(), error.headers
 
 
-def test_the_page_and_all_that_it_needs_are_served_from_the_package(start: START, patrol: Path) -> None:
+def test_the_page_and_all_that_it_needs_are_served_from_the_package(
+    start: START, patrol: Path
+) -> None:
     studio = start(patrol)
     status, page, headers = fetch(studio.url)
     assert status == 200
@@ -56,7 +59,9 @@ def test_an_edit_is_answered_by_the_plan_of_the_command_line(start: START, patro
         assert client.ask("save", "saved", name="moved.yaml")["name"] == "moved.yaml"
         exported = client.ask("export", "exported", kind="plan.json")
     out = patrol.parent / "out"
-    result = CliRunner().invoke(cli, ["plan", str(patrol.parent / "moved.yaml"), "--out", str(out), "--quiet"])
+    result = CliRunner().invoke(
+        cli, ["plan", str(patrol.parent / "moved.yaml"), "--out", str(out), "--quiet"]
+    )
     assert result.exit_code == 0, result.output
     assert base64.b64decode(exported["data"]) == (out / "plan.json").read_bytes()
     plan = json.loads((out / "plan.json").read_text())
@@ -75,7 +80,9 @@ def test_keys_that_the_page_does_not_know_survive(start: START, patrol: Path) ->
     assert "# on the map" in patrol.read_text()
 
 
-def test_a_mission_without_a_path_is_answered_with_the_place_and_the_remedy(start: START, patrol: Path) -> None:
+def test_a_mission_without_a_path_is_answered_with_the_place_and_the_remedy(
+    start: START, patrol: Path
+) -> None:
     with start(patrol).client() as client:
         answer = client.edit([["route", "via", 0], [120, 250]])
         assert not answer["ok"]
@@ -119,7 +126,9 @@ def test_edits_that_are_overtaken_are_not_planned(start: START, patrol: Path) ->
     with start(patrol).client() as client:
         client.edit()
         for i in range(200):
-            client.send(type="edit", rev=100 + i, changes=[[["route", "via", 0], [90 + 0.01 * i, 330]]])
+            client.send(
+                type="edit", rev=100 + i, changes=[[["route", "via", 0], [90 + 0.01 * i, 330]]]
+            )
         answers = [client.hear("planned")]
         while answers[-1]["rev"] != 299:
             answers.append(client.hear("planned"))
@@ -127,7 +136,9 @@ def test_edits_that_are_overtaken_are_not_planned(start: START, patrol: Path) ->
         assert [a["rev"] for a in answers] == sorted(a["rev"] for a in answers)
 
 
-def test_a_drive_is_told_with_what_is_seen_and_can_be_broken_off(start: START, patrol: Path) -> None:
+def test_a_drive_is_told_with_what_is_seen_and_can_be_broken_off(
+    start: START, patrol: Path
+) -> None:
     with start(patrol).client() as client:
         client.edit()
         driven = client.ask("drive", "driven")
@@ -135,9 +146,13 @@ def test_a_drive_is_told_with_what_is_seen_and_can_be_broken_off(start: START, p
         assert driven["reached"]
         assert [r["obstacles"] for r in driven["replans"]] == [["crate"], ["fallen tree"]]
         assert all(seen is not None for seen in driven["sight"]["seen"])
-        assert base64.b64decode(client.ask("export", "exported", kind="run.json")["data"]).startswith(b"{")
+        assert base64.b64decode(
+            client.ask("export", "exported", kind="run.json")["data"]
+        ).startswith(b"{")
         client.edit([["route", "via", 0], [91, 330]])
-        assert "drive the mission first" in client.ask("export", "refused", kind="run.csv")["message"]
+        assert (
+            "drive the mission first" in client.ask("export", "refused", kind="run.csv")["message"]
+        )
 
 
 def test_a_lidar_is_shown_by_what_its_beams_hit(start: START, tmp_path: Path) -> None:
@@ -167,7 +182,9 @@ def test_maps_are_read_and_their_pictures_served(start: START) -> None:
         assert "maps/depot.yaml" in client.ask("files", "files")["maps"]
 
 
-def test_plans_and_waypoints_of_others_are_opened_and_saved_as_yaml(start: START, tmp_path: Path) -> None:
+def test_plans_and_waypoints_of_others_are_opened_and_saved_as_yaml(
+    start: START, tmp_path: Path
+) -> None:
     (tmp_path / "survey.plan").write_text((EXAMPLES / "fence-survey.plan").read_text())
     with start(tmp_path).client() as client:
         opened = client.ask("open", "opened", name="survey.plan")
@@ -177,7 +194,9 @@ def test_plans_and_waypoints_of_others_are_opened_and_saved_as_yaml(start: START
         assert "survey.yaml" in client.ask("save", "refused", name="survey.plan")["message"]
         client.ask("save", "saved", name="survey.yaml")
     out = tmp_path / "out"
-    result = CliRunner().invoke(cli, ["plan", str(tmp_path / "survey.yaml"), "--out", str(out), "-q"])
+    result = CliRunner().invoke(
+        cli, ["plan", str(tmp_path / "survey.yaml"), "--out", str(out), "-q"]
+    )
     assert result.exit_code == 0, result.output
     assert base64.b64decode(exported["data"]) == (out / "plan.json").read_bytes()
 
@@ -192,10 +211,14 @@ def test_a_file_that_is_there_is_replaced_only_when_asked(start: START, patrol: 
     assert "pump-house" in other.read_text()
 
 
-def test_maps_keep_their_place_when_a_mission_is_saved_elsewhere(start: START, tmp_path: Path) -> None:
+def test_maps_keep_their_place_when_a_mission_is_saved_elsewhere(
+    start: START, tmp_path: Path
+) -> None:
     (tmp_path / "sub").mkdir()
     (tmp_path / "m.map").write_text("type octile\nheight 2\nwidth 2\nmap\n..\n..\n")
-    (tmp_path / "a.yaml").write_text("world: {known: [{map: m.map, resolution_m: 10}]}\nroute: {start: [2, 2], goal: [15, 15]}\n")
+    (tmp_path / "a.yaml").write_text(
+        "world: {known: [{map: m.map, resolution_m: 10}]}\nroute: {start: [2, 2], goal: [15, 15]}\n"
+    )
     with start(tmp_path / "a.yaml").client() as client:
         assert client.edit()["ok"]
         saved = client.ask("save", "saved", name="sub/b.yaml")
@@ -206,7 +229,9 @@ def test_maps_keep_their_place_when_a_mission_is_saved_elsewhere(start: START, t
 # --- whoever is not the page
 
 
-@pytest.mark.parametrize("origin", [None, "http://evil.example", "null", "http://127.0.0.1:1", "https://127.0.0.1"])
+@pytest.mark.parametrize(
+    "origin", [None, "http://evil.example", "null", "http://127.0.0.1:1", "https://127.0.0.1"]
+)
 def test_pages_of_others_may_not_connect(start: START, patrol: Path, origin: str | None) -> None:
     with pytest.raises(InvalidStatus) as caught, start(patrol).client(origin=origin):
         pass
@@ -237,27 +262,45 @@ def test_another_address_needs_its_token(start: START, patrol: Path) -> None:
         assert client.hello["name"] == patrol.name
 
 
-def test_a_message_that_is_too_large_closes_the_connection_with_its_code(start: START, patrol: Path) -> None:
+def test_a_message_that_is_too_large_closes_the_connection_with_its_code(
+    start: START, patrol: Path
+) -> None:
     with start(patrol).client() as client:
-        with pytest.raises(ConnectionClosed) as caught:
+        with suppress(ConnectionClosed):
             client.socket.send("x" * (LARGEST + 10))
+        with pytest.raises(ConnectionClosed) as caught:
             client.hear("never")
         assert caught.value.rcvd is not None
         assert caught.value.rcvd.code == 1009
 
 
 HOSTILE = [
-    "", "no json", "[]", "5", "null", '{"type": 7}', '{"type": "edit"}', '{"type": "nothing"}',
+    "",
+    "no json",
+    "[]",
+    "5",
+    "null",
+    '{"type": 7}',
+    '{"type": "edit"}',
+    '{"type": "nothing"}',
     '{"type": "edit", "rev": 1, "changes": [[["route","start",0], NaN]]}',
     '{"type": "edit", "rev": 1, "changes": [[["route","start",0], Infinity]]}',
-    '{"type": "edit", "rev": -1, "changes": []}', '{"type": "edit", "rev": "x", "changes": []}',
+    '{"type": "edit", "rev": -1, "changes": []}',
+    '{"type": "edit", "rev": "x", "changes": []}',
     '{"type": "edit", "rev": 1, "changes": {"a": 1}}',
-    '{"type": "edit", "rev": 1, "changes": [[[], 5]]}', "[" * 50_000,
-    '{"type": "open"}', '{"type": "open", "name": 5}', '{"type": "open", "name": "../../etc/passwd"}',
-    '{"type": "open", "name": "/etc/passwd"}', '{"type": "save", "name": "../x.yaml"}',
-    '{"type": "save", "name": "/tmp/x.yaml"}', '{"type": "save", "name": "x.sh"}',
-    '{"type": "export", "kind": "../x"}', '{"type": "drive", "seed": -5}', '{"type": "export"}',
-]  # fmt: skip
+    '{"type": "edit", "rev": 1, "changes": [[[], 5]]}',
+    "[" * 50_000,
+    '{"type": "open"}',
+    '{"type": "open", "name": 5}',
+    '{"type": "open", "name": "../../etc/passwd"}',
+    '{"type": "open", "name": "/etc/passwd"}',
+    '{"type": "save", "name": "../x.yaml"}',
+    '{"type": "save", "name": "/tmp/x.yaml"}',
+    '{"type": "save", "name": "x.sh"}',
+    '{"type": "export", "kind": "../x"}',
+    '{"type": "drive", "seed": -5}',
+    '{"type": "export"}',
+]
 
 
 def test_hostile_messages_are_answered_and_nothing_breaks(start: START, patrol: Path) -> None:
@@ -272,14 +315,26 @@ def test_hostile_messages_are_answered_and_nothing_breaks(start: START, patrol: 
 @pytest.mark.parametrize(
     "change",
     [
-        [["route", "start"], ["a", "b"]], [["route", "start"], None], [["route"], 5], [["world"], []],
-        [["world", "known"], "x"], [["world", "known", 0], 7], [["world", "known", 0, "circle"], {"center": [1e300, 0], "radius": -1}],
-        [["world", "known"], [{"map": 5}, {"map": "no.yaml"}]], [["world", "known"], [{"map": "../secret.map"}]],
-        [["robot"], {"radius_m": "big"}], [["robot", "sensor"], {"lidar": []}], [["spline"], {"tension": [1, 2]}],
-        [["route", "via"], {}], [["route", "start"], [1e308, 1e308]], [["world", "bounds"], [5, 5, 1, 1]],
+        [["route", "start"], ["a", "b"]],
+        [["route", "start"], None],
+        [["route"], 5],
+        [["world"], []],
+        [["world", "known"], "x"],
+        [["world", "known", 0], 7],
+        [["world", "known", 0, "circle"], {"center": [1e300, 0], "radius": -1}],
+        [["world", "known"], [{"map": 5}, {"map": "no.yaml"}]],
+        [["world", "known"], [{"map": "../secret.map"}]],
+        [["robot"], {"radius_m": "big"}],
+        [["robot", "sensor"], {"lidar": []}],
+        [["spline"], {"tension": [1, 2]}],
+        [["route", "via"], {}],
+        [["route", "start"], [1e308, 1e308]],
+        [["world", "bounds"], [5, 5, 1, 1]],
     ],
-)  # fmt: skip
-def test_missions_of_the_wrong_kind_are_answered_with_their_faults(start: START, patrol: Path, change: Any) -> None:
+)
+def test_missions_of_the_wrong_kind_are_answered_with_their_faults(
+    start: START, patrol: Path, change: Any
+) -> None:
     (patrol.parent.parent / "secret.map").write_text("type octile\nheight 1\nwidth 1\nmap\n.\n")
     with start(patrol).client() as client:
         answer = client.edit(change)
@@ -304,7 +359,9 @@ def test_maps_and_their_pictures_are_not_read_from_elsewhere(start: START, tmp_p
             assert "outside" in answer["problems"][0]["text"], name
 
 
-def test_a_scene_that_is_too_large_is_refused_and_the_old_one_kept(start: START, patrol: Path) -> None:
+def test_a_scene_that_is_too_large_is_refused_and_the_old_one_kept(
+    start: START, patrol: Path
+) -> None:
     with start(patrol).client() as client:
         circles = [{"circle": {"center": [0, 0], "radius": 1}}] * 5001
         client.send(type="edit", rev=1, changes=[[["world", "known"], circles]])
@@ -321,5 +378,8 @@ def test_one_page_does_not_see_the_edits_of_another(start: START, patrol: Path) 
 
 def test_the_connection_needs_no_port_but_its_own(start: START, patrol: Path) -> None:
     studio = start(patrol)
-    with pytest.raises(InvalidStatus), connect(f"ws://127.0.0.1:{studio.address.port}/other", origin=studio.url.rstrip("/")):  # type: ignore[arg-type]
+    with (
+        pytest.raises(InvalidStatus),
+        connect(f"ws://127.0.0.1:{studio.address.port}/other", origin=studio.url.rstrip("/")),
+    ):  # type: ignore[arg-type]
         pass

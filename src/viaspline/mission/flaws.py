@@ -86,9 +86,14 @@ def located(flaws: list[Flaw], data: Any, origin: Origin | None) -> list[Fault]:
     placed.sort(key=lambda pair: pair[0])
     return [
         Fault(
-            spell(flaw.path), flaw.problem, flaw.remedy, origin.source, mark.line, mark.column,
+            spell(flaw.path),
+            flaw.problem,
+            flaw.remedy,
+            origin.source,
+            mark.line,
+            mark.column,
             flaw.changes,
-        )  # fmt: skip
+        )
         for mark, flaw in placed
     ]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
-from viaspline.studio.refusal import Refusal
+from viaspline.studio.refused import RefusedError
 
 Step = str | int
 Document = Mapping[str, Any]
@@ -36,19 +36,19 @@ def changed(document: Document, changes: Any) -> Document:
             appends.
 
     Raises:
-        Refusal: When a change makes no sense or the document grows too large.
+        RefusedError: When a change makes no sense or the document grows too large.
 
     >>> changed({"route": {"start": [0, 0]}}, [[["route", "start", 1], 5], [["robot"], {}]])
     {'route': {'start': [0, 5]}, 'robot': {}}
     """
     if not isinstance(changes, list) or len(changes) > MOST_CHANGES:
-        raise Refusal("changes are a list of [path, value]")
+        raise RefusedError("changes are a list of [path, value]")
     result: Any = document
     for change in changes:
         path, value = _change(change)
         result = _with(result, path, value)
     if not isinstance(result, Mapping):
-        raise Refusal("a mission is a mapping")
+        raise RefusedError("a mission is a mapping")
     if changes:
         check_size(result)
     return result
@@ -59,12 +59,14 @@ _GONE: Final = object()
 
 def _change(change: Any) -> tuple[Sequence[Step], Any]:
     if not isinstance(change, list) or len(change) not in (1, 2):
-        raise Refusal("a change is [path, value], or [path] to take something out")
+        raise RefusedError("a change is [path, value], or [path] to take something out")
     path = change[0]
     if not isinstance(path, list) or len(path) > DEEPEST:
-        raise Refusal(f"a path is a list of at most {DEEPEST} keys and indices")
-    if not all(isinstance(s, str) or (isinstance(s, int) and not isinstance(s, bool)) for s in path):
-        raise Refusal("a path is made of keys and indices")
+        raise RefusedError(f"a path is a list of at most {DEEPEST} keys and indices")
+    if not all(
+        isinstance(s, str) or (isinstance(s, int) and not isinstance(s, bool)) for s in path
+    ):
+        raise RefusedError("a path is made of keys and indices")
     return path, change[1] if len(change) == 2 else _GONE
 
 
@@ -76,20 +78,20 @@ def _with(node: Any, path: Sequence[Step], value: Any) -> Any:
         return _in_mapping(node, step, rest, value)
     if isinstance(node, list) and isinstance(step, int) and 0 <= step <= len(node):
         return _in_list(node, step, rest, value)
-    raise Refusal(f"there is nothing at {step!r}")
+    raise RefusedError(f"there is nothing at {step!r}")
 
 
 def _in_mapping(node: Mapping[str, Any], key: str, rest: Sequence[Step], value: Any) -> Any:
     if value is _GONE and not rest:
         return {name: item for name, item in node.items() if name != key}
     if rest and key not in node:
-        raise Refusal(f"there is nothing at {key!r}")
+        raise RefusedError(f"there is nothing at {key!r}")
     return {**node, key: _with(node.get(key), rest, value)}
 
 
 def _in_list(node: list[Any], index: int, rest: Sequence[Step], value: Any) -> list[Any]:
     if index == len(node) and (rest or value is _GONE):
-        raise Refusal(f"there is nothing at {index}")
+        raise RefusedError(f"there is nothing at {index}")
     if value is _GONE and not rest:
         return [*node[:index], *node[index + 1 :]]
     old = node[index] if index < len(node) else None
@@ -100,20 +102,22 @@ def check_size(document: Document) -> None:
     """Refuse what is too large to be laid out.
 
     Raises:
-        Refusal: It is too large or too deep.
+        RefusedError: It is too large or too deep.
     """
     for part in ("world", "route"):
         section = document.get(part)
-        for key, most in MOST_ITEMS.items() if isinstance(section, Mapping) else ():
+        if not isinstance(section, Mapping):
+            continue
+        for key, most in MOST_ITEMS.items():
             items = section.get(key)
             if isinstance(items, list) and len(items) > most:
-                raise Refusal(f"{part}.{key} has {len(items)} items; the studio takes {most}")
+                raise RefusedError(f"{part}.{key} has {len(items)} items; the studio takes {most}")
     level: list[Any] = [document]
     count = 0
     for _ in range(DEEPEST):
         count += len(level)
         if count > MOST_VALUES:
-            raise Refusal(f"the mission has more than {MOST_VALUES} values")
+            raise RefusedError(f"the mission has more than {MOST_VALUES} values")
         inner: list[Any] = []
         for node in level:
             if isinstance(node, Mapping):
@@ -123,4 +127,4 @@ def check_size(document: Document) -> None:
         if not inner:
             return
         level = inner
-    raise Refusal(f"the mission is nested deeper than {DEEPEST} levels")
+    raise RefusedError(f"the mission is nested deeper than {DEEPEST} levels")

@@ -27,7 +27,7 @@ RAYS = 180  # of each
 PATIENCE = 0.1  # between two words of progress [s]
 
 
-class Stopped(Exception):
+class StoppedError(Exception):
     """The drive was broken off by the person at the page."""
 
 
@@ -41,14 +41,14 @@ def drive(plan: Plan, *, seed: int, stop: Flag, tell: Callable[[float], None]) -
         tell: Hears ten times a second how much is done, from 0 to 1.
 
     Raises:
-        Stopped: It was broken off.
+        StoppedError: It was broken off.
     """
     last = 0.0
 
     def progress(_: float, distance: float, length: float) -> None:
         nonlocal last
         if stop.is_set():
-            raise Stopped
+            raise StoppedError
         now = time.monotonic()
         if now - last > PATIENCE:
             last = now

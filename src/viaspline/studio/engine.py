@@ -76,7 +76,9 @@ class Engine:
         for tell in tuple(self.listeners):
             tell(kernel, self._compiled)
 
-    async def plan(self, document: Document, base: Path, revision: int) -> tuple[Planned, str, bool]:
+    async def plan(
+        self, document: Document, base: Path, revision: int
+    ) -> tuple[Planned, str, bool]:
         """Plan a document.
 
         Returns:
@@ -84,9 +86,7 @@ class Engine:
         """
         return await self._planner.run(lambda: self._planned(document, base, revision))
 
-    def _planned(
-        self, document: Document, base: Path, revision: int
-    ) -> tuple[Planned, str, bool]:
+    def _planned(self, document: Document, base: Path, revision: int) -> tuple[Planned, str, bool]:
         from viaspline.studio import answers, planning
         from viaspline.studio.maps import Maps
 
@@ -147,7 +147,7 @@ class Engine:
 
             try:
                 run = driving.drive(plan, seed=seed, stop=stop, tell=tell)
-            except driving.Stopped:
+            except driving.StoppedError:
                 return None
             return run, encoded({**head, **driving.driven(run)})
 

@@ -9,7 +9,7 @@ from viaspline.report.plan_json import plan_json
 from viaspline.report.run_json import run_json
 from viaspline.report.tables import path_csv, run_csv, spacing
 from viaspline.robot.run import Run
-from viaspline.studio.refusal import Refusal
+from viaspline.studio.refused import RefusedError
 
 OF_PLANS: Final = ("plan.json", "path.csv", "plan.png")
 OF_RUNS: Final = ("run.json", "run.csv", "run.png")
@@ -47,7 +47,7 @@ def check_kind(kind: str) -> None:
     """Refuse what can't be exported.
 
     Raises:
-        Refusal: Naming what can.
+        RefusedError: Naming what can.
     """
     if kind not in OF_PLANS + OF_RUNS:
-        raise Refusal(f"'{kind}' can't be exported; {', '.join(OF_PLANS + OF_RUNS)} can")
+        raise RefusedError(f"'{kind}' can't be exported; {', '.join(OF_PLANS + OF_RUNS)} can")

@@ -8,7 +8,7 @@ from typing import Final
 
 from viaspline.errors import OutputError
 from viaspline.report.files import write
-from viaspline.studio.refusal import Refusal
+from viaspline.studio.refused import RefusedError
 
 MISSIONS: Final = (".yaml", ".yml", ".plan", ".mission", ".waypoints", ".txt")
 MAPS: Final = (".map", ".svg", ".geojson")
@@ -32,44 +32,44 @@ class Folder:
         """The path of a file by its name, relative to a folder within (by default the whole).
 
         Raises:
-            Refusal: It lies elsewhere.
+            RefusedError: It lies elsewhere.
         """
         if not name or "\0" in name:
-            raise Refusal("give the name of a file")
+            raise RefusedError("give the name of a file")
         path = ((base or self.root) / name).resolve()
         if path == self.root or not path.is_relative_to(self.root):
-            raise Refusal(f"'{name}' lies outside of the studio's folder '{self.root.name}'")
+            raise RefusedError(f"'{name}' lies outside of the studio's folder '{self.root.name}'")
         return path
 
     def to_open(self, name: str) -> Path:
         """The path of a mission file that is there.
 
         Raises:
-            Refusal: It lies elsewhere, or isn't a file.
+            RefusedError: It lies elsewhere, or isn't a file.
         """
         path = self._named(name)
         if not path.is_file():
-            raise Refusal(f"there is no file '{name}' in the folder '{self.root.name}'")
+            raise RefusedError(f"there is no file '{name}' in the folder '{self.root.name}'")
         return path
 
     def to_save(self, name: str) -> Path:
         """The path that a mission is saved under.
 
         Raises:
-            Refusal: It lies elsewhere, its folder isn't there, or it isn't YAML.
+            RefusedError: It lies elsewhere, its folder isn't there, or it isn't YAML.
         """
         path = self._named(name)
         if path.suffix.lower() not in SAVED:
-            raise Refusal(f"missions are saved as YAML: call it '{Path(name).stem}.yaml'")
+            raise RefusedError(f"missions are saved as YAML: call it '{Path(name).stem}.yaml'")
         if not path.parent.is_dir():
-            raise Refusal(f"there is no folder '{Path(name).parent}' to save it in")
+            raise RefusedError(f"there is no folder '{Path(name).parent}' to save it in")
         if path.is_dir():
-            raise Refusal(f"'{name}' is a folder")
+            raise RefusedError(f"'{name}' is a folder")
         return path
 
     def _named(self, name: str) -> Path:
         if Path(name).is_absolute() or name.startswith("~"):
-            raise Refusal(f"give the name of a file within the folder '{self.root.name}'")
+            raise RefusedError(f"give the name of a file within the folder '{self.root.name}'")
         return self.inside(name)
 
     def name_of(self, path: Path) -> str:
@@ -80,12 +80,12 @@ class Folder:
         """Write a whole file, or leave what was there.
 
         Raises:
-            Refusal: It can't be written.
+            RefusedError: It can't be written.
         """
         try:
             write(path, text)
         except OutputError as error:
-            raise Refusal(str(error)) from None
+            raise RefusedError(str(error)) from None
 
     def missions(self) -> list[str]:
         """Names of the files that may be missions, in order."""

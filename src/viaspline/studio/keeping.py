@@ -26,7 +26,7 @@ Path = tuple[Any, ...]
 
 
 def text_of(document: Document, old: str | None = None) -> str:
-    """The text of a mission file.
+    r"""The text of a mission file.
 
     Args:
         document: What it is to hold.
@@ -36,7 +36,7 @@ def text_of(document: Document, old: str | None = None) -> str:
     route:
       start: [0, 0]
       goal: [9.5, 1]
-    >>> print(text_of({"a": [1, 3]}, "a: [1, 2]  # two\\nb: 1\\n"), end="")
+    >>> print(text_of({"a": [1, 3]}, "a: [1, 2]  # two\nb: 1\n"), end="")
     a: [1, 3] # two
     """
     if old is not None:

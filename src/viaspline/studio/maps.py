@@ -95,9 +95,7 @@ class Maps:
         except ValidationError as error:
             path: tuple[str | int, ...] = ("world", key.split(".")[1].split("[")[0])
             index = int(key.split("[")[1][:-1])
-            raise MissionError(
-                located(structural_flaws(error, (*path, index)), {}, None)
-            ) from None
+            raise MissionError(located(structural_flaws(error, (*path, index)), {}, None)) from None
         try:
             files = self._files(spec, base)
             stamp = tuple(_stamp(file) for file in files)

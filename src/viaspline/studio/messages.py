@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from typing import Any, Final
 
-from viaspline.studio.refusal import Refusal
+from viaspline.studio.refused import RefusedError
 
 LARGEST: Final = 4_000_000
 """Largest message [bytes]; the connection of a larger one is closed with code 1009."""
@@ -18,7 +18,7 @@ def decoded(text: str) -> Message:
     """A message from its text.
 
     Raises:
-        Refusal: It isn't a JSON object with a type, or has numbers that are none.
+        RefusedError: It isn't a JSON object with a type, or has numbers that are none.
 
     >>> decoded('{"type": "files"}')
     {'type': 'files'}
@@ -26,9 +26,9 @@ def decoded(text: str) -> Message:
     try:
         message = json.loads(text, parse_constant=_no_number)
     except (ValueError, RecursionError) as error:
-        raise Refusal(f"a message is JSON: {error}") from None
+        raise RefusedError(f"a message is JSON: {error}") from None
     if not isinstance(message, dict) or not isinstance(message.get("type"), str):
-        raise Refusal('a message is a JSON object with a "type"')
+        raise RefusedError('a message is a JSON object with a "type"')
     return message
 
 
@@ -41,11 +41,11 @@ def text_of(message: Message, key: str, default: str | None = None) -> str:
     """A text in a message.
 
     Raises:
-        Refusal: There is none, or it is something else.
+        RefusedError: There is none, or it is something else.
     """
     value = message.get(key, default)
     if not isinstance(value, str) or len(value) > 4096:
-        raise Refusal(f"{key} has to be a text")
+        raise RefusedError(f"{key} has to be a text")
     return value
 
 
@@ -53,11 +53,11 @@ def count_of(message: Message, key: str, default: int = 0) -> int:
     """A whole number, 0 or more, in a message.
 
     Raises:
-        Refusal: It is something else.
+        RefusedError: It is something else.
     """
     value = message.get(key, default)
     if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value < 2**53:
-        raise Refusal(f"{key} has to be a whole number, 0 or more")
+        raise RefusedError(f"{key} has to be a whole number, 0 or more")
     return value
 
 

@@ -32,13 +32,14 @@ def opened(path: Path) -> Opened:
 
     Raises:
         MissionError: It can't be read, or isn't what its name says.
-        Refusal: It is too large for the studio.
+        RefusedError: It is too large for the studio.
     """
+    notes: tuple[str, ...] = ()
     if path.suffix.lower() in (".yaml", ".yml"):
         found = read_document(path)
         if found.flaws:  # a key that stands there twice would be lost on saving
             raise MissionError(located(list(found.flaws), found.data, found))
-        document, notes = found.data, ()
+        document: Document = found.data
     else:
         document, notes = _understood(path)
     try:

@@ -141,7 +141,7 @@ def server_of(address: Address, mission: Path | None) -> uvicorn.Server:
 
     Raises:
         MissionError: The mission can't be opened.
-        Refusal: It is a link out of its folder.
+        RefusedError: It is a link out of its folder.
     """
     import uvicorn
 

@@ -25,7 +25,7 @@ from viaspline.studio.engine import Engine
 from viaspline.studio.folder import Folder
 from viaspline.studio.messages import Message, count_of, decoded, encoded, text_of
 from viaspline.studio.opening import opened
-from viaspline.studio.refusal import Refusal
+from viaspline.studio.refused import RefusedError
 
 if TYPE_CHECKING:
     from viaspline.robot.run import Run
@@ -78,7 +78,8 @@ class Session:
                 task.cancel()
 
     async def _greet(self) -> None:
-        problem, notes = None, ()
+        problem: str | None = None
+        notes: tuple[str, ...] = ()
         if self._name is not None:
             try:
                 notes = self._open(self._name)
@@ -104,7 +105,7 @@ class Session:
             number, kind = message.get("id"), message["type"]
             handler = _HANDLERS.get(kind)
             if handler is None:
-                raise Refusal(f"there is no message of the type {kind!r:.40}")
+                raise RefusedError(f"there is no message of the type {kind!r:.40}")
             if kind == "edit":
                 await handler(self, message)
             else:
@@ -115,7 +116,7 @@ class Session:
     def _spawn(self, work: Coroutine[Any, Any, None], number: Any, kind: str) -> None:
         if len(self._jobs) >= MOST_JOBS:
             work.close()
-            raise Refusal("too many things are asked for at once")
+            raise RefusedError("too many things are asked for at once")
 
         async def guarded() -> None:
             try:
@@ -200,7 +201,7 @@ class Session:
         self._stop = stop = Flag()
         planned = await self._planned()
         if planned.plan is None:
-            raise Refusal("there is no path to drive")
+            raise RefusedError("there is no path to drive")
 
         def tell(done: float) -> None:
             self._loop.call_soon_threadsafe(
@@ -280,13 +281,13 @@ class Session:
         document = self._document
         if kind in OF_RUNS:
             if self._run is None or self._run[0] is not document:
-                raise Refusal("drive the mission first; it has changed since")
+                raise RefusedError("drive the mission first; it has changed since")
             _, run, seed = self._run
             content = await self._engine.run_file(run, kind, stem, seed)
         else:
             planned = await self._planned()
             if planned.plan is None:
-                raise Refusal("there is no path to export")
+                raise RefusedError("there is no path to export")
             content = await self._engine.plan_file(planned.plan, kind, stem)
         data = base64.b64encode(content).decode()
         await self._send(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from contextlib import suppress
 from queue import SimpleQueue
 from threading import Thread
 from typing import TypeVar
@@ -49,10 +50,8 @@ class Worker:
                 result = call()
             except BaseException as raised:
                 error = raised
-            try:
+            with suppress(RuntimeError):  # the loop has ended meanwhile
                 loop.call_soon_threadsafe(settle, result, error)
-            except RuntimeError:
-                pass  # the loop has ended meanwhile
 
         self._calls.put(work)
         return await future

@@ -5,5 +5,5 @@ from __future__ import annotations
 from viaspline.errors import ViasplineError
 
 
-class Refusal(ViasplineError):
+class RefusedError(ViasplineError):
     """A message that is refused, with the reason for the person at the page."""
