@@ -141,7 +141,7 @@ def test_a_double_click_on_the_path_adds_a_point_in_its_leg(
 ) -> None:
     page = visit(patrol)
     at = page.js(
-        "(() => { const c = studio.store.curve; const p = c.at(0.55 * c.length); return [p.x, p.y]; })()"
+        "(() => { const c = studio.store.curve, p = c.at(0.55 * c.length); return [p.x, p.y]; })()"
     )
     page.page.mouse.dblclick(*page.place(at))
     page.settle()

@@ -72,6 +72,7 @@ export class MapPictures {
     /** @type {Map<string, HTMLImageElement>} */ this.images = new Map();
     /** @type {Map<string, HTMLCanvasElement>} */ this.made = new Map();
     this.query = location.search;
+    this.count = 0; // pictures that are there
   }
 
   /** @param {Pen} pen @param {any[]} grids @param {number} required [m] @param {boolean} rings */
@@ -98,7 +99,10 @@ export class MapPictures {
   /** @param {string} name */
   load(name) {
     const image = new Image();
-    image.onload = this.arrived;
+    image.onload = () => {
+      this.count += 1;
+      this.arrived();
+    };
     image.src = `/grids/${name}.png${this.query}`;
     this.images.set(name, image);
     return image;

@@ -14,8 +14,8 @@ export function drawHalos(pen, known, required) {
   pen.stroke(colours.halo, 2 * reach - 0.4);
 }
 
-/** @param {Pen} pen @param {any[]} known @param {string|null} hover */
-export function drawKnown(pen, known, hover) {
+/** @param {Pen} pen @param {any[]} known */
+export function drawKnown(pen, known) {
   const { ctx, colours } = pen;
   ctx.lineJoin = "round";
   ctx.beginPath();
@@ -23,12 +23,15 @@ export function drawKnown(pen, known, hover) {
   pen.fill(colours.obstacle, "nonzero");
   pen.stroke(colours.obstacleEdge, 1.2);
   for (const obstacle of known) if (obstacle.side) drawSide(pen, obstacle);
-  const under = known.find((obstacle) => obstacle.id === hover);
-  if (under) {
-    ctx.beginPath();
-    pen.shape(under);
-    pen.stroke(colours.select, 1.5);
-  }
+}
+
+/** @param {Pen} pen @param {any[]} known @param {string|null} hover */
+export function drawHovered(pen, known, hover) {
+  const under = hover ? known.find((obstacle) => obstacle.id === hover) : null;
+  if (!under) return;
+  pen.ctx.beginPath();
+  pen.shape(under);
+  pen.stroke(pen.colours.select, 1.5);
 }
 
 /** Polygons with holes can't be filled together with others. @param {Pen} pen @param {any} obstacle */

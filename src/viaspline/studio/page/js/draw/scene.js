@@ -6,7 +6,7 @@ import { drawFollowed, drawRobot, drawSight, drawTrail } from "./drive.js";
 import { drawGrid, drawLimits, drawOutside, MapPictures } from "./ground.js";
 import { drawLabels } from "./labels.js";
 import { drawCross, drawCursor, drawDraft, drawProblem, drawScale, drawTightest } from "./marks.js";
-import { drawHalos, drawKnown, drawPierced, drawUnseen, screenBox } from "./obstacles.js";
+import { drawHalos, drawHovered, drawKnown, drawPierced, drawUnseen, screenBox } from "./obstacles.js";
 import { drawArrows, drawComb, drawLeg, drawLosers, drawPath } from "./path.js";
 import { Pen } from "./pen.js";
 import { drawDetours, drawHandles, drawPoints } from "./route.js";
@@ -30,6 +30,9 @@ export class Scene {
     this.maps = new MapPictures(() => this.later());
     this.isDue = false;
     this.patience = 0;
+    /** @type {HTMLCanvasElement|undefined} */ this.still = undefined;
+    /** @type {any} */ this.stillWorld = null;
+    this.stillKey = "";
     /** @type {any} */ this.draft = null; // what a tool is about to make
     /** @type {number[]|null} */ this.cross = null; // the keyboard's cursor [m]
     /** @type {any} */ this.hoveredSide = null;
@@ -71,30 +74,56 @@ export class Scene {
     this.later();
   }
 
+  /**
+   * What stands still while points are dragged, drawn once: it is most of what there is to draw.
+   * @param {any[]} known @param {import("./theme.js").Theme} colours
+   */
+  ground(known, colours) {
+    const { canvas, camera, store } = this;
+    const { doc, show } = store;
+    const grids = (store.plan?.grids?.length ? store.plan : store.goodPlan)?.grids ?? [];
+    const required = requiredOf(doc);
+    const view = [camera.x, camera.y, camera.scale, canvas.width, canvas.height, show.rings, show.grid, required, this.maps.count, colours.paper];
+    const named = grids.map((/** @type {any} */ g) => g.picture ?? g.item);
+    const key = [...view, ...named].join();
+    if (this.still && this.stillWorld === doc.world && this.stillKey === key) return this.still;
+    this.still ??= document.createElement("canvas");
+    this.still.width = canvas.width;
+    this.still.height = canvas.height;
+    this.stillWorld = doc.world;
+    this.stillKey = key;
+    const ctx = /** @type {CanvasRenderingContext2D} */ (this.still.getContext("2d", { alpha: false }));
+    const pen = new Pen(ctx, camera, colours);
+    const ratio = canvas.width / camera.width;
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.fillStyle = colours.paper;
+    ctx.fillRect(0, 0, camera.width, camera.height);
+    drawOutside(pen, doc);
+    this.maps.draw(pen, grids, required, show.rings);
+    const areas = grids.filter((/** @type {any} */ g) => g.rings && g.list === "known").map((/** @type {any} */ g) => ({ id: "", circle: null, polygon: g.rings[0], holes: g.rings.slice(1), side: null }));
+    const shapes = [...known, ...areas];
+    if (show.rings) drawHalos(pen, shapes, required);
+    if (show.grid) drawGrid(pen);
+    drawKnown(pen, shapes.filter((o) => !o.holes.length));
+    shapes.filter((o) => o.holes.length).forEach((o) => drawPierced(pen, o));
+    drawLimits(pen, doc, required, show.rings);
+    return this.still;
+  }
+
   draw() {
     const { ctx, canvas, camera, store, drive } = this;
     const { doc, show } = store;
     const colours = theme();
     const pen = new Pen(ctx, camera, colours);
     const ratio = canvas.width / camera.width;
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-    ctx.fillStyle = colours.paper;
-    ctx.fillRect(0, 0, camera.width, camera.height);
     const obstacles = obstaclesOf(doc);
     const known = obstacles.filter((o) => o.list === "known" && (o.circle || o.polygon));
     const unseen = obstacles.filter((o) => o.list === "unseen");
-    const drawnMaps = (store.plan?.grids?.length ? store.plan : store.goodPlan)?.grids ?? [];
-    const required = requiredOf(doc);
     const maxSpeed = Number(doc.robot?.max_speed_mps ?? 2) || 1;
-    drawOutside(pen, doc);
-    this.maps.draw(pen, drawnMaps, required, show.rings);
-    const areas = drawnMaps.filter((/** @type {any} */ g) => g.rings).map((/** @type {any} */ g) => ({ id: "", circle: null, polygon: g.rings[0], holes: g.rings.slice(1), side: null, list: g.list }));
-    const shapes = [...known, ...areas.filter((/** @type {any} */ a) => a.list === "known")];
-    if (show.rings) drawHalos(pen, shapes, required);
-    if (show.grid) drawGrid(pen);
-    drawKnown(pen, shapes.filter((o) => !o.holes.length), store.hover);
-    shapes.filter((o) => o.holes.length).forEach((o) => drawPierced(pen, o));
-    drawLimits(pen, doc, required, show.rings);
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
+    ctx.drawImage(this.ground(known, colours), 0, 0);
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    drawHovered(pen, known, store.hover);
     const isDriving = !!drive.run;
     if (isDriving) drawSight(pen, drive);
     drawUnseen(pen, unseen, (_, i) => isDriving && drive.hasSeen(i), store.hover);

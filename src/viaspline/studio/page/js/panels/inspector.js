@@ -12,7 +12,7 @@ export class Inspector {
     this.app = app;
     this.panel = /** @type {HTMLElement} */ (document.querySelector("#inspector"));
     this.isSliding = false;
-    const render = lazily(() => this.render(), 60);
+    const render = lazily(() => this.render(), 100);
     app.store.on("document selection", render);
     app.store.on("plan", () => { if (app.store.selection?.startsWith("span:")) render(); });
   }

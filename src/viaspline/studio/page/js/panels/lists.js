@@ -3,7 +3,6 @@
 import { moveVia } from "../core/edits.js";
 import { obstaclesOf, pointsOf, refOf, whole } from "../core/mission.js";
 import { erase, reorder } from "../input/keyboard.js";
-import { place } from "../units.js";
 import { fill, h, icon, iconButton, lazily } from "./dom.js";
 
 export class Lists {
@@ -13,6 +12,7 @@ export class Lists {
     this.route = /** @type {HTMLElement} */ (document.querySelector("#route-list"));
     this.obstacles = /** @type {HTMLElement} */ (document.querySelector("#obstacle-list"));
     /** @type {number|null} */ this.dragged = null;
+    this.signature = "";
     const render = lazily(() => this.render(), 80);
     app.store.on("document selection file", render);
     this.route.addEventListener("keydown", (event) => this.key(event));
@@ -41,8 +41,15 @@ export class Lists {
     if (this.dragged !== null) return;
     const { store } = this.app;
     const points = pointsOf(store.doc);
-    fill(this.route, ...points.map((point, i) => this.pointRow(point, i)));
     const obstacles = obstaclesOf(store.doc);
+    // Rows say nothing of places, so while something is dragged they stay as they are.
+    const signature = JSON.stringify([
+      store.selection, store.doc.route?.order, points.map((p) => [p.id, p.name, p.dwell]),
+      obstacles.map((o) => [o.id, o.name, o.side, !!o.circle, !!o.map]),
+    ]);
+    if (signature === this.signature) return;
+    this.signature = signature;
+    fill(this.route, ...points.map((point, i) => this.pointRow(point, i)));
     fill(
       this.obstacles,
       ...(obstacles.length ? obstacles.map((one) => this.obstacleRow(one)) : [h("li", { class: "empty" }, "None yet: draw a circle (C) or a polygon (P).")]),
@@ -60,7 +67,7 @@ export class Lists {
     const ref = refOf(point.id);
     const badge = point.id === "start" ? "S" : point.id === "goal" ? "G" : String(i);
     const main = h(
-      "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${point.name}${point.at ? ` at ${place(point.at)}` : ""}${point.dwell ? `, stays ${point.dwell} seconds` : ""}`, onclick: () => store.select(point.id) },
+      "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${point.name}${point.dwell ? `, stays ${point.dwell} seconds` : ""}`, onclick: () => store.select(point.id) },
       h("span", { class: `badge ${point.id === "start" ? "is-start" : point.id === "goal" ? "is-goal" : point.dwell > 0 ? "is-station" : ""}` }, badge),
       h("span", { class: "row-name" }, point.name),
       point.dwell > 0 ? h("span", { class: "row-note" }, `${point.dwell} s`) : null,
@@ -99,6 +106,7 @@ export class Lists {
         removeEventListener("pointerup", end);
         if (this.dragged === null) return;
         this.dragged = null;
+        this.signature = "";
         if (to !== index) store.edit(moveVia(store.doc, index, to), { select: `via:${to}` });
         this.render();
       };

@@ -11,7 +11,7 @@ export class Plots {
     this.app = app;
     this.canvas = /** @type {HTMLCanvasElement} */ (document.querySelector("#plots"));
     this.ctx = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext("2d"));
-    const draw = lazily(() => this.draw(), 40);
+    const draw = lazily(() => this.draw(), 60);
     app.store.on("plan hover run document", draw);
     app.drive.on(draw);
     onTheme(draw);

@@ -1,7 +1,7 @@
 /** The robot, the curve's shape, the route as a whole, and the bounds. */
 
 import { replaced, setClosed, setTension } from "../core/edits.js";
-import { tensionsOf } from "../core/mission.js";
+import { pointsOf, tensionsOf } from "../core/mission.js";
 import { checkbox, choice, fill, h, lazily, numberField } from "./dom.js";
 
 export class Settings {
@@ -10,6 +10,7 @@ export class Settings {
     this.app = app;
     this.panel = /** @type {HTMLElement} */ (document.querySelector("#settings"));
     this.isSliding = false;
+    /** @type {unknown[]} */ this.shown = [0];
     app.store.on("document", lazily(() => this.render(), 120));
   }
 
@@ -22,6 +23,10 @@ export class Settings {
   render() {
     if (this.isSliding) return;
     const { doc } = this.app.store;
+    const { closed, order } = doc.route ?? {};
+    const shown = [doc.robot, doc.spline, doc.world?.bounds, closed, order, pointsOf(doc).length];
+    if (shown.every((value, i) => value === this.shown[i])) return;
+    this.shown = shown;
     const robot = doc.robot ?? {};
     const lidar = robot.sensor?.lidar;
     const field = (/** @type {string} */ label, /** @type {string} */ key, /** @type {string} */ unit, /** @type {any} */ more = {}) =>
@@ -66,6 +71,7 @@ export class Settings {
       },
       onchange: () => {
         this.isSliding = false;
+        this.shown = [0];
         this.render();
       },
     });
