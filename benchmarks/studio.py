@@ -9,6 +9,7 @@ the input event's own time stamp to the first task after the frame in which the 
 from __future__ import annotations
 
 import argparse
+import json
 import math
 import os
 import random
@@ -115,24 +116,21 @@ def main() -> None:
     parser.add_argument("--drags", type=int, default=400)
     arguments = parser.parse_args()
     print(f"load of the machine before: {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors")
-    import json
-
     with tempfile.TemporaryDirectory() as folder, chromium() as page:
         for count in (20, 200):
             mission = Path(folder) / f"obstacles-{count}.yaml"
             mission.write_text(json.dumps(scene(count)))
             with studio(mission) as (url, begin, _):
                 opened(page, url)
-                ready = page.evaluate(
-                    "performance.timeOrigin + performance.getEntriesByName('studio-ready')[0].startTime"
-                )
+                mark = "performance.getEntriesByName('studio-ready')[0].startTime"
+                ready = page.evaluate(f"performance.timeOrigin + {mark}")
                 late = ready / 1e3 - (time.time() - (time.perf_counter() - begin))
                 times = np.array(dragged(page, arguments.drags))
                 ms = page.evaluate("studio.store.plan.ms")
                 print(
                     f"{count} obstacles: median {np.median(times):.1f} ms, "
-                    f"95th percentile {np.percentile(times, 95):.1f} ms, worst {times.max():.0f} ms "
-                    f"of {len(times)} drags (the last plan took {ms:.1f} ms); "
+                    f"95th percentile {np.percentile(times, 95):.1f} ms, worst "
+                    f"{times.max():.0f} ms of {len(times)} drags (the last plan took {ms:.1f} ms); "
                     f"page ready {late:.2f} s after the command"
                 )
 

@@ -170,8 +170,8 @@ app.settled = async () => {
 
 /** @param {any} answer */
 app.opened = (answer) => {
+  app.link.sent = answer.document; // the server has it already
   app.store.open(answer.document, answer.name);
-  app.link.sent = answer.document;
   history.replaceState(null, "", location.pathname + location.search);
   restore();
   app.fitSoon();
@@ -182,9 +182,8 @@ app.opened = (answer) => {
 app.saved = (answer, doc) => {
   const { store } = app;
   if (JSON.stringify(answer.document) !== JSON.stringify(doc) && store.doc === doc) {
-    store.put(answer.document); // maps have other names from another folder
-    app.link.sent = store.doc;
-    doc = store.doc;
+    app.link.sent = doc = answer.document; // maps have other names from another folder
+    store.put(doc);
   }
   store.name = answer.name;
   store.savedDoc = doc;

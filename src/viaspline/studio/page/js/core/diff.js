@@ -8,8 +8,8 @@
 /** @typedef {[Path, unknown]|[Path]} Change */
 
 /**
- * @param {unknown} before
- * @param {unknown} after
+ * @param {any} before
+ * @param {any} after
  * @param {Path} [path]
  * @param {Change[]} [found]
  * @returns {Change[]}
@@ -17,7 +17,7 @@
 export function diff(before, after, path = [], found = []) {
   if (before === after) return found;
   if (isList(before) && isList(after) && before.length === after.length) {
-    after.forEach((item, i) => diff(before[i], item, [...path, i], found));
+    after.forEach((/** @type {unknown} */ item, /** @type {number} */ i) => diff(before[i], item, [...path, i], found));
   } else if (isMapping(before) && isMapping(after)) {
     for (const key of Object.keys(before)) if (!(key in after)) found.push([[...path, key]]);
     for (const [key, item] of Object.entries(after)) {

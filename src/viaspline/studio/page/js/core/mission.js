@@ -81,7 +81,7 @@ export function pointsOf(doc) {
  *   map: string|null, side: string|null}[]}
  */
 export function obstaclesOf(doc) {
-  const found = [];
+  /** @type {any[]} */ const found = [];
   let number = 0;
   for (const list of /** @type {("known"|"unseen")[]} */ (["known", "unseen"])) {
     const items = doc?.world?.[list];

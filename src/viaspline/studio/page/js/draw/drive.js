@@ -58,7 +58,7 @@ export function drawFollowed(pen, drive, planned) {
 /** @param {Pen} pen @param {Drive} drive @param {number} maxSpeed [m/s] */
 export function drawTrail(pen, drive, maxSpeed) {
   const { ctx, camera, colours } = pen;
-  const { time, x, y, speed } = drive.run.samples;
+  const { x, y, speed } = drive.run.samples;
   const last = drive.index();
   const state = drive.state();
   const step = Math.max(1, Math.floor(last / 1500));
@@ -85,7 +85,6 @@ export function drawTrail(pen, drive, maxSpeed) {
       shade = next;
     }
   });
-  void time;
 }
 
 /** @param {Pen} pen @param {Drive} drive @param {number} radius [m] */

@@ -1,6 +1,7 @@
 /** Marks on the map: the tightest place, where there is no way, the cursor along the path, the scale. */
 
 import { edgeNear } from "../geometry/shapes.js";
+import { viridis } from "./theme.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
 
@@ -57,12 +58,19 @@ export function drawCursor(pen, at, radius) {
   pen.fill(colours.ink);
 }
 
-/** @param {Pen} pen @param {number} left @param {number} bottom [CSS pixel] */
-export function drawScale(pen, left, bottom) {
+/**
+ * How long things are, and how fast the colours.
+ * @param {Pen} pen @param {number} left @param {number} bottom [CSS pixel] @param {number|null} maxSpeed [m/s]
+ */
+export function drawScale(pen, left, bottom, maxSpeed) {
   const { ctx, camera, colours } = pen;
   const step = camera.step(90);
   const width = step * camera.scale;
   const y = camera.height - bottom;
+  ctx.beginPath();
+  ctx.roundRect(left - 8, y - 22, width + (maxSpeed === null ? 16 : 122), 30, 6);
+  pen.fill(colours.plate);
+  if (maxSpeed !== null) drawShades(pen, left + width + 18, y, maxSpeed);
   ctx.beginPath();
   ctx.moveTo(left, y - 5);
   ctx.lineTo(left, y);
@@ -74,6 +82,22 @@ export function drawScale(pen, left, bottom) {
   ctx.textAlign = "center";
   ctx.textBaseline = "bottom";
   ctx.fillText(step >= 1000 ? `${step / 1000} km` : step >= 1 ? `${step} m` : `${Number((step * 100).toPrecision(3))} cm`, left + width / 2, y - 3);
+}
+
+/** @param {Pen} pen @param {number} x @param {number} y @param {number} maxSpeed */
+function drawShades(pen, x, y, maxSpeed) {
+  const { ctx, colours } = pen;
+  for (let i = 0; i < 24; i += 1) {
+    ctx.fillStyle = viridis(i / 23);
+    ctx.fillRect(x + i * 3.5, y - 5, 4, 5);
+  }
+  ctx.fillStyle = colours.muted;
+  ctx.font = "500 11px Inter, system-ui, sans-serif";
+  ctx.textBaseline = "bottom";
+  ctx.textAlign = "left";
+  ctx.fillText("0", x, y - 6);
+  ctx.textAlign = "right";
+  ctx.fillText(`${Number(maxSpeed.toPrecision(2))} m/s`, x + 84, y - 6);
 }
 
 /** The cross that the keyboard moves. @param {Pen} pen @param {number[]} at */

@@ -6,8 +6,8 @@ import { anchorOf, isPoint, part, pathOf } from "../core/mission.js";
 
 export const HEADING_REACH = 44; // pixels from a point to the handle of its heading
 
-/** @param {Pen} pen @param {any[]} points @param {{selection: string|null, hover: string|null, isClosed: boolean}} state */
-export function drawPoints(pen, points, { selection, hover, isClosed }) {
+/** @param {Pen} pen @param {any[]} points @param {{selection: string|null, hover: string|null}} state */
+export function drawPoints(pen, points, { selection, hover }) {
   const { ctx, camera, colours } = pen;
   points.forEach((point, i) => {
     if (!point.at) return;
@@ -30,7 +30,7 @@ export function drawPoints(pen, points, { selection, hover, isClosed }) {
     ctx.textAlign = "center";
     ctx.textBaseline = "middle";
     ctx.fillStyle = point.id === "start" || point.id === "goal" ? colours.paper : point.dwell > 0 ? "#1b1f24" : colours.ink;
-    const letter = point.id === "start" ? (isClosed ? "S" : "S") : point.id === "goal" ? "G" : String(i);
+    const letter = point.id === "start" ? "S" : point.id === "goal" ? "G" : String(i);
     ctx.fillText(letter, x, y + 0.5);
   });
 }

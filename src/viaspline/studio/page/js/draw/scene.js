@@ -130,7 +130,7 @@ export class Scene {
     this.drawWays(pen, isDriving, maxSpeed);
     if (show.detours && store.curve && store.plan?.ok && !isDriving) drawDetours(pen, store.curve.vias);
     const points = pointsOf(doc);
-    drawPoints(pen, points, { selection: store.selection, hover: store.hover, isClosed: !!doc.route?.closed });
+    drawPoints(pen, points, { selection: store.selection, hover: store.hover });
     drawHandles(pen, doc, store.selection);
     if (!isDriving && store.plan?.ok) drawTightest(pen, store.plan.certificate, known);
     for (const problem of store.plan?.ok === false ? store.plan.problems : []) {
@@ -142,7 +142,7 @@ export class Scene {
     if (this.draft) drawDraft(pen, this.draft);
     if (this.cross) drawCross(pen, this.cross);
     this.drawNames(pen, points, obstacles, isDriving);
-    drawScale(pen, 16, 16);
+    drawScale(pen, 16, 16, show.speed ? maxSpeed : null);
   }
 
   /** @param {Pen} pen @param {boolean} isDriving @param {number} maxSpeed */
@@ -180,7 +180,7 @@ export class Scene {
       const [x, y] = camera.toScreen(p.at[0], p.at[1]);
       return [x - 11, y - 11, x + 11, y + 11];
     });
-    avoid.push([0, camera.height - 40, 140, camera.height]);
+    avoid.push([0, camera.height - 40, 250, camera.height]);
     const line = (isDriving ? [] : store.curve?.samples ?? []).map((s) => camera.toScreen(s.x, s.y));
     if (store.show.names) {
       for (const point of points) {

@@ -1,9 +1,9 @@
 /** Everything by keyboard. What the keys do stands in the help sheet as well. */
 
 import {
-  addObstacle, moveTo, moveVia, remove, setTension, shifted, toggleUnseen,
+  addObstacle, moveTo, moveVia, remove, setTension, shifted,
 } from "../core/edits.js";
-import { anchorOf, idsOf, isObstacle, isPoint, refOf, tensionsOf, whole } from "../core/mission.js";
+import { anchorOf, idsOf, isObstacle, refOf, tensionsOf } from "../core/mission.js";
 
 const TOOLS = { v: "select", a: "via", c: "circle", p: "polygon", h: "pan" };
 const SHOWN = { g: "grid", s: "snap", l: "losers", r: "rings", k: "comb", d: "detours", x: "speed" };
@@ -11,7 +11,7 @@ const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowD
 
 /** @param {any} app */
 export function listenToKeys(app) {
-  const { store, scene, camera, pointer } = app;
+  const { scene } = app;
   addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;
     const isTyping = event.target instanceof HTMLElement && event.target.matches("input:not([type=range]):not([type=checkbox]), select, textarea");
@@ -36,11 +36,6 @@ export function listenToKeys(app) {
     } else if (onMap && onKey(app, event)) event.preventDefault();
     else if (!event.altKey && single(app, event, onSlider)) event.preventDefault();
   });
-  addEventListener("keyup", (event) => {
-    if (event.code === "Space") pointer.isPanning = false;
-  });
-  void store;
-  void camera;
 }
 
 /** Keys with Ctrl. @param {any} app @param {KeyboardEvent} event @param {boolean} isTyping */
@@ -58,7 +53,7 @@ function command(app, event, isTyping) {
 
 /** Keys that mean something on the map only. @param {any} app @param {KeyboardEvent} event */
 function onKey(app, event) {
-  const { store, scene, pointer, say } = app;
+  const { store, scene, pointer } = app;
   if (event.key === "Tab") return next(app, event.shiftKey ? -1 : 1);
   if (event.key === "Enter") {
     if (scene.draft?.corners && !scene.cross) pointer.closePolygon();
@@ -74,7 +69,6 @@ function onKey(app, event) {
     } else erase(app);
     return true;
   }
-  void say;
   return false;
 }
 
@@ -92,7 +86,7 @@ export function erase({ store, say }) {
 
 /** Keys that work wherever the focus is. @param {any} app @param {KeyboardEvent} event @param {boolean} onSlider */
 function single(app, event, onSlider) {
-  const { store, scene, drive, camera, pointer } = app;
+  const { store, scene, drive, pointer } = app;
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   const isButton = event.target instanceof HTMLButtonElement || event.target instanceof HTMLInputElement;
   if (event.key === "?") app.help();
@@ -121,7 +115,6 @@ function single(app, event, onSlider) {
   else if (key === ".") drive.step(1);
   else if (key === ",") drive.step(-1);
   else return false;
-  void camera;
   return true;
 }
 
@@ -229,5 +222,3 @@ function tension({ store, say }, by) {
   store.edit(setTension(store.doc, span, now), { merge: "tension" });
   say(`tension ${now.toFixed(1)}`);
 }
-
-export { isPoint, toggleUnseen, whole };

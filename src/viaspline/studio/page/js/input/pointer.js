@@ -28,7 +28,6 @@ export class Pointer {
     this.start = [0, 0];
     this.last = [0, 0];
     this.moved = false;
-    this.isPanning = false; // while the space bar is held
     this.gestures = 0;
     const on = (/** @type {string} */ type, /** @type {(e: any) => void} */ listener) => this.canvas.addEventListener(type, listener, { passive: false });
     on("pointerdown", (event) => this.down(event));
@@ -72,7 +71,7 @@ export class Pointer {
     this.start = [px, py];
     this.moved = false;
     this.gestures += 1;
-    const isPan = event.button === 1 || event.button === 2 || this.isPanning || this.store.tool === "pan";
+    const isPan = event.button === 1 || event.button === 2 || this.store.tool === "pan";
     this.gesture = isPan ? this.pan(px, py) : this.begin(px, py, event.pointerType === "touch" ? 18 : 10);
   }
 

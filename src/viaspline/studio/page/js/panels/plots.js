@@ -68,7 +68,7 @@ export class Plots {
     const x = (/** @type {number} */ s) => LEFT + (s / (curve.length || 1)) * (width - LEFT - RIGHT);
     ctx.globalAlpha = store.plan?.ok === false ? 0.4 : 1;
     this.ticks(curve, x, colours);
-    const list = curve.samples;
+    /** @type {import("../geometry/curve.js").Sample[]} */ const list = curve.samples;
     const most = Math.max(...list.map((p) => Math.abs(p.curvature)).filter(Number.isFinite), 1e-6);
     const top = Number(store.doc.robot?.max_speed_mps ?? 2) || 1;
     this.strip("curvature", "1/m", [-most, most], TOP, tall, colours);
