@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.mission.parts import Lidar
+from viaspline.mission.robot_parts import Lidar
 from viaspline.planner import Plan
 from viaspline.report.plain import plain
 from viaspline.robot.belief import ON_MAP
