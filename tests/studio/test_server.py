@@ -357,6 +357,8 @@ def test_maps_and_their_pictures_are_not_read_from_elsewhere(start: START, tmp_p
         for name in ("in.yaml", "link.map", "../out.map", str(tmp_path / "out.map")):
             answer = client.edit([["world"], {"known": [{"map": name}]}])
             assert "outside" in answer["problems"][0]["text"], name
+        answer = client.edit([["world"], {}], [["route", "corridor"], {"csv": "../track.csv"}])
+        assert answer["problems"][0]["path"] == ["route", "corridor", "csv"]
 
 
 def test_a_scene_that_is_too_large_is_refused_and_the_old_one_kept(

@@ -68,6 +68,7 @@ class Maps:
         Raises:
             MissionError: A map can't be read or lies outside of the folder.
         """
+        document = self._with_corridor(document, base)
         world = document.get("world")
         if not isinstance(world, Mapping):
             return Unfolded(document, {})
@@ -86,6 +87,21 @@ class Maps:
                 unfolded[key] += found
                 places[key] += [i] * len(found)
         return Unfolded({**document, "world": unfolded} if places else document, places)
+
+    def _with_corridor(self, document: Document, base: Path) -> Document:
+        """The document with the file of its corridor named from anywhere."""
+        route = document.get("route")
+        corridor = route.get("corridor") if isinstance(route, Mapping) else None
+        name = corridor.get("csv") if isinstance(corridor, Mapping) else None
+        if not isinstance(route, Mapping) or not isinstance(name, str) or not corridor:
+            return document
+        try:
+            path = self._within(name, base)
+        except MissionError as error:
+            fault = error.faults[0]
+            key = "route.corridor.csv"
+            raise MissionError([Fault(key, f"{name}: {fault.problem}", fault.remedy)]) from None
+        return {**document, "route": {**route, "corridor": {**corridor, "csv": str(path)}}}
 
     def _read(
         self, item: Mapping[str, Any], key: str, base: Path, taken: set[Any]
@@ -124,7 +140,7 @@ class Maps:
         path = (base / name).resolve()
         if not path.is_relative_to(self._folder.root):
             problem = "lies outside of the studio's folder"
-            remedy = "start the studio with a folder that holds the map as well"
+            remedy = "start the studio with a folder that holds the file as well"
             raise MissionError([Fault("map", problem, remedy, source=name)])
         return path
 

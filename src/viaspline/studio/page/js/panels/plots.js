@@ -69,7 +69,7 @@ export class Plots {
     ctx.globalAlpha = store.plan?.ok === false ? 0.4 : 1;
     this.ticks(curve, x, colours);
     /** @type {import("../geometry/curve.js").Sample[]} */ const list = curve.samples;
-    const most = Math.max(...list.map((p) => Math.abs(p.curvature)).filter(Number.isFinite), 1e-6);
+    const most = Math.max(...list.map((p) => Math.abs(p.curvature)).filter(Number.isFinite), 1e-3);
     const top = Number(store.doc.robot?.max_speed_mps ?? 2) || 1;
     this.strip("curvature", "1/m", [-most, most], TOP, tall, colours);
     this.line(list.map((p) => [x(p.s), TOP + tall * (0.5 - p.curvature / most / 2)]), colours.comb);
