@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import re
 import urllib.error
 import urllib.request
 from contextlib import suppress
@@ -17,6 +18,7 @@ from websockets.sync.client import connect
 
 from viaspline.cli import cli
 from viaspline.mission.document import read_document
+from viaspline.studio.app import PAGE
 from viaspline.studio.messages import LARGEST
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -45,6 +47,8 @@ def test_the_page_and_all_that_it_needs_are_served_from_the_package(
     assert "https://" not in text
     for name in ("style.css", "panels.css", "icon.svg", "js/main.js", "js/core/store.js"):
         assert fetch(f"{studio.url}page/{name}")[0] == 200
+    modules = {path.relative_to(PAGE).as_posix() for path in PAGE.rglob("*.js")}
+    assert set(re.findall(r'(?:href|src)="/page/(js/[^"]+)"', text)) == modules
     assert fetch(f"{studio.url}page/../session.py")[0] == 404
     assert fetch(f"{studio.url}page/%2e%2e/session.py")[0] == 404
     assert fetch(f"{studio.url}grids/none.png")[0] == 404

@@ -27,6 +27,9 @@ class Opened:
     warnings: tuple[str, ...] = ()
 
 
+_LAST: dict[tuple[str, int, int], Opened] = {}
+
+
 def opened(path: Path) -> Opened:
     """Open a mission file: YAML as it stands there, other kinds as what they mean.
 
@@ -34,6 +37,19 @@ def opened(path: Path) -> Opened:
         MissionError: It can't be read, or isn't what its name says.
         RefusedError: It is too large for the studio.
     """
+    try:
+        stat = path.stat()
+    except OSError:
+        return _opened(path)  # which says why
+    stamp = (str(path.resolve()), stat.st_mtime_ns, stat.st_size)
+    if stamp not in _LAST:  # the command has just read what the page asks for
+        found = _opened(path)
+        _LAST.clear()
+        _LAST[stamp] = found
+    return _LAST[stamp]
+
+
+def _opened(path: Path) -> Opened:
     notes: tuple[str, ...] = ()
     if path.suffix.lower() in (".yaml", ".yml"):
         found = read_document(path)

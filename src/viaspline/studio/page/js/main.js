@@ -104,6 +104,8 @@ async function greet(hello) {
     app.toast("The scene of this address is open.");
   } else restore();
   app.fitSoon();
+  app.scene.drawn.push(() => performance.mark("studio-open")); // can be laid out, not yet planned
+  app.scene.later();
   if (hello.problem) app.toast(hello.problem, "is-bad");
   else if (hello.warnings.length) app.toast(hello.warnings.join("; "));
 }
@@ -139,7 +141,6 @@ function planned(answer) {
       if (app.latencies.length > 5000) app.latencies.shift();
     });
   }
-  app.scene.later();
   if (!app.ready) {
     app.scene.drawn.push(() => {
       app.ready = true;
@@ -147,6 +148,7 @@ function planned(answer) {
       document.body.dataset.ready = "yes";
     });
   }
+  app.scene.now();
   store.tell("plan");
 }
 

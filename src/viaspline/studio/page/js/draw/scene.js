@@ -51,16 +51,29 @@ export class Scene {
     if (this.isDue) return;
     this.isDue = true;
     requestAnimationFrame(() => {
+      if (this.isDue) this.draw();
       this.isDue = false;
-      this.draw();
-      const waiting = this.drawn;
-      this.drawn = [];
-      if (waiting.length) {
-        const channel = new MessageChannel(); // its task comes after the frame was given away
-        channel.port1.onmessage = () => waiting.forEach((tell) => tell(performance.now()));
-        channel.port2.postMessage(0);
-      }
+      this.told();
     });
+  }
+
+  /** Draw at once, for the next frame: a new path doesn't wait for it to begin. */
+  now() {
+    clearTimeout(this.patience);
+    this.patience = 0;
+    this.isDue = false;
+    this.draw();
+    requestAnimationFrame(() => this.told());
+  }
+
+  /** Tell who waits that the frame with the newest drawing was given away. */
+  told() {
+    const waiting = this.drawn;
+    this.drawn = [];
+    if (!waiting.length) return;
+    const channel = new MessageChannel(); // its task comes after the frame
+    channel.port1.onmessage = () => waiting.forEach((tell) => tell(performance.now()));
+    channel.port2.postMessage(0);
   }
 
   /** Fit the canvas to its place. */
