@@ -18,7 +18,7 @@ from websockets.sync.client import ClientConnection, connect
 from viaspline.studio.serve import Address, server_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-PATIENCE = 60.0  # the first plan on a machine compiles [s]
+PATIENCE = 240.0  # the first plan on a machine compiles [s]
 
 Message = dict[str, Any]
 

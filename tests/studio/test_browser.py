@@ -37,7 +37,7 @@ class Page:
 
     def open(self, url: str) -> None:
         self.page.goto(url)
-        self.page.wait_for_selector("body[data-ready]", timeout=60_000)
+        self.page.wait_for_selector("body[data-ready]", timeout=240_000)
         self.settle()
 
     def js(self, script: str, argument: Any = None) -> Any:
@@ -45,7 +45,7 @@ class Page:
 
     def until(self, script: str) -> None:
         """Wait for something to become true; the page forbids waiting by eval."""
-        deadline = time.monotonic() + 20
+        deadline = time.monotonic() + 60
         while not self.js(script):
             assert time.monotonic() < deadline, script
             self.page.wait_for_timeout(10)
