@@ -163,7 +163,8 @@ export function tensionsOf(doc) {
   const given = slack === undefined || slack === null ? tension ?? 0 : slack;
   const list = Array.isArray(given) ? given : Array(count).fill(given);
   const isSlack = slack !== undefined && slack !== null;
-  return Array.from({ length: count }, (_, i) => (isSlack ? 1 - 2 * Number(list[i] ?? 0.5) : Number(list[i] ?? 0)));
+  const known = (/** @type {unknown} */ value, /** @type {number} */ usual) => (typeof value === "number" ? value : usual); // auto
+  return Array.from({ length: count }, (_, i) => (isSlack ? 1 - 2 * known(list[i], 0.5) : known(list[i], 0)));
 }
 
 /** Radius and clearance together [m]: what the path keeps. @param {any} doc */

@@ -61,7 +61,7 @@ export class Settings {
     const { store } = this.app;
     const list = tensionsOf(store.doc);
     const isOwn = new Set(list).size > 1;
-    const output = h("output", { class: "slider-value" }, isOwn ? "differs by span" : (list[0] ?? 0).toFixed(2));
+    const output = h("output", { class: "slider-value" }, store.doc.spline?.tension === "auto" ? "auto" : isOwn ? "differs by span" : (list[0] ?? 0).toFixed(2));
     const slider = h("input", {
       type: "range", min: -1, max: 1, step: 0.05, value: String(list[0] ?? 0), "aria-label": "Tension of all spans",
       onpointerdown: () => { this.isSliding = true; },
