@@ -63,12 +63,12 @@ def clear(tmp_path: Path) -> Path:
 
 def test_every_help_has_an_example() -> None:
     assert "Example" in call("--help").stdout
-    for command in ("run", "plan", "check", "figures"):
+    for command in ("run", "plan", "check", "figures", "studio"):
         assert f"viaspline {command} " in call(command, "--help").stdout
 
 
 def test_commands_that_come_later_are_not_offered() -> None:
-    assert set(cli.commands) == {"run", "plan", "check", "figures", "tension"}
+    assert set(cli.commands) == {"run", "plan", "check", "figures", "tension", "studio"}
 
 
 def test_the_version_is_told() -> None:
