@@ -10,6 +10,7 @@ import urllib.request
 from pathlib import Path
 from typing import Any
 
+import numba
 import pytest
 from click.testing import CliRunner
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -123,6 +124,19 @@ def test_a_side_that_can_not_be_had_is_freed_by_its_remedy(start: START, tmp_pat
         (change,) = problem["changes"]
         assert (change["path"], change["value"]) == (["world", "known", 0, "pass_on"], None)
         assert client.edit([change["path"]])["ok"]
+
+
+def test_the_page_hears_of_every_kernel_that_is_compiled(start: START, patrol: Path) -> None:
+    def later(x: float) -> float:
+        return x + 1.0
+
+    later.__module__ = "viaspline.kernels.later"
+    with start(patrol).client() as client:
+        client.edit()
+        numba.njit(later)(1.0)
+        while (message := client.hear("compiling"))["done"]:
+            pass
+        assert message["kernel"] == "later.later"
 
 
 def test_edits_that_are_overtaken_are_not_planned(start: START, patrol: Path) -> None:

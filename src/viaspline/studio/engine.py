@@ -6,6 +6,7 @@ is there before numba is.
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from viaspline.studio.maps import Maps
     from viaspline.studio.planning import Planned
 
+SWITCH: Final = 0.0005  # how long a thread keeps Python's lock from another at first [s]
 CHEAP: Final = 0.003  # a ledger that takes less goes with its plan [s]
 FIRST: Final[Document] = {
     **EMPTY,
@@ -50,6 +52,7 @@ class Engine:
         self._ledger_cost = 0.0
         self._pictures: dict[str, bytes] = {}
         self._compiled = 0
+        self._listening = ExitStack()
         self.listeners: set[Hears] = set()
         self.compiling: tuple[str, int] | None = None
         self.ready = False
@@ -59,16 +62,25 @@ class Engine:
         self._planner.do(self._prepare)
 
     def _prepare(self) -> None:
+        # While this is imported and compiled the page is to be served all the same.
+        usual = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH)
+        try:
+            self._load()
+        finally:
+            sys.setswitchinterval(usual)
+        self.ready, self.compiling = True, None
+        for tell in tuple(self.listeners):
+            tell("", self._compiled)
+
+    def _load(self) -> None:
         from viaspline.kernels.jit import compile_progress
         from viaspline.warm import second_compiler
 
         # Never left: drives and pictures may compile more.
-        ExitStack().enter_context(compile_progress(self._hear))
+        self._listening.enter_context(compile_progress(self._hear))
         with second_compiler():
             self._planned(FIRST, self._folder.root, 0)
-        self.ready, self.compiling = True, None
-        for tell in tuple(self.listeners):
-            tell("", self._compiled)
 
     def _hear(self, kernel: str) -> None:
         self._compiled += 1

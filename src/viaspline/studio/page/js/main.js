@@ -90,9 +90,9 @@ async function greet(hello) {
   const { store } = app;
   app.summary.busy = "";
   app.empty = hello.empty;
+  store.tell("status");
   if (greeted) { // the studio came back: go on with what is here
     app.link.plan(store.doc, store.revision, store.inputAt);
-    store.tell("status");
     return;
   }
   greeted = true;
@@ -124,6 +124,7 @@ function restore() {
 /** @param {any} answer */
 function planned(answer) {
   const { store } = app;
+  app.summary.busy = "";
   store.plan = answer;
   if (answer.ok) {
     store.goodPlan = answer;

@@ -72,6 +72,8 @@ export class Timeline {
       toast(/** @type {Error} */ (error).message);
     } finally {
       this.isAsked = false;
+      this.app.summary.busy = ""; // what a first drive compiles is compiled
+      store.tell("status");
       this.render();
     }
   }
