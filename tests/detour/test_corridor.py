@@ -93,7 +93,8 @@ def test_it_stays_inside_and_runs_through_its_via_points(
     assert least_room(plan) >= 0.75 - 1e-5
     for via in plan.path.vias:
         np.testing.assert_allclose(plan.path.evaluate(via.u), via.at, atol=1e-12)
-    assert [list(via.at) for via in plan.path.vias[1:-1]] == vias
+    users = [via for via in plan.path.vias if via.kind == "user"]
+    assert [list(via.at) for via in users[1:-1]] == vias
     distances = plan.path.via_distances
     assert (np.diff(distances) > 0).all()
 

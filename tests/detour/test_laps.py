@@ -101,3 +101,21 @@ def test_laps_along_a_corridor_share_its_line() -> None:
     assert run.reached
     assert run.certificate.holds
     assert [visit.name for visit in run.visits] == ["start"] * 3
+
+
+@pytest.mark.parametrize("crate", [[-31.9, 2], [0.5, 21], [28, -9]])
+def test_what_is_seen_in_a_corridor_is_gone_round_without_cutting_the_lap(crate: list) -> None:
+    angle = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    line = np.column_stack((30 * np.cos(angle), 20 * np.sin(angle), *np.full((2, 60), 3.0)))
+    mission = vs.Mission.model_validate({
+        "world": {"unseen": [{"name": "crate", "circle": {"center": crate, "radius": 0.8}}]},
+        "robot": {"sensor": {"range_m": 8}, "radius_m": 0.4, "clearance_m": 0.2},
+        "route": {"start": [30, 0], "closed": True, "laps": 2, "corridor": {"line": line.tolist()}},
+    })  # fmt: skip
+    run = vs.simulate(mission)
+    assert run.reached
+    assert run.certificate.holds
+    assert run.path.length == pytest.approx(run.plan.path.length, rel=0.03)
+    turned = np.unwrap(np.arctan2(run.positions[:, 1], run.positions[:, 0]))
+    assert turned[-1] == pytest.approx(4 * np.pi, abs=1e-3)
+    assert (np.diff(turned) > -1e-3).all()

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from viaspline.curve.piecewise import PiecewiseCubic
 
 ViaKind = Literal["user", "detour"]
+GUIDE = "along the corridor"  # the name of a place that only says which way a corridor leads
 
 
 @dataclass(frozen=True)

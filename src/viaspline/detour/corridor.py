@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.certificate import SPARE, certify
-from viaspline.curve.path import Path, PathVia, ViaKind
+from viaspline.curve.path import GUIDE, Path, PathVia, ViaKind
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.body import proven as prove_body
 from viaspline.detour.brief import Brief
@@ -32,6 +32,7 @@ Rows = NDArray[np.int64]
 PROOFS = 25  # times that a line is moved away from where the proof fails
 FINER = 1e-4  # to which it is known by how much it fails [m]
 BEYOND = 1.2  # times as far as it fails a line is moved away
+GUIDED = 4  # spans from guide to guide: re-plans under way come back to the line at one of them
 AT_JOINT = 1e-9  # a gate so near to a joint lies on it, as a parameter
 ROUNDER = 0.999  # of the curvature that is allowed is what a line is held to
 
@@ -290,6 +291,7 @@ def _halves(span: Floats, w: float) -> tuple[Floats, Floats]:
 
 
 def _path_vias(course: Course, laid: StripLine) -> tuple[PathVia, ...]:
+    """The points of the route on the line, and guides between them."""
     kind: ViaKind = "user"
     vias = [
         PathVia(
@@ -299,7 +301,13 @@ def _path_vias(course: Course, laid: StripLine) -> tuple[PathVia, ...]:
     ]
     if course.closed:
         vias.append(replace(vias[0], u=float(len(laid.spans)), index=len(course.vias)))
-    return tuple(vias)
+    taken = {via.u for via in vias}
+    vias += [
+        PathVia(GUIDE, tuple(laid.spans[u, 0].tolist()), "detour", float(u))
+        for u in range(GUIDED, len(laid.spans), GUIDED)
+        if float(u) not in taken
+    ]
+    return tuple(sorted(vias, key=lambda via: via.u))
 
 
 def _refuse_disorder(course: Course, strip: Strip) -> None:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.certificate import Certificate
-from viaspline.curve.path import Path, PathVia
+from viaspline.curve.path import GUIDE, Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.account import Account
 from viaspline.detour.body import body_conflicts, proven
@@ -69,7 +69,7 @@ def reflex(path: Path, at: float, world: World, brief: Brief) -> Detoured:
     if not blocked.size:
         certificate = proven(_ahead(path, u), world, brief)
         return replace(_result(path, at, certificate, None), rejoins_at=at)
-    users = [via for via in path.vias if via.kind == "user"]
+    users = _to_serve(path, world, brief)
     narrow = _stretch(path.vias, users, u, blocked)
     wide = _stretch(users, users, u, blocked)
     try:
@@ -101,7 +101,7 @@ def planned(
         NoPathError: When there is no way.
     """
     u = float(path.parameter(at))
-    return _joined(path, _Stretch(u, _remaining(path, at, skip), None), world, brief)
+    return _joined(path, _Stretch(u, _remaining(path, at, world, brief, skip), None), world, brief)
 
 
 def from_rest(
@@ -115,7 +115,7 @@ def from_rest(
         NoPathError: When there is no way.
     """
     u = float(path.parameter(at))
-    stretch = _Stretch(u, _remaining(path, at, skip), None)
+    stretch = _Stretch(u, _remaining(path, at, world, brief, skip), None)
     _refuse_the_end(path, stretch)
     start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
     course = _course(path, start, stretch, brief)
@@ -239,13 +239,27 @@ def _vias_until(path: Path, u: float, spans: int) -> Sequence[PathVia]:
     return [via for via in path.vias if via.u <= min(u + NEAR, spans)]
 
 
-def _remaining(path: Path, at: float, skip: Collection[int]) -> tuple[PathVia, ...]:
-    remaining = tuple(
+def _to_serve(path: Path, world: World, brief: Brief) -> list[PathVia]:
+    """The user's via points, and a corridor's guides where there is room: no way leaves them out.
+
+    Without them the way to the next via point might go round the other way.
+    """
+    places = [via.at[:2] for via in path.vias]
+    free = world.distance(places) > brief.required + NEAR
+    return [
         via
-        for via, distance in zip(path.vias, path.via_distances, strict=True)
-        if via.kind == "user" and distance > at + NEAR and via.index not in skip
-    )
-    if not remaining:
+        for via, is_free in zip(path.vias, free.tolist(), strict=True)
+        if via.kind == "user" or (via.name == GUIDE and is_free)
+    ]
+
+
+def _remaining(
+    path: Path, at: float, world: World, brief: Brief, skip: Collection[int]
+) -> tuple[PathVia, ...]:
+    serve = _to_serve(path, world, brief)
+    u = float(path.parameter(min(at + NEAR, path.length)))
+    remaining = tuple(via for via in serve if via.u > u and via.index not in skip)
+    if not any(via.kind == "user" for via in remaining):
         raise NoPathError(
             "no via point is left to go to",
             where=np.asarray(path.at_distance(min(at, path.length))),

@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import Normal, Stroke
 
 from viaspline.curve.certificate import Certificate
-from viaspline.curve.path import PathVia
+from viaspline.curve.path import GUIDE, PathVia
 from viaspline.mission.model import Mission
 from viaspline.report import style
 from viaspline.report.drawing import Floats
@@ -81,7 +81,7 @@ def draw_vias(
     """
     last = len(mission.route.via) + 1  # later laps come to the same places
     users = [via for via in vias if via.kind == "user" and (via.index or 0) <= last]
-    detours = [via for via in vias if via.kind == "detour"]
+    detours = [via for via in vias if via.kind == "detour" and via.name != GUIDE]
     places = np.array([via.at[:2] for via in users]).reshape(-1, 2)
     numbered = _are_apart(axes, places)
     handles: list[Artist] = []

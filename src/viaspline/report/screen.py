@@ -10,6 +10,7 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 
 from viaspline.advice import TensionAdvice
+from viaspline.curve.path import GUIDE
 from viaspline.detour.ledger import Candidate, LedgerEntry
 from viaspline.planner import Plan
 from viaspline.report.messages import deafen
@@ -41,7 +42,7 @@ def plan_tables(plan: Plan, name: str) -> RenderableType:
     path, certificate = plan.path, plan.certificate
     facts = _facts(f"Plan · {name}")
     users = [via for via in path.vias if via.kind == "user"]
-    detours = len(path.vias) - len(users)
+    detours = sum(via.kind == "detour" and via.name != GUIDE for via in path.vias)
     for obstacle in plan.world.obstacles:
         if obstacle.grid is not None:
             facts.add_row("map", map_words(obstacle.grid).removeprefix("map").lstrip(" :"))
