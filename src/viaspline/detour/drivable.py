@@ -28,11 +28,11 @@ from viaspline.detour.leg_search import LegSearch
 from viaspline.detour.passing import Task
 from viaspline.detour.route import Way, on_the_line
 from viaspline.detour.search import lay_clear
-from viaspline.detour.turns.bends import DETOUR, bends_along
-from viaspline.detour.turns.pose_search import NotFound
+from viaspline.detour.turns.bends import DETOUR, Bends, bends_along
+from viaspline.detour.turns.pose_search import NotFound, Reason
 from viaspline.detour.turns.poses import Leg, Poses, legs_of, posed
 from viaspline.detour.turns.push import clear_swing, swing_if_clear
-from viaspline.detour.turns.refusal import refuse_circle
+from viaspline.detour.turns.refusal import refuse_body, refuse_circle
 from viaspline.detour.turns.swing import OVERSHOOT, RAMP, Swing
 from viaspline.detour.turns.tight import tight_chains
 from viaspline.errors import NoPathError
@@ -70,6 +70,11 @@ class _Drive:
         if self.brief.turn_radius is not None:
             return (self.rho,)
         return (*(part * self.brief.required for part in WIDE), self.rho)
+
+    @property
+    def careful(self) -> tuple[float, ...]:
+        """Those that are worth a longer search [m]."""
+        return self.radii[-1:] if len(self.radii) == 1 else (self.radii[1], self.radii[-1])
 
     def is_clear(self, spans: Floats) -> bool:
         """Whether the body keeps clear on planar spans."""
@@ -112,17 +117,30 @@ def _swung(drive: _Drive) -> Laid:
         swing = clear_swing(bends, rho, drive.world, drive.brief)
         if swing is not None:
             return _laid(drive, [swing])
-    legs, spots = legs_of(bends, _spots(drive)), _spots(drive)
-    poses = _posed(drive, legs, drive.rho, bends.closed)
+    failed: NotFound | None = None
+    for rho in drive.careful:
+        found = _searched(drive, bends, rho)
+        if isinstance(found, Laid):
+            return found
+        failed = found
+    assert failed is not None  # there is at least one radius
+    raise _refusal(drive, bends, failed)
+
+
+def _searched(drive: _Drive, bends: Bends, rho: float) -> Laid | NotFound:
+    """The headings at all via points chosen together, or else a search among poses."""
+    spots = _spots(drive)
+    poses = _posed(drive, legs_of(bends, spots), rho, bends.closed)
     if poses is not None:
         return _laid(drive, poses.swings)
-    chains = tight_chains(
-        drive.course, drive.world, drive.brief, drive.rho, RAMP * drive.rho, spots
-    )
+    chains = tight_chains(drive.course, drive.world, drive.brief, rho, RAMP * rho, spots)
     if isinstance(chains, NotFound):
-        raise _refusal(drive, legs, chains)
+        return chains
+    spans = np.concatenate([chain.spans for chain in chains])
+    if not drive.is_clear(spans):  # the search knows the body by the discs that cover it
+        return NotFound(Reason.BUDGET)
     joints = np.cumsum([0, *(len(chain.spans) for chain in chains)])
-    return _through(drive, np.concatenate([chain.spans for chain in chains]), joints, ())
+    return _through(drive, spans, joints, ())
 
 
 def _ways_of(drive: _Drive) -> list[Way]:
@@ -158,13 +176,23 @@ def _spots(drive: _Drive) -> set[int]:
     }
 
 
-def _refusal(drive: _Drive, legs: Sequence[Leg], failed: NotFound) -> NoPathError:
+def _refusal(drive: _Drive, bends: Bends, failed: NotFound) -> NoPathError:
+    if drive.brief.turn_radius is None:
+        return refuse_body(drive.course, failed, partial(_has_room, drive, bends))
+    legs = legs_of(bends, _spots(drive))
+
     def serves(radius: float) -> bool:
         rho = OVERSHOOT * radius
         lay = partial(swing_if_clear, rho=rho, world=drive.world, brief=drive.brief)
         return posed(legs, rho, drive.course.closed, lay, most=PUSHED) is not None
 
     return refuse_circle(drive.course, drive.radius, failed, serves)
+
+
+def _has_room(drive: _Drive, bends: Bends, part: float) -> bool:
+    """Whether there is a path with a part of the clearance."""
+    brief = replace(drive.brief, clearance=part * drive.brief.clearance)
+    return any(clear_swing(bends, rho, drive.world, brief) is not None for rho in drive.radii)
 
 
 def _laid(drive: _Drive, swings: Sequence[Swing]) -> Laid:

@@ -6,11 +6,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from viaspline.detour.course import Course
+from viaspline.detour.course import Course, RouteVia
 from viaspline.detour.turns.pose_search import NotFound, Reason
 from viaspline.errors import NoPathError
 
 SMALLER = (0.9, 0.7, 0.5, 0.3, 0.15)  # parts of the radius that are tried
+LESS = (0.5, 0.0)  # parts of the clearance that are tried
 DIGITS = 3
 
 
@@ -25,9 +26,7 @@ def refuse_circle(
         failed: What the search for a path came to.
         serves: Whether there is a path with a smaller radius [m].
     """
-    start, via = course.ends(failed.goal)
-    if failed.reason in (Reason.START_TAKEN, Reason.START_SHUT_IN):
-        via = start
+    via = _at_fault(course, failed)
     smaller = next((part * radius for part in SMALLER if serves(part * radius)), None)
     if smaller is None:
         remedy = f"move {via.name!r} to where there is room to turn, or leave it out"
@@ -44,3 +43,30 @@ def refuse_circle(
         remedy=remedy,
         via=via.name,
     )
+
+
+def refuse_body(course: Course, failed: NotFound, has_room: Callable[[float], bool]) -> NoPathError:
+    """The error for a course that a long body can't be led along.
+
+    Args:
+        course: What was asked for.
+        failed: What the search for a path came to.
+        has_room: Whether there is a path with a part of the clearance.
+    """
+    via = _at_fault(course, failed)
+    less = next((part for part in LESS if has_room(part)), None)
+    moves = [f"move {via.name!r} to where there is room for the body"]
+    if less is not None:
+        moves.insert(0, f"{less:g} of the clearance would do (robot.clearance_m)")
+    return NoPathError(
+        f"the body can't be led to via point {via.name!r}: {failed.reason.value}",
+        where=via.at,
+        remedy=", or ".join(moves),
+        via=via.name,
+    )
+
+
+def _at_fault(course: Course, failed: NotFound) -> RouteVia:
+    """The via point at which a search ended."""
+    start, goal = course.ends(failed.goal)
+    return start if failed.reason in (Reason.START_TAKEN, Reason.START_SHUT_IN) else goal
