@@ -123,3 +123,17 @@ def test_detour_points_stand_outside_of_the_arc_and_beside_it() -> None:
         w = np.linspace(0, 1, 50)[:, None]
         between = a + w * (b - a)
         assert np.hypot(between[:, 0], between[:, 1] + 1).min() >= 6.0
+
+
+def test_a_bend_that_turns_by_less_than_nothing_is_one_point() -> None:
+    """As they came of a depot's squares in a row: rounding left turns of -1e-14."""
+    bends = np.array(
+        [
+            [27.177129, 9.556953, 0.0, 0.0, 0.0, 0.0],
+            [26.990247, 9.112223, 0.337, 1.0, -1.681454, 2e-15],
+            [26.918832, 8.46949, 0.337, 1.0, -1.681454, -1.3e-14],
+            [26.905321, 8.347888, 0.337, 1.0, -1.681454, 2.015342],
+            [27.528087, 8.207211, 0.0, 0.0, 0.333888, 0.0],
+        ]
+    )
+    assert np.isfinite(detour_points(bends, 0.2, 1.0, 1.0, 1e-4)).all()

@@ -159,7 +159,7 @@ def _parts(bends: Floats, k: int, step: float, ease: float) -> int:
     n circumscribed corners are longer than their arc by radius * turn³ / 12 n², for which the
     same part of the straight pieces' length may be spent.
     """
-    turn = bends[k, TURN]
+    turn = max(bends[k, TURN], 0.0)  # rounding may leave a bend that turns by less than nothing
     most = np.ceil(turn / step)
     spare = ease * (_straight_length(bends, k - 1) + _straight_length(bends, k))
     longer = bends[k, BEND_RADIUS] * turn**3 / 12.0
