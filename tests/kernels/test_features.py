@@ -28,7 +28,7 @@ def near(
     obstacle: Obstacle | None, x: float, y: float, reach: float, room: int = 64, fences: Any = ()
 ) -> Floats:
     out = np.full((room, 5), np.nan)
-    packed = pack([] if obstacle is None else [obstacle], None, fences)
+    packed = pack([] if obstacle is None else [obstacle], None, [(ring,) for ring in fences])
     return out[: features_near(packed, x, y, reach, out)]
 
 

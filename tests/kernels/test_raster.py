@@ -40,7 +40,7 @@ def test_cells_are_blocked_whose_middles_are_too_close(seed: int) -> None:
     rng = np.random.default_rng(seed)
     bounds = (-1.0, -1.0, 11.0, 9.0) if rng.random() < 0.5 else None
     fences = [((0, 0), (10, 0), (10, 9), (4, 3))] if rng.random() < 0.5 else []
-    packed = pack(random_obstacles(rng), bounds, fences)
+    packed = pack(random_obstacles(rng), bounds, [(ring,) for ring in fences])
     side, reach = rng.uniform(0.4, 1.5), rng.uniform(0.0, 1.5)
     height, width = rng.integers(1, 14, 2).tolist()
     x, y = rng.uniform(-3, 3, 2).tolist()

@@ -25,7 +25,7 @@ def disc(x: float, y: float, radius: float) -> Obstacle:
 
 
 def world(*obstacles: Obstacle, **frame: Any) -> PackedWorld:
-    return pack(obstacles, frame.get("bounds"), frame.get("fences", ()))
+    return pack(obstacles, frame.get("bounds"), [(ring,) for ring in frame.get("fences", ())])
 
 
 def route(packed: PackedWorld, start: Any, goal: Any, barriers: Floats = NONE) -> Floats:

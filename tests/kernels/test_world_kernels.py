@@ -32,7 +32,7 @@ def polygon(*ring: tuple[float, float]) -> Obstacle:
 
 
 def world(*obstacles: Obstacle, bounds: Any = None, fences: Any = ()) -> PackedWorld:
-    return pack(obstacles, bounds, fences)
+    return pack(obstacles, bounds, [(ring,) for ring in fences])
 
 
 def to_segment(packed: PackedWorld, *ends: float, limit: float = np.inf) -> tuple[float, int]:

@@ -32,6 +32,7 @@ EFFORTS = (
 )
 LOWER = (0.7, 0.5)  # slack of a leg whose straight line is clear, before it gets helpers
 HALVINGS = 24
+TAUT = 1e-3  # slack below which a loop is too small to matter
 CLEAR = -1
 HELPER = 0.1  # of a straight leg's length, where the spline would swing out into something
 
@@ -93,7 +94,10 @@ def tighten(course: Course, index: int, world: World, required: float) -> Fitted
 
 
 def untied(course: Course, spans: Floats) -> Course:
-    """The course with less slack where a span loops back on itself; itself if none does."""
+    """The course with less slack where a span loops back on itself; itself if none does.
+
+    Where a heading is given the curve may have to come round.
+    """
     legs = np.diff(spans[:, :, :2], axis=1)
     ahead, after = legs[:, :-1], legs[:, 1:]
     cross = ahead[..., 0] * after[..., 1] - ahead[..., 1] * after[..., 0]
@@ -101,9 +105,14 @@ def untied(course: Course, spans: Floats) -> Course:
     if turns.max() <= np.pi:  # a curve turns no more than its control polygon
         return course
     loops = self_loops(spans)
+    if course.start_tangent is not None:
+        loops[: course.pieces] = False
+    if course.end_tangent is not None:
+        loops[-course.pieces :] = False
     first = course.first_spans()
-    for index in range(len(course.legs)):
+    for index, leg in enumerate(course.legs):
         tied = loops[first[index] : first[index + 1]]
+        tied &= np.repeat(leg.slack > TAUT, course.pieces)
         if tied.any():
             course = _halved(course, index, tied)
     return course
