@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, linprog
 
+from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.mission.parts import SpeedZone
 from viaspline.trajectory.limits import Limits, Station
@@ -183,3 +184,11 @@ def test_under_way_the_jerk_is_limited_from_the_first_rest_on() -> None:
     assert law.time_at(20.0) == pytest.approx(13 / 2 + 2)
     whole = retime(line(60.0), limits, start_speed=2.0, end_speed=2.0)
     assert whole.duration == pytest.approx(30.0)
+
+
+@pytest.mark.parametrize("jerk", [1e3, 1e9])
+def test_a_jerk_that_no_motor_reaches_makes_no_difference(jerk: float) -> None:
+    curve = CardinalSpline([(0, 0), (10, 5), (30, 0)], knots="chordal", tangents="continuous")
+    limits = {"max_speed": 2.0, "max_accel": 1.0}
+    plain = retime(curve, Limits(**limits)).duration
+    assert retime(curve, Limits(**limits, max_jerk=jerk)).duration < 1.01 * plain

@@ -20,6 +20,10 @@ from viaspline.trajectory.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
 
+QUICKEST = 0.02
+"""Time in which the acceleration rises from nothing at the soonest [s]: no motor answers sooner,
+and it makes no difference to the duration."""
+
 FINEST = 400
 """Cells that a path is cut into for the jerk alone, at most."""
 
@@ -51,6 +55,9 @@ def smooth_law(
         stops: With their dwells, in order.
         start_time: [s].
     """
+    assert limits.max_jerk is not None
+    jerk = max(limits.max_accel, limits.brake) / QUICKEST
+    limits = replace(limits, max_jerk=min(limits.max_jerk, jerk))
     still = np.flatnonzero(plain.squares <= 0.0)
     start, end = float(plain.points[still[0]]), float(plain.points[still[-1]])
     lines, motions = [plain.points[: still[0] + 1]], [_without(plain, 0, int(still[0]))]
