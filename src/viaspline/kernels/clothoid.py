@@ -19,6 +19,7 @@ from viaspline.kernels.tangents import three_cubics
 
 Floats = NDArray[np.float64]
 
+STRAIGHT = 1e-9  # less than this is no turn [rad]
 SLIVER = 0.95  # of the length that a turn without an arc needs for its ramps
 STEP = 0.4  # most that the heading changes along one span of three cubics [rad]
 _AT = np.array([0.1834346424956498, 0.525532409916329, 0.7966664774136267, 0.9602898564975363])
@@ -152,7 +153,7 @@ def turn_nodes(
 def turn_length(turn: float, rho: float, ramp: float) -> float:
     """Length of a turn [m]."""
     theta = abs(turn)
-    if theta == 0.0:
+    if theta < STRAIGHT:
         return 0.0
     radius, ramp = arc_and_ramp(theta, rho, ramp)
     return ramp + radius * theta

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.clothoid import (
     STEP,
+    STRAIGHT,
     arc_and_ramp,
     shape_of,
     spans_between,
@@ -30,7 +31,6 @@ Indices = NDArray[np.int64]
 X, Y, KEPT, SIDE, HEADING = range(5)
 FINE, NO_TANGENT, NO_ROOM, RESTLESS, LEFT_OUT = range(5)
 ROUNDS = 400
-STRAIGHT = 1e-9  # less than this is no turn [rad]
 STILL = 1e-13  # change of a heading in the last round [rad]
 GENTLE = 1.2  # turns up to this are reckoned from where their lines meet [rad]
 LEAST_RAMP = 0.08  # of the radius
