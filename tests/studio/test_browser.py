@@ -13,6 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from viaspline.cli import cli
+from viaspline.formats.load import load, origin_of
 from viaspline.mission.document import read_document
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -286,6 +287,28 @@ def test_what_is_saved_opens_again_and_plans_the_same_bytes(
     page.page.wait_for_selector("dialog", state="hidden")
     page.settle()
     assert page.doc == read_document(patrol).data
+
+
+def test_a_mission_is_saved_as_a_plan_and_what_it_can_not_carry_is_shown(
+    visit: Callable[..., Page], patrol: Path
+) -> None:
+    page = visit(patrol)
+    page.drag([270, 150], [260, 120])
+    edited = page.doc
+    page.js("studio.files.saveAs()")
+    assert page.page.get_by_label("Origin").is_hidden()
+    page.page.get_by_label("Kind of file").select_option(".plan")
+    assert page.page.get_by_label("File name").input_value() == f"{patrol.stem}.plan"
+    page.page.get_by_role("button", name="Save", exact=True).last.click()
+    page.page.get_by_role("alert").filter(has_text="origin").wait_for()
+    page.page.get_by_label("Origin").fill("47.3977, 8.5456")
+    page.page.get_by_role("button", name="Save", exact=True).last.click()
+    page.page.get_by_text("unseen obstacle: crate").wait_for()
+    page.page.get_by_role("button", name="OK").click()
+    assert "edited" in page.page.locator("#file-name").inner_text()  # the file isn't all of it
+    plan = load(patrol.with_suffix(".plan"))
+    assert len(plan.route.via) == len(edited["route"]["via"])
+    assert origin_of(patrol.with_suffix(".plan")) == (47.3977, 8.5456)
 
 
 def test_a_closed_tab_loses_nothing(visit: Callable[..., Page], patrol: Path) -> None:

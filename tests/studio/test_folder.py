@@ -47,7 +47,7 @@ def test_nothing_outside_of_the_folder_is_opened(folder: Folder, name: str) -> N
         "link.yaml",
         "out/new.yaml",
         "/tmp/new.yaml",
-        "x.txt",
+        "x.json",
         "no/new.yaml",
         "maps",
         "a.yaml/b.yaml",
@@ -62,5 +62,7 @@ def test_files_within_are_opened_and_listed(folder: Folder) -> None:
     assert folder.to_open("a.yaml").name == "a.yaml"
     assert folder.to_open("inner.yaml").name == "a.yaml"
     assert folder.to_save("maps/new.yaml").parent.name == "maps"
+    for name in ("new.yml", "new.plan", "new.waypoints", "maps/NEW.TXT"):
+        assert folder.to_save(name).name == Path(name).name
     assert folder.missions() == ["a.yaml", "inner.yaml"]
     assert folder.maps() == ["maps/depot.yaml"]

@@ -15,11 +15,11 @@ from viaspline.errors import Fault, MissionError, MissionWarning
 from viaspline.formats.faults import fault_at, refusal
 from viaspline.formats.fences import fence_areas
 from viaspline.formats.frame import REACH, Floats, LocalFrame
-from viaspline.formats.items import FenceArea, Itinerary, Place
+from viaspline.formats.items import FenceArea, Itinerary, LatLon, Place
 from viaspline.formats.legs import Stop, stops_of
 from viaspline.mission.model import Mission
 
-_SAME: Final = 0.02
+SAME: Final = 0.02
 """Stops nearer than this are one [m]: the files resolve 1e-7 degree, about a centimetre."""
 
 _ROUTE_KEY: Final = re.compile(r"route\.(start|goal|via\[(\d+)\])")
@@ -30,8 +30,9 @@ def mission_of(itinerary: Itinerary) -> Mission:
     """The mission of an itinerary.
 
     The frame's origin and the start are the home position, or the first item with a position if
-    there is no plausible one. Heights are kept as they are given. Climbs and descents on the
-    spot become one point at the height of the way.
+    there is no plausible one; a plan that viaspline wrote has an origin of its own. Heights are
+    kept as they are given. Climbs and descents on the spot become one point at the height of the
+    way.
 
     Raises:
         MissionError: Nothing can be driven, or the mission is not sound.
@@ -46,7 +47,7 @@ def mission_of(itinerary: Itinerary) -> Mission:
         place = Place("mission")
         problem = "no item has a position to go to" + _aside(itinerary.notes)
         raise refusal(itinerary.source, place, problem, "give two way points or more")
-    frame = LocalFrame(stops[0].latitude, stops[0].longitude)
+    frame = _frame(itinerary, stops)
     _check_coordinates(frame, itinerary.source, stops, areas)
     stops, climbs = _merged(stops, _local(frame, stops))
     _warn(itinerary.source, (*itinerary.notes, *notes, *loose, *climbs))
@@ -62,7 +63,7 @@ def mission_of(itinerary: Itinerary) -> Mission:
             "known": [_obstacle(frame, area, i) for i, area in enumerate(obstacles, start=1)],
         },
         "robot": {} if itinerary.speed is None else {"max_speed_mps": itinerary.speed},
-        "route": _route(stops, _local(frame, stops)),
+        "route": _route(stops, _local(frame, stops), is_flat=itinerary.is_flat),
     }
     try:
         return Mission.model_validate(data)
@@ -71,6 +72,19 @@ def mission_of(itinerary: Itinerary) -> Mission:
         raise MissionError(
             [_in_file(itinerary, fault, *places) for fault in error.faults]
         ) from None
+
+
+def origin_in(itinerary: Itinerary) -> LatLon | None:
+    """Where the mission's 0, 0 is [deg]; None if nothing has a position."""
+    stops, _ = stops_of(itinerary)
+    if not stops:
+        return None
+    frame = _frame(itinerary, stops)
+    return frame.latitude, frame.longitude
+
+
+def _frame(itinerary: Itinerary, stops: Sequence[Stop]) -> LocalFrame:
+    return LocalFrame(*(itinerary.origin or (stops[0].latitude, stops[0].longitude)))
 
 
 def _warn(source: str, notes: Sequence[tuple[str, str]]) -> None:
@@ -121,7 +135,7 @@ def _merged(
     climbs: list[str] = []
     for stop, xy in zip(stops[1:], local[1:], strict=True):
         last = merged[-1]
-        if np.hypot(*(xy - corner)) >= _SAME:
+        if np.hypot(*(xy - corner)) >= SAME:
             merged.append(stop)
             corner = xy
             continue
@@ -135,8 +149,8 @@ def _merged(
     return tuple(merged), notes
 
 
-def _route(stops: Sequence[Stop], local: Floats) -> dict[str, Any]:
-    is_3d = all(math.isfinite(stop.height) for stop in stops)
+def _route(stops: Sequence[Stop], local: Floats, *, is_flat: bool) -> dict[str, Any]:
+    is_3d = not is_flat and all(math.isfinite(stop.height) for stop in stops)
     points: list[dict[str, Any]] = []
     for stop, (x, y) in zip(stops, local.tolist(), strict=True):
         # Adding zero turns -0.0 into 0.0: one place, one spelling.

@@ -121,7 +121,9 @@ class Itinerary:
         home: The home position, if there is one.
         fences: Inclusion and exclusion areas.
         speed: The speed that the file asks for [m/s], if it does.
-        notes: What the file holds that a mission can't, by kind: where.
+        notes: What the file holds that a mission can't, or the other way round, by kind: where.
+        origin: Where the mission's 0, 0 is [deg], if the file says so; else it is at the start.
+        is_flat: Whether the file says that its heights mean nothing.
     """
 
     source: str
@@ -130,3 +132,5 @@ class Itinerary:
     fences: tuple[FenceArea, ...] = ()
     speed: float | None = None
     notes: tuple[tuple[str, str], ...] = ()
+    origin: LatLon | None = None
+    is_flat: bool = False

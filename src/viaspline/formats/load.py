@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from viaspline.formats.faults import refusal
-from viaspline.formats.items import Place
+from viaspline.formats.items import Itinerary, LatLon, Place
 from viaspline.mission.document import read_text
 from viaspline.mission.model import Mission
 
@@ -41,22 +41,52 @@ def load(path: str | Path) -> Mission:
     viaspline.errors.MissionError: survey.kml: there is no such file; give the path of ...
     """
     # Imported late, so that reading YAML doesn't wait for what the other formats need.
-    suffix = Path(path).suffix.lower()
-    if suffix in (".yaml", ".yml"):
+    if _is_yaml(path):
         from viaspline.mission.reader import read_yaml
 
         return read_yaml(path)
+    from viaspline.formats.interpret import mission_of
+
+    return mission_of(_itinerary(path))
+
+
+def origin_of(path: str | Path) -> LatLon | None:
+    """Where the 0, 0 of a file's mission is: latitude and longitude [deg].
+
+    Args:
+        path: The file.
+
+    Returns:
+        None if the file has metres, or no position at all.
+
+    Raises:
+        MissionError: The file can't be read.
+
+    >>> origin_of("patrol.yaml") is None
+    True
+    """
+    if _is_yaml(path):
+        return None
+    from viaspline.formats.interpret import origin_in
+
+    return origin_in(_itinerary(path))
+
+
+def _is_yaml(path: str | Path) -> bool:
+    return Path(path).suffix.lower() in (".yaml", ".yml")
+
+
+def _itinerary(path: str | Path) -> Itinerary:
+    """What a file with latitudes and longitudes holds."""
     text = read_text(path)
     start = text.lstrip()[:16]
     if start.startswith("QGC WPL"):
-        from viaspline.formats.interpret import mission_of
         from viaspline.formats.qgc_wpl import parse_qgc_wpl
 
-        return mission_of(parse_qgc_wpl(text, str(path)))
-    if suffix == ".plan" or start.startswith("{"):
-        from viaspline.formats.interpret import mission_of
+        return parse_qgc_wpl(text, str(path))
+    if Path(path).suffix.lower() == ".plan" or start.startswith("{"):
         from viaspline.formats.qgc_plan import parse_qgc_plan
 
-        return mission_of(parse_qgc_plan(text, str(path)))
+        return parse_qgc_plan(text, str(path))
     problem = "is a kind of file that isn't understood" if start else "the file is empty"
     raise refusal(str(path), Place(""), problem, _UNDERSTOOD)

@@ -12,7 +12,7 @@ from typing import Final
 
 from viaspline.errors import MissionError
 from viaspline.formats.interpret import mission_of
-from viaspline.formats.items import FenceArea, Home, Item, Itinerary, Place
+from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
 from viaspline.formats.json_tree import Tree, json_tree
 from viaspline.mission.document import read_text
 from viaspline.mission.flaws import describe
@@ -69,6 +69,8 @@ def parse_qgc_plan(text: str, source: str) -> Itinerary:
         fences=fences,
         speed=_speed(mission),
         notes=tuple((kind, ", ".join(where)) for kind, where in notes.items()),
+        origin=_origin(root["viaspline"]["origin"]),
+        is_flat=root["viaspline"]["heights"].value is False,
     )
     if root.faults.found:
         raise MissionError(root.faults.found)
@@ -153,6 +155,16 @@ def _home(tree: Tree) -> Home | None:
         return None
     altitude = numbers[2] if len(numbers) > 2 else math.nan
     return Home(numbers[0], numbers[1], altitude, Place(tree.key))
+
+
+def _origin(tree: Tree) -> LatLon | None:
+    """The origin that viaspline has written beside the plan."""
+    numbers = tree.numbers(2, "[latitude, longitude]") if tree.value is not None else ()
+    if not numbers:
+        return None
+    if not (abs(numbers[0]) <= 90 and abs(numbers[1]) <= 180):
+        tree.fault("is no latitude and longitude", "correct it, or leave it out")
+    return numbers[0], numbers[1]
 
 
 def _speed(mission: Tree) -> float | None:

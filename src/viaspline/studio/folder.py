@@ -9,10 +9,10 @@ from typing import Final
 from viaspline.errors import OutputError
 from viaspline.report.files import write
 from viaspline.studio.refused import RefusedError
+from viaspline.studio.saving import SAVED
 
 MISSIONS: Final = (".yaml", ".yml", ".plan", ".mission", ".waypoints", ".txt")
 MAPS: Final = (".map", ".svg", ".geojson")
-SAVED: Final = (".yaml", ".yml")
 DEEPEST: Final = 3
 MOST_FILES: Final = 500
 SKIPPED: Final = ("node_modules", "__pycache__", "viaspline-out")
@@ -56,11 +56,12 @@ class Folder:
         """The path that a mission is saved under.
 
         Raises:
-            RefusedError: It lies elsewhere, its folder isn't there, or it isn't YAML.
+            RefusedError: It lies elsewhere, its folder isn't there, or its ending means no mission.
         """
         path = self._named(name)
         if path.suffix.lower() not in SAVED:
-            raise RefusedError(f"missions are saved as YAML: call it '{Path(name).stem}.yaml'")
+            problem = f"missions are saved as {', '.join(SAVED)}"
+            raise RefusedError(f"{problem}: call it '{Path(name).stem}.yaml'")
         if not path.parent.is_dir():
             raise RefusedError(f"there is no folder '{Path(name).parent}' to save it in")
         if path.is_dir():

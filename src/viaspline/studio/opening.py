@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from viaspline.errors import Fault, MissionError
+from viaspline.formats.items import LatLon
 from viaspline.mission.document import read_document
 from viaspline.mission.flaws import located
 from viaspline.studio import keeping
@@ -21,10 +22,12 @@ class Opened:
     Attributes:
         document: What it holds, sound or not.
         warnings: What of it a mission can't represent.
+        origin: Latitude and longitude of its 0, 0 [deg], if the file has such.
     """
 
     document: Document
     warnings: tuple[str, ...] = ()
+    origin: LatLon | None = None
 
 
 _LAST: dict[tuple[str, int, int], Opened] = {}
@@ -51,28 +54,29 @@ def opened(path: Path) -> Opened:
 
 def _opened(path: Path) -> Opened:
     notes: tuple[str, ...] = ()
+    origin: LatLon | None = None
     if path.suffix.lower() in (".yaml", ".yml"):
         found = read_document(path)
         if found.flaws:  # a key that stands there twice would be lost on saving
             raise MissionError(located(list(found.flaws), found.data, found))
         document: Document = found.data
     else:
-        document, notes = _understood(path)
+        document, notes, origin = _understood(path)
     try:
         json.dumps(document, allow_nan=False)
     except ValueError:
         fault = Fault("", "has a number that is infinite or none", "write it out", str(path))
         raise MissionError([fault]) from None
     check_size(document)
-    return Opened(document, notes)
+    return Opened(document, notes, origin)
 
 
-def _understood(path: Path) -> tuple[Document, tuple[str, ...]]:
-    from viaspline.formats.load import load
+def _understood(path: Path) -> tuple[Document, tuple[str, ...], LatLon | None]:
+    from viaspline.formats.load import load, origin_of
     from viaspline.mission.writer import yaml_text
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         mission = load(path)
     document = keeping.read(yaml_text(mission, path.parent))
-    return document, tuple(str(warning.message) for warning in caught)
+    return document, tuple(str(warning.message) for warning in caught), origin_of(path)

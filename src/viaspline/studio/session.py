@@ -19,6 +19,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from viaspline import __version__
 from viaspline.errors import ViasplineError
+from viaspline.formats.items import LatLon
 from viaspline.studio import keeping
 from viaspline.studio.document import EMPTY, Document, changed
 from viaspline.studio.engine import Engine
@@ -26,6 +27,7 @@ from viaspline.studio.folder import Folder
 from viaspline.studio.messages import Message, count_of, decoded, encoded, text_of
 from viaspline.studio.opening import opened
 from viaspline.studio.refused import RefusedError
+from viaspline.studio.saving import is_yaml, origin_from, waypoints_of
 
 if TYPE_CHECKING:
     from viaspline.robot.run import Run
@@ -50,6 +52,7 @@ class Session:
         self._engine = engine
         self._folder = folder
         self._name = name
+        self._origin: LatLon | None = None
         self._document: Document = EMPTY
         self._revision = 0
         self._latest: Planned | None = None
@@ -91,6 +94,7 @@ class Session:
             folder=self._folder.root.name,
             name=self._name,
             document=self._document,
+            origin=self._origin,
             empty=EMPTY,
             problem=problem,
             warnings=notes,
@@ -232,7 +236,7 @@ class Session:
 
     def _open(self, name: str) -> tuple[str, ...]:
         found = opened(self._folder.to_open(name))
-        self._document, self._name = found.document, name
+        self._document, self._name, self._origin = found.document, name, found.origin
         self._latest = None
         return found.warnings
 
@@ -246,18 +250,23 @@ class Session:
         notes = self._open(text_of(message, "name"))
         await self._send(
             type="opened", id=message.get("id"), name=self._name, document=self._document,
-            warnings=notes,
+            warnings=notes, origin=self._origin,
         )  # fmt: skip
 
     async def _new(self, message: Message) -> None:
         self._document, self._name, self._latest = EMPTY, None, None
+        self._origin = None
         await self._send(
-            type="opened", id=message.get("id"), name=None, document=self._document, warnings=()
-        )
+            type="opened", id=message.get("id"), name=None, document=self._document,
+            warnings=(), origin=None,
+        )  # fmt: skip
 
     async def _save(self, message: Message) -> None:
         name, document = text_of(message, "name"), self._document
         path = self._folder.to_save(name)
+        if not is_yaml(path):
+            await self._save_waypoints(message, name, path)
+            return
         if path.exists() and name != self._name and message.get("replace") is not True:
             await self._send(type="exists", id=message.get("id"), name=name)
             return
@@ -270,7 +279,33 @@ class Session:
         self._name = name
         if document is not self._document:
             self._document = document
-        await self._send(type="saved", id=message.get("id"), name=name, document=document)
+        await self._send(
+            type="saved", id=message.get("id"), name=name, document=document, lost=(),
+            origin=self._origin,
+        )  # fmt: skip
+
+    async def _save_waypoints(self, message: Message, name: str, path: Path) -> None:
+        """Save a file that may not hold the whole mission; then it is a copy of a part of it."""
+        document, before = self._document, self._name
+        origin = origin_from(text_of(message, "origin", "")) or self._origin
+        there = _not_understood(path) if path.exists() else ()
+        if path.exists() and (name != self._name or there) and message.get("replace") is not True:
+            await self._send(type="exists", id=message.get("id"), name=name, lost=there)
+            return
+        mission = (await self._planned()).mission
+        if mission is None:
+            raise RefusedError("only a sound mission has way points: save it as YAML, or mend it")
+        text, lost = waypoints_of(mission, path, origin)
+        if maps := _maps_in(document):
+            lost = (*lost, f"maps, of which the file holds polygons only: {', '.join(maps)}")
+        self._folder.save(path, text)
+        if self._name == before:  # nothing else was opened meanwhile
+            self._origin = origin
+            self._name = before if lost else name
+        await self._send(
+            type="saved", id=message.get("id"), name=name, document=document, lost=lost,
+            origin=origin,
+        )  # fmt: skip
 
     async def _export(self, message: Message) -> None:
         from viaspline.studio.exports import OF_RUNS, check_kind
@@ -295,6 +330,14 @@ class Session:
         )
 
 
+def _not_understood(path: Path) -> tuple[str, ...]:
+    """What stands in a file of way points that saving over it would drop."""
+    try:
+        return opened(path).warnings
+    except ViasplineError as error:
+        return (str(error),)
+
+
 def _moved(document: Document, old: Path, new: Path) -> Document:
     """The document for another folder: maps are named from there."""
     world = dict(document.get("world") or {})
@@ -303,6 +346,12 @@ def _moved(document: Document, old: Path, new: Path) -> Document:
         if isinstance(items, list):
             world[key] = [_renamed(item, old, new) for item in items]
     return {**document, "world": world} if "world" in document else document
+
+
+def _maps_in(document: Document) -> list[str]:
+    """The files of maps that a sound document names."""
+    items = (document.get("world") or {}).get("known") or []
+    return [str(item["map"]) for item in items if isinstance(item, dict) and "map" in item]
 
 
 def _renamed(item: Any, old: Path, new: Path) -> Any:

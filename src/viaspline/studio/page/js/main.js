@@ -99,6 +99,7 @@ async function greet(hello) {
   store.folder = hello.folder;
   const scene = location.hash.startsWith("#m=") ? await unpacked(location.hash.slice(3)) : null;
   store.open(hello.document, hello.name);
+  store.origin = hello.origin;
   if (scene) {
     if (JSON.stringify(scene.doc) !== JSON.stringify(store.doc)) store.edit(scene.doc);
     app.toast("The scene of this address is open.");
@@ -175,6 +176,7 @@ app.settled = async () => {
 app.opened = (answer) => {
   app.link.sent = answer.document; // the server has it already
   app.store.open(answer.document, answer.name);
+  app.store.origin = answer.origin;
   history.replaceState(null, "", location.pathname + location.search);
   restore();
   app.fitSoon();

@@ -19,6 +19,7 @@ export class Store {
     /** @type {any} */ this.doc = {};
     /** @type {string|null} */ this.name = null;
     this.folder = "";
+    /** @type {number[]|null} */ this.origin = null; // latitude and longitude of 0, 0, if known
     /** @type {any} */ this.savedDoc = null;
     /** @type {string|null} */ this.selection = null;
     this.revision = 0;

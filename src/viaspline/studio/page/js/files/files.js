@@ -18,6 +18,14 @@ const OF_RUNS = [
   ["run.png", "The picture of the drive"],
 ];
 
+const ENDINGS = [
+  [".yaml", "viaspline, the whole mission (.yaml)"],
+  [".plan", "QGroundControl (.plan)"],
+  [".waypoints", "QGC WPL 110 (.waypoints)"],
+  [".txt", "QGC WPL 110 (.txt)"],
+];
+const SAVED = /\.(ya?ml|plan|waypoints|txt)$/i;
+
 export class Files {
   /** @param {any} app */
   constructor(app) {
@@ -84,29 +92,52 @@ export class Files {
   }
 
   saveAs() {
-    const { name } = this.app.store;
-    const input = h("input", { type: "text", class: "wide-input", value: name ? name.replace(/\.[^.]+$/, ".yaml") : "mission.yaml", "aria-label": "File name", spellcheck: "false" });
+    const { name, origin } = this.app.store;
+    const value = !name ? "mission.yaml" : SAVED.test(name) ? name : name.replace(/\.[^.]+$/, ".yaml");
+    const input = h("input", { type: "text", class: "wide-input", value, "aria-label": "File name", spellcheck: "false" });
+    const kind = h("select", { class: "wide-input", "aria-label": "Kind of file" }, ...ENDINGS.map(([ending, words]) => h("option", { value: ending }, words)));
+    const place = h("input", { type: "text", class: "wide-input", value: origin ? origin.join(", ") : "", placeholder: "47.3977, 8.5456", "aria-label": "Origin", spellcheck: "false" });
+    const asked = h("label", { class: "field" }, h("span", { class: "field-name" }, "Latitude and longitude of 0, 0"), place);
+    const follow = () => {
+      const ending = input.value.trim().match(SAVED)?.[0].toLowerCase() ?? ".yaml";
+      kind.value = ending === ".yml" ? ".yaml" : ending;
+      asked.hidden = kind.value === ".yaml";
+    };
+    input.addEventListener("input", follow);
+    kind.addEventListener("change", () => {
+      input.value = input.value.trim().replace(SAVED, "") + kind.value;
+      follow();
+    });
+    follow();
     const go = (/** @type {Event} */ event) => {
       event.preventDefault();
       const wanted = input.value.trim();
-      this.attempt(() => this.write(/\.ya?ml$/i.test(wanted) ? wanted : `${wanted}.yaml`, false));
+      this.attempt(() => this.write(SAVED.test(wanted) ? wanted : `${wanted}.yaml`, false, place.value));
     };
     this.show(`Save in ${this.app.store.folder}`, h("form", { onsubmit: go }, h("label", { class: "field" }, h("span", { class: "field-name" }, "File name"), input),
+      h("label", { class: "field" }, h("span", { class: "field-name" }, "Kind of file"), kind), asked,
       h("div", { class: "dialog-buttons" }, h("button", { type: "button", class: "button", onclick: () => this.dialog.close() }, "Cancel"), h("button", { type: "submit", class: "button is-primary" }, "Save"))));
     input.focus();
-    input.setSelectionRange(0, input.value.replace(/\.ya?ml$/, "").length);
+    input.setSelectionRange(0, input.value.replace(SAVED, "").length);
   }
 
-  /** @param {string} name @param {boolean} replace */
-  async write(name, replace) {
+  /** @param {string} name @param {boolean} replace @param {string} [origin] */
+  async write(name, replace, origin = "") {
     const { app } = this;
     await app.settled();
     const doc = app.store.doc;
-    const answer = await app.link.ask({ type: "save", name, replace });
+    const answer = await app.link.ask({ type: "save", name, replace, origin: /\.ya?ml$/i.test(name) ? "" : origin });
     if (answer.type === "exists") {
-      this.show("Replace the file?", h("p", {}, `${name} is there already.`), h("div", { class: "dialog-buttons" },
+      this.show("Replace the file?", h("p", {}, `${name} is there already.`), ...listed("What stands there and would be lost:", answer.lost), h("div", { class: "dialog-buttons" },
         h("button", { type: "button", class: "button", onclick: () => this.saveAs() }, "Another name"),
-        h("button", { type: "button", class: "button is-primary", onclick: () => this.attempt(() => this.write(name, true)) }, "Replace")));
+        h("button", { type: "button", class: "button is-primary", onclick: () => this.attempt(() => this.write(name, true, origin)) }, "Replace")));
+      return;
+    }
+    app.store.origin = answer.origin;
+    if (answer.lost.length) {
+      this.show("Saved a part of the mission", ...listed(`Of the mission, ${name} can't carry:`, answer.lost),
+        h("p", { class: "hint" }, "Save it as YAML to keep all of it."),
+        h("div", { class: "dialog-buttons" }, h("button", { type: "button", class: "button is-primary", onclick: () => this.dialog.close() }, "OK")));
       return;
     }
     this.dialog.close();
@@ -171,6 +202,11 @@ export class Files {
       }
     });
   }
+}
+
+/** Some lines under a heading; nothing if there are none. @param {string} heading @param {string[]} [lines] */
+function listed(heading, lines = []) {
+  return lines.length ? [h("p", {}, heading), h("ul", { class: "hint" }, ...lines.map((line) => h("li", {}, line)))] : [];
 }
 
 /** @param {string} name @param {Blob} blob */
