@@ -165,6 +165,7 @@ def assert_kept(path: PiecewiseCubic, limits: Limits, law: Trajectory, slip: flo
 @pytest.mark.parametrize("name", LIMITS)
 @pytest.mark.parametrize("dimension", [2, 3])
 @given(seed=seeds)
+@example(seed=277)  # in space it climbs so steeply that its heading turns within millimetres
 @settings(deadline=None, max_examples=25)
 def test_no_limit_is_exceeded_at_dense_samples(name: str, dimension: int, seed: int) -> None:
     path = smooth(seed, dimension)

@@ -19,6 +19,9 @@ SAMPLED = 1000
 SAFETY = 1.5
 """What is measured of an error is taken so many times."""
 
+WIDEST = 0.1  # turn of the heading of a curve in space within one cell [rad]
+NARROWEST = 1e-7  # cell that is cut for it, in its span's parameter
+HALVINGS = 24
 _PLACES = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
 _BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90.0
 
@@ -98,6 +101,8 @@ def cubic_cells(spans: Floats, start: float, end: float, grain: Grain) -> Cells:
     rows, cusps = kernels.cut_cells(
         spans, grain.longest, grain.least, grain.accel, grain.square, grain.axis, grain.yaw_accel
     )
+    if grain.heading and spans.shape[2] > 2:
+        rows, cusps = _cut_by_heading(spans, rows, cusps)
     along, shares, tangents, bends, rests = kernels.fill_cells(spans, rows, cusps)
     along = start + along * ((end - start) / along[-1])
     along[-1] = end
@@ -111,6 +116,40 @@ def cubic_cells(spans: Floats, start: float, end: float, grain: Grain) -> Cells:
         else:
             misses[:, 2:] = measured
     return Cells(along, tangents, bends, yaws, misses, rests)
+
+
+def _cut_by_heading(
+    spans: Floats, rows: Floats, cusps: NDArray[np.bool_]
+) -> tuple[Floats, NDArray[np.bool_]]:
+    """Cells in whose ground track the heading turns but little; what is proven of them holds on.
+
+    A curve in space that climbs nearly straight up turns its heading within a few millimetres.
+    """
+    ground = 3.0 * np.diff(spans[:, :, :2], axis=1)
+    for _ in range(HALVINGS):
+        a, b = rows[:, kernels.FIRST, None], rows[:, kernels.LAST, None]
+        c = ground[rows[:, kernels.SPAN].astype(int)]
+        first, last = (_blossom(c, u, u) for u in (a, b))
+        hulls = np.stack((first, _blossom(c, a, b), last), axis=1)
+        angles = np.arctan2(hulls[..., 1], hulls[..., 0])
+        spread = np.abs(np.remainder(np.diff(angles, axis=1) + np.pi, 2 * np.pi) - np.pi).sum(1)
+        wide = (spread > WIDEST) & (rows[:, kernels.LAST] - rows[:, kernels.FIRST] > NARROWEST)
+        if not wide.any():
+            break
+        index = np.repeat(np.arange(len(rows)), 1 + wide)
+        second = np.flatnonzero(np.diff(index) == 0) + 1
+        rows, cusps = rows[index], cusps[index]
+        middle = 0.5 * (rows[second, kernels.FIRST] + rows[second, kernels.LAST])
+        rows[second - 1, kernels.LAST] = middle
+        rows[second, kernels.FIRST] = middle
+    return np.ascontiguousarray(rows), np.ascontiguousarray(cusps)
+
+
+def _blossom(c: Floats, u: Floats, w: Floats) -> Floats:
+    """The polar form of quadratics with Bézier points c (n, 3, 2) at parameters (n, 1)."""
+    return np.asarray(
+        (1 - u) * (1 - w) * c[:, 0] + ((1 - u) * w + u * (1 - w)) * c[:, 1] + u * w * c[:, 2]
+    )
 
 
 def sampled_cells(curve: Evaluable, grain: Grain, count: int = SAMPLED) -> tuple[Cells, Floats]:
