@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.cardinal import CardinalSpline
@@ -36,18 +36,19 @@ LIMITS = {
 
 @pytest.mark.parametrize("name", LIMITS)
 @given(seed=seeds)
+@example(seed=10212912)  # axes: cells of the three laps end less well at the seam, 2.6 % slower
 @settings(deadline=None, max_examples=10)
 def test_the_end_is_as_fast_as_the_start_and_no_slower_than_amid_three_laps(
     name: str, seed: int
 ) -> None:
     path, limits = ring(seed), LIMITS[name]
-    law = retime_lap(path, limits)
+    law = retime_lap(path, limits, grid=2_000)
     assert law.speeds[-1] == law.speeds[0] > 0
     thrice = PiecewiseCubic(np.concatenate((path.spans, path.spans, path.spans)))
-    long = retime(thrice, limits)
+    long = retime(thrice, limits, grid=6_000)
     once = long.time_at(2 * path.length) - long.time_at(path.length)
-    assert law.duration == pytest.approx(once, rel=5e-3)
-    assert law.speeds[0] == pytest.approx(long.speed_at(path.length), rel=2e-2)
+    assert law.duration == pytest.approx(once, rel=1e-3)
+    assert law.speeds[0] >= float(long.speed_at(path.length)) * (1 - 1e-3)
 
 
 def test_a_short_lap_reaches_the_speed_that_a_start_from_rest_would_not() -> None:

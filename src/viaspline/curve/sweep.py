@@ -41,7 +41,7 @@ def footprints_along(curve: PiecewiseCubic, footprint: ArrayLike, spacing: float
                [-1.,  2.]])
     """
     u, _, points = curve.sample(spacing)
-    return _placed(outline(footprint), points[:, :2], np.asarray(curve.heading(u)))
+    return placed(outline(footprint), points[:, :2], np.asarray(curve.heading(u)))
 
 
 def swept_area(
@@ -87,9 +87,9 @@ def swept_area(
     at, heading = _poses(curve, reach, 0.5 * tolerance)
     convex = shapely.Polygon(body).convex_hull.area <= shapely.Polygon(body).area * (1 + 1e-9)
     edges = np.stack((body, np.roll(body, -1, axis=0)), axis=1)
-    hulls: list[Any] = [shapely.polygons(_placed(body, at[:1], heading[:1]))]
+    hulls: list[Any] = [shapely.polygons(placed(body, at[:1], heading[:1]))]
     for part in [body] if convex else edges:  # nothing is covered that no edge has swept over
-        corners = _placed(part, at, heading)
+        corners = placed(part, at, heading)
         pairs = np.concatenate((corners[:-1], corners[1:]), axis=1)
         hulls.append(shapely.convex_hull(shapely.multipoints(pairs)))
     grown = radius + 0.5 * tolerance
@@ -104,8 +104,8 @@ def _segments(radius: float, tolerance: float) -> int:
     return max(4, math.ceil(math.pi / (4.0 * math.acos(max(1.0 - sag, 0.0)))))
 
 
-def _placed(body: Floats, at: Floats, heading: Floats) -> Floats:
-    """Corners (k, 2) in poses: (n, k, 2)."""
+def placed(body: Floats, at: Floats, heading: Floats) -> Floats:
+    """Corners (k, 2) of a body in poses, at (n, 2) [m] and heading (n,) [rad]: (n, k, 2)."""
     c, s = np.cos(heading)[:, None], np.sin(heading)[:, None]
     x, y = body[:, 0], body[:, 1]
     return np.stack((c * x - s * y, s * x + c * y), axis=-1) + at[:, None, :]

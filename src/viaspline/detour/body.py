@@ -9,7 +9,7 @@ from viaspline.curve import body
 from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.brief import LEAST, Brief
-from viaspline.detour.fit import too_close
+from viaspline.detour.fit import CLEAR, too_close
 from viaspline.world.outline import outline
 from viaspline.world.world import World
 
@@ -19,6 +19,11 @@ Floats = NDArray[np.float64]
 def body_conflicts(world: World, spans: Floats, brief: Brief) -> NDArray[np.int64]:
     """What the body comes nearer to than it may on each span: as ``fit.too_close``, (m,)."""
     return conflicts_within(brief.required, world, spans, brief)
+
+
+def is_clear(world: World, spans: Floats, brief: Brief) -> bool:
+    """Whether the body keeps clear on planar spans (m, 4, 2) [m]."""
+    return bool((body_conflicts(world, spans, brief) == CLEAR).all())
 
 
 def conflicts_within(

@@ -18,10 +18,9 @@ from numpy.typing import NDArray
 from viaspline.curve.bends import curvature_bound
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.account import Account
-from viaspline.detour.body import body_conflicts
+from viaspline.detour.body import is_clear
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course
-from viaspline.detour.fit import CLEAR
 from viaspline.detour.heights import with_heights
 from viaspline.detour.laid import Laid
 from viaspline.detour.leg_search import LegSearch
@@ -78,7 +77,7 @@ class _Drive:
 
     def is_clear(self, spans: Floats) -> bool:
         """Whether the body keeps clear on planar spans."""
-        return bool((body_conflicts(self.world, spans, self.brief) == CLEAR).all())
+        return is_clear(self.world, spans, self.brief)
 
     def is_drivable(self, spans: Floats) -> bool:
         """Whether the body keeps clear, and no turn is sharper than the turning circle."""

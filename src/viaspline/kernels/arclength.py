@@ -136,7 +136,7 @@ def length_table(rows: Floats) -> tuple[Floats, Floats]:
 
 
 @inner
-def _panel_of(values: Floats, value: float) -> int:
+def panel_of(values: Floats, value: float) -> int:
     """The last panel that starts at or before a value, and is not the end of the table."""
     low = 0
     high = values.shape[0] - 1
@@ -169,7 +169,7 @@ def distances(rows: Floats, at: Floats, along: Floats, u: Floats, closed: bool, 
         x = wrapped(u[i], count, closed)
         if math.isnan(x):
             return i
-        panel = _panel_of(at, x)
+        panel = panel_of(at, x)
         if x == at[panel + 1]:
             out[i] = along[panel + 1]
         else:
@@ -216,7 +216,7 @@ def parameters(
             if not (closed and abs(x) < np.inf and length > 0.0):
                 return i
             x = min(max(x - length * math.floor(x / length), 0.0), length)
-        panel = _panel_of(along, x)
+        panel = panel_of(along, x)
         if x == along[panel]:
             out[i] = at[panel]
         elif x == along[panel + 1]:

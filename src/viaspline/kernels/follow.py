@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arclength import panel_of
 from viaspline.kernels.jit import inner, kernel, within
 from viaspline.kernels.motion import (
     ACKERMANN,
@@ -96,22 +97,9 @@ _turn_law = within(turn_law)
 
 
 @inner
-def _before(values: Floats, value: float) -> int:
-    """Index of the last of increasing values that is not above one; 0 to n - 2."""
-    low, high = 0, values.shape[0] - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        if values[middle] <= value:
-            low = middle
-        else:
-            high = middle
-    return low
-
-
-@inner
 def _on(rail: Rail, s: float) -> tuple[float, float, float, float]:
     """Place, heading and curvature at a distance along a path; at a corner those after it."""
-    i = _before(rail.distance, s)
+    i = panel_of(rail.distance, s)
     width = rail.distance[i + 1] - rail.distance[i]
     if width <= 0.0:
         return rail.x[i + 1], rail.y[i + 1], rail.heading[i + 1], rail.curvature[i + 1]
@@ -159,7 +147,7 @@ def _law_at(law: Law, time: float) -> tuple[float, float, float]:
         return law.distance[0], law.speed[0], 0.0
     if time >= law.time[n - 1]:
         return law.distance[n - 1], law.speed[n - 1], 0.0
-    i = _before(law.time, time)
+    i = panel_of(law.time, time)
     late, a = time - law.time[i], law.acceleration[i]
     distance = law.distance[i] + (law.speed[i] + 0.5 * a * late) * late
     speed = max(law.speed[i] + a * late, 0.0)
@@ -173,7 +161,7 @@ def _ends(law: Law, time: float) -> tuple[float, float, bool]:
     The law may begin under way; then the first is its beginning, and the last value is false.
     """
     n = law.time.shape[0]
-    i = _before(law.time, time)
+    i = panel_of(law.time, time)
     first = i
     while first > 0 and law.speed[first] > 0.0:
         first -= 1

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -13,11 +12,11 @@ from matplotlib.patches import Circle, PathPatch, Polygon, Rectangle
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.curve.sweep import footprints_along, swept_area
+from viaspline.curve.sweep import footprints_along, placed, swept_area
 from viaspline.mission.parts import SpeedZone
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.report import style
-from viaspline.report.drawing import Floats, outline
+from viaspline.report.drawing import outline
 from viaspline.report.labels import Labels
 
 LEAST = 5.0  # width of a body that is worth drawing [pixels]
@@ -74,7 +73,8 @@ def draw_body(axes: Axes, certificate: Certificate, robot: RobotSpec, heading: f
         return
     if certificate.tightest_heading is not None:
         heading = certificate.tightest_heading
-    axes.add_artist(Polygon(_placed(robot.footprint, x, y, heading), alpha=0.85, **look))
+    (corners,) = placed(np.array(robot.footprint), np.array([[x, y]]), np.array([heading]))
+    axes.add_artist(Polygon(corners, alpha=0.85, **look))
 
 
 def draw_zones(axes: Axes, labels: Labels, zones: tuple[SpeedZone, ...]) -> list[Artist]:
@@ -95,11 +95,3 @@ def draw_zones(axes: Axes, labels: Labels, zones: tuple[SpeedZone, ...]) -> list
 
 def _disc(robot: RobotSpec) -> float:
     return robot.radius_m if robot.footprint is None else 0.0
-
-
-def _placed(
-    footprint: tuple[tuple[float, float], ...], x: float, y: float, heading: float
-) -> Floats:
-    c, s = math.cos(heading), math.sin(heading)
-    corners: Floats = np.array(footprint) @ np.array([[c, s], [-s, c]]) + (x, y)
-    return corners

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.detour.body import body_conflicts, proven
+from viaspline.detour.body import body_conflicts, is_clear, proven
 from viaspline.detour.brief import Brief
 from viaspline.detour.fit import CLEAR
 from viaspline.detour.turns.bends import DETOUR, KEPT, SIDE, Bends, bend
@@ -41,7 +41,7 @@ def clear_swing(bends: Bends, rho: float, world: World, brief: Brief) -> Swing |
 def swing_if_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | None:
     """The shortest swing to any sides of given headings, if it is clear as it is."""
     swing = swing_round(bends, rho)
-    if isinstance(swing, NoSwing) or (body_conflicts(world, swing.spans, brief) != CLEAR).any():
+    if isinstance(swing, NoSwing) or not is_clear(world, swing.spans, brief):
         return None
     return swing
 
