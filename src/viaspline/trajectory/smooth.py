@@ -22,7 +22,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solveh_banded
 
 Floats = NDArray[np.float64]
 
@@ -183,6 +182,8 @@ class _Problem:
 
     def centred(self, m: Floats, sharpness: float) -> Floats:
         """The least of the barrier function from m on, by Newton's method."""
+        from scipy.linalg import solveh_banded  # 0.2 s to import, and few plans ask for the jerk
+
         value = self.value(m, sharpness)
         for _ in range(ROUNDS):
             gradient, matrix = self._newton(m, sharpness)
