@@ -11,6 +11,7 @@ from viaspline.kernels.swing import (
     FINE,
     HEADING,
     KEPT,
+    LEFT_OUT,
     SIDE,
     X,
     Y,
@@ -110,3 +111,26 @@ def test_points_that_are_too_close_for_the_circle_are_refused(bend):
     points = [(0, 0), *bend, (0, 1)]
     assert swung(bends_through(points)) is None
     assert swung(bends_through(points), rho=0.1, ramp=0.1) is not None
+
+
+def test_a_bend_that_only_wide_turns_come_near_is_not_left_out():
+    """The taut way goes by the third bend, but not the line between turns of 4 m."""
+    rows = bends_through(
+        [(77.2, 66.2), (98.62, 86.42), (108.59, 92.89), (129.36, 110.49), (169.12, 158.25)],
+        kept=[0.0, 2.001, 2.002, 7.959, 0.0], side=[0.0, 1.0, -1.0, -1.0, 0.0],
+    )  # fmt: skip
+    curve, _, _ = swung(rows)
+    points = curve.evaluate(np.linspace(*curve.domain, 20_001))
+    without, _, _ = swung(np.delete(rows, 2, axis=0))
+    beside = without.evaluate(np.linspace(*without.domain, 20_001))
+    assert np.linalg.norm(beside - rows[2, :2], axis=1).min() < 2.0
+    for x, y, kept, *_ in rows[1:-1]:
+        assert np.hypot(points[:, 0] - x, points[:, 1] - y).min() == pytest.approx(kept, abs=1e-4)
+
+
+def test_a_bend_that_the_others_make_needless_is_left_out():
+    rows = bends_through(
+        [(0, 0), (20, 10), (30, 30), (60, 0)], kept=[0, 3, 3, 0], side=[0.0, -1.0, 1.0, 0.0]
+    )
+    *_, state, where = swing(rows, False, RHO, RHO)
+    assert (state, where) == (LEFT_OUT, 2)

@@ -20,6 +20,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.account import Account
 from viaspline.detour.body import is_clear
 from viaspline.detour.brief import Brief
+from viaspline.detour.byways import swing_on_byways
 from viaspline.detour.course import Course
 from viaspline.detour.heights import with_heights
 from viaspline.detour.laid import Laid
@@ -30,7 +31,7 @@ from viaspline.detour.search import lay_clear
 from viaspline.detour.turns.bends import DETOUR, Bends, bends_along
 from viaspline.detour.turns.pose_search import NotFound, Reason
 from viaspline.detour.turns.poses import Leg, Poses, legs_of, posed
-from viaspline.detour.turns.push import clear_swing, swing_if_clear
+from viaspline.detour.turns.push import Stuck, clear_swing, clear_swing_or_why, swing_if_clear
 from viaspline.detour.turns.refusal import refuse_body, refuse_circle
 from viaspline.detour.turns.swing import OVERSHOOT, RAMP, Swing
 from viaspline.detour.turns.tight import tight_chains
@@ -40,6 +41,7 @@ from viaspline.world.world import World
 Floats = NDArray[np.float64]
 PUSHED = 40  # rows of headings for which legs are pushed clear
 WIDE = (6.0, 3.0, 1.5)  # radii of turns for a long body without a turning circle, and the last,
+ENOUGH = 1.01  # of the shortest ways' length: a longer byway is compared with what a search finds
 NARROW = 0.5  # in distances that its path keeps
 
 
@@ -111,14 +113,21 @@ def _swung(drive: _Drive) -> Laid:
     Raises:
         NoPathError: When there are none.
     """
-    bends = bends_along(drive.course, _ways_of(drive))
+    legs = _legs_of(drive)
+    ways = _ways_of(legs, drive.brief)
+    bends = bends_along(drive.course, ways)
     for rho in drive.radii:
         swing = clear_swing(bends, rho, drive.world, drive.brief)
         if swing is not None:
             return _laid(drive, [swing])
     failed: NotFound | None = None
     for rho in drive.careful:
+        byway = _on_byways(drive, legs, ways, rho)
+        if byway is not None and byway.length <= ENOUGH * sum(way.length for way in ways):
+            return _laid(drive, [byway])
         found = _searched(drive, bends, rho)
+        if byway is not None and (isinstance(found, NotFound) or found.length > byway.length):
+            return _laid(drive, [byway])
         if isinstance(found, Laid):
             return found
         failed = found
@@ -142,16 +151,32 @@ def _searched(drive: _Drive, bends: Bends, rho: float) -> Laid | NotFound:
     return _through(drive, spans, joints, ())
 
 
-def _ways_of(drive: _Drive) -> list[Way]:
-    """The shortest way of every leg."""
+def _legs_of(drive: _Drive) -> list[LegSearch]:
     task = Task.of(drive.course, drive.world, drive.brief)
+    count = len(drive.course.legs)
+    return [LegSearch(drive.course, k, drive.world, drive.brief, task.router) for k in range(count)]
+
+
+def _ways_of(legs: Sequence[LegSearch], brief: Brief) -> list[Way]:
+    """The shortest way of every leg."""
     ways = []
-    for k in range(len(drive.course.legs)):
-        leg = LegSearch(drive.course, k, drive.world, drive.brief, task.router)
-        way, _ = leg.shortest_allowed(on_the_line(drive.world, *leg.ends, drive.brief.required))
+    for leg in legs:
+        way, _ = leg.shortest_allowed(on_the_line(leg.world, *leg.ends, brief.required))
         assert way is not None  # the spline found one
         ways.append(way)
     return ways
+
+
+def _on_byways(
+    drive: _Drive, legs: Sequence[LegSearch], ways: Sequence[Way], rho: float
+) -> Swing | None:
+    """The shortest swing along the shortest ways and those that are a little longer."""
+
+    def lay(along: Sequence[Way]) -> Swing | Stuck:
+        bends = bends_along(drive.course, along)
+        return clear_swing_or_why(bends, rho, drive.world, drive.brief)
+
+    return swing_on_byways(legs, ways, lay)
 
 
 def _posed(drive: _Drive, legs: Sequence[Leg], rho: float, closed: bool) -> Poses | None:

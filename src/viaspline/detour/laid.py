@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.path import PathVia, ViaKind
+from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.detour.course import Course
 
 Floats = NDArray[np.float64]
@@ -42,6 +43,11 @@ class Laid:
             if k not in taken
         ]
         return cls(spans, joints, tuple(sorted(vias, key=lambda via: via.u)))
+
+    @property
+    def length(self) -> float:
+        """[m]."""
+        return PiecewiseCubic(self.spans).length
 
     def leg(self, k: int) -> Floats:
         """The spans of one leg [m], shape (l, 4, d)."""

@@ -84,9 +84,10 @@ def _settle(bend: Floats, kind: int, turn: float, heading: float, rho: float, ra
         apex: x, y; filled.
     """
     theta = abs(turn)
-    if theta < STRAIGHT:
-        circle[0], circle[1], circle[2] = bend[X], bend[Y], 0.0
-        apex[0], apex[1] = bend[X], bend[Y]
+    if theta < STRAIGHT or (kind == 0 and bend[SIDE] * turn < 0.0):
+        off = bend[SIDE] * bend[KEPT]  # what may prove needless is touched without a turn
+        apex[0], apex[1] = bend[X] + off * math.sin(heading), bend[Y] - off * math.cos(heading)
+        circle[0], circle[1], circle[2] = apex[0], apex[1], 0.0
         return
     side = 1.0 if turn > 0.0 else -1.0
     radius, shift, lead = shape_of(theta, max(rho, bend[KEPT]), ramp)
@@ -116,6 +117,20 @@ def _settle(bend: Floats, kind: int, turn: float, heading: float, rho: float, ra
 
 
 @inner
+def _failed(bends: Floats, closed: bool, turns: Floats, state: int, where: int) -> tuple[int, int]:
+    """A state and where, unless a bend is turned at to the wrong side: the others make it needless.
+
+    Only the last round tells: before the turns have settled, one may seem so that is needed.
+    """
+    worst, count = -1e-9, bends.shape[0]
+    for k in range(0 if closed else 1, count if closed else count - 1):
+        if bends[k, SIDE] * turns[k] < worst:
+            worst = bends[k, SIDE] * turns[k]
+            state, where = LEFT_OUT, k
+    return state, where
+
+
+@inner
 def _relaxed(
     bends: Floats, closed: bool, rho: float, ramps: Floats, lines: Floats, turns: Floats,
     circles: Floats, apexes: Floats,
@@ -132,12 +147,12 @@ def _relaxed(
         for k in range(last):
             line = _line(circles, k, (k + 1) % count)
             if math.isnan(line):
-                return NO_TANGENT, k
+                return _failed(bends, closed, turns, NO_TANGENT, k)
             line = _wrapped(line, lines[k])
             moved = max(moved, abs(line - lines[k]))
             lines[k] = line
         if round_ > 0 and moved < STILL:
-            return FINE, -1
+            return _failed(bends, closed, turns, FINE, -1)
         for k in range(count):
             kind = 0
             before, after = 0.0, 0.0
@@ -150,11 +165,9 @@ def _relaxed(
             else:
                 before, after = lines[(k - 1) % last], lines[k]
             turns[k] = _turn_at(bends[k], before, after, turns[k])
-            if kind == 0 and bends[k, SIDE] * turns[k] < -1e-9:
-                return LEFT_OUT, k
             middle = before + 0.5 * turns[k] if kind >= 0 else after - 0.5 * turns[k]
             _settle(bends[k], kind, turns[k], middle, rho, ramps[k], circles[k], apexes[k])
-    return (FINE, -1) if moved < 1e-10 else (RESTLESS, -1)
+    return _failed(bends, closed, turns, FINE if moved < 1e-10 else RESTLESS, -1)
 
 
 @inner

@@ -51,6 +51,10 @@ class Bends:
         rows[k, KEPT] += by
         return Bends(rows, self.vias, self.closed)
 
+    def leg_of(self, k: int) -> int:
+        """The leg of the course on which detour bend k lies."""
+        return int((self.vias[: k + 1] != DETOUR).sum()) - 1
+
     def places(self, via: int) -> int:
         """Where in the row a via point of the course stands."""
         return int(np.flatnonzero(self.vias == via)[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +13,14 @@ from viaspline.detour.body import body_conflicts, is_clear, proven
 from viaspline.detour.brief import Brief
 from viaspline.detour.fit import CLEAR
 from viaspline.detour.turns.bends import DETOUR, KEPT, SIDE, Bends, bend
-from viaspline.detour.turns.swing import NoSwing, Swing, swing_on_sides, swing_round, with_sides
+from viaspline.detour.turns.swing import (
+    RAMP,
+    NoSwing,
+    Swing,
+    swing_on_sides,
+    swing_round,
+    with_sides,
+)
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
@@ -21,7 +29,19 @@ SAMPLES = 9  # of a span, to find its tightest place
 EPS = 1e-6  # step of the gradient of the distance [m]
 EXTRA = 2e-3  # what a bend keeps beyond what is required [m]
 AHEAD = 12  # spans after a run on which the path may pass what the front touches
+SHORTER, LEAST_RAMP = 0.5, 0.08  # of the ramps' length from one round to another, and in radii
 SAME = 0.25  # bends nearer to each other than this, in required distances, are one
+
+
+@dataclass(frozen=True)
+class Stuck:
+    """Where a swing could not be pushed clear.
+
+    Attributes:
+        places: The leg, and what its way goes by there [m], (2,).
+    """
+
+    places: tuple[tuple[int, Floats], ...]
 
 
 def clear_swing(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | None:
@@ -33,9 +53,15 @@ def clear_swing(bends: Bends, rho: float, world: World, brief: Brief) -> Swing |
         world: What to keep clear of.
         brief: What to keep.
     """
+    found = clear_swing_or_why(bends, rho, world, brief)
+    return found if isinstance(found, Swing) else None
+
+
+def clear_swing_or_why(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | Stuck:
+    """The same, or where it got stuck."""
     found = [_pushed_clear(tried, rho, world, brief) for tried in with_sides(bends)]
-    clear = [swing for swing in found if swing is not None]
-    return min(clear, key=lambda swing: swing.length, default=None)
+    clear = [swing for swing in found if isinstance(swing, Swing)]
+    return min(clear, key=lambda swing: swing.length) if clear else found[0]
 
 
 def swing_if_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | None:
@@ -46,17 +72,45 @@ def swing_if_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swin
     return swing
 
 
-def _pushed_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | None:
+def _pushed_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | Stuck:
     """The same to the sides that are set."""
-    swing = swing_on_sides(bends, rho)
+    ramp = RAMP
+    swing = swing_on_sides(bends, rho, ramp)
     for _ in range(ROUNDS):
         if isinstance(swing, NoSwing):
-            return None
+            return _stuck_between(swing)
         close = body_conflicts(world, swing.spans, brief)
         if (close == CLEAR).all():
             return swing
-        swing = swing_on_sides(_pushed(swing, close, world, brief), rho)
-    return None
+        pushed = swing_on_sides(_pushed(swing, close, world, brief), rho, ramp)
+        if isinstance(pushed, Swing) and np.array_equal(pushed.bends.rows, swing.bends.rows):
+            ramp *= SHORTER  # the lines are far enough off, it is the ramps that cut the corner
+            pushed = swing_on_sides(swing.bends, rho, ramp)
+        if isinstance(pushed, NoSwing) or ramp < LEAST_RAMP:
+            return _stuck_at(swing, close, world, brief)
+        swing = pushed
+    assert isinstance(swing, Swing)
+    return _stuck_at(swing, close, world, brief)
+
+
+def _stuck_between(failed: NoSwing) -> Stuck:
+    """Where two bends leave no room for their turns."""
+    rows = (failed.where, (failed.where + 1) % len(failed.bends.rows))
+    if failed.where < 0:
+        return Stuck(())
+    return Stuck(tuple(
+        (failed.bends.leg_of(row), failed.bends.rows[row, :2])
+        for row in rows
+        if failed.bends.vias[row] == DETOUR
+    ))  # fmt: skip
+
+
+def _stuck_at(swing: Swing, close: NDArray[np.int64], world: World, brief: Brief) -> Stuck:
+    """Where the first run of spans is too close."""
+    hit = np.flatnonzero(close != CLEAR)
+    run = np.split(hit, np.flatnonzero(np.diff(hit) > 1) + 1)[0]
+    tight = _tightest(PiecewiseCubic(swing.spans), run, world, brief)
+    return Stuck(((swing.bends.leg_of(_row_before(swing, tight.u)), tight.wall),))
 
 
 def _pushed(swing: Swing, close: NDArray[np.int64], world: World, brief: Brief) -> Bends:
@@ -78,7 +132,7 @@ def _push(
     heading = float(curve.heading(tight.u))
     left = np.array([-np.sin(heading), np.cos(heading)])
     side = 1.0 if tight.into @ left > 0.0 else -1.0
-    row = int(np.searchsorted(swing.begins[: len(swing.bends.rows)], tight.u, side="right"))
+    row = _row_before(swing, tight.u) + 1
     for near in (row - 1, row % len(bends.rows)):
         if bends.vias[near] == DETOUR and bends.rows[near, SIDE] == side:
             off = float(np.linalg.norm(bends.rows[near, :2] - tight.wall))
@@ -86,6 +140,11 @@ def _push(
                 return bends.widened(near, 1.1 * tight.missing + EXTRA)
     x, y = tight.wall.tolist()
     return bends.with_bend(row, bend(x, y, tight.kept + EXTRA, side))
+
+
+def _row_before(swing: Swing, u: float) -> int:
+    """The bend whose apex comes before a parameter of the curve."""
+    return int(np.searchsorted(swing.begins[: len(swing.bends.rows)], u, side="right")) - 1
 
 
 class _Tight(NamedTuple):

@@ -73,10 +73,16 @@ def _is_longer(swing: Swing | NoSwing, other: Swing) -> bool:
     return isinstance(swing, NoSwing) or swing.length > other.length
 
 
-def swing_on_sides(bends: Bends, rho: float) -> Swing | NoSwing:
-    """The swing round a row of bends, to the sides that are set."""
+def swing_on_sides(bends: Bends, rho: float, ramp: float = RAMP) -> Swing | NoSwing:
+    """The swing round a row of bends, to the sides that are set.
+
+    Args:
+        bends: The row.
+        rho: The least radius [m].
+        ramp: Length of the ramps, in radii.
+    """
     while True:
-        lines, turns, apexes, ramps, state, where = swing(bends.rows, bends.closed, rho, RAMP * rho)
+        lines, turns, apexes, ramps, state, where = swing(bends.rows, bends.closed, rho, ramp * rho)
         if state != LEFT_OUT:
             break
         bends = bends.without(where)
