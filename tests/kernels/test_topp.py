@@ -72,11 +72,3 @@ def test_every_step_backwards_is_the_optimum_of_its_programme() -> None:
     assert first[0] == pytest.approx(back, rel=1e-9)
     used = planes[:, :, 0] * squares[:-1, None] + planes[:, :, 1] * squares[1:, None]
     assert np.all(used <= planes[:, :, 2] + 1e-9)
-
-
-def test_nodes_are_marks_and_ends_of_cells_and_know_their_cell() -> None:
-    along = np.array([0.0, 1.0, 2.0, 3.0])
-    line, cell, ends = topp.divide(along, np.array([0.5, 1.0, 1.25, 2.5]), 1e-9)
-    assert line.tolist() == [0.5, 1.0, 1.25, 2.0, 2.5]
-    assert cell.tolist() == [0, 1, 1, 2]
-    assert ends.ravel().tolist() == [0.5, 1, 0, 0.25, 0.25, 1, 0, 0.5]

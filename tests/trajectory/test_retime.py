@@ -139,9 +139,9 @@ def test_limits_are_finite_and_above_zero(value: float) -> None:
 
 
 def test_the_rest_of_a_path_that_is_over_takes_no_time() -> None:
-    law = retime(line(30.0), LIMITS, start=30.0)
+    law = retime(line(30.0), LIMITS, start=line(30.0).length)
     assert law.duration == 0.0
-    assert law.distance_at(3.0) == 30.0
+    assert law.distance_at(3.0) == pytest.approx(30.0)
 
 
 def test_a_circle_is_driven_at_the_speed_that_its_curvature_allows() -> None:

@@ -20,6 +20,9 @@ Flags = NDArray[np.bool_]
 _QUADRATIC = 0.00802
 """Largest |x (x - 1/2) (x - 1)| / 6 on [0, 1]: what a quadratic through three points misses."""
 
+_GAUSS = np.array([[0.05635083268962915, 5 / 36], [0.25, 8 / 36], [0.44364916731037085, 5 / 36]])
+"""Places and weights for the first half of [0, 1]; the second one mirrors them."""
+
 SPAN, FIRST, LAST, MISS_T, MISS_K, MISS_TURN, MISS_CHANGE, NOISE, STRAIGHT = range(9)
 """Columns of the rows of ``cut_cells``."""
 
@@ -209,21 +212,36 @@ def _frame(r: Floats, u: float, width: float, frame: Floats) -> float:
 
 
 @within
-def _speed(r: Floats, u: float) -> float:
-    v, total = 1.0 - u, 0.0
+def _half_lengths(r: Floats) -> tuple[float, float]:
+    """Lengths of both halves of a piece on which |q'| hardly changes, by Gauss' rule.
+
+    |q'|² has the Bernstein coefficients g, whatever the dimension.
+    """
+    g0, g1, g2, g3, g4 = 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(r.shape[1]):
-        x = v * v * r[0, j] + 2.0 * u * v * r[1, j] + u * u * r[2, j]
-        total += x * x
-    return np.sqrt(total)
+        g0 += r[0, j] * r[0, j]
+        g1 += 4.0 * r[0, j] * r[1, j]
+        g2 += 2.0 * r[0, j] * r[2, j] + 4.0 * r[1, j] * r[1, j]
+        g3 += 4.0 * r[1, j] * r[2, j]
+        g4 += r[2, j] * r[2, j]
+    first, second = 0.0, 0.0
+    for k in range(3):
+        u, weight = _GAUSS[k, 0], _GAUSS[k, 1]
+        v = 1.0 - u
+        a, b, c = u * u, u * v, v * v
+        first += weight * np.sqrt(max(c * (c * g0 + b * g1 + a * g2) + a * (b * g3 + a * g4), 0.0))
+        second += weight * np.sqrt(max(a * (a * g0 + b * g1 + c * g2) + c * (b * g3 + c * g4), 0.0))
+    return first, second
 
 
 @within
-def _short_length(r: Floats, a: float, b: float) -> float:
-    """Length of a piece on which |q'| hardly changes, by Gauss' rule with three points."""
-    half, middle = 0.5 * (b - a), 0.5 * (a + b)
-    x = 0.7745966692414834 * half
-    ends = _speed(r, middle - x) + _speed(r, middle + x)
-    return half * (5.0 * ends + 8.0 * _speed(r, middle)) / 9.0
+def _straight_length(r: Floats) -> float:
+    """Length of a piece that runs straight ahead, per width of its parameter."""
+    square = 0.0
+    for j in range(r.shape[1]):
+        mean = (r[0, j] + r[1, j] + r[2, j]) / 3.0
+        square += mean * mean
+    return np.sqrt(square)
 
 
 @within
@@ -284,10 +302,13 @@ def fill_cells(
         else:
             _frame(r, 0.5, b - a, mid)
             _frame(r, 1.0, b - a, end)
-        half = (b - a) * _short_length(r, 0.0, 0.5)
-        piece = half + (b - a) * _short_length(r, 0.5, 1.0)
-        if piece > 0.0 and not straight:
-            shares[i] = half / piece
+        if straight:
+            piece = (b - a) * _straight_length(r)
+        else:
+            half, rest = _half_lengths(r)
+            piece = (b - a) * (half + rest)
+            if piece > 0.0:
+                shares[i] = half / (half + rest)
         for j in range(d):
             tangents[i, j, 0], tangents[i, j, 2] = at[0, j], end[0, j]
             tangents[i, j, 1] = _middle(at[0, j], mid[0, j], end[0, j], shares[i])

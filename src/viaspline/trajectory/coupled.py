@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels import topp
+from viaspline.kernels import cell_caps, nodes, planes, topp
 from viaspline.trajectory.cells import Cells, Grain
 from viaspline.trajectory.limits import SETTLE, Limits
 from viaspline.trajectory.zones import Slow
@@ -19,11 +18,9 @@ Floats = NDArray[np.float64]
 RAMP = 8
 """Stretches that the shortest way to full speed is divided into, at least."""
 
-LEGS = 16
-"""Stretches between two places where the robot stops, at least."""
-
-_GRADED = 1e-3 * 1.5 ** np.arange(12)
-"""Nodes beside a rest, as parts of the shortest way to full speed."""
+GATE, SHARE, PIECES = 0.009, 0.0022, 16
+"""Where more than ``GATE`` of the time may be lost to the grid, stretches are cut into up to
+``PIECES`` so that it is ``SHARE``. What is lost indeed is a fifth to a half of that."""
 
 MOST = 20_000
 """A cell is never made shorter than the path over this, as long as it bends little."""
@@ -101,64 +98,89 @@ def grain_for(limits: Limits, dimension: int, stage: Stage, grid: int | None = N
 def coupled_profile(cells: Cells, limits: Limits, stage: Stage, grain: Grain) -> Profile:
     """The fastest v² that keeps every limit everywhere, on a grid of distances.
 
+    Where the acceleration changes much from one stretch to the next the grid is made finer, and
+    the fastest v² sought again.
+
     Args:
         cells: Of the path, at least from start to end.
         limits: Those of the Limits, jerk left out.
         stage: What is asked.
         grain: What the cells were made for.
     """
-    system = _System.of(cells, limits, stage, grain)
-    squares, over, missed = system.solve(stage.first**2)
-    return Profile(system.line, squares, over, missed)
+    system = System.of(cells, limits, stage, grain)
+    first = system.solve(stage.first**2)
+    scale = min(grain.axis, grain.accel)
+    finer = nodes.refined(first.points, first.squares, first.over, scale, GATE, SHARE, PIECES)
+    if finer.size == first.points.size:
+        return first
+    return system.on(finer, limits, stage, grain).solve(stage.first**2)
 
 
-class _System(NamedTuple):
-    """Half-planes for every stretch and caps for every node."""
+class System(NamedTuple):
+    """Half-planes for every stretch and caps for every node.
 
+    Attributes:
+        cells: Of the path.
+        rests: Where the robot rests [m].
+        speeds: Of ``caps_of_cells``.
+        line: Nodes [m], shape (n + 1,).
+        planes: Half-planes p w0 + q w1 <= g of v² at both ends, shape (n, k, 3).
+        caps: Largest v² at the nodes, shape (n + 1,).
+        brake: [m/s²].
+    """
+
+    cells: Cells
+    rests: Floats
+    speeds: Floats
     line: Floats
     planes: Floats
     caps: Floats
     brake: float
 
     @classmethod
-    def of(cls, cells: Cells, limits: Limits, stage: Stage, grain: Grain) -> _System:
-        d, slip = cells.tangents.shape[1], 1e-9 * (1.0 + stage.end)
-        rests = rests_of(cells, limits, stage)
-        ramp = grain.square / (2.0 * grain.accel)
-        marks = _marks(cells.along, rests, stage, ramp, slip)
-        line, cell, ends = topp.divide(cells.along, marks, slip)
-        tops = np.full(len(cell), grain.square)
+    def of(cls, cells: Cells, limits: Limits, stage: Stage, grain: Grain) -> System:
+        """The limits on the grid of all ends of cells, and more where they are long."""
+        rests, speeds = rests_of(cells, limits, stage), caps_of_cells(cells, limits, grain)
+        none = np.empty(0)
+        bare = cls(cells, rests, speeds, none, np.empty((0, 0, 3)), none, limits.brake)
+        return bare.on(_marks(cells.along, rests, stage, grain), limits, stage, grain)
+
+    def on(self, marks: Floats, limits: Limits, stage: Stage, grain: Grain) -> System:
+        """The same on the grid of some marks and all ends of cells."""
+        cells, slip = self.cells, 1e-9 * (1.0 + stage.end)
+        line, cell, ends = nodes.divide(cells.along, marks, slip)
+        tops = np.full(cell.size, grain.square)
         for part in stage.slow:
             middles = 0.5 * (line[1:] + line[:-1])
             within = (middles > part.start) & (middles < part.end)
             tops[within] = np.minimum(tops[within], part.speed**2)
-        caps = np.full(len(line), grain.square)
-        if limits.max_yaw_accel is not None and d > 1:
+        caps = np.full(line.size, grain.square)
+        if limits.max_yaw_accel is not None and cells.yaws.size:
             at = np.searchsorted(line, cells.along[1:-1] - slip)
-            inner = (at > 0) & (at < len(line))
+            inner = (at > 0) & (at < line.size)
             rate = limits.max_yaw_accel * SETTLE
             slow = (rate / np.maximum(cells.jumps[inner], 1e-12)) ** 2
             np.minimum.at(caps, at[inner], slow)
-        caps[np.searchsorted(line, rests)] = 0.0
+        caps[np.searchsorted(line, self.rests)] = 0.0
         caps[-1] = min(caps[-1], stage.last**2)
-        speeds = caps_of_cells(cells, limits, grain)
-        planes = topp.stretch_planes(
+        half_planes = planes.stretch_planes(
             line, cell, ends, tops, caps, cells.tangents, cells.bends, cells.yaws, cells.misses,
-            speeds, limits.max_accel, limits.brake, grain.accel, limits.of_axes("axis_accel", d),
-            _or_inf(limits.max_yaw_accel),
+            self.speeds, limits.max_accel, limits.brake, grain.accel,
+            limits.of_axes("axis_accel", cells.tangents.shape[1]), _or_inf(limits.max_yaw_accel),
         )  # fmt: skip
-        return cls(line, planes, caps, limits.brake)
+        return self._replace(line=line, planes=half_planes, caps=caps)
 
-    def solve(self, first: float) -> tuple[Floats, float, float]:
+    def solve(self, first: float) -> Profile:
+        """The fastest v² from one at the start on [m²/s²]."""
         squares, over, missed = topp.reachable_profile(
             self.line, self.planes, self.caps, self.brake, first
         )
-        return squares, float(over), float(missed)
+        return Profile(self.line, squares, float(over), float(missed))
 
 
 def caps_of_cells(cells: Cells, limits: Limits, grain: Grain) -> Floats:
     """The line below which v² keeps every limit of a speed, at both ends of each cell, (n, 2)."""
-    return topp.cell_caps(
+    return cell_caps.cell_caps(
         cells.along, cells.tangents, cells.bends, cells.yaws, cells.misses, grain.square,
         grain.accel, limits.of_axes("axis_speed", cells.tangents.shape[1]),
         _or_inf(limits.max_lateral_accel), _or_inf(limits.max_yaw_rate),
@@ -172,44 +194,21 @@ def _or_inf(limit: float | None) -> float:
 def rests_of(cells: Cells, limits: Limits, stage: Stage) -> Floats:
     """Where the robot rests from start to end [m]: at stops, and where it turns on the spot."""
     bends = (limits.max_lateral_accel, limits.max_yaw_rate, limits.max_yaw_accel, limits.axis_accel)
-    rests = np.array(stage.stops)
+    rests = np.array(stage.stops, dtype=np.float64)
+    if not rests.size and not cells.rests.any():
+        return rests
     if cells.rests.any() and any(limit is not None for limit in bends):
         turns = cells.along[cells.rests]
         rests = np.concatenate((rests, turns[(turns > stage.start) & (turns < stage.end)]))
     return np.unique(rests)
 
 
-def _marks(along: Floats, rests: Floats, stage: Stage, ramp: float, slip: float) -> Floats:
-    """Places that have to be nodes [m], and nodes for where the cells are too long.
-
-    These are a few between rests, and ever closer ones beside a rest: a zone or a bend may keep
-    the speed so low that the robot is up to it within a small part of a cell.
-    """
-    edges = [place for part in stage.slow for place in (part.start, part.end)]
-    ends = np.array([stage.start, stage.end])
-    stops = np.unique(np.concatenate((ends, rests)))
-    legs = [_lattice(low, high) for low, high in pairwise(stops)]
-    fixed = np.union1d(stops, edges) if edges else stops
-    fixed = fixed[(fixed >= stage.start) & (fixed <= stage.end)]
-    steps = ramp * _GRADED
-    beside = rests if stage.first > 0.0 else np.append(rests, stage.start)
-    beside = np.append(beside, stage.end)[:, None]
-    free = np.concatenate((*legs, (beside - steps).ravel(), (beside + steps).ravel()))
-    free = free[(free > stage.start) & (free < stage.end)]
-    after = np.searchsorted(fixed, free)
-    gap = np.minimum(fixed[after] - free, free - fixed[after - 1])
-    far = gap > slip
-    cells = np.searchsorted(along, free).clip(1, along.size - 1)
-    apart = 0.1 * np.minimum(along[cells] - along[cells - 1], gap)
-    far &= (along[cells] - free > apart) & (free - along[cells - 1] > apart)
-    return np.unique(np.concatenate((fixed, free[far])))
-
-
-def _lattice(low: float, high: float) -> Floats:
-    """Multiples of a power of two between two distances, ``LEGS`` to twice as many.
-
-    From a start farther on these are the same or finer ones, so a profile that was found from
-    farther back can still be driven.
-    """
-    step = 2.0 ** np.floor(np.log2((high - low) / LEGS))
-    return np.asarray(step * np.arange(np.floor(low / step) + 1.0, np.ceil(high / step)))
+def _marks(along: Floats, rests: Floats, stage: Stage, grain: Grain) -> Floats:
+    """Places that have to be nodes [m], and nodes for where the cells are too long."""
+    start, end = stage.start, stage.end
+    stops = np.array(sorted({start, end, *rests.tolist()}))
+    places = {place for part in stage.slow for place in (part.start, part.end)}
+    edges = np.array(sorted(place for place in places if start < place < end), dtype=np.float64)
+    graded = stage.first <= 0.0 or (rests.size > 0 and bool(rests[0] <= start))
+    ramp = grain.square / (2.0 * grain.accel)
+    return nodes.marks(along, stops, edges, graded, ramp, 1e-9 * (1.0 + end))

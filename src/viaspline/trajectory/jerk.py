@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels import topp
+from viaspline.kernels import nodes
 from viaspline.trajectory.cells import Cells, Grain
 from viaspline.trajectory.coupled import Profile, Stage, caps_of_cells, rests_of
 from viaspline.trajectory.course import Course, CubicCourse
@@ -106,7 +106,7 @@ def _section(
     weakest = min(limits.max_accel, limits.brake, grain.axis)
     first = min(0.05 * weakest**3 / limits.max_jerk**2, (high - low) / 40.0)
     slip = 1e-12 * (1.0 + high)
-    line, cell, parts = topp.divide(cells.along, _marks(cells.along, low, high, first), slip)
+    line, cell, parts = nodes.divide(cells.along, _marks(cells.along, low, high, first), slip)
     tops = np.full(cell.size, grain.square)
     middles = 0.5 * (line[1:] + line[:-1])
     for slow in stage.slow:

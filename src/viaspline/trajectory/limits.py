@@ -105,6 +105,8 @@ class Limits:
         value = getattr(self, name)
         if value is None:
             return np.empty(0)
+        if isinstance(value, float):
+            return np.full(dimension, value)
         axes = np.atleast_1d(np.asarray(value, dtype=float))
         if axes.size not in (1, dimension):
             raise GeometryError(

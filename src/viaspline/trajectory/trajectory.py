@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viaspline.kernels.ride import ride
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.pieces import after, speed_into, time_into
 
@@ -72,25 +73,10 @@ class Trajectory:
             start_time: Time at the first point [s].
             over_limit_until: Passed on.
         """
-        speeds = np.sqrt(squares)
-        steps = np.diff(distances)
-        sums = speeds[:-1] + speeds[1:]
-        crawl = sums <= 0.0
-        durations = 2.0 * steps / np.where(crawl, 1.0, sums)
-        if crawl.any():
-            durations[crawl] = 2.0 * np.sqrt(steps[crawl] / max_accel)
-        if stations:
-            stops = np.searchsorted(distances, [station.distance for station in stations])
-            distances = np.insert(distances, stops, distances[stops])
-            speeds = np.insert(speeds, stops, speeds[stops])
-            durations = np.insert(durations, stops, [station.dwell for station in stations])
-        times = np.empty(distances.shape[0])
-        times[0] = start_time
-        np.cumsum(durations, out=times[1:])
-        times[1:] += start_time
-        rises = np.diff(speeds)
-        accelerations = np.divide(rises, durations, out=np.zeros_like(rises), where=durations > 0)
-        return cls(distances, speeds, times, accelerations, tuple(stations), over_limit_until)
+        stops = np.array([(s.distance, s.dwell) for s in stations], dtype=np.float64)
+        stops = np.ascontiguousarray(stops.reshape(-1, 2).T)
+        law = ride(distances, squares, stops[0], stops[1], max_accel, start_time)
+        return cls(*law, tuple(stations), over_limit_until)
 
     @property
     def start_time(self) -> float:
