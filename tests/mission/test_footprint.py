@@ -47,3 +47,14 @@ def test_the_remedy_is_a_body() -> None:
     shifted = flaw.remedy.split("e.g. ")[1]
     corners = [tuple(map(float, pair.split(", "))) for pair in shifted.strip("[]").split("], [")]
     assert footprint_flaw(corners) is None  # type: ignore[arg-type]
+
+
+def test_a_mission_with_a_body_is_read_again_as_it_was_dumped() -> None:
+    asked = Mission.model_validate(
+        {
+            "robot": {"footprint": [[-1, -1], [2, -1], [2, 1], [-1, 1]]},
+            "route": {"start": [0, 0], "goal": [9, 0]},
+        }
+    )
+    assert Mission.model_validate(asked.model_dump()) == asked
+    assert Mission.model_validate_json(asked.model_dump_json()) == asked

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from viaspline.detour.brief import Brief
+from viaspline.detour.driven_sides import DrivenSides
 from viaspline.detour.laid import Laid
 from viaspline.detour.ledger import LedgerEntry
+from viaspline.detour.leg_search import Curve
 from viaspline.detour.measure import measure
 from viaspline.detour.passing import Passed
+from viaspline.detour.weighed import Weighed
 from viaspline.world.world import World
 
 
@@ -29,12 +31,15 @@ class Account:
         world: The known world.
         brief: What the path keeps.
         passed: The legs that were led round something.
+        driven: The other sides as a robot with a body or a turning circle drives them; None for
+            others.
     """
 
     laid: Laid
     world: World
     brief: Brief
     passed: Mapping[int, Passed] = field(default_factory=dict)
+    driven: DrivenSides | None = None
 
     @cached_property
     def ledger(self) -> tuple[LedgerEntry, ...]:
@@ -43,21 +48,15 @@ class Account:
         A leg that was led round after its neighbour has turned the tangents at the via point
         between them; what was not chosen stays as it was weighed.
         """
-        entries: list[LedgerEntry] = []
-        for leg in sorted(self.passed):
-            met = self.passed[leg].entries
-            laid = self.laid.leg(leg)
-            chosen = met[0].chosen if met else None  # all entries of a leg share it
-            if chosen is None or np.array_equal(chosen.spans, laid):
-                entries += met
-                continue
-            cost = asdict(measure(laid, self.world, self.brief))  # fields of a candidate as well
-            points = self.laid.detours(leg)
-            entries += [_as_laid(entry, spans=laid, vias=points, **cost) for entry in met]
-        return tuple(entries)
+        weighed = (self._weighed(leg) for leg in sorted(self.passed))
+        return tuple(entry for leg in weighed for entry in leg.entries)
 
-
-def _as_laid(entry: LedgerEntry, **curve: Any) -> LedgerEntry:
-    """The entry with other values for the curve that was chosen."""
-    candidates = (replace(c, **curve) if c.chosen else c for c in entry.candidates)
-    return replace(entry, candidates=tuple(candidates))
+    def _weighed(self, leg: int) -> Weighed:
+        weighed = self.passed[leg].weighed
+        if self.driven is not None:
+            return self.driven.weighed(weighed, self.laid)
+        winner, spans = weighed.winner, self.laid.leg(leg)
+        if np.array_equal(winner.spans, spans):
+            return weighed
+        price = measure(spans, self.world, self.brief)
+        return weighed.taking(Curve(winner.way, self.laid.detours(leg), spans, price))

@@ -8,9 +8,9 @@ last by a search among poses.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from viaspline.detour.body import is_clear
 from viaspline.detour.brief import Brief
 from viaspline.detour.byways import swing_on_byways
 from viaspline.detour.course import Course
+from viaspline.detour.driven_sides import DrivenSides
 from viaspline.detour.heights import with_heights
 from viaspline.detour.laid import Laid
 from viaspline.detour.leg_search import LegSearch
@@ -77,6 +78,20 @@ class _Drive:
         """Those that are worth a longer search [m]."""
         return self.radii[-1:] if len(self.radii) == 1 else (self.radii[1], self.radii[-1])
 
+    @cached_property
+    def legs(self) -> tuple[LegSearch, ...]:
+        """The legs of the course."""
+        router = Task.of(self.course, self.world, self.brief).router
+        count = len(self.course.legs)
+        return tuple(
+            LegSearch(self.course, k, self.world, self.brief, router) for k in range(count)
+        )
+
+    @cached_property
+    def ways(self) -> tuple[Way, ...]:
+        """The shortest way of every leg."""
+        return tuple(_way_of(leg) for leg in self.legs)
+
     def is_clear(self, spans: Floats) -> bool:
         """Whether the body keeps clear on planar spans."""
         return is_clear(self.world, spans, self.brief)
@@ -101,10 +116,21 @@ def lay_drivable(course: Course, world: World, brief: Brief) -> tuple[Laid, Acco
     smooth = replace(course, tangents="continuous")
     laid, account = lay_clear(smooth, world, brief)
     drive = _Drive(smooth, world, brief)
-    if drive.is_drivable(laid.spans):
-        return laid, account
-    swung = _swung(drive)
-    return swung, replace(account, laid=swung)
+    sides = DrivenSides(smooth, world, brief, partial(_along, drive), drive.is_drivable)
+    if not drive.is_drivable(laid.spans):
+        laid = sides.shortest(_swung(drive), account.passed)
+    return laid, replace(account, laid=laid, driven=sides)
+
+
+def _along(drive: _Drive, given: Mapping[int, Way]) -> Laid | None:
+    """Lines and turns with some legs along given ways, the others along their shortest."""
+    ways = [given.get(k, way) for k, way in enumerate(drive.ways)]
+    bends = bends_along(drive.course, ways)
+    for rho in drive.radii:
+        swing = clear_swing(bends, rho, drive.world, drive.brief)
+        if swing is not None:
+            return _laid(drive, [swing])
+    return None
 
 
 def _swung(drive: _Drive) -> Laid:
@@ -113,17 +139,15 @@ def _swung(drive: _Drive) -> Laid:
     Raises:
         NoPathError: When there are none.
     """
-    legs = _legs_of(drive)
-    ways = _ways_of(legs, drive.brief)
-    bends = bends_along(drive.course, ways)
+    bends = bends_along(drive.course, drive.ways)
     for rho in drive.radii:
         swing = clear_swing(bends, rho, drive.world, drive.brief)
         if swing is not None:
             return _laid(drive, [swing])
     failed: NotFound | None = None
     for rho in drive.careful:
-        byway = _on_byways(drive, legs, ways, rho)
-        if byway is not None and byway.length <= ENOUGH * sum(way.length for way in ways):
+        byway = _on_byways(drive, rho)
+        if byway is not None and byway.length <= ENOUGH * sum(way.length for way in drive.ways):
             return _laid(drive, [byway])
         found = _searched(drive, bends, rho)
         if byway is not None and (isinstance(found, NotFound) or found.length > byway.length):
@@ -151,32 +175,20 @@ def _searched(drive: _Drive, bends: Bends, rho: float) -> Laid | NotFound:
     return _through(drive, spans, joints, ())
 
 
-def _legs_of(drive: _Drive) -> list[LegSearch]:
-    task = Task.of(drive.course, drive.world, drive.brief)
-    count = len(drive.course.legs)
-    return [LegSearch(drive.course, k, drive.world, drive.brief, task.router) for k in range(count)]
+def _way_of(leg: LegSearch) -> Way:
+    way, _ = leg.shortest_allowed(on_the_line(leg.world, *leg.ends, leg.brief.required))
+    assert way is not None  # the spline found one
+    return way
 
 
-def _ways_of(legs: Sequence[LegSearch], brief: Brief) -> list[Way]:
-    """The shortest way of every leg."""
-    ways = []
-    for leg in legs:
-        way, _ = leg.shortest_allowed(on_the_line(leg.world, *leg.ends, brief.required))
-        assert way is not None  # the spline found one
-        ways.append(way)
-    return ways
-
-
-def _on_byways(
-    drive: _Drive, legs: Sequence[LegSearch], ways: Sequence[Way], rho: float
-) -> Swing | None:
+def _on_byways(drive: _Drive, rho: float) -> Swing | None:
     """The shortest swing along the shortest ways and those that are a little longer."""
 
     def lay(along: Sequence[Way]) -> Swing | Stuck:
         bends = bends_along(drive.course, along)
         return clear_swing_or_why(bends, rho, drive.world, drive.brief)
 
-    return swing_on_byways(legs, ways, lay)
+    return swing_on_byways(drive.legs, drive.ways, lay)
 
 
 def _posed(drive: _Drive, legs: Sequence[Leg], rho: float, closed: bool) -> Poses | None:

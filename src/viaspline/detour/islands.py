@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 
 from viaspline.detour.barrier import barriers_at
 from viaspline.detour.fit import Fitted
-from viaspline.detour.ledger import LedgerEntry
-from viaspline.detour.leg_search import Curve, LegSearch, Met, opposite
+from viaspline.detour.leg_search import LegSearch, Spline, opposite
 from viaspline.detour.route import Floats, on_the_line
+from viaspline.detour.weighed import Met, Weighed
+from viaspline.mission.parts import Side
 from viaspline.world.world import World
 
 MAP = 2  # kind of an obstacle
@@ -35,7 +36,7 @@ class PassedIslands:
     """
 
     leg: LegSearch
-    best: Curve
+    best: Spline
 
     @property
     def fitted(self) -> Fitted:
@@ -43,19 +44,20 @@ class PassedIslands:
         return self.best.fitted
 
     @cached_property
-    def entries(self) -> tuple[LedgerEntry, ...]:
-        """Every island that the straight line meets, and the ways past it."""
-        return tuple(self._entry(island) for island in islands_met(self.leg))
+    def weighed(self) -> Weighed:
+        """The curves on either side of every island that the straight line meets."""
+        met = tuple(islands_met(self.leg))
+        sides = [opposite(island.side_of(self.best.way)) for island in met]
+        found = [self._passing(island, side) for island, side in zip(met, sides, strict=True)]
+        others = [curve for curve in found if curve is not None]
+        reasons = tuple(f"no way is wide enough on the {side}" for side in sides)
+        return Weighed(self.leg, met, (self.best, *others), self.best, reasons)
 
-    def _entry(self, island: Met) -> LedgerEntry:
-        side = opposite(island.side_of(self.best.way))
+    def _passing(self, island: Met, side: Side) -> Spline | None:
         closed = island.barriers.closing(opposite(side))
         active = on_the_line(self.leg.world, *self.leg.ends, self.leg.brief.required)
         way, _ = self.leg.shortest_allowed(active, closed)
-        other = self.leg.curve(way)
-        curves = [self.best] if other is None else [self.best, other]
-        reason = f"no way is wide enough on the {side}"
-        return self.leg.entry(island, curves, self.best, reason)
+        return self.leg.curve(way)
 
 
 def islands_met(leg: LegSearch) -> Iterator[Met]:

@@ -2,48 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from viaspline.detour.barrier import Barriers, barriers_of
+from viaspline.detour.barrier import barriers_of
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course
 from viaspline.detour.fit import Fitted, fit
-from viaspline.detour.ledger import Candidate, LedgerEntry
 from viaspline.detour.measure import Measured, measure
 from viaspline.detour.route import NO_BARRIERS, Flags, Floats, Router, Way
 from viaspline.mission.parts import Side
 from viaspline.world.world import World
 
-SIDES: tuple[Side, Side] = ("left", "right")
-
-
-@dataclass(frozen=True)
-class Met:
-    """A group that stands in the way of a leg.
-
-    Attributes:
-        members: The names of its obstacles.
-        barriers: What closes either side of it.
-    """
-
-    members: tuple[str, ...]
-    barriers: Barriers
-
-    def side_of(self, way: Way) -> Side:
-        """The side on which a way passes it."""
-        return "right" if way.crosses(self.barriers.right) else "left"
-
 
 @dataclass(frozen=True)
 class Curve:
-    """A spline that was fitted to a way, and what it costs."""
+    """A curve along a way, and what it costs.
+
+    Attributes:
+        way: What it follows.
+        vias: Its detour via points [m], shape (k, d).
+        spans: Bézier control polygons of the whole leg [m], shape (m, 4, d).
+        measured: Its price.
+    """
 
     way: Way
-    fitted: Fitted
+    vias: Floats
+    spans: Floats
     measured: Measured
+
+
+@dataclass(frozen=True)
+class Spline(Curve):
+    """The spline that was fitted to a way.
+
+    Attributes:
+        fitted: The course with it.
+    """
+
+    fitted: Fitted
 
 
 @dataclass(frozen=True)
@@ -102,41 +100,16 @@ class LegSearch:
         ]
         return np.vstack(rows) if rows else NO_BARRIERS
 
-    def curve(self, way: Way | None) -> Curve | None:
+    def curve(self, way: Way | None) -> Spline | None:
         """The spline along a way, or None where no slack makes it clear."""
         if way is None:
             return None
         fitted = fit(self.course, self.index, way, self.world, self.brief.required)
         if fitted is None:
             return None
-        return Curve(way, fitted, measure(fitted.spans, self.world, self.brief))
-
-    def entry(self, group: Met, curves: Sequence[Curve], winner: Curve, reason: str) -> LedgerEntry:
-        """The shortest of some curves on either side of a group."""
-        candidates = []
-        for side in SIDES:
-            passing = [curve for curve in curves if group.side_of(curve.way) == side]
-            best = min(passing, key=lambda curve: curve.measured.length, default=None)
-            candidates.append(self._candidate(side, best, reason, chosen=best is winner))
-        start, goal = self.course.ends(self.index)
-        return LedgerEntry(group.members, (start.name, goal.name), tuple(candidates))
-
-    def _candidate(
-        self, side: Side, curve: Curve | None, reason: str, *, chosen: bool
-    ) -> Candidate:
-        if curve is None:
-            dimension = len(self.ends[0])
-            none = np.empty((0, dimension))
-            return Candidate(side, none, none.reshape(0, 4, dimension), impossible=reason)
-        return Candidate(
-            side=side,
-            vias=curve.fitted.course.legs[self.index].points,
-            spans=curve.fitted.spans,
-            length=curve.measured.length,
-            clearance=curve.measured.clearance,
-            max_curvature=curve.measured.max_curvature,
-            chosen=chosen,
-        )
+        vias = fitted.course.legs[self.index].points
+        price = measure(fitted.spans, self.world, self.brief)
+        return Spline(way, vias, fitted.spans, price, fitted)
 
 
 def opposite(side: Side) -> Side:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.detour.body import proven
 from viaspline.detour.brief import Brief
 from viaspline.detour.route import Floats
 from viaspline.kernels.clearance import tightest
@@ -32,4 +34,11 @@ def measure(spans: Floats, world: World, brief: Brief) -> Measured:
     """
     lower = float(tightest(world.packed, spans, TOLERANCE)[0])
     length, sharpest = length_and_curvature(spans)
-    return Measured(float(length), max(lower - brief.radius, brief.clearance), float(sharpest))
+    return Measured(float(length), max(lower - brief.radius, brief.kept), float(sharpest))
+
+
+def measure_body(spans: Floats, world: World, brief: Brief) -> Measured:
+    """What a curve costs that a body drives, whether it keeps what the brief requires or not."""
+    length, sharpest = length_and_curvature(spans)
+    clearance = proven(PiecewiseCubic(spans), world, brief).clearance
+    return Measured(float(length), clearance, float(sharpest))

@@ -13,7 +13,7 @@ from viaspline.detour.blocked import BlockedLegError, explain_blocked_leg
 from viaspline.detour.brief import Brief
 from viaspline.detour.course import Course
 from viaspline.detour.islands import PassedIslands
-from viaspline.detour.leg_search import Curve, LegSearch
+from viaspline.detour.leg_search import LegSearch, Spline
 from viaspline.detour.route import NO_BARRIERS, Flags, Floats, Router, on_the_line
 from viaspline.detour.sides import PassedGroups, WeighedLater, groups_met, pass_groups
 from viaspline.kernels.corners import X, Y
@@ -82,7 +82,7 @@ class Task:
             return WeighedLater(leg, met, best, active)
         return pass_groups(leg, met, best, active)
 
-    def _fitted(self, leg: LegSearch, active: Flags) -> tuple[Curve | None, Floats]:
+    def _fitted(self, leg: LegSearch, active: Flags) -> tuple[Spline | None, Floats]:
         """The curve along the shortest way on which one fits, and the sides that are forbidden.
 
         A gap that is just as wide as what is required lets a polyline through, but no curve with

@@ -102,7 +102,8 @@ class _State:
         y: Multipliers of the equalities.
         room: s = A x - b + t, above 0.
         spare: t, above 0.
-        force: Multipliers of s, between 0 and the price; those of t are what lacks of it.
+        force: Multipliers of s, above 0.
+        counter: Those of t, above 0: what lacks of the price, which a difference would round away.
     """
 
     task: Programme
@@ -111,6 +112,7 @@ class _State:
     room: Floats
     spare: Floats
     force: Floats
+    counter: Floats
 
     @classmethod
     def first(cls, task: Programme) -> _State:
@@ -119,13 +121,9 @@ class _State:
         spare = np.maximum(room + task.floors, 1.0)
         force = np.full(room.size, 0.5 * min(task.price, 1.0))
         return cls(
-            task, np.zeros(task.gradient.size), np.zeros(task.values.size), room, spare, force
-        )
-
-    @property
-    def counter(self) -> Floats:
-        """Multipliers of t."""
-        return np.asarray(self.task.price - self.force)
+            task, np.zeros(task.gradient.size), np.zeros(task.values.size), room, spare, force,
+            task.price - force,
+        )  # fmt: skip
 
     @property
     def gap(self) -> float:
@@ -157,6 +155,7 @@ class _State:
         return _State(
             self.task, self.x + far * step.x, self.y + far * step.y, self.room + far * step.room,
             self.spare + far * step.spare, self.force + far * step.force,
+            self.counter - far * step.force,
         )  # fmt: skip
 
     def reach(self, step: _Step) -> float:

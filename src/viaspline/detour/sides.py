@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from viaspline.detour.barrier import barriers_of
 from viaspline.detour.fit import Fitted
-from viaspline.detour.ledger import LedgerEntry
-from viaspline.detour.leg_search import Curve, LegSearch, Met, opposite
+from viaspline.detour.leg_search import LegSearch, Spline, opposite
 from viaspline.detour.route import Flags, Floats, Way, on_the_line
+from viaspline.detour.weighed import Met, Weighed
 from viaspline.kernels.corners import X, Y
 from viaspline.mission.parts import Side
 from viaspline.world.world import World
@@ -40,10 +40,22 @@ class Group(Met):
 
 @dataclass(frozen=True)
 class PassedGroups:
-    """A leg that was led round the groups in its way."""
+    """A leg that was led round the groups in its way.
 
-    fitted: Fitted
-    entries: tuple[LedgerEntry, ...]
+    Attributes:
+        weighed: The curves on either side of each.
+        winner: The shortest of them.
+        best: The one along the shortest way.
+    """
+
+    weighed: Weighed
+    winner: Spline
+    best: Spline
+
+    @property
+    def fitted(self) -> Fitted:
+        """The leg's spline."""
+        return self.winner.fitted
 
 
 def groups_met(leg: LegSearch, labels: NDArray[np.int64], active: Flags) -> tuple[Group, ...]:
@@ -83,7 +95,7 @@ class WeighedLater:
 
     leg: LegSearch
     met: tuple[Group, ...]
-    best: Curve
+    best: Spline
     active: Flags
 
     @property
@@ -92,13 +104,13 @@ class WeighedLater:
         return self.best.fitted
 
     @cached_property
-    def entries(self) -> tuple[LedgerEntry, ...]:
-        """Every group, and the ways past it."""
-        curves, reasons = _weighed(self.leg, self.met, self.best, self.active.copy())
-        return _entries(self.leg, self.met, curves, self.best, reasons)
+    def weighed(self) -> Weighed:
+        """The curves on either side of every group."""
+        curves, reasons = _curves(self.leg, self.met, self.best, self.active.copy())
+        return Weighed(self.leg, self.met, tuple(curves), self.best, tuple(reasons))
 
 
-def pass_groups(leg: LegSearch, met: Sequence[Group], best: Curve, active: Flags) -> PassedGroups:
+def pass_groups(leg: LegSearch, met: Sequence[Group], best: Spline, active: Flags) -> PassedGroups:
     """Weigh the other side of every group as well.
 
     Args:
@@ -107,14 +119,15 @@ def pass_groups(leg: LegSearch, met: Sequence[Group], best: Curve, active: Flags
         best: The curve along the shortest way.
         active: (n,): the obstacles that way was found with.
     """
-    curves, reasons = _weighed(leg, met, best, active)
+    curves, reasons = _curves(leg, met, best, active)
     winner = min(curves, key=lambda curve: curve.measured.length)
-    return PassedGroups(winner.fitted, _entries(leg, met, curves, winner, reasons))
+    weighed = Weighed(leg, tuple(met), tuple(curves), winner, tuple(reasons))
+    return PassedGroups(weighed, winner, best)
 
 
-def _weighed(
-    leg: LegSearch, met: Sequence[Group], best: Curve, active: Flags
-) -> tuple[list[Curve], list[str]]:
+def _curves(
+    leg: LegSearch, met: Sequence[Group], best: Spline, active: Flags
+) -> tuple[list[Spline], list[str]]:
     """The best curve and those on the other side of each group; why there might be none."""
     curves = [best]
     reasons: list[str] = []
@@ -126,21 +139,9 @@ def _weighed(
     return curves, reasons
 
 
-def _entries(
-    leg: LegSearch,
-    met: Sequence[Group],
-    curves: Sequence[Curve],
-    winner: Curve,
-    reasons: Sequence[str],
-) -> tuple[LedgerEntry, ...]:
-    return tuple(
-        leg.entry(group, curves, winner, reason) for group, reason in zip(met, reasons, strict=True)
-    )
-
-
 def _other_side(
     leg: LegSearch, met: Sequence[Group], group: Group, side: Side, best: Way, active: Flags
-) -> tuple[Curve | None, str]:
+) -> tuple[Spline | None, str]:
     """The shortest curve on the given side of a group, or why there is none.
 
     On a leg with many groups the way changes only near the group: there are then as many other

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Final, Literal
+from typing import Annotated, Any, Final, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from viaspline.mission.fields import FAR, NotNegative, Positive, Ring, Value, one_of, two_of
 
@@ -201,6 +201,14 @@ class RobotSpec(Value):
         if self.footprint is not None and "radius_m" in self.model_fields_set:
             raise two_of("radius_m", "footprint")
         return self
+
+    @model_serializer(mode="wrap")
+    def _as_read(self, serialized: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Without the radius that a polygon takes the place of, so that it can be read again."""
+        data: dict[str, Any] = serialized(self)
+        if self.footprint is not None:
+            data.pop("radius_m", None)
+        return data
 
     @property
     def inner_radius(self) -> float:
