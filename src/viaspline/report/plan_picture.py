@@ -20,7 +20,7 @@ from viaspline.report.marks import draw_arrows, draw_path, draw_tightest, draw_v
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.summary import body_words, spline_words
-from viaspline.report.units import down, metres, seconds
+from viaspline.report.units import asked_words, down, metres, seconds
 
 WAYS_NAMED = 6  # groups; the lengths of their ways are on the picture if they are no more
 
@@ -41,7 +41,7 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     view = view_of(seen, scene.corners, scene.box, required)
     law = plan.trajectory
     title = f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in {seconds(law.duration)}"
-    lines = (proof(plan.certificate), subtitle(plan.mission))
+    lines = (proof(plan.certificate, plan.tracking_error), subtitle(plan.mission))
     sheet = new_sheet(view, strips.names(plan.path.spans[:, 0]), title, lines)
     labels = Labels(sheet.map)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre)
@@ -67,13 +67,13 @@ def subtitle(mission: Mission) -> str:
     return f"{spline_words(mission)}; {body_words(robot)}, at most {robot.max_speed_mps:g} m/s"
 
 
-def proof(certificate: Certificate) -> str:
-    """The proven clearance in a few words."""
+def proof(certificate: Certificate, tracking_error: float = 0.0) -> str:
+    """The proven clearance in a few words; the part that is kept for tracking said apart."""
     if not np.isfinite(certificate.clearance):
         return "nothing to keep clear of"
     return (
         f"proven: nowhere closer than {down(certificate.clearance)} to anything "
-        f"({metres(certificate.required)} was asked for)"
+        f"({asked_words(certificate.required, tracking_error)} asked)"
     )
 
 

@@ -16,7 +16,7 @@ from viaspline.planner import Plan
 from viaspline.report.messages import deafen
 from viaspline.report.style import without_folder
 from viaspline.report.summary import map_words
-from viaspline.report.units import curvature, down, metres, place, seconds
+from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
 from viaspline.robot.run import Run
 
 LINES = 12  # of a long list, before the rest is only counted
@@ -49,17 +49,14 @@ def plan_tables(plan: Plan, name: str) -> RenderableType:
     facts.add_row("length", metres(path.length, 1))
     facts.add_row("duration", seconds(plan.trajectory.duration))
     facts.add_row("points of the route", f"{len(users)}, and {detours} of detours")
-    facts.add_row(
-        "clearance, proven", f"{down(certificate.clearance)} (asked {metres(certificate.required)})"
-    )
+    asked = asked_words(certificate.required, plan.tracking_error)
+    facts.add_row("clearance, proven", f"{down(certificate.clearance)} (asked {asked})")
     if certificate.obstacle is not None:
         facts.add_row(
             "tightest place",
             f"{place(certificate.tightest_at)} at {metres(certificate.tightest_distance, 1)}, "
             f"beside {certificate.obstacle}",
         )
-    if plan.tracking_error > 0.0:
-        facts.add_row("kept for tracking", f"{metres(plan.tracking_error, 3)} of it")
     facts.add_row("largest curvature", curvature(path.max_curvature()[0]))
     stations = [s for s in plan.trajectory.stations if s.dwell > 0]
     if stations:
@@ -135,8 +132,8 @@ def run_tables(run: Run, name: str) -> RenderableType:
     facts.add_row("driven", f"{metres(run.path.length, 1)} in {seconds(run.duration)}")
     planned = f"{metres(run.plan.path.length, 1)} in {seconds(run.plan.trajectory.duration)}"
     facts.add_row("planned before", planned)
-    required = metres(run.certificate.required)
-    facts.add_row("clearance, proven", f"{down(run.certificate.clearance)} (asked {required})")
+    asked = asked_words(run.certificate.required)
+    facts.add_row("clearance, proven", f"{down(run.certificate.clearance)} (asked {asked})")
     if run.certificate.obstacle is not None:
         facts.add_row(
             "tightest place",

@@ -36,6 +36,20 @@ def down(value: float) -> str:
     return metres(math.floor(value * 10**digits + 1e-6) / 10**digits, digits)
 
 
+def asked_words(value: float, tracking_error: float = 0.0) -> str:
+    """A clearance that was asked for, and what is kept in addition for tracking.
+
+    Example:
+        >>> asked_words(0.5), asked_words(0.1362, 0.0362), asked_words(0.125)
+        ('0.50 m', '0.10 m and 0.036 m for tracking', '0.125 m')
+    """
+    clearance = value - tracking_error
+    digits = 2 if abs(clearance - round(clearance, 2)) < 1e-6 else 3
+    if not tracking_error > 0.0:
+        return metres(clearance, digits)
+    return f"{metres(clearance, digits)} and {metres(tracking_error, 3)} for tracking"
+
+
 def seconds(value: float | None) -> str:
     """A time.
 
