@@ -6,8 +6,6 @@ import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
-from pydantic import BaseModel
-
 from viaspline.errors import Change, Fault
 
 Path: TypeAlias = tuple[str | int, ...]
@@ -100,9 +98,11 @@ def located(flaws: list[Flaw], data: Any, origin: Origin | None) -> list[Fault]:
 
 def children(value: Any) -> Mapping[Any, Any] | None:
     """The keys and values of a mapping or a model; None for anything else."""
-    if isinstance(value, BaseModel):
-        return dict(value)
-    return value if isinstance(value, Mapping) else None
+    if isinstance(value, Mapping):
+        return value
+    from pydantic import BaseModel  # a mission file without flaws is read without it
+
+    return dict(value) if isinstance(value, BaseModel) else None
 
 
 def _rank(data: Any, path: Path) -> tuple[int, ...]:

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Final
-
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import FileResponse, PlainTextResponse, Response
-from starlette.routing import Mount, Route, WebSocketRoute
-from starlette.staticfiles import StaticFiles
+from starlette.responses import PlainTextResponse, Response
+from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
 from viaspline.studio.engine import Engine
 from viaspline.studio.folder import Folder
 from viaspline.studio.guard import Guard
+from viaspline.studio.page_files import page_files
 from viaspline.studio.session import Session
-
-PAGE: Final = Path(__file__).parent / "page"
 
 
 def application(
@@ -38,9 +33,13 @@ def application(
         hosts: See `Guard`.
         token: See `Guard`.
     """
+    files = page_files()
 
-    async def page(_: Request) -> Response:
-        return FileResponse(PAGE / "index.html")
+    async def page(request: Request) -> Response:
+        found = files.get(request.path_params.get("name", "index.html"))
+        if found is None:
+            return PlainTextResponse("there is no such file\n", 404)
+        return Response(found[0], media_type=found[1])
 
     async def picture(request: Request) -> Response:
         content = engine.picture(request.path_params["name"])
@@ -55,6 +54,6 @@ def application(
         Route("/", page),
         Route("/grids/{name}.png", picture),
         WebSocketRoute("/talk", talk),
-        Mount("/page", StaticFiles(directory=PAGE)),
+        Route("/page/{name:path}", page),
     ]
     return Guard(Starlette(routes=routes), hosts, token)

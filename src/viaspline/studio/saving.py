@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from viaspline.errors import OutputError
 from viaspline.formats.items import LatLon
-from viaspline.formats.outgoing import Written
-from viaspline.mission.model import Mission
 from viaspline.studio.refused import RefusedError
+
+if TYPE_CHECKING:
+    from viaspline.formats.outgoing import Written
+    from viaspline.mission.model import Mission
 
 YAML: Final = (".yaml", ".yml")
 PLANS: Final = (".plan",)

@@ -1,0 +1,31 @@
+"""The page's own files, read once: asked one by one, a folder is slow while numba loads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from mimetypes import types_map
+from pathlib import Path
+from typing import Final
+
+PAGE: Final = Path(__file__).parent / "page"
+
+TYPES: Final = {
+    **types_map,
+    ".js": "text/javascript",  # whatever this machine calls it: the page is served with nosniff
+    ".css": "text/css",
+    ".html": "text/html",
+    ".svg": "image/svg+xml",
+}
+
+
+def page_files() -> Mapping[str, tuple[bytes, str]]:
+    """Content and media type of every file of the page, by its name from the page's folder.
+
+    >>> page_files()["js/main.js"][1]
+    'text/javascript'
+    """
+    return {
+        path.relative_to(PAGE).as_posix(): (path.read_bytes(), TYPES[path.suffix])
+        for path in PAGE.rglob("*")
+        if path.is_file() and path.suffix in TYPES
+    }
