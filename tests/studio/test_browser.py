@@ -15,6 +15,9 @@ from click.testing import CliRunner
 from viaspline.cli import cli
 from viaspline.formats.load import load, origin_of
 from viaspline.mission.document import read_document
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan, plan
+from viaspline.studio import planning
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 Start = Callable[..., Any]
@@ -237,6 +240,31 @@ def test_without_a_path_the_page_says_why_and_its_button_helps(
     page.page.get_by_role("button", name="Move via 1 to").click()
     page.settle()
     assert page.plan["ok"]
+
+
+def test_while_a_slow_plan_is_made_the_old_path_is_shown_as_such_and_the_newest_edit_counts(
+    visit: Callable[..., Page], patrol: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def endless(mission: Mission) -> Plan:
+        while mission.route.via and mission.route.via[0].at[0] == 99:
+            pass
+        return plan(mission)
+
+    page = visit(patrol)
+    monkeypatch.setattr(planning, "plan", endless)
+    move = """x => {
+      const doc = structuredClone(studio.store.doc);
+      doc.route.via[0] = [x, 330];
+      studio.store.edit(doc);
+    }"""
+    page.js(move, 99)
+    page.until("studio.store.isLate")
+    page.until("document.querySelector('.status-text').textContent === 'planning'")
+    page.js(move, 91)
+    page.settle()
+    assert not page.js("studio.store.isLate")
+    assert page.plan["vias"][1][1:3] == [91, 330]
+    assert "proven clear" in page.page.locator("#status").inner_text()
 
 
 def test_a_drive_is_played_to_the_goal_with_its_events(

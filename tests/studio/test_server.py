@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import re
+import time
 import urllib.error
 import urllib.request
 from pathlib import Path
@@ -18,8 +19,11 @@ from websockets.sync.client import connect
 
 from viaspline.cli import cli
 from viaspline.mission.document import read_document
-from viaspline.studio.app import PAGE
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan, plan
+from viaspline.studio import planning
 from viaspline.studio.messages import LARGEST
+from viaspline.studio.page_files import PAGE
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 START = Any
@@ -151,6 +155,54 @@ def test_edits_that_are_overtaken_are_not_planned(start: START, patrol: Path) ->
             answers.append(client.hear("planned"))
         assert len(answers) < 150
         assert [a["rev"] for a in answers] == sorted(a["rev"] for a in answers)
+
+
+def endless_at_99(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Plans of which the first via point has x = 99 never end; they count their rounds."""
+    rounds = [0]
+
+    def endless(mission: Mission) -> Plan:
+        while mission.route.via and mission.route.via[0].at[0] == 99:
+            rounds[0] += 1
+        return plan(mission)
+
+    monkeypatch.setattr(planning, "plan", endless)
+    return rounds
+
+
+def wait_for(rounds: list[int]) -> None:
+    deadline, before = time.monotonic() + 20, rounds[0]
+    while rounds[0] == before:
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def test_a_slow_plan_is_broken_off_by_the_next_edit(
+    start: START, patrol: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rounds = endless_at_99(monkeypatch)
+    with start(patrol).client() as client:
+        before = client.edit()
+        client.send(type="edit", rev=50, changes=[[["route", "via", 0], [99, 330]]])
+        wait_for(rounds)
+        client.send(type="edit", rev=51, changes=[[[], client.hello["document"]]])
+        assert client.hear("planned")["rev"] == 51
+        client.send(type="edit", rev=52, changes=[[["route", "via", 0], [99, 330]]])
+        client.revision = 60
+        assert client.edit([[], client.hello["document"]])["spans"] == before["spans"]
+
+
+def test_the_endless_plan_of_a_closed_page_holds_up_no_other(
+    start: START, patrol: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rounds = endless_at_99(monkeypatch)
+    studio = start(patrol)
+    with studio.client() as client:
+        client.edit()
+        client.send(type="edit", rev=50, changes=[[["route", "via", 0], [99, 330]]])
+        wait_for(rounds)
+    with studio.client() as client:
+        assert client.edit()["ok"]
 
 
 def test_a_drive_is_told_with_what_is_seen_and_can_be_broken_off(

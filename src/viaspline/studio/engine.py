@@ -6,6 +6,7 @@ is there before numba is.
 
 from __future__ import annotations
 
+import gc
 import sys
 import time
 from collections.abc import Callable, Mapping
@@ -17,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Final
 from viaspline.studio.document import EMPTY, Document
 from viaspline.studio.folder import Folder
 from viaspline.studio.messages import encoded
+from viaspline.studio.stopping import Stoppable, StoppedCallError
 from viaspline.studio.worker import Worker
 
 if TYPE_CHECKING:
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
     from viaspline.studio.planning import Planned
 
 SWITCH: Final = 0.0005  # how long a thread keeps Python's lock from another at first [s]
-CHEAP: Final = 0.003  # a ledger that takes less goes with its plan [s]
+CHEAP: Final = 0.003  # a ledger that takes less is drawn up for every plan [s]
 FIRST: Final[Document] = {
     **EMPTY,
     "world": {"bounds": [0, 0, 100, 100], "known": [{"circle": {"center": [50, 50], "radius": 9}}]},
@@ -69,18 +71,23 @@ class Engine:
             self._load()
         finally:
             sys.setswitchinterval(usual)
+        # All of that stays: a collection that looks at it again takes as long as a frame.
+        gc.collect()
+        gc.freeze()
         self.ready, self.compiling = True, None
         for tell in tuple(self.listeners):
             tell("", self._compiled)
 
     def _load(self) -> None:
         from viaspline.kernels.jit import compile_progress
+        from viaspline.studio import answers
         from viaspline.warm import second_compiler
 
         # Never left: drives and pictures may compile more.
         self._listening.enter_context(compile_progress(self._hear))
         with second_compiler():
-            self._planned(FIRST, self._folder.root, 0)
+            planned, _ = self._planned(FIRST, self._folder.root, 0)
+            answers.ledger(planned, 0)
 
     def _hear(self, kernel: str) -> None:
         self._compiled += 1
@@ -89,16 +96,26 @@ class Engine:
             tell(kernel, self._compiled)
 
     async def plan(
-        self, document: Document, base: Path, revision: int
-    ) -> tuple[Planned, str, bool]:
-        """Plan a document.
+        self, document: Document, base: Path, revision: int, running: Stoppable
+    ) -> tuple[Planned, str] | None:
+        """Plan a document: what came of it, and the answer as text.
 
-        Returns:
-            (what came of it, the answer as text, whether the ledger is still to be asked for).
+        Args:
+            document: What is planned.
+            base: The folder of the mission's file.
+            revision: What the page calls this state of the document.
+            running: Stops it; then there is no answer.
         """
-        return await self._planner.run(lambda: self._planned(document, base, revision))
 
-    def _planned(self, document: Document, base: Path, revision: int) -> tuple[Planned, str, bool]:
+        def work() -> tuple[Planned, str] | None:
+            try:
+                return running.run(lambda: self._planned(document, base, revision))
+            except StoppedCallError:
+                return None
+
+        return await self._planner.run(work)
+
+    def _planned(self, document: Document, base: Path, revision: int) -> tuple[Planned, str]:
         from viaspline.studio import answers, planning
         from viaspline.studio.maps import Maps
 
@@ -106,23 +123,25 @@ class Engine:
             self._maps = Maps(self._folder)
         planned = planning.planned(document, self._maps, base)
         self._keep_pictures(planned)
-        answer = answers.answer(planned, revision)
-        later = planned.plan is not None and self._ledger_cost > CHEAP
-        if planned.plan is not None and not later:
-            answer["ledger"] = self._ledger(planned, revision)["entries"]
-        return planned, encoded(answer), later
+        return planned, encoded(answers.answer(planned, revision))
+
+    @property
+    def ledgers_are_cheap(self) -> bool:
+        """Whether the page can have one with every plan while something is dragged."""
+        return self._ledger_cost < CHEAP
 
     async def ledger(self, planned: Planned, revision: int) -> str:
         """The ledger of a plan as text."""
-        return await self._planner.run(lambda: encoded(self._ledger(planned, revision)))
 
-    def _ledger(self, planned: Planned, revision: int) -> dict[str, object]:
-        from viaspline.studio import answers
+        def work() -> str:
+            from viaspline.studio import answers
 
-        start = time.perf_counter()
-        found = answers.ledger(planned, revision)
-        self._ledger_cost = time.perf_counter() - start
-        return found
+            start = time.perf_counter()
+            text = encoded(answers.ledger(planned, revision))
+            self._ledger_cost = time.perf_counter() - start
+            return text
+
+        return await self._planner.run(work)
 
     def _keep_pictures(self, planned: Planned) -> None:
         from viaspline.studio.maps import grid_name, grid_png

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import traceback
 from collections.abc import Callable
 from contextlib import suppress
 from queue import SimpleQueue
@@ -28,8 +29,15 @@ class Worker:
             self._calls.get()()
 
     def do(self, call: Callable[[], None]) -> None:
-        """Do something some time, without anybody waiting for it."""
-        self._calls.put(call)
+        """Do something some time, without anybody waiting for it; a defect is printed."""
+
+        def work() -> None:
+            try:
+                call()
+            except Exception as error:
+                traceback.print_exception(error)
+
+        self._calls.put(work)
 
     async def run(self, call: Callable[[], T]) -> T:
         """What a call returns or raises."""

@@ -38,6 +38,8 @@ app.ready = false;
 
 // --- what is said
 
+const LATE_MS = 400;
+
 const live = /** @type {HTMLElement} */ (document.querySelector("#live"));
 /** Tell a screen reader. @param {string} text */
 app.say = (text) => { live.textContent = text; };
@@ -127,6 +129,7 @@ function planned(answer) {
   const { store } = app;
   app.summary.busy = "";
   store.plan = answer;
+  if (answer.rev === store.revision) store.isLate = false;
   if (answer.ok) {
     store.goodPlan = answer;
     store.curve = new Curve(answer);
@@ -261,6 +264,17 @@ keepSaving(app.store);
 app.store.on("document", () => {
   app.link.plan(app.store.doc, app.store.revision, app.store.inputAt);
   app.scene.soon();
+});
+let lateness = 0;
+app.store.on("document", () => {
+  lateness ||= setTimeout(() => { // what is drawn is not proven of what is asked for
+    lateness = 0;
+    if (!app.ready || app.store.plan?.rev === app.store.revision) return;
+    app.store.isLate = true;
+    app.summary.busy ||= "planning";
+    app.store.tell("status");
+    app.scene.later();
+  }, LATE_MS);
 });
 app.store.on("selection view hover run", () => app.scene.later());
 app.drive.on(() => app.scene.later());

@@ -1,11 +1,13 @@
 /**
- * The connection to the server. At most one edit is under way: those that come meanwhile are
- * gathered, and only what has changed since is sent.
+ * The connection to the server. One edit is under way at a time: those that come meanwhile are
+ * gathered, and only what has changed since is sent. A plan that takes long is overtaken: the server
+ * breaks it off when it is told of the next edit.
  */
 
 import { diff } from "./diff.js";
 
 const RETRY_MS = [200, 500, 1000, 2000, 4000];
+const LONG_MS = 300;
 
 export class Link {
   /** @param {(message: any) => void} hear every message that nobody waits for */
@@ -19,6 +21,8 @@ export class Link {
     this.waiting = new Map();
     /** @type {any} */ this.sent = undefined; // the document that the server has
     /** @type {number|null} */ this.underway = null; // the revision that is being planned
+    /** When it was sent. */ this.sentAt = 0;
+    this.overtaking = 0; // the timer of the next edit
     /** @type {{doc: any, revision: number, inputAt: number}|null} */ this.wanted = null;
     /** @type {Map<number, number>} */ this.inputs = new Map(); // when the input of a revision came
     this.connect();
@@ -45,9 +49,8 @@ export class Link {
   /** @param {any} message */
   take(message) {
     if (message.type === "planned") {
-      const inputAt = this.inputs.get(message.rev);
-      this.inputs.delete(message.rev);
-      message.inputAt = inputAt;
+      message.inputAt = this.inputs.get(message.rev);
+      for (const revision of this.inputs.keys()) if (revision <= message.rev) this.inputs.delete(revision);
       if (message.rev === this.underway) {
         this.underway = null;
         this.pump();
@@ -72,12 +75,21 @@ export class Link {
   }
 
   pump() {
-    if (!this.wanted || this.underway !== null || this.socket?.readyState !== WebSocket.OPEN) return;
+    if (!this.wanted || this.socket?.readyState !== WebSocket.OPEN) return;
+    const wait = this.underway === null ? 0 : this.sentAt + LONG_MS - performance.now();
+    if (wait > 0) {
+      this.overtaking ||= setTimeout(() => {
+        this.overtaking = 0;
+        this.pump();
+      }, wait);
+      return;
+    }
     const { doc, revision, inputAt } = this.wanted;
     this.wanted = null;
     const changes = this.sent === undefined ? [[[], doc]] : diff(this.sent, doc);
     this.underway = revision;
     this.sent = doc;
+    this.sentAt = performance.now();
     this.inputs.set(revision, inputAt);
     this.send({ type: "edit", rev: revision, changes });
   }

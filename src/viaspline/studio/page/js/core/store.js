@@ -30,6 +30,7 @@ export class Store {
     /** @type {import("../geometry/curve.js").Curve|null} */ this.curve = null;
     /** @type {any} */ this.goodPlan = null; // the newest answer with a path
     /** @type {any[]} */ this.ledger = [];
+    this.isLate = false; // the newest plan is of another document than the one on the screen
     /** @type {any} */ this.run = null;
     /** @type {number|null} */ this.cursor = null; // distance along the path that is looked at [m]
     /** @type {string|null} */ this.hover = null;

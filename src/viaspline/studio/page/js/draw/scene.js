@@ -145,7 +145,7 @@ export class Scene {
     const points = pointsOf(doc);
     drawPoints(pen, points, { selection: store.selection, hover: store.hover });
     drawHandles(pen, doc, store.selection);
-    if (!isDriving && store.plan?.ok) drawTightest(pen, store.plan.certificate, known);
+    if (!isDriving && store.plan?.ok && !store.isLate) drawTightest(pen, store.plan.certificate, known);
     for (const problem of store.plan?.ok === false ? store.plan.problems : []) {
       const where = problem.where ?? this.placeOfProblem(problem);
       if (where) drawProblem(pen, where);
@@ -163,7 +163,7 @@ export class Scene {
     const { store, drive } = this;
     const { show, curve } = store;
     if (!curve) return;
-    const isStale = store.plan?.ok === false;
+    const isStale = store.plan?.ok === false || store.isLate;
     if (isDriving) {
       drawFollowed(pen, drive, curve.spans);
       drawTrail(pen, drive, maxSpeed);
@@ -211,7 +211,7 @@ export class Scene {
         labels.push({ text: obstacle.name, x: (box[0] + box[2]) / 2, y: (box[1] + box[3]) / 2, away: obstacle.side || w < 70 ? away : 0, colour: obstacle.list === "unseen" ? colours.unseen : colours.muted, rank: store.selection === obstacle.id ? 1 : 4 });
       }
     }
-    const proof = store.plan?.ok ? store.plan.certificate : null;
+    const proof = store.plan?.ok && !store.isLate ? store.plan.certificate : null;
     if (proof && proof.clearance !== null && !isDriving) {
       const [x, y] = camera.toScreen(proof.at[0], proof.at[1]);
       labels.push({ text: `${down(proof.clearance)} clear`, x, y, away: 12, colour: colours.tightest, bold: true, rank: 0, plate: true });
