@@ -7,12 +7,14 @@ import pytest
 from viaspline import warm
 
 
-def test_compiling_the_curves_leaves_a_mark(
+def test_every_job_that_is_done_leaves_a_mark(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(warm, "CACHE_FOLDER", tmp_path)
-    warm.compile_curves()
-    assert (tmp_path / warm.MARK).exists()
+    warm.compile_all(["curves"])
+    assert {file.name for file in tmp_path.iterdir()} == {"curves-compiled"}
+    warm.compile_all(["driving"])
+    assert (tmp_path / "driving-compiled").exists()
 
 
 def test_the_second_process_is_started_once_and_ends_with_the_block(
@@ -31,9 +33,29 @@ def test_the_second_process_is_started_once_and_ends_with_the_block(
     with warm.second_compiler():
         assert len(started) == 1
     assert started[0].returncode is not None
-    (tmp_path / warm.MARK).touch()
+    assert started[0].args[-1:] == ["curves"]  # type: ignore[index]
+    (tmp_path / "curves-compiled").touch()
     with warm.second_compiler():
         assert len(started) == 1
+
+
+def test_only_what_is_not_compiled_yet_is_asked_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[list[str]] = []
+
+    def refuses(command: list[str], **kwargs: Any) -> None:
+        asked.append(command[command.index("viaspline.warm") + 1 :])
+        raise FileNotFoundError("no interpreter")
+
+    monkeypatch.setattr(warm, "CACHE_FOLDER", tmp_path)
+    monkeypatch.setattr(warm.os, "cpu_count", lambda: 2)
+    monkeypatch.setattr(warm.subprocess, "Popen", refuses)
+    for made in ("", "curves-compiled"):
+        (tmp_path / (made or "nothing")).touch()
+        with warm.second_compiler(["curves", "driving"]):
+            pass
+    assert asked == [["curves", "driving"], ["driving"]]
 
 
 def test_without_an_interpreter_the_run_goes_on_alone(

@@ -22,6 +22,7 @@ from viaspline.report.messages import no_path, say, tell, telling_warnings
 
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
+    from viaspline.mission.robot_parts import RobotSpec
     from viaspline.planner import Plan
     from viaspline.report.files import Folder
     from viaspline.report.film_file import FilmFile
@@ -109,7 +110,7 @@ def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet:
     with (
         _folder(out or _default(mission), RUN_NAMES) as folder,
         _film(animate) as film,
-        _watch(quiet) as watch,
+        _watch(quiet, asked.robot) as watch,
     ):
         plan = _plan(asked, watch)
         with watch.stage("simulate", "driving"):
@@ -157,7 +158,10 @@ def plan(mission: Path, out: Path | None, quiet: bool) -> None:
       viaspline plan examples/fig7-obstacles.yaml --out detour
     """
     asked = _load(mission)
-    with _folder(out or _default(mission), PLAN_NAMES) as folder, _watch(quiet) as watch:
+    with (
+        _folder(out or _default(mission), PLAN_NAMES) as folder,
+        _watch(quiet, asked.robot) as watch,
+    ):
         planned = _plan(asked, watch)
         with watch.stage("report", "drawing and writing"):
             from viaspline.report import results
@@ -185,7 +189,10 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
       viaspline tension examples/fig8-patrol.yaml --out advice
     """
     asked = _load(mission)
-    with _folder(out or _default(mission), ("tension.png",)) as folder, _watch(quiet) as watch:
+    with (
+        _folder(out or _default(mission), ("tension.png",)) as folder,
+        _watch(quiet, asked.robot) as watch,
+    ):
         with watch.stage("advise", "trying tensions"):
             from viaspline.advice import advise_tension
             from viaspline.detour.order import ordered
@@ -334,15 +341,16 @@ def _film(path: Path | None) -> Iterator[FilmFile | None]:
 
 
 @contextmanager
-def _watch(quiet: bool) -> Iterator[Watch]:
+def _watch(quiet: bool, robot: RobotSpec | None = None) -> Iterator[Watch]:
     """Progress, which hears of every kernel that is compiled within the block."""
     from viaspline.report.progress import Watch
 
     watch = Watch(quiet=quiet)
     with watch.stage("start", "starting"):
         from viaspline.kernels.jit import compile_progress
-        from viaspline.warm import second_compiler
-    with compile_progress(watch.compiling), second_compiler():
+        from viaspline.warm import jobs_for, second_compiler
+    compiler = second_compiler() if robot is None else second_compiler(jobs_for(robot))
+    with compile_progress(watch.compiling), compiler:
         yield watch
 
 
