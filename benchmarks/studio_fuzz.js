@@ -30,11 +30,16 @@
       order: () => { const n = (store.doc.route.via ?? []).length; return n > 1 ? edits.moveVia(store.doc, Math.floor(random() * n), Math.floor(random() * n)) : store.doc; },
       side: () => { const n = (store.doc.world.known ?? []).length; return n ? edits.forceSide(store.doc, [Math.floor(random() * n)], pick(["left", "right", null, null])) : store.doc; },
       unseen: () => { const ids = mission.obstaclesOf(store.doc).map((o) => o.id); return ids.length ? edits.toggleUnseen(store.doc, pick(ids))[0] : store.doc; },
+      zone: () => {
+        const [x, y] = place(), r = 10 + random() * 60;
+        return (store.doc.world.speed_zones ?? []).length < 4 ? edits.addArea(store.doc, "zone", [[x, y], [x + r, y], [x, y + r]])[0] : store.doc;
+      },
+      fence: () => ((store.doc.world.fences ?? []).length < 1 ? edits.addArea(store.doc, "fence", [[-5, -5], [505, -5], [505, 505], [-5, 505]])[0] : store.doc),
       clearance: () => edits.replaced(store.doc, ["robot", "clearance_m"], Math.round(random() * 30) / 10),
       heading: () => edits.setOnPoint(store.doc, "start", "heading_deg", random() < 0.3 ? undefined : Math.round(random() * 360)),
       dwell: () => { const n = (store.doc.route.via ?? []).length; return n ? edits.setOnPoint(store.doc, `via:${Math.floor(random() * n)}`, "dwell_s", random() < 0.5 ? undefined : Math.round(random() * 20)) : store.doc; },
     };
-    const often = ["move", "move", "move", "move", "move", "move", "via", "circle", "polygon", "remove", "remove", "tension", "order", "side", "unseen", "clearance", "heading", "dwell", "undo", "undo", "redo", "zoom", "select"];
+    const often = ["move", "move", "move", "move", "move", "move", "via", "circle", "polygon", "remove", "remove", "tension", "order", "side", "unseen", "clearance", "zone", "fence", "heading", "dwell", "undo", "undo", "redo", "zoom", "select"];
     for (let i = 0; i < count; i += 1) {
       const kind = pick(often);
       if (kind === "undo") store.undo();

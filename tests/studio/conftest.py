@@ -136,3 +136,95 @@ def browser() -> Iterator[Any]:
                 started.close()
                 return
         pytest.skip("no chromium on the PATH and none of playwright's: apt install chromium")
+
+
+PLACE = """([x, y]) => {
+  const box = studio.scene.canvas.getBoundingClientRect();
+  const [px, py] = studio.camera.toScreen(x, y);
+  return [px + box.left, py + box.top];
+}"""
+
+
+class Page:
+    """A page of the studio, in the words of the person before it."""
+
+    def __init__(self, page: Any, url: str) -> None:
+        self.page = page
+        self.errors: list[str] = []
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("console", lambda m: self.errors.append(m.text) if m.type == "error" else None)
+        self.open(url)
+
+    def open(self, url: str) -> None:
+        self.page.goto(url)
+        self.page.wait_for_selector("body[data-ready]", timeout=240_000)
+        self.settle()
+
+    def js(self, script: str, argument: Any = None) -> Any:
+        return self.page.evaluate(script, argument)
+
+    def until(self, script: str) -> None:
+        """Wait for something to become true; the page forbids waiting by eval."""
+        deadline = time.monotonic() + 60
+        while not self.js(script):
+            assert time.monotonic() < deadline, script
+            self.page.wait_for_timeout(10)
+
+    def settle(self) -> None:
+        self.until("studio.store.plan?.rev === studio.store.revision")
+        self.page.wait_for_timeout(120)  # the panels follow
+
+    @property
+    def doc(self) -> Any:
+        return self.js("studio.store.doc")
+
+    @property
+    def plan(self) -> Any:
+        return self.js("studio.store.plan")
+
+    def place(self, at: list[float]) -> tuple[float, float]:
+        x, y = self.js(PLACE, at)
+        return x, y
+
+    def drag(self, start: list[float], end: list[float]) -> None:
+        x, y = self.place(start)
+        ex, ey = self.place(end)
+        mouse = self.page.mouse
+        mouse.move(x, y)
+        mouse.down()
+        mouse.move((x + ex) / 2, (y + ey) / 2, steps=4)
+        mouse.move(ex, ey, steps=4)
+        mouse.up()
+        self.settle()
+
+    def click(self, at: list[float]) -> None:
+        self.page.mouse.click(*self.place(at))
+        self.settle()
+
+    def press(self, *keys: str) -> None:
+        for key in keys:
+            self.page.keyboard.press(key)
+        self.settle()
+
+
+@pytest.fixture
+def visit(browser: Any, start: Start) -> Iterator[Callable[..., Page]]:
+    """Opens pages, and finds no error in any of them at the end."""
+    contexts, pages = [], []
+
+    def open_page(
+        mission: Path | Any, *, width: int = 1280, height: int = 820, **options: Any
+    ) -> Page:
+        studio = mission if hasattr(mission, "url") else start(mission)
+        context = browser.new_context(
+            viewport={"width": width, "height": height}, accept_downloads=True, **options
+        )
+        contexts.append(context)
+        pages.append(Page(context.new_page(), studio.url))
+        return pages[-1]
+
+    yield open_page
+    errors = [error for page in pages for error in page.errors]
+    for context in contexts:
+        context.close()
+    assert errors == []

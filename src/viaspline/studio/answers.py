@@ -64,6 +64,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
         },
         "duration": law.duration,
         "order": _order(plan),
+        "corridor": [[rounded(point, 3) for point in ring] for ring in plan.world.corridor],
     }
 
 

@@ -2,7 +2,7 @@
 
 import { replaced, toggleUnseen } from "./core/edits.js";
 import { Link } from "./core/link.js";
-import { exists, isObstacle, obstaclesOf, pointsOf, refOf, whole } from "./core/mission.js";
+import { areasOf, exists, isObstacle, obstaclesOf, pointsOf, refOf, whole } from "./core/mission.js";
 import { Store } from "./core/store.js";
 import { Drive } from "./drive.js";
 import { onTheme } from "./draw/theme.js";
@@ -58,10 +58,10 @@ app.describe = (id) => {
   const { doc } = app.store;
   const point = pointsOf(doc).find((p) => p.id === id);
   if (point) return `${point.name} at ${place(/** @type {number[]} */ (point.at))}`;
-  const one = obstaclesOf(doc).find((o) => o.id === whole(id));
+  const one = [...obstaclesOf(doc), ...areasOf(doc)].find((o) => o.id === whole(id));
   const ref = refOf(id);
   const corner = ref && ref.vertex >= 0 ? `, corner ${ref.vertex + 1}` : "";
-  return `${one?.name ?? id}${corner}${one?.list === "unseen" ? ", unseen" : ""}`;
+  return `${one?.name ?? id}${corner}${id.startsWith("unseen") ? ", unseen" : ""}${id.startsWith("zone") ? ", speed zone" : ""}`;
 };
 
 // --- the connection

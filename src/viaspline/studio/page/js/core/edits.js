@@ -1,7 +1,7 @@
 /** What can be done to a mission: each edit takes a document and gives another one. */
 
 import {
-  anchorOf, isPoint, part, pathOf, placeOf, pointsOf, refOf, replaced, spanCount, tensionsOf,
+  anchorOf, isArea, isPoint, part, pathOf, placeOf, pointsOf, refOf, replaced, ringPathOf, spanCount, tensionsOf,
 } from "./mission.js";
 
 /** @typedef {any} Doc */
@@ -17,10 +17,9 @@ export function moveTo(doc, id, at) {
     return replaced(doc, Array.isArray(item) ? path : [...path, "at"], place);
   }
   if (ref.kind === "bounds") return replaced(doc, path, withCorner(item, ref.vertex, at));
-  if (ref.kind === "fence") return replaced(doc, [...path, ref.vertex], at);
-  if (ref.vertex >= 0) return replaced(doc, [...path, "polygon", ref.vertex], at);
+  if (ref.vertex >= 0) return replaced(doc, [...ringPathOf(id), ref.vertex], at);
   if (item?.circle) return replaced(doc, [...path, "circle", "center"], at);
-  if (item?.polygon) {
+  if (item?.polygon || isArea(id)) {
     const from = /** @type {number[]} */ (anchorOf(doc, id));
     return shifted(doc, id, at[0] - from[0], at[1] - from[1]);
   }
@@ -40,6 +39,7 @@ export function shifted(doc, id, dx, dy) {
   const path = pathOf(id);
   const item = part(doc, path);
   const move = (/** @type {number[][]} */ ring) => ring.map(([x, y]) => [tidy(x + dx), tidy(y + dy)]);
+  if (Array.isArray(item)) return replaced(doc, path, move(item));
   const moved = { ...item, polygon: move(item.polygon) };
   if (Array.isArray(item.holes)) moved.holes = item.holes.map(move);
   return replaced(doc, path, moved);
@@ -97,11 +97,15 @@ export function remove(doc, id) {
     if (ref.vertex < 0) return replaced(doc, pathOf(id), undefined);
     if (corners.length > 3) return replaced(doc, [...pathOf(id), "polygon", ref.vertex], undefined);
   }
-  if (ref.kind === "fence" && part(doc, pathOf(id))?.length > 3) {
-    return replaced(doc, [...pathOf(id), ref.vertex], undefined);
+  if (isArea(id)) {
+    if (ref.vertex < 0) return withoutEmpty(replaced(doc, pathOf(id), undefined), pathOf(id).slice(0, -1));
+    if (part(doc, ringPathOf(id))?.length > 3) return replaced(doc, [...ringPathOf(id), ref.vertex], undefined);
   }
   return doc;
 }
+
+/** Take out a list that is empty. @param {Doc} doc @param {(string|number)[]} path */
+const withoutEmpty = (doc, path) => (part(doc, path)?.length === 0 ? replaced(doc, path, undefined) : doc);
 
 /**
  * Change a list of tensions along with the spans; one number for all stays one number.
@@ -130,6 +134,15 @@ export function addObstacle(doc, list, obstacle) {
   return replaced(doc, ["world", list], [...items, obstacle]);
 }
 
+/** Add a fence or a speed zone. @param {Doc} doc @param {"fence"|"zone"} kind @param {number[][]} ring @returns {[Doc, string]} */
+export function addArea(doc, kind, ring) {
+  const key = kind === "fence" ? "fences" : "speed_zones";
+  const items = doc.world?.[key] ?? [];
+  const slow = tidy(Number(doc.robot?.max_speed_mps ?? 2) / 2);
+  const item = kind === "fence" ? ring : { polygon: ring, max_speed_mps: slow };
+  return [replaced(doc, ["world", key], [...items, item]), `${kind}:${items.length}`];
+}
+
 /** Move an obstacle to the other list. @param {Doc} doc @param {string} id @returns {[Doc, string]} */
 export function toggleUnseen(doc, id) {
   const ref = /** @type {import("./mission.js").Ref} */ (refOf(id));
@@ -145,7 +158,7 @@ export function toggleUnseen(doc, id) {
 
 /** Insert a corner after another. @param {Doc} doc @param {string} id @param {number} after @param {number[]} at */
 export function addCorner(doc, id, after, at) {
-  const path = [...pathOf(id), "polygon"];
+  const path = ringPathOf(id);
   const ring = part(doc, path);
   return replaced(doc, path, [...ring.slice(0, after + 1), at, ...ring.slice(after + 1)]);
 }

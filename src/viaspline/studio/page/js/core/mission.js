@@ -2,7 +2,8 @@
  * A mission document in the page's words: its points and obstacles, each with an id.
  *
  * Ids: `start`, `goal`, `via:2`, `known:0`, `unseen:1`, a polygon's corner `known:0:3`, the span
- * after the second point `span:1`, the bounds' corner `bounds:2`, a fence's corner `fence:0:1`.
+ * after the second point `span:1`, the bounds' corner `bounds:2`, a fence `fence:0`, a speed zone
+ * `zone:1`, their corners `fence:0:1` and `zone:1:2`.
  * What is not understood here is left as it is.
  */
 
@@ -22,7 +23,9 @@ export function refOf(id) {
 export const isPoint = (id) => id === "start" || id === "goal" || !!id?.startsWith("via:");
 /** Whether an id is an obstacle or a corner of one. @param {string|null} id */
 export const isObstacle = (id) => !!id && (id.startsWith("known:") || id.startsWith("unseen:"));
-/** The obstacle that a corner belongs to; other ids as they are. @param {string} id */
+/** Whether an id is a fence, a speed zone, or a corner of one. @param {string|null} id */
+export const isArea = (id) => !!id && (id.startsWith("fence:") || id.startsWith("zone:"));
+/** The obstacle or area that a corner belongs to; other ids as they are. @param {string} id */
 export const whole = (id) => id.split(":").slice(0, 2).join(":");
 
 /** Where in the document an id stands. @param {string} id @returns {Path} */
@@ -31,9 +34,13 @@ export function pathOf(id) {
   if (ref.kind === "start" || ref.kind === "goal") return ["route", ref.kind];
   if (ref.kind === "via") return ["route", "via", ref.index];
   if (ref.kind === "fence") return ["world", "fences", ref.index];
+  if (ref.kind === "zone") return ["world", "speed_zones", ref.index];
   if (ref.kind === "bounds") return ["world", "bounds"];
   return ["world", ref.kind, ref.index];
 }
+
+/** Where the corners of an id's polygon stand. @param {string} id @returns {Path} */
+export const ringPathOf = (id) => (id.startsWith("fence:") ? pathOf(id) : [...pathOf(id), "polygon"]);
 
 /** The id of what stands at a path; null if nothing that can be selected. @param {Path} path */
 export function idAt(path) {
@@ -42,6 +49,12 @@ export function idAt(path) {
   if (a === "route" && b === "via" && typeof c === "number") return `via:${c}`;
   if (a === "world" && (b === "known" || b === "unseen") && typeof c === "number") {
     return d === "polygon" && typeof e === "number" ? `${b}:${c}:${e}` : `${b}:${c}`;
+  }
+  if (a === "world" && b === "speed_zones" && typeof c === "number") {
+    return d === "polygon" && typeof e === "number" ? `zone:${c}:${e}` : `zone:${c}`;
+  }
+  if (a === "world" && b === "fences" && typeof c === "number") {
+    return typeof d === "number" ? `fence:${c}:${d}` : `fence:${c}`;
   }
   return null;
 }
@@ -107,12 +120,35 @@ export function obstaclesOf(doc) {
   return found;
 }
 
+/**
+ * Fences and speed zones.
+ * @param {any} doc
+ * @returns {{id: string, kind: "fence"|"zone", name: string, given: string|null, ring: number[][], speed: number|null}[]}
+ */
+export function areasOf(doc) {
+  const list = (/** @type {any} */ value) => (Array.isArray(value) ? value : []);
+  const sound = (/** @type {any} */ ring) => (Array.isArray(ring) && ring.length > 2 ? ring : []);
+  return [
+    ...list(doc?.world?.fences).map((ring, i) => ({
+      id: `fence:${i}`, kind: /** @type {const} */ ("fence"), name: `fence ${i + 1}`, given: null, ring: sound(ring), speed: null,
+    })),
+    ...list(doc?.world?.speed_zones).map((zone, i) => ({
+      id: `zone:${i}`, kind: /** @type {const} */ ("zone"), name: zone?.name ?? `zone ${i + 1}`, given: zone?.name ?? null,
+      ring: sound(zone?.polygon), speed: Number.isFinite(zone?.max_speed_mps) ? zone.max_speed_mps : null,
+    })),
+  ];
+}
+
 /** Everything that can be selected with the keyboard, in order. @param {any} doc */
 export function idsOf(doc) {
   const ids = pointsOf(doc).filter((point) => point.at).map((point) => point.id);
   for (const obstacle of obstaclesOf(doc)) {
     ids.push(obstacle.id);
     obstacle.polygon?.forEach((_, i) => ids.push(`${obstacle.id}:${i}`));
+  }
+  for (const area of areasOf(doc)) {
+    ids.push(area.id);
+    area.ring.forEach((_, i) => ids.push(`${area.id}:${i}`));
   }
   return ids;
 }
@@ -125,7 +161,7 @@ export function exists(doc, id) {
   const ref = /** @type {Ref} */ (refOf(id));
   if (item === undefined || item === null) return false;
   if (ref.vertex < 0 || ref.kind === "bounds") return true;
-  const ring = ref.kind === "fence" ? item : item.polygon;
+  const ring = part(doc, ringPathOf(id));
   return Array.isArray(ring) && ref.vertex < ring.length;
 }
 
@@ -137,11 +173,10 @@ export function anchorOf(doc, id) {
   if (ref.kind === "bounds" && Array.isArray(item)) {
     return [[item[0], item[1]], [item[2], item[1]], [item[2], item[3]], [item[0], item[3]]][ref.vertex] ?? null;
   }
-  if (ref.kind === "fence") return item?.[ref.vertex] ?? null;
-  if (ref.vertex >= 0) return item?.polygon?.[ref.vertex] ?? null;
   if (item?.circle) return item.circle.center;
-  if (Array.isArray(item?.polygon)) return middle(item.polygon);
-  return null;
+  const ring = part(doc, ringPathOf(id));
+  if (ref.vertex >= 0) return ring?.[ref.vertex] ?? null;
+  return Array.isArray(ring) ? middle(ring) : null;
 }
 
 /** The middle of a ring's box. @param {number[][]} ring */
@@ -167,10 +202,31 @@ export function tensionsOf(doc) {
   return Array.from({ length: count }, (_, i) => (isSlack ? 1 - 2 * known(list[i], 0.5) : known(list[i], 0)));
 }
 
-/** Radius and clearance together [m]: what the path keeps. @param {any} doc */
+/** Radius and clearance together [m]: what the path keeps; for a polygon, what it keeps anyway. @param {any} doc */
 export function requiredOf(doc) {
-  const { radius_m = 0.5, clearance_m = 0.5 } = doc?.robot ?? {};
-  return Math.max(0, Number(radius_m) + Number(clearance_m)) || 0;
+  return Math.max(0, innerRadius(bodyOf(doc)) + Number(doc?.robot?.clearance_m ?? 0.5)) || 0;
+}
+
+/**
+ * The robot's body: a disc, or corners about its reference point, x forward and y left [m].
+ * @param {any} doc @returns {{footprint: number[][]|null, radius: number}}
+ */
+export function bodyOf(doc) {
+  const { footprint, radius_m = 0.5 } = doc?.robot ?? {};
+  const isPolygon = Array.isArray(footprint) && footprint.length > 2 && footprint.every((p) => Array.isArray(p) && p.every(Number.isFinite));
+  return { footprint: isPolygon ? footprint : null, radius: Math.max(0, Number(radius_m)) || 0 };
+}
+
+/** How far the body keeps from obstacles at least, seen from its reference point [m]. @param {{footprint: number[][]|null, radius: number}} body */
+export function innerRadius({ footprint, radius }) {
+  if (!footprint) return radius;
+  return Math.min(...footprint.map(([ax, ay], i) => {
+    const [bx, by] = footprint[(i + 1) % footprint.length];
+    const dx = bx - ax, dy = by - ay;
+    const size = dx * dx + dy * dy;
+    const t = size > 0 ? Math.min(1, Math.max(0, -(ax * dx + ay * dy) / size)) : 0;
+    return Math.hypot(ax + t * dx, ay + t * dy);
+  }));
 }
 
 export { part, replaced };

@@ -36,7 +36,7 @@ export class Store {
     /** @type {string|null} */ this.hover = null;
     this.tool = "select";
     this.show = {
-      rings: true, losers: true, comb: false, speed: true, grid: true, snap: false, detours: true, names: true,
+      rings: true, losers: true, comb: false, speed: true, grid: true, snap: false, detours: true, names: true, body: true,
     };
   }
 

@@ -1,5 +1,7 @@
 /** The drive as it is played: what the sensor reaches, what it has shown, the trail and the robot. */
 
+import { innerRadius } from "../core/mission.js";
+import { outline, sizeOf } from "./body.js";
 import { viridis } from "./theme.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
@@ -87,14 +89,16 @@ export function drawTrail(pen, drive, maxSpeed) {
   });
 }
 
-/** @param {Pen} pen @param {Drive} drive @param {number} radius [m] */
-export function drawRobot(pen, drive, radius) {
+/** @param {Pen} pen @param {Drive} drive @param {import("./body.js").Body} body */
+export function drawRobot(pen, drive, body) {
   const { ctx, camera, colours } = pen;
   const state = drive.state();
   const [x, y] = camera.toScreen(state.x, state.y);
-  const r = Math.max(radius * camera.scale, 9);
+  const size = sizeOf(pen, body);
+  const r = Math.max(body.footprint ? Math.min(innerRadius(body) * camera.scale, size) : size, 9);
   ctx.beginPath();
-  ctx.arc(x, y, r, 0, 2 * Math.PI);
+  if (body.footprint && size > 12) outline(pen, body, state);
+  else ctx.arc(x, y, r, 0, 2 * Math.PI);
   pen.fill(colours.robot);
   pen.stroke(colours.paper, 2);
   ctx.save();

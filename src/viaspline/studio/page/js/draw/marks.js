@@ -1,6 +1,7 @@
 /** Marks on the map: the tightest place, where there is no way, the cursor along the path, the scale. */
 
 import { edgeNear } from "../geometry/shapes.js";
+import { outline, sizeOf } from "./body.js";
 import { viridis } from "./theme.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
@@ -43,12 +44,13 @@ export function drawProblem(pen, where) {
   pen.stroke(colours.problem, 3);
 }
 
-/** @param {Pen} pen @param {import("../geometry/curve.js").Sample} at @param {number} radius of the robot [m] */
-export function drawCursor(pen, at, radius) {
+/** @param {Pen} pen @param {import("../geometry/curve.js").Sample} at @param {import("./body.js").Body} body */
+export function drawCursor(pen, at, body) {
   const { ctx, camera, colours } = pen;
   const [x, y] = camera.toScreen(at.x, at.y);
   ctx.beginPath();
-  ctx.arc(x, y, Math.max(radius * camera.scale, 6), 0, 2 * Math.PI);
+  if (sizeOf(pen, body) > 6) outline(pen, body, at);
+  else ctx.arc(x, y, 6, 0, 2 * Math.PI);
   ctx.globalAlpha = 0.35;
   pen.fill(colours.path);
   ctx.globalAlpha = 1;

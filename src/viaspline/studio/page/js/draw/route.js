@@ -1,6 +1,6 @@
 /** The points of the route, their headings, the detour points, and the handles of what is selected. */
 
-import { anchorOf, isPoint, part, pathOf } from "../core/mission.js";
+import { anchorOf, isArea, isPoint, part, pathOf, ringPathOf } from "../core/mission.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
 
@@ -99,8 +99,8 @@ export function handlesOf(doc, selection, camera) {
   } else if (item?.circle) {
     const { center: [x, y], radius } = item.circle;
     handles.push({ id: owner, role: "radius", ...on(x + radius, y) });
-  } else if (item?.polygon) {
-    const ring = item.polygon;
+  } else if (Array.isArray(part(doc, ringPathOf(selection)))) {
+    const ring = part(doc, ringPathOf(selection));
     ring.forEach((/** @type {number[]} */ p, /** @type {number} */ i) => handles.push({ id: `${owner}:${i}`, role: "corner", ...on(p[0], p[1]) }));
     ring.forEach((/** @type {number[]} */ p, /** @type {number} */ i) => {
       const q = ring[(i + 1) % ring.length];
@@ -124,6 +124,10 @@ export function drawHandles(pen, doc, selection) {
   if (item?.circle || item?.polygon) {
     ctx.beginPath();
     pen.shape({ circle: item.circle ?? null, polygon: item.polygon ?? null, holes: item.holes ?? [] });
+    pen.stroke(colours.select, 2);
+  } else if (isArea(selection)) {
+    ctx.beginPath();
+    pen.ring(part(doc, ringPathOf(/** @type {string} */ (selection))) ?? []);
     pen.stroke(colours.select, 2);
   }
   for (const handle of handlesOf(doc, selection, camera)) {

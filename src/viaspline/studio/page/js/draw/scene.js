@@ -1,7 +1,9 @@
 /** The whole picture, layer by layer; it is drawn at most once a frame, when something has changed. */
 
-import { obstaclesOf, pointsOf, requiredOf } from "../core/mission.js";
+import { areasOf, bodyOf, obstaclesOf, pointsOf, requiredOf } from "../core/mission.js";
 import { metres, down } from "../units.js";
+import { drawCorridor, drawZones, wordsOf } from "./areas.js";
+import { drawBody, drawSwept } from "./body.js";
 import { drawFollowed, drawRobot, drawSight, drawTrail } from "./drive.js";
 import { drawGrid, drawLimits, drawOutside, MapPictures } from "./ground.js";
 import { drawLabels } from "./labels.js";
@@ -117,6 +119,7 @@ export class Scene {
     const shapes = [...known, ...areas];
     if (show.rings) drawHalos(pen, shapes, required);
     if (show.grid) drawGrid(pen);
+    drawZones(pen, areasOf(doc));
     drawKnown(pen, shapes.filter((o) => !o.holes.length));
     shapes.filter((o) => o.holes.length).forEach((o) => drawPierced(pen, o));
     drawLimits(pen, doc, required, show.rings);
@@ -136,12 +139,15 @@ export class Scene {
     ctx.setTransform(1, 0, 0, 1, 0, 0);
     ctx.drawImage(this.ground(known, colours), 0, 0);
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    drawCorridor(pen, store.goodPlan?.corridor ?? []);
     drawHovered(pen, known, store.hover);
     const isDriving = !!drive.run;
     if (isDriving) drawSight(pen, drive);
     drawUnseen(pen, unseen, (_, i) => isDriving && drive.hasSeen(i), store.hover);
     this.drawWays(pen, isDriving, maxSpeed);
     if (show.detours && store.curve && store.plan?.ok && !isDriving) drawDetours(pen, store.curve.vias);
+    const body = bodyOf(doc);
+    if (show.body && store.curve && store.plan?.ok && !store.isLate && !isDriving) this.drawBodies(pen, body);
     const points = pointsOf(doc);
     drawPoints(pen, points, { selection: store.selection, hover: store.hover });
     drawHandles(pen, doc, store.selection);
@@ -150,12 +156,20 @@ export class Scene {
       const where = problem.where ?? this.placeOfProblem(problem);
       if (where) drawProblem(pen, where);
     }
-    if (store.cursor !== null && store.curve && !isDriving) drawCursor(pen, store.curve.at(store.cursor), Number(doc.robot?.radius_m ?? 0.5));
-    if (isDriving) drawRobot(pen, drive, Number(doc.robot?.radius_m ?? 0.5));
+    if (store.cursor !== null && store.curve && !isDriving) drawCursor(pen, store.curve.at(store.cursor), body);
+    if (isDriving) drawRobot(pen, drive, body);
     if (this.draft) drawDraft(pen, this.draft);
     if (this.cross) drawCross(pen, this.cross);
     this.drawNames(pen, points, obstacles, isDriving);
     drawScale(pen, 16, 16, show.speed ? maxSpeed : null);
+  }
+
+  /** The body at the start, and where it comes closest. @param {Pen} pen @param {import("./body.js").Body} body */
+  drawBodies(pen, body) {
+    const { curve, plan } = this.store;
+    if (!curve) return;
+    drawBody(pen, body, curve.at(0), pen.colours.start);
+    if (plan.certificate.distance !== null) drawBody(pen, body, curve.at(plan.certificate.distance), pen.colours.tightest);
   }
 
   /** @param {Pen} pen @param {boolean} isDriving @param {number} maxSpeed */
@@ -169,6 +183,7 @@ export class Scene {
       drawTrail(pen, drive, maxSpeed);
       return;
     }
+    if (show.body && !isStale) drawSwept(pen, curve, bodyOf(store.doc));
     if (show.losers && !isStale) drawLosers(pen, store.ledger, this.hoveredSide);
     if (store.selection?.startsWith("span:") && !isStale) drawLeg(pen, curve, Number(store.selection.slice(5)));
     if (show.comb && !isStale) drawComb(pen, curve);
@@ -193,6 +208,14 @@ export class Scene {
       const [x, y] = camera.toScreen(p.at[0], p.at[1]);
       return [x - 11, y - 11, x + 11, y + 11];
     });
+    for (const { at, heading } of points) { // its arrow
+      if (!at || heading === null) continue;
+      const [x, y] = camera.toScreen(at[0], at[1]);
+      for (const reach of [18, 31, 44]) {
+        const [hx, hy] = [x + reach * Math.cos((heading * Math.PI) / 180), y - reach * Math.sin((heading * Math.PI) / 180)];
+        avoid.push([hx - 7, hy - 7, hx + 7, hy + 7]);
+      }
+    }
     avoid.push([0, camera.height - 40, 250, camera.height]);
     const line = (isDriving ? [] : store.curve?.samples ?? []).map((s) => camera.toScreen(s.x, s.y));
     if (store.show.names) {
@@ -211,12 +234,19 @@ export class Scene {
         labels.push({ text: obstacle.name, x: (box[0] + box[2]) / 2, y: (box[1] + box[3]) / 2, away: obstacle.side || w < 70 ? away : 0, colour: obstacle.list === "unseen" ? colours.unseen : colours.muted, rank: store.selection === obstacle.id ? 1 : 4 });
       }
     }
+    if (store.show.names) {
+      for (const area of areasOf(store.doc)) {
+        if (!area.ring.length || (area.kind === "fence" && store.selection !== area.id)) continue;
+        const [x, y] = camera.toScreen(Math.min(...area.ring.map((p) => p[0])), Math.max(...area.ring.map((p) => p[1])));
+        labels.push({ text: wordsOf(area), x: x + 10 + 3.4 * wordsOf(area).length, y: y + 13, away: 0, colour: area.kind === "zone" ? colours.zone : colours.muted, rank: store.selection === area.id ? 0 : 2 });
+      }
+    }
     const proof = store.plan?.ok && !store.isLate ? store.plan.certificate : null;
     if (proof && proof.clearance !== null && !isDriving) {
       const [x, y] = camera.toScreen(proof.at[0], proof.at[1]);
       labels.push({ text: `${down(proof.clearance)} clear`, x, y, away: 12, colour: colours.tightest, bold: true, rank: 0, plate: true });
     }
-    if (store.show.losers && !isDriving && store.plan?.ok && store.ledger.length <= 8) {
+    if (store.show.losers && !isDriving && store.plan?.ok && store.ledger.length <= (camera.width < 700 ? 3 : 8)) {
       for (const entry of store.ledger) {
         const taken = entry.candidates.find((/** @type {any} */ c) => c.chosen);
         for (const loser of entry.candidates) {

@@ -11,7 +11,8 @@ const LIGHT = {
   tightest: "#d55e00", unseen: "#c24e00", unseenFill: "#fbe3d3", start: "#008f68", goal: "#1b1f24",
   station: "#f0e442", sensor: "#56b4e9", sensorFill: "rgba(86,180,233,0.18)", robot: "#d55e00",
   select: "#0b63ce", selectSoft: "rgba(11,99,206,0.16)", plate: "rgba(255,255,255,0.86)", comb: "#7d6590",
-  problem: "#b3261e", driven: "#0072b2",
+  problem: "#b3261e", driven: "#0072b2", zone: "#8a6200", zoneFill: "rgba(230,159,0,0.13)",
+  corridor: "#00795a", corridorFill: "rgba(0,158,115,0.06)", swept: "rgba(0,114,178,0.13)",
 };
 
 const DARK = {
@@ -22,7 +23,8 @@ const DARK = {
   tightest: "#ff8d4d", unseen: "#ff9d66", unseenFill: "#46301f", start: "#2ed3a2", goal: "#e8ecf1",
   station: "#f0e442", sensor: "#56b4e9", sensorFill: "rgba(86,180,233,0.15)", robot: "#ff8d4d",
   select: "#7ab8ff", selectSoft: "rgba(122,184,255,0.2)", plate: "rgba(18,22,27,0.82)", comb: "#b69cd0",
-  problem: "#ff8a80", driven: "#56b4e9",
+  problem: "#ff8a80", driven: "#56b4e9", zone: "#f0b429", zoneFill: "rgba(240,180,41,0.12)",
+  corridor: "#2ed3a2", corridorFill: "rgba(46,211,162,0.06)", swept: "rgba(86,180,233,0.15)",
 };
 
 /** @typedef {typeof LIGHT} Theme */

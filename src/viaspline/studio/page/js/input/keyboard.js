@@ -3,10 +3,11 @@
 import {
   addObstacle, moveTo, moveVia, remove, setTension, shifted,
 } from "../core/edits.js";
-import { anchorOf, idsOf, isObstacle, refOf, tensionsOf } from "../core/mission.js";
+import { anchorOf, idsOf, isArea, isObstacle, refOf, tensionsOf } from "../core/mission.js";
+import { POLYGONS } from "./drawing.js";
 
-const TOOLS = { v: "select", a: "via", c: "circle", p: "polygon", h: "pan" };
-const SHOWN = { g: "grid", s: "snap", l: "losers", r: "rings", k: "comb", d: "detours", x: "speed" };
+const TOOLS = { v: "select", a: "via", c: "circle", p: "polygon", z: "zone", b: "fence", h: "pan" };
+const SHOWN = { g: "grid", s: "snap", l: "losers", r: "rings", k: "comb", d: "detours", x: "speed", o: "body" };
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /** @param {any} app */
@@ -56,7 +57,7 @@ function onKey(app, event) {
   const { store, scene, pointer } = app;
   if (event.key === "Tab") return next(app, event.shiftKey ? -1 : 1);
   if (event.key === "Enter") {
-    if (scene.draft?.corners && !scene.cross) pointer.closePolygon();
+    if (scene.draft?.corners && !scene.cross) pointer.drawing.close();
     else if (scene.cross) place(app);
     else if (store.selection) app.inspector.focus();
     else return false;
@@ -91,7 +92,7 @@ function single(app, event, onSlider) {
   const isButton = event.target instanceof HTMLButtonElement || event.target instanceof HTMLInputElement;
   if (event.key === "?") app.help();
   else if (event.key === "Escape") {
-    if (!pointer.drop()) {
+    if (!pointer.drawing.drop()) {
       if (scene.cross) scene.cross = null;
       else if (store.tool !== "select") store.setTool("select");
       else store.select(null);
@@ -165,7 +166,7 @@ function arrow({ store, scene, camera, pointer, say }, way, far) {
   }
   const at = pointer.snapped([anchor[0] + dx, anchor[1] + dy]);
   const ref = /** @type {import("../core/mission.js").Ref} */ (refOf(id));
-  const isWhole = isObstacle(id) && ref.vertex < 0 && !store.doc.world[ref.kind][ref.index].circle;
+  const isWhole = ref.vertex < 0 && (isArea(id) || (isObstacle(id) && !store.doc.world[ref.kind][ref.index].circle));
   const doc = isWhole ? shifted(store.doc, id, at[0] - anchor[0], at[1] - anchor[1]) : moveTo(store.doc, id, at);
   store.edit(doc, { merge: `nudge:${id}` });
   say(`${at[0]}, ${at[1]}`);
@@ -182,17 +183,17 @@ function showCross({ scene, camera, pointer, say }) {
 function place(app) {
   const { store, scene, pointer, camera } = app;
   if (store.tool === "via") {
-    pointer.gestures += 1;
-    pointer.addViaAt(scene.cross, null);
+    pointer.dragging.count += 1;
+    pointer.dragging.addVia(scene.cross, null);
     app.say("via point added");
-  } else if (store.tool === "polygon") {
+  } else if (POLYGONS.includes(store.tool)) {
     const corners = scene.draft?.corners ?? [];
     const [x, y] = pointer.snapped(scene.cross);
     const last = corners.at(-1);
     if (corners.length > 2 && ((last[0] === x && last[1] === y) || (corners[0][0] === x && corners[0][1] === y))) {
       scene.cross = null;
-      pointer.closePolygon();
-    } else pointer.addPolygonCorner(scene.cross);
+      pointer.drawing.close();
+    } else pointer.drawing.addCorner(scene.cross);
   } else if (store.tool === "circle") {
     const doc = addObstacle(store.doc, "known", { circle: { center: scene.cross, radius: camera.step(40) } });
     scene.cross = null;

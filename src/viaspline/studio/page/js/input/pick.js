@@ -1,8 +1,8 @@
 /** What lies under a pixel. */
 
-import { obstaclesOf, pointsOf } from "../core/mission.js";
+import { areasOf, obstaclesOf, pointsOf, spanCount } from "../core/mission.js";
 import { HEADING_REACH, handlesOf } from "../draw/route.js";
-import { covers, edgeNear } from "../geometry/shapes.js";
+import { covers, edgeNear, toRing } from "../geometry/shapes.js";
 
 /**
  * @typedef {{kind: "handle", handle: {id: string, role: string}}
@@ -49,12 +49,15 @@ export function pick(store, camera, px, py, reach) {
   const side = store.show.losers && store.plan?.ok ? pickSide(store.ledger, camera, px, py) : null;
   if (side && side.away < Math.min(reach, pathAway)) return { kind: "side", entry: side.entry, candidate: side.candidate };
   if (curve && onPath && pathAway < reach) {
-    return { kind: "path", leg: curve.legOf(onPath.span), s: onPath.s, span: onPath.span };
+    return { kind: "path", leg: curve.legOf(onPath.span) % Math.max(spanCount(store.doc), 1), s: onPath.s, span: onPath.span };
   }
   for (const obstacle of obstaclesOf(store.doc).reverse()) {
     if (covers(at, obstacle)) return { kind: "item", id: obstacle.id };
     const edge = edgeNear(at, obstacle);
     if (edge && Math.hypot(edge[0] - at[0], edge[1] - at[1]) * camera.scale < reach * 0.6) return { kind: "item", id: obstacle.id };
+  }
+  for (const area of areasOf(store.doc).reverse()) { // by their edges: the map within can be moved
+    if (area.ring.length && toRing(at, area.ring).away * camera.scale < reach * 0.6) return { kind: "item", id: area.id };
   }
   return null;
 }

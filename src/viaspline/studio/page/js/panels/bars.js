@@ -5,12 +5,12 @@ import { place } from "../units.js";
 
 const TOOLS = [
   ["select", "Select and drag", "V"], ["via", "Add via points", "A"], ["circle", "Draw a circle", "C"],
-  ["polygon", "Draw a polygon", "P"], ["pan", "Move the map", "H"],
+  ["polygon", "Draw a polygon", "P"], ["zone", "Draw a speed zone", "Z"], ["fence", "Draw a fence to stay inside of", "B"], ["pan", "Move the map", "H"],
 ];
 const SHOWN = [
   ["rings", "Clearance rings", "R"], ["losers", "Sides not taken", "L"], ["speed", "Speed as colour", "X"],
   ["comb", "Curvature comb", "K"], ["detours", "Detour points", "D"], ["grid", "Grid", "G"],
-  ["snap", "Snap to the grid", "S"], ["names", "Names", ""],
+  ["snap", "Snap to the grid", "S"], ["body", "Body and what it sweeps", "O"], ["names", "Names", ""],
 ];
 
 /** @param {any} app */

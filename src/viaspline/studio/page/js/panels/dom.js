@@ -23,6 +23,8 @@ const ICONS = {
   via: "M12 21s7-6.2 7-11.5A7 7 0 0 0 5 9.500C5 14.800 12 21 12 21zM12 6.500v6M9 9.500h6",
   circle: "M12 4a8 8 0 1 0 0 16 8 8 0 0 0 0-16z",
   polygon: "M5 9l7-5 8 6-3 10H8z",
+  zone: "M4 18a9 9 0 1 1 16 0M12 16l4-6M12 16.500v.5",
+  fence: "M4 8h16M4 15h16M7 4l-1 16M18 4l-1 16M12 4v16",
   pan: "M8 12V6.500a1.500 1.500 0 0 1 3 0V11 5a1.500 1.500 0 0 1 3 0v6-4a1.500 1.500 0 0 1 3 0v7c0 4-2.500 6.500-6 6.500-3 0-4.500-1.500-6-4.500l-2-4a1.500 1.500 0 0 1 2.600-1.400L8 13",
   undo: "M9 7L4 12l5 5M4 12h10a6 6 0 0 1 0 12",
   redo: "M15 7l5 5-5 5M20 12H10a6 6 0 0 0 0 12",
@@ -98,9 +100,15 @@ export function numberField({ label, value, unit = "", step = 0.1, min, max, pla
   return h("label", { class: "field" }, h("span", { class: "field-name" }, label), h("span", { class: "field-box" }, input, unit ? h("span", { class: "unit" }, unit) : null));
 }
 
-/** @param {{label: string, value: string, placeholder?: string, set: (value: string) => void}} options */
-export function textField({ label, value, placeholder, set }) {
-  const input = h("input", { type: "text", value, placeholder, "aria-label": label, maxlength: 80, spellcheck: "false", onchange: () => set(input.value.trim()) });
+/** A text; `set` may say false to what it can't take. @param {{label: string, value: string, placeholder?: string, most?: number, set: (value: string) => unknown}} options */
+export function textField({ label, value, placeholder, most = 80, set }) {
+  const input = h("input", {
+    type: "text", value, placeholder, "aria-label": label, maxlength: most, spellcheck: "false",
+    onchange: () => {
+      if (set(input.value.trim()) === false) input.setAttribute("aria-invalid", "true");
+      else input.removeAttribute("aria-invalid");
+    },
+  });
   return h("label", { class: "field" }, h("span", { class: "field-name" }, label), h("span", { class: "field-box" }, input));
 }
 

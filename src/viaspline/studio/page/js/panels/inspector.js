@@ -1,7 +1,7 @@
 /** What is selected, in fields: name, place, dwell, heading, size, side, tension. */
 
 import { forceSide, moveTo, setKey, setOnPoint, setRadius, setTension } from "../core/edits.js";
-import { anchorOf, isPoint, obstaclesOf, part, pathOf, pointsOf, refOf, tensionsOf, whole } from "../core/mission.js";
+import { anchorOf, areasOf, isArea, isPoint, obstaclesOf, part, pathOf, pointsOf, refOf, tensionsOf, whole } from "../core/mission.js";
 import { erase } from "../input/keyboard.js";
 import { metres } from "../units.js";
 import { checkbox, choice, fill, h, icon, lazily, numberField, textField } from "./dom.js";
@@ -32,6 +32,7 @@ export class Inspector {
     if (!id) fill(this.panel, h("p", { class: "hint" }, "Nothing is selected. Click a point, an obstacle or a span of the path; or press Tab on the map."));
     else if (id.startsWith("span:")) fill(this.panel, ...this.span(Number(id.slice(5))));
     else if (isPoint(id)) fill(this.panel, ...this.point(id));
+    else if (isArea(id)) fill(this.panel, ...this.area(id));
     else fill(this.panel, ...this.obstacle(id));
   }
 
@@ -83,11 +84,33 @@ export class Inspector {
       at && !one.map ? this.placeFields(id, at) : null,
       one.circle ? numberField({ label: "Radius", value: one.circle.radius, unit: "m", min: 0.01, set: (value) => value !== null && store.edit(setRadius(store.doc, owner, value), { merge: `radius:${owner}` }) }) : null,
       one.map ? h("p", { class: "hint" }, item.map) : null,
+      one.map ? choice({
+        label: "Squares that nobody has seen", value: item.unknown ?? "", options: [["", "blocked, as usual"], ["blocked", "blocked"], ["free", "free"]],
+        set: (value) => store.edit(setKey(store.doc, owner, "unknown", value || undefined)),
+      }) : null,
       checkbox({ label: "Unseen: only the sensor finds it", value: isUnseen, set: () => app.toggleUnseen() }),
       !isUnseen && !one.map ? choice({
         label: "Pass on", value: one.side ?? "", options: [["", "either side"], ["left", "left"], ["right", "right"]],
         set: (value) => store.edit(forceSide(store.doc, [one.index], value || null)),
       }) : null,
+      this.delete(ref.vertex >= 0 ? "Delete corner" : "Delete"),
+    ];
+  }
+
+  /** @param {string} id of a fence or a speed zone */
+  area(id) {
+    const { store } = this.app;
+    const owner = whole(id);
+    const one = areasOf(store.doc).find((area) => area.id === owner);
+    const ref = /** @type {import("../core/mission.js").Ref} */ (refOf(id));
+    if (!one) return [];
+    const at = anchorOf(store.doc, id);
+    const isZone = one.kind === "zone";
+    return [
+      this.title(one.name, `${isZone ? "speed zone" : "fence: the robot stays inside"}, ${one.ring.length} corners${ref.vertex >= 0 ? `, corner ${ref.vertex + 1}` : ""}`),
+      isZone ? textField({ label: "Name", value: one.given ?? "", placeholder: one.name, set: (value) => store.edit(setKey(store.doc, owner, "name", value || undefined)) }) : null,
+      isZone ? numberField({ label: "Top speed in it", unit: "m/s", value: one.speed, min: 0.001, set: (value) => value !== null && store.edit(setKey(store.doc, owner, "max_speed_mps", value), { merge: `speed:${owner}` }) }) : null,
+      at ? this.placeFields(id, at) : null,
       this.delete(ref.vertex >= 0 ? "Delete corner" : "Delete"),
     ];
   }

@@ -1,7 +1,7 @@
 /** The list of the route's points and of the obstacles: select, put in another order, delete. */
 
 import { moveVia } from "../core/edits.js";
-import { obstaclesOf, pointsOf, refOf, whole } from "../core/mission.js";
+import { areasOf, obstaclesOf, pointsOf, refOf, whole } from "../core/mission.js";
 import { erase, reorder } from "../input/keyboard.js";
 import { fill, h, icon, iconButton, lazily } from "./dom.js";
 
@@ -11,17 +11,19 @@ export class Lists {
     this.app = app;
     this.route = /** @type {HTMLElement} */ (document.querySelector("#route-list"));
     this.obstacles = /** @type {HTMLElement} */ (document.querySelector("#obstacle-list"));
+    this.areas = /** @type {HTMLElement} */ (document.querySelector("#area-list"));
     /** @type {number|null} */ this.dragged = null;
     this.signature = "";
     const render = lazily(() => this.render(), 80);
     app.store.on("document selection file", render);
     this.route.addEventListener("keydown", (event) => this.key(event));
     this.obstacles.addEventListener("keydown", (event) => this.key(event));
+    this.areas.addEventListener("keydown", (event) => this.key(event));
   }
 
   /** @param {KeyboardEvent} event */
   key(event) {
-    const rows = [.../** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("#route-list .row-main, #obstacle-list .row-main"))];
+    const rows = [.../** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("#left .row-main"))];
     const i = rows.indexOf(/** @type {HTMLElement} */ (document.activeElement));
     if (i < 0 || event.altKey) return;
     const to = event.key === "ArrowDown" ? i + 1 : event.key === "ArrowUp" ? i - 1 : -1;
@@ -42,10 +44,11 @@ export class Lists {
     const { store } = this.app;
     const points = pointsOf(store.doc);
     const obstacles = obstaclesOf(store.doc);
+    const areas = areasOf(store.doc);
     // Rows say nothing of places, so while something is dragged they stay as they are.
     const signature = JSON.stringify([
       store.selection, store.doc.route?.order, points.map((p) => [p.id, p.name, p.dwell]),
-      obstacles.map((o) => [o.id, o.name, o.side, !!o.circle, !!o.map]),
+      obstacles.map((o) => [o.id, o.name, o.side, !!o.circle, !!o.map]), areas.map((a) => [a.id, a.name, a.speed]),
     ]);
     if (signature === this.signature) return;
     this.signature = signature;
@@ -54,6 +57,9 @@ export class Lists {
       this.obstacles,
       ...(obstacles.length ? obstacles.map((one) => this.obstacleRow(one)) : [h("li", { class: "empty" }, "None yet: draw a circle (C) or a polygon (P).")]),
     );
+    fill(this.areas, ...areas.map((one) => this.areaRow(one)));
+    /** @type {HTMLElement} */ (document.querySelector("#area-section")).hidden = !areas.length;
+    /** @type {HTMLElement} */ (document.querySelector("#area-count")).textContent = String(areas.length);
     const many = (/** @type {number} */ n, /** @type {string} */ word) => `${n} ${word}${n === 1 ? "" : "s"}`;
     /** @type {HTMLElement} */ (document.querySelector("#route-count")).textContent = many(points.length, "point");
     /** @type {HTMLElement} */ (document.querySelector("#obstacle-count")).textContent = String(obstacles.length);
@@ -113,6 +119,22 @@ export class Lists {
       addEventListener("pointermove", move);
       addEventListener("pointerup", end);
     });
+  }
+
+  /** @param {any} one */
+  areaRow(one) {
+    const { store } = this.app;
+    const isSelected = store.selection !== null && whole(store.selection) === one.id;
+    const speed = one.speed === null ? null : `≤ ${Number(one.speed.toFixed(2))} m/s`;
+    return h(
+      "li", { class: `row${isSelected ? " is-selected" : ""}` },
+      h(
+        "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${one.kind === "zone" ? `speed zone, ${speed ?? "no speed"}` : "the robot stays inside"}`, onclick: () => store.select(one.id) },
+        h("span", { class: "glyph" }, icon(one.kind, 16)),
+        h("span", { class: "row-name" }, one.name),
+        speed ? h("span", { class: "row-note" }, speed) : null,
+      ),
+    );
   }
 
   /** @param {any} one */

@@ -1,5 +1,6 @@
 /** Curvature and speed along the path; they follow the cursor on the map, and the map follows theirs. */
 
+import { pointsOf } from "../core/mission.js";
 import { onTheme, theme } from "../draw/theme.js";
 import { lazily } from "./dom.js";
 
@@ -106,7 +107,9 @@ export class Plots {
       ctx.moveTo(px, TOP);
       ctx.lineTo(px, /** @type {number} */ (height) - BOTTOM);
       ctx.stroke();
-      const text = count === 0 ? "S" : count === users.length - 1 ? (this.app.store.doc.route?.closed ? "S" : "G") : String(count);
+      const { route } = this.app.store.doc;
+      const number = route?.closed ? count % pointsOf(this.app.store.doc).length : count; // of a lap
+      const text = number === 0 ? "S" : !route?.closed && count === users.length - 1 ? "G" : String(number);
       count += 1;
       if (px - free < 16) continue;
       ctx.fillStyle = colours.muted;

@@ -3,6 +3,7 @@
 import { replaced, setClosed, setTension } from "../core/edits.js";
 import { pointsOf, tensionsOf } from "../core/mission.js";
 import { checkbox, choice, fill, h, lazily, numberField } from "./dom.js";
+import { robotFields } from "./robot.js";
 
 export class Settings {
   /** @param {any} app */
@@ -23,38 +24,40 @@ export class Settings {
   render() {
     if (this.isSliding) return;
     const { doc } = this.app.store;
-    const { closed, order } = doc.route ?? {};
-    const shown = [doc.robot, doc.spline, doc.world?.bounds, closed, order, pointsOf(doc).length];
+    const { closed, order, laps, corridor } = doc.route ?? {};
+    const shown = [doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, pointsOf(doc).length];
     if (shown.every((value, i) => value === this.shown[i])) return;
     this.shown = shown;
-    const robot = doc.robot ?? {};
-    const lidar = robot.sensor?.lidar;
-    const field = (/** @type {string} */ label, /** @type {string} */ key, /** @type {string} */ unit, /** @type {any} */ more = {}) =>
-      numberField({ label, unit, value: typeof robot[key] === "number" ? robot[key] : null, set: (value) => this.set(["robot", key], value), ...more });
     fill(
       this.panel,
       h("h3", {}, "Robot"),
-      h("div", { class: "pair" },
-        field("Radius", "radius_m", "m", { min: 0, placeholder: "0.5", step: 0.05 }),
-        field("Clearance", "clearance_m", "m", { min: 0, placeholder: "0.5", step: 0.05 })),
-      h("div", { class: "pair" },
-        field("Top speed", "max_speed_mps", "m/s", { min: 0.001, placeholder: "2" }),
-        field("Acceleration", "max_accel_mps2", "m/s²", { min: 0.001, placeholder: "1" })),
-      h("div", { class: "pair" },
-        field("Across the path", "max_lateral_accel_mps2", "m/s²", { min: 0.001, placeholder: "no limit" }),
-        lidar
-          ? numberField({ label: "Lidar range", unit: "m", value: lidar.range_m ?? null, min: 0.1, step: 1, set: (value) => value && this.set(["robot", "sensor", "lidar", "range_m"], value) })
-          : numberField({ label: "Sensor range", unit: "m", value: robot.sensor?.range_m ?? null, min: 0.1, step: 1, placeholder: "none", set: (value) => this.set(["robot", "sensor"], value === null ? undefined : { ...robot.sensor, range_m: value }) })),
+      ...robotFields(doc, (path, value) => this.set(path, value)),
       h("h3", {}, "Curve"),
       this.tension(),
       h("div", { class: "pair" },
         choice({ label: "Knots", value: doc.spline?.knots ?? "chordal", options: [["chordal", "chordal"], ["centripetal", "centripetal"], ["uniform", "uniform"]], set: (value) => this.set(["spline", "knots"], value) }),
-        choice({ label: "Tangents", value: doc.spline?.tangents ?? "cardinal", options: [["cardinal", "cardinal"], ["continuous", "continuous curvature"]], set: (value) => this.set(["spline", "tangents"], value) })),
+        choice({ label: "Tangents", value: doc.spline?.tangents ?? "", options: [["", "as the robot needs"], ["cardinal", "cardinal"], ["continuous", "continuous curvature"]], set: (value) => this.set(["spline", "tangents"], value || undefined) })),
       h("h3", {}, "Route"),
       checkbox({ label: "Closed: back to the start", value: !!doc.route?.closed, set: (value) => this.app.store.edit(setClosed(this.app.store.doc, value)) }),
       checkbox({ label: "Via points in the shortest order", value: doc.route?.order === "shortest", set: (value) => this.set(["route", "order"], value ? "shortest" : undefined) }),
+      closed ? numberField({ label: "Laps", value: laps ?? null, step: 1, min: 1, max: 1000, placeholder: "1", set: (value) => this.set(["route", "laps"], value === null ? undefined : Math.round(value)) }) : null,
+      ...this.corridor(),
       ...this.bounds(),
     );
+  }
+
+  /** How far the path may lie beside the straight lines between the points. */
+  corridor() {
+    const { corridor } = this.app.store.doc.route ?? {};
+    if (corridor?.csv || corridor?.line) {
+      return [h("p", { class: "hint" }, `The corridor has a line of its own${corridor.csv ? `: ${corridor.csv}` : ""}.`)];
+    }
+    const one = (/** @type {string} */ label, /** @type {string} */ key, /** @type {string} */ other) =>
+      numberField({
+        label, unit: "m", value: typeof corridor?.[key] === "number" ? corridor[key] : null, min: 0.001, step: 0.5, placeholder: "none",
+        set: (value) => this.set(["route", "corridor"], value === null ? undefined : { [other]: value, ...corridor, [key]: value }),
+      });
+    return [h("div", { class: "pair" }, one("Corridor to the left", "left_m", "right_m"), one("to the right", "right_m", "left_m"))];
   }
 
   tension() {

@@ -55,7 +55,7 @@ export class Summary {
           proof.nearest ? h("button", { type: "button", class: "link", onclick: () => this.app.lookAtPlace(proof.at, proof.distance) }, `tightest at ${proof.nearest}`) : null)),
       h("dl", { class: "figures" },
         ...row("Length", metres(plan.length, 1)), ...row("Duration", seconds(plan.duration)),
-        ...row("Sharpest", bend(plan.curvature)), ...row("Planned in", `${plan.ms.toFixed(1)} ms`)),
+        ...row("Sharpest", bend(plan.curvature)), ...row("Planned in", plan.ms < 1000 ? `${plan.ms.toFixed(1)} ms` : seconds(plan.ms / 1000))),
       ...this.groups(),
     ];
   }

@@ -1,0 +1,172 @@
+"""Areas and the robot's parts in a real browser: drawn, dragged, typed, and planned with."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+Visit = Callable[..., Any]
+
+
+def near(a: list[float], b: list[float], tolerance: float = 2.0) -> bool:
+    return abs(a[0] - b[0]) < tolerance and abs(a[1] - b[1]) < tolerance
+
+
+def test_a_speed_zone_is_drawn_shaped_slowed_and_deleted(visit: Visit, patrol: Path) -> None:
+    page = visit(patrol)
+    before = page.plan["duration"]
+    page.press("z")
+    for at in ([220, 330], [350, 330], [350, 440], [220, 440]):
+        page.click(at)
+    page.press("Enter")
+    (zone,) = page.doc["world"]["speed_zones"]
+    assert near(zone["polygon"][2], [350, 440])
+    page.page.get_by_label("Top speed in it").fill("0.2")
+    page.press("Tab")
+    assert page.doc["world"]["speed_zones"][0]["max_speed_mps"] == 0.2
+    assert page.plan["duration"] > 1.2 * before
+    page.drag([350, 440], [370, 450])  # a corner
+    assert near(page.doc["world"]["speed_zones"][0]["polygon"][2], [370, 450])
+    page.drag([285, 330], [285, 340])  # the middle of an edge: a new corner
+    assert len(page.doc["world"]["speed_zones"][0]["polygon"]) == 5
+    assert page.page.get_by_role("button", name="zone 1, speed zone").is_visible()
+    page.press("Escape")
+    page.page.get_by_role("button", name="zone 1, speed zone").click()
+    page.page.get_by_label("Name", exact=True).fill("yard")
+    page.press("Tab")
+    assert page.doc["world"]["speed_zones"][0]["name"] == "yard"
+    page.page.get_by_role("button", name="yard, speed zone").click()
+    page.press("Delete")
+    assert "speed_zones" not in page.doc["world"]
+    assert page.plan["duration"] == before
+
+
+def test_a_fence_is_drawn_and_moved_without_a_mouse(visit: Visit, patrol: Path) -> None:
+    page = visit(patrol)
+    page.page.focus("#map")
+    page.press("b")
+    for key in ("Shift+ArrowLeft", "Shift+ArrowDown", "Shift+ArrowRight"):
+        page.press(key, "Enter")
+    page.press("Enter")
+    ring = page.doc["world"]["fences"][0]
+    assert len(ring) == 3
+    assert not page.plan["ok"]  # the route leaves it
+    page.press("ArrowRight")
+    moved = page.doc["world"]["fences"][0]
+    assert all(b[0] > a[0] and b[1] == a[1] for a, b in zip(ring, moved, strict=True))
+    page.press("Tab")
+    assert page.js("studio.store.selection") == "fence:0:0"
+    page.press("ArrowUp")
+    assert page.doc["world"]["fences"][0][0][1] > moved[0][1]
+    page.press("Shift+Tab", "Delete")
+    assert "fences" not in page.doc["world"]
+    assert page.plan["ok"]
+
+
+def test_the_robot_gets_a_polygon_for_a_body_and_a_drive(visit: Visit, patrol: Path) -> None:
+    page = visit(patrol)
+    field = page.page.get_by_label
+    field("Body", exact=True).select_option("polygon")
+    page.settle()
+    field("Corners").fill("nonsense 3")
+    page.press("Tab")
+    assert field("Corners").get_attribute("aria-invalid") == "true"
+    field("Corners").fill("-1 -0.8, 3 -0.8; (3, 0.8) -1 0.8")
+    page.press("Tab")
+    robot = page.doc["robot"]
+    assert robot["footprint"] == [[-1, -0.8], [3, -0.8], [3, 0.8], [-1, 0.8]]
+    assert "radius_m" not in robot
+    field("Turning radius").fill("4")
+    page.press("Tab")
+    assert page.doc["robot"]["min_turn_radius_m"] == 4
+    assert page.plan["ok"]
+    assert page.plan["curvature"] <= 0.25 + 1e-9
+    field("Drive", exact=True).select_option("ackermann")
+    page.settle()
+    field("Wheelbase").fill("2")
+    page.press("Tab")
+    assert page.doc["robot"]["drive"]["ackermann"] == {"wheelbase_m": 2, "max_steer_deg": 30}
+    field("Drive", exact=True).select_option("")
+    page.settle()
+    assert "drive" not in page.doc["robot"]
+    field("Body", exact=True).select_option("disc")
+    page.settle()
+    assert page.doc["robot"]["radius_m"] == 0.8
+    assert "footprint" not in page.doc["robot"]
+
+
+def test_a_corridor_and_laps_are_typed_and_the_corridor_is_the_one_that_is_planned_in(
+    visit: Visit, patrol: Path
+) -> None:
+    page = visit(patrol)
+    page.page.get_by_label("Corridor to the left").fill("60")
+    page.press("Tab")
+    assert page.doc["route"]["corridor"] == {"right_m": 60, "left_m": 60}
+    ring = page.plan["corridor"][0]
+    assert len(ring) > 4
+    page.page.get_by_label("Corridor to the left").fill("")
+    page.press("Tab")
+    assert "corridor" not in page.doc["route"]
+    assert page.plan["corridor"] == []
+    page.page.get_by_label("Closed").check()
+    page.settle()
+    one = page.plan["length"]
+    page.page.get_by_label("Laps").fill("2")
+    page.press("Tab")
+    assert page.doc["route"]["laps"] == 2
+    assert page.plan["length"] > 1.9 * one
+
+
+def test_squares_that_nobody_has_seen_are_made_free(visit: Visit, tmp_path: Path) -> None:
+    shutil.copytree(EXAMPLES / "maps", tmp_path / "maps")
+    page = visit(Path(shutil.copy(EXAMPLES / "depot-round.yaml", tmp_path)))
+    page.page.get_by_role("button", name="depot.yaml, map").click()
+    page.page.get_by_label("Squares that nobody has seen").select_option("free")
+    page.settle()
+    assert page.doc["world"]["known"][0]["unknown"] == "free"
+
+
+def test_the_body_is_drawn_where_it_starts_and_sweeps(visit: Visit, tmp_path: Path) -> None:
+    file = tmp_path / "long.yaml"
+    file.write_text(
+        "world: {bounds: [0, 0, 40, 20]}\nroute: {start: [5, 10], goal: [30, 10]}\n"
+        "robot: {footprint: [[-1, -2], [4, -2], [4, 2], [-1, 2]], clearance_m: 0.2}\n"
+    )
+    page = visit(file)
+    colour = """([x, y]) => {
+      const [px, py] = studio.camera.toScreen(x, y), ratio = devicePixelRatio;
+      return [...studio.scene.ctx.getImageData(px * ratio, py * ratio, 1, 1).data];
+    }"""
+    inside, beyond = [21.3, 11.3], [21.3, 13.3]
+    swept = page.js(colour, inside)
+    assert swept != page.js(colour, beyond)
+    page.press("o")
+    assert page.js(colour, inside) != swept
+    bare = page.js(colour, [4.4, 11.3])
+    page.press("o")
+    assert page.js(colour, [4.4, 11.3]) != bare  # half a metre behind the start's point
+    assert page.js(colour, [3.4, 11.3]) == bare
+
+
+def test_the_robot_that_drives_has_its_shape(visit: Visit, tmp_path: Path) -> None:
+    file = tmp_path / "long.yaml"
+    file.write_text(
+        "world: {bounds: [0, 0, 40, 20]}\nroute: {start: [5, 10], goal: [30, 10]}\n"
+        "robot: {footprint: [[-1, -2], [4, -2], [4, 2], [-1, 2]], clearance_m: 0.2}\n"
+    )
+    page = visit(file)
+    page.page.get_by_role("button", name="Drive", exact=True).click()
+    page.page.wait_for_selector("body.is-driving")
+    page.js("(studio.drive.pause(), studio.drive.seek(8))")
+    page.page.wait_for_timeout(100)
+    x = page.js("studio.drive.state().x")
+    colour = """([x, y]) => {
+      const [px, py] = studio.camera.toScreen(x, y), ratio = devicePixelRatio;
+      return [...studio.scene.ctx.getImageData(px * ratio, py * ratio, 1, 1).data];
+    }"""
+    front, beside = [x + 3.6, 11.6], [x + 3.6, 12.5]
+    assert page.js(colour, front) == page.js(colour, [x + 3.6, 8.4])
+    assert page.js(colour, front) != page.js(colour, beside)
