@@ -195,3 +195,17 @@ def test_what_is_driven_past_unseen_obstacles_keeps_the_turning_circle(seed: int
     assert run.certificate.holds
     drives(run.path, 4.0)
     assert max(replan.curvature_jump for replan in run.replans) < 1e-6
+
+
+def test_a_start_that_cannot_be_come_back_to_is_refused_with_the_reason():
+    """A round in the open whose start, between discs, can be left but not come back to."""
+    known = [
+        disc(7.331, 10.371, 0.468), disc(9.087, 7.228, 0.487), disc(13.641, 19.665, 1.331),
+        disc(18.305, 9.141, 1.371), disc(9.241, 2.392, 1.551), disc(6.876, 5.384, 0.408),
+        disc(13.509, 5.064, 1.34),
+    ]  # fmt: skip
+    route = ({"at": [9.477, 5.189]}, [17.266, 6.231], [10.851, 18.015])
+    with pytest.raises(vs.NoPathError, match="come to the goal from anywhere") as raised:
+        vs.plan(mission(*route, radius=6.0, closed=True, world={"known": known}))
+    check_refusal(raised.value)
+    assert raised.value.via == "start"

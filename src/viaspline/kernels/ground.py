@@ -45,6 +45,23 @@ class Ground(NamedTuple):
 
 
 @inner
+def about(ground: Ground, x: float, y: float) -> float:
+    """Distance to the world of the middle of the cell in which a point lies; none off the table."""
+    side = ground.frame[2]
+    column = math.floor((x - ground.frame[0]) / side)
+    row = math.floor((y - ground.frame[1]) / side)
+    if not (0 <= row < ground.known.shape[0] and 0 <= column < ground.known.shape[1]):
+        return 0.0
+    value = ground.known[row, column]
+    if math.isnan(value):
+        middle_x = ground.frame[0] + (column + 0.5) * side
+        middle_y = ground.frame[1] + (row + 0.5) * side
+        value, _ = nearest(ground.world, middle_x, middle_y, np.inf)
+        ground.known[row, column] = value
+    return value
+
+
+@inner
 def _distance(ground: Ground, x: float, y: float, need: float) -> float:
     """Distance of a point to the world: exact or more than ``need``, or a bound, less than it."""
     side = ground.frame[2]
@@ -53,10 +70,7 @@ def _distance(ground: Ground, x: float, y: float, need: float) -> float:
     if 0 <= row < ground.known.shape[0] and 0 <= column < ground.known.shape[1]:
         middle_x = ground.frame[0] + (column + 0.5) * side
         middle_y = ground.frame[1] + (row + 0.5) * side
-        value = ground.known[row, column]
-        if math.isnan(value):
-            value, _ = nearest(ground.world, middle_x, middle_y, np.inf)
-            ground.known[row, column] = value
+        value = about(ground, x, y)
         gap = math.hypot(x - middle_x, y - middle_y)
         if value - gap >= need or value + gap < need:
             return value - gap

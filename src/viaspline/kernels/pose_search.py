@@ -18,7 +18,7 @@ import numpy as np
 from viaspline.kernels.bend import along_bend
 from viaspline.kernels.connect import MOST, connection
 from viaspline.kernels.dubins import dubins_length, length_to_place
-from viaspline.kernels.ground import Ground, is_clear, reach
+from viaspline.kernels.ground import AHEAD, LEFT, Ground, about, is_clear, reach
 from viaspline.kernels.heap import Heap, pop, push
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.packed import Floats, Ints
@@ -29,27 +29,35 @@ CELL = 0.6  # side of a cell, as a share of a move
 RUNNING, FULL, EMPTY, BEATEN = range(4)
 # columns of a node, and of its links; a start has the parent -1 less its number
 X, Y, HEADING, COST, STILL = range(5)
-LEVEL, PARENT, CLOSED = range(3)
+LEVEL, PARENT, CLOSED, SLOT, SCALE = range(5)
+# columns of the scales of moves, and of a search
+STEP, PACE, COUNT = range(3)
+SIDE, AROUND, ROOM = range(3)
+WITHIN, MORE = range(2)
 # columns of an arrival, and of its links
-LENGTH, FIRST, SECOND = range(3)
+LENGTH, FIRST, SECOND, HERE, THERE = range(5)
 # counters: nodes, expanded ones, moves that left the window
-NODES, EXPANDED, LEFT = range(3)
+NODES, EXPANDED, OUTSIDE = range(3)
+NEAR = 3  # places ahead at which another search is looked for
 LESS = 1e-6  # an arrival has to be shorter by as much to replace another [m]
 
 
 class Moves(NamedTuple):
-    """What a robot can do next.
+    """What a robot can do next: short moves where it is tight, longer ones where there is room.
 
     Attributes:
-        rho: The least radius; length of the ramps to it and back; length of a move [m], (3,).
-        segments: Of the move from a level of curvature by a way: the ramp, and what is kept
-            after it, (LEVELS * WAYS, 2, 3).
+        sizes: The least radius; length of the ramps to it and back [m], (2,).
+        scales: Of the short moves and of ever longer ones: their length, the distance between
+            the places at which the body is looked at [m], how many these are, (k, 3).
+        segments: Of the move on a scale from a level of curvature by a way: the ramp, and what
+            is kept after it, (k * LEVELS * WAYS, 2, 3).
         places: Along every move from the origin: x, y, cosine and sine of the heading,
-            (LEVELS * WAYS, n, 4).
-        turns: By how much each turns [rad], (LEVELS * WAYS,).
+            (k * LEVELS * WAYS, n, 4).
+        turns: By how much each turns [rad], (k * LEVELS * WAYS,).
     """
 
     sizes: Floats
+    scales: Floats
     segments: Floats
     places: Floats
     turns: Floats
@@ -59,11 +67,14 @@ class Search(NamedTuple):
     """What has been searched.
 
     Attributes:
-        window: Where the reference point may be: x, y of the corner, side of a cell [m], cells of
-            heading in a whole turn, (4,).
-        shape: Rows and columns of the window, (2,).
+        window: Where the reference point may be: x_min, y_min, x_max, y_max [m], (4,).
+        scales: Side of a cell [m], cells of heading in a whole turn, and the distance of the
+            body's middle to the world from which on a scale is used [m], (k, 3).
+        ends_at: Where all ways begin and end [m], (e, 2).
+        care: How far from there it takes more room for longer moves, and how much more [m], (2,).
         nodes: x, y, heading, cost so far, length that is still to come at least, (n, 5).
-        links: Level of curvature, node before, whether it is expanded, (n, 3).
+        links: Level of curvature, node before, whether it is expanded, its place in the table,
+            and its scale, (n, 5).
         keys: Cells of the nodes in a table with open addressing, 0 where it is empty.
         cells: The best node in each, the same shape.
         heap: Those not expanded.
@@ -72,10 +83,14 @@ class Search(NamedTuple):
         headings: Those that are allowed there [rad], NaN for whichever comes straight, (h,).
         arrivals: The best with each heading: whole length, sides of the two turns, (h, 3).
         ends: The node from which it was reached, (h,).
+        meeting: The best way to what another search has found: whole length, sides of the two
+            turns between the two nodes, and these, (5,).
     """
 
     window: Floats
-    shape: Ints
+    scales: Floats
+    ends_at: Floats
+    care: Floats
     nodes: Floats
     links: Ints
     keys: Ints
@@ -86,6 +101,7 @@ class Search(NamedTuple):
     headings: Floats
     arrivals: Floats
     ends: Ints
+    meeting: Floats
 
 
 class Ahead(NamedTuple):
@@ -101,61 +117,99 @@ class Ahead(NamedTuple):
 
 
 @kernel
-def moves_of(rho: float, ramp: float, step: float, pace: float) -> Moves:
+def moves_of(rho: float, ramp: float, steps: Floats, pace: float) -> Moves:
     """The moves of a robot.
 
     Args:
         rho: The least radius [m].
         ramp: From no curvature to the most [m].
-        step: Length of a move [m], at least half of ``ramp``.
+        steps: Lengths of the moves on every scale [m], at least half of ``ramp``, (k,).
         pace: Between places at which the body is looked at, at most [m].
     """
-    count = math.ceil(step / pace)
-    segments = np.zeros((LEVELS * WAYS, 2, 3))
-    places = np.zeros((LEVELS * WAYS, count, 4))
-    turns = np.zeros(LEVELS * WAYS)
-    for level in range(LEVELS):
-        for way in range(WAYS):
-            row = level * WAYS + way
-            first = (level - LEVELS // 2) / (LEVELS // 2) / rho
-            last = (level + way - 1 - LEVELS // 2) / (LEVELS // 2) / rho
-            bend = min(0.5 * ramp, step) if way != 1 else 0.0
-            segments[row, 0, 0], segments[row, 0, 1], segments[row, 0, 2] = first, last, bend
-            segments[row, 1, 0], segments[row, 1, 1], segments[row, 1, 2] = last, last, step - bend
-            x0, y0, turn0 = 0.0, 0.0, 0.0
-            if bend > 0.0:
-                x0, y0, turn0 = along_bend(first, last, bend, bend)
-            for k in range(count):
-                s = step * (k + 1) / count
-                if s <= bend:
-                    x, y, turn = along_bend(first, last, bend, s)
-                else:
-                    dx, dy, more = along_bend(last, last, step, s - bend)
-                    c, sine = math.cos(turn0), math.sin(turn0)
-                    x, y, turn = x0 + c * dx - sine * dy, y0 + sine * dx + c * dy, turn0 + more
-                places[row, k, 0], places[row, k, 1] = x, y
-                places[row, k, 2], places[row, k, 3] = math.cos(turn), math.sin(turn)
-                turns[row] = turn
-    return Moves(np.array([rho, ramp, step, step / count]), segments, places, turns)
+    most = math.ceil(steps.max() / pace)
+    segments = np.zeros((steps.size * LEVELS * WAYS, 2, 3))
+    places = np.zeros((steps.size * LEVELS * WAYS, most, 4))
+    turns = np.zeros(steps.size * LEVELS * WAYS)
+    scales = np.zeros((steps.size, 3))
+    for scale in range(steps.size):
+        step = steps[scale]
+        count = math.ceil(step / pace)
+        scales[scale, STEP], scales[scale, PACE], scales[scale, COUNT] = step, step / count, count
+        for level in range(LEVELS):
+            for way in range(WAYS):
+                row = (scale * LEVELS + level) * WAYS + way
+                turns[row] = _lay_move(
+                    rho, ramp, step, count, level, way, segments[row], places[row]
+                )
+    return Moves(np.array([rho, ramp]), scales, segments, places, turns)
 
 
 @inner
-def _slot(search: Search, x: float, y: float, heading: float, level: int) -> int:
-    """Where the cell of a state is in the table, or would be; NONE outside the window."""
-    side = search.window[2]
-    column = math.floor((x - search.window[0]) / side)
-    row = math.floor((y - search.window[1]) / side)
-    if not (0 <= row < search.shape[0] and 0 <= column < search.shape[1]):
-        return NONE
-    around = int(search.window[3])
+def _lay_move(
+    rho: float, ramp: float, step: float, count: int, level: int, way: int, segments: Floats,
+    places: Floats,
+) -> float:  # fmt: skip
+    """Fill in the segments and places of a move; returns by how much it turns [rad]."""
+    first = (level - LEVELS // 2) / (LEVELS // 2) / rho
+    last = (level + way - 1 - LEVELS // 2) / (LEVELS // 2) / rho
+    bend = min(0.5 * ramp, step) if way != 1 else 0.0
+    segments[0, 0], segments[0, 1], segments[0, 2] = first, last, bend
+    segments[1, 0], segments[1, 1], segments[1, 2] = last, last, step - bend
+    x0, y0, turn0, turn = 0.0, 0.0, 0.0, 0.0
+    if bend > 0.0:
+        x0, y0, turn0 = along_bend(first, last, bend, bend)
+    for k in range(count):
+        s = step * (k + 1) / count
+        if s <= bend:
+            x, y, turn = along_bend(first, last, bend, s)
+        else:
+            dx, dy, more = along_bend(last, last, step, s - bend)
+            c, sine = math.cos(turn0), math.sin(turn0)
+            x, y, turn = x0 + c * dx - sine * dy, y0 + sine * dx + c * dy, turn0 + more
+        places[k, 0], places[k, 1] = x, y
+        places[k, 2], places[k, 3] = math.cos(turn), math.sin(turn)
+    return turn
+
+
+@inner
+def _scale(ground: Ground, search: Search, x: float, y: float, heading: float) -> int:
+    """The scale on which there are moves from a pose: the longer, the more room there is."""
+    c, s = math.cos(heading), math.sin(heading)
+    disc = ground.discs[0]
+    room = about(ground, x + c * disc[AHEAD] - s * disc[LEFT], y + s * disc[AHEAD] + c * disc[LEFT])
+    for k in range(search.ends_at.shape[0]):
+        if math.hypot(x - search.ends_at[k, X], y - search.ends_at[k, Y]) < search.care[WITHIN]:
+            room -= search.care[MORE]
+            break
+    scale = search.scales.shape[0] - 1
+    while scale > 0 and room < search.scales[scale, ROOM]:
+        scale -= 1
+    return scale
+
+
+@inner
+def _key(search: Search, x: float, y: float, heading: float, level: int, scale: int) -> int:
+    """The number of the cell of a state, 0 outside the window."""
+    window = search.window
+    if not (window[0] <= x < window[2] and window[1] <= y < window[3]):
+        return 0
+    side, around = search.scales[scale, SIDE], int(search.scales[scale, AROUND])
+    column = math.floor((x - window[0]) / side)
+    row = math.floor((y - window[1]) / side)
+    columns = math.ceil((window[2] - window[0]) / side)
     turned = heading / (2.0 * math.pi)
     sector = min(int((turned - math.floor(turned)) * around), around - 1)
-    key = ((row * search.shape[1] + column) * around + sector) * LEVELS + level + 1
+    key = ((row * columns + column) * around + sector) * LEVELS + level
+    return key * search.scales.shape[0] + scale + 1
+
+
+@inner
+def _slot(search: Search, key: int) -> int:
+    """Where a cell is in the table, or would be."""
     mask = search.keys.size - 1
     slot = ((key * 0x9E3779B97F4A7C1) ^ (key >> 7)) & mask
     while search.keys[slot] != 0 and search.keys[slot] != key:
         slot = (slot + 1) & mask
-    search.keys[slot] = key
     return slot
 
 
@@ -181,23 +235,27 @@ def _to_come(search: Search, ahead: Ahead, rho: float, x: float, y: float, headi
 
 @inner
 def _add(
-    search: Search, ahead: Ahead, slot: int, x: float, y: float, heading: float, level: int,
-    cost: float, still: float, parent: int,
+    search: Search, ahead: Ahead, key: int, x: float, y: float, heading: float, level: int,
+    scale: int, cost: float, still: float, parent: int,
 ) -> None:  # fmt: skip
     node = search.counts[NODES]
     search.counts[NODES] += 1
+    slot = _slot(search, key)
+    search.keys[slot] = key
     row, link = search.nodes[node], search.links[node]
     row[X], row[Y], row[HEADING], row[COST], row[STILL] = x, y, heading, cost, still
     link[LEVEL], link[PARENT], link[CLOSED] = level, parent, 0
+    link[SLOT], link[SCALE] = slot, scale
     search.cells[slot] = node + 1
     push(search.heap, cost + ahead.frame[3] * still, node)
 
 
 @kernel
-def set_off(search: Search, ahead: Ahead, rho: float, starts: Floats) -> None:
+def set_off(ground: Ground, search: Search, ahead: Ahead, rho: float, starts: Floats) -> None:
     """Begin a search.
 
     Args:
+        ground: Ground.
         search: Search, empty.
         ahead: Ahead.
         rho: The least radius [m].
@@ -206,12 +264,15 @@ def set_off(search: Search, ahead: Ahead, rho: float, starts: Floats) -> None:
     for k in range(search.headings.size):
         search.arrivals[k, LENGTH] = np.inf
         search.ends[k] = NONE
+    search.meeting[LENGTH] = np.inf
     for k in range(starts.shape[0]):
         x, y, heading = starts[k, 0], starts[k, 1], starts[k, 2]
-        slot = _slot(search, x, y, heading, LEVELS // 2)
+        scale = _scale(ground, search, x, y, heading)
+        key = _key(search, x, y, heading, LEVELS // 2, scale)
         still = _to_come(search, ahead, rho, x, y, heading)
-        if slot != NONE and still < np.inf:
-            _add(search, ahead, slot, x, y, heading, LEVELS // 2, starts[k, 3], still, -1 - k)
+        if key != 0 and still < np.inf:
+            level = LEVELS // 2
+            _add(search, ahead, key, x, y, heading, level, scale, starts[k, 3], still, -1 - k)
 
 
 @inner
@@ -243,12 +304,51 @@ def _arrive(
 
 
 @inner
+def _meet(
+    ground: Ground, moves: Moves, search: Search, other: Search, node: int, segments: Floats
+) -> bool:
+    """Try to reach what another search, which comes the other way, has found close ahead.
+
+    Returns:
+        Whether a way between the two has become shorter.
+    """
+    rho, ramp = moves.sizes[0], moves.sizes[1]
+    x, y, heading, cost, _ = search.nodes[node]
+    found = False
+    for k in range(NEAR):
+        gap = (k + 1) * max(0.5 * rho, 4.5 * ramp)
+        to_x, to_y = x + gap * math.cos(heading), y + gap * math.sin(heading)
+        scale = _scale(ground, other, to_x, to_y, heading)
+        key = _key(other, to_x, to_y, heading + math.pi, LEVELS // 2, scale)
+        if key == 0:
+            continue
+        there = other.cells[_slot(other, key)] - 1
+        if there < 0:
+            continue
+        to_x, to_y, turned, rest, _ = other.nodes[there]
+        dx, dy, goal = to_x - x, to_y - y, turned + math.pi
+        for s1 in (1.0, -1.0):
+            for s2 in (1.0, -1.0):
+                count, length = connection(dx, dy, heading, goal, s1, s2, rho, ramp, segments)
+                whole = cost + length + rest
+                if whole < search.meeting[LENGTH] - LESS and is_clear(
+                    ground, x, y, heading, segments, count
+                ):
+                    met = search.meeting
+                    met[LENGTH], met[FIRST], met[SECOND] = whole, s1, s2
+                    met[HERE], met[THERE] = node, there
+                    found = True
+    return found
+
+
+@inner
 def _is_free(
     ground: Ground, moves: Moves, row: int, x: float, y: float, c: float, s: float
 ) -> bool:
     """Whether the body surely gets along a move."""
-    half, pace = 0.5 * ground.frame[3], moves.sizes[3]
-    last = moves.places.shape[1] - 1
+    scale = row // (LEVELS * WAYS)
+    half, pace = 0.5 * ground.frame[3], moves.scales[scale, PACE]
+    last = int(moves.scales[scale, COUNT]) - 1
     k = 0
     while True:
         dx, dy, cosine, sine = moves.places[row, k]
@@ -267,39 +367,42 @@ def _is_free(
 def _expand(ground: Ground, moves: Moves, search: Search, ahead: Ahead, node: int) -> None:
     """Do every move from a node."""
     x, y, heading, cost, _ = search.nodes[node]
-    level = search.links[node, LEVEL]
+    level, scale = search.links[node, LEVEL], search.links[node, SCALE]
     c, s = math.cos(heading), math.sin(heading)
-    last = moves.places.shape[1] - 1
+    last = int(moves.scales[scale, COUNT]) - 1
     for way in range(WAYS):
         if not 0 <= level + way - 1 < LEVELS:
             continue
-        row = level * WAYS + way
+        row = (scale * LEVELS + level) * WAYS + way
         dx, dy = moves.places[row, last, 0], moves.places[row, last, 1]
         to_x, to_y, to = x + c * dx - s * dy, y + s * dx + c * dy, heading + moves.turns[row]
-        slot = _slot(search, to_x, to_y, to, level + way - 1)
-        if slot == NONE:
-            search.counts[LEFT] += 1
+        to_scale = _scale(ground, search, to_x, to_y, to)
+        key = _key(search, to_x, to_y, to, level + way - 1, to_scale)
+        if key == 0:
+            search.counts[OUTSIDE] += 1
             continue
-        other, more = search.cells[slot] - 1, cost + moves.sizes[2]
+        other, more = search.cells[_slot(search, key)] - 1, cost + moves.scales[scale, STEP]
         if other >= 0 and (search.links[other, CLOSED] != 0 or search.nodes[other, COST] <= more):
             continue
         still = _to_come(search, ahead, moves.sizes[0], to_x, to_y, to)
         if still < np.inf and _is_free(ground, moves, row, x, y, c, s):
-            _add(search, ahead, slot, to_x, to_y, to, level + way - 1, more, still, node)
+            _add(search, ahead, key, to_x, to_y, to, level + way - 1, to_scale, more, still, node)
 
 
 @kernel
 def go_on(
-    ground: Ground, moves: Moves, search: Search, ahead: Ahead, quota: int, bound: float
-) -> int:
+    ground: Ground, moves: Moves, search: Search, other: Search, ahead: Ahead, quota: int,
+    bound: float,
+) -> int:  # fmt: skip
     """Expand some nodes.
 
     Args:
         ground: Ground.
         moves: Moves.
         search: Search, written in place.
+        other: One that comes the other way.
         ahead: Ahead.
-        quota: How many nodes at most; it also ends with an arrival.
+        quota: How many nodes at most; it also ends with an arrival or a meeting.
         bound: Arrivals as long as this don't count [m].
 
     Returns:
@@ -320,13 +423,16 @@ def go_on(
             return BEATEN
         search.links[node, CLOSED] = 1
         row = search.nodes[node]
-        slot = _slot(search, row[X], row[Y], row[HEADING], search.links[node, LEVEL])
-        if search.cells[slot] - 1 != node:
+        if search.cells[search.links[node, SLOT]] - 1 != node:
             continue
         search.counts[EXPANDED] += 1
         _expand(ground, moves, search, ahead, node)
+        if search.links[node, LEVEL] != LEVELS // 2:
+            continue
+        if _meet(ground, moves, search, other, node, segments):
+            return RUNNING
         every = 1 + int(row[STILL] / moves.sizes[0])  # the farther, the less it is worth a try
-        if search.links[node, LEVEL] != LEVELS // 2 or search.counts[EXPANDED] % every > 1:
+        if search.counts[EXPANDED] % every > 1:
             continue
         if _arrive(ground, moves, search, node, bound, segments):
             return RUNNING
@@ -350,7 +456,8 @@ def path_to(moves: Moves, search: Search, node: int) -> tuple[Floats, int]:
     for step in range(size - 1, -1, -1):
         parent = search.links[at, PARENT]
         level = search.links[parent, LEVEL]
-        row = level * WAYS + search.links[at, LEVEL] - level + 1
+        scale = search.links[parent, SCALE]
+        row = (scale * LEVELS + level) * WAYS + search.links[at, LEVEL] - level + 1
         for i in range(2):
             for column in range(3):
                 segments[2 * step + i, column] = moves.segments[row, i, column]

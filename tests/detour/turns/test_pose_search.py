@@ -169,6 +169,25 @@ def test_a_row_says_which_place_cannot_be_come_to():
     assert (found.reason, found.goal) == (Reason.GOAL_TAKEN, 1)
 
 
+def test_a_row_says_that_a_place_cannot_be_come_to_from_anywhere():
+    """A dead end is left by its open side, but only come to backwards; all around is open."""
+    pocket = [box(-1.2, -1, 8, -0.8), box(-1.2, 0.8, 8, 1), box(-1.2, -0.8, -1, 0.8)]
+    world = World(pocket)
+    start, goals = Pose(0, 0, 0.0), [Goal(20, 9), Goal(0, 0, (0.0,))]
+    found = find_row(world, DISC, RHO, RAMP, start, goals)
+    assert isinstance(found, NotFound)
+    assert (found.reason, found.goal) == (Reason.GOAL_SHUT_IN, 1)
+    assert isinstance(find_row(world, DISC, RHO, RAMP, start, goals[:1]), tuple)
+
+
+def test_a_car_gets_out_of_a_bay_with_short_moves_and_across_a_field_with_long_ones():
+    lane = [box(-60, -60, -0.25, -3), box(3.05, -60, 60, -3), box(-60, 5.5, -9, 60)]
+    world = World([*lane, box(-9, 5.5, 60, 60)], bounds=(-60, -60, 60, 60))
+    start, goal = Pose(1.4, -30.0, math.pi / 2), Goal(40.0, 1.0, (0.0,))
+    chain = find_poses(world, CAR, RHO, RAMP, start, goal)
+    is_sound(chain, world, CAR, start, goal)
+
+
 def reachable(world, radius, start, goal, step=0.5, side=0.25, sectors=96):
     """Whether a point goes with sudden turns from near a pose to near a place: all states."""
     turns = np.array([-1.0, -0.5, 0.0, 0.5, 1.0]) * step / RHO

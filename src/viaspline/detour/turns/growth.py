@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,12 +62,13 @@ class Growth:
         """
         self.ground, self.moves = ground, moves
         self.ahead: Ahead = terrain.ahead(goal[None])
-        self.search = _empty(terrain, moves, goal, headings, room)
+        self.search = _empty(terrain, moves, starts, goal, headings, room)
+        self._nobody = _empty(terrain, moves, starts, goal, headings, 1)
         self.state = kernels.RUNNING
         self._slice = FIRST_SLICE
         self._until = math.inf
         self._after = after
-        kernels.set_off(self.search, self.ahead, float(moves.sizes[0]), starts)
+        kernels.set_off(ground, self.search, self.ahead, float(moves.sizes[0]), starts)
 
     @property
     def expanded(self) -> int:
@@ -76,7 +78,7 @@ class Growth:
     @property
     def was_cut(self) -> bool:
         """Whether it came to the edge of the window."""
-        return bool(self.search.counts[kernels.LEFT])
+        return bool(self.search.counts[kernels.OUTSIDE])
 
     @property
     def is_over(self) -> bool:
@@ -85,17 +87,23 @@ class Growth:
 
     @property
     def has_arrived(self) -> bool:
-        """Whether it has come to the goal."""
-        return bool((self.search.ends >= 0).any())
+        """Whether it has come to the goal, or to what another search has found."""
+        return bool((self.search.ends >= 0).any() or math.isfinite(self.search.meeting[0]))
 
-    def go_on(self, bound: float = math.inf) -> None:
-        """Look at some more states, for arrivals shorter than ``bound`` [m]."""
+    def go_on(self, other: Growth | None = None, bound: float = math.inf) -> None:
+        """Look at some more states.
+
+        Args:
+            other: A search that comes the other way.
+            bound: Only shorter arrivals count [m].
+        """
         left = self._until - self.expanded
         quota = int(min(self._slice, left)) if left > 0 else 0
         self._slice = min(2 * self._slice, SLICE)
         had = self.has_arrived
+        opposite = self._nobody if other is None else other.search
         self.state = kernels.go_on(
-            self.ground, self.moves, self.search, self.ahead, quota, float(bound)
+            self.ground, self.moves, self.search, opposite, self.ahead, quota, float(bound)
         )
         if self.has_arrived and not had:
             self._until = self.expanded + math.ceil(self._after * (self.expanded + FEW))
@@ -157,8 +165,25 @@ def bridged(there: Growth, back: Growth, count: int) -> Bridge | None:
     cost, first, last, s1, s2 = kernels.bridge(
         there.ground, there.moves, there.search, back.search, out, home
     )
-    if first < 0:
-        return None
+    return None if first < 0 else _bridge(there, back, (cost, s1, s2, first, last))
+
+
+def met(there: Growth, back: Growth) -> Bridge | None:
+    """The best way on which one of two searches has met the other, None if neither has."""
+    ways = []
+    if math.isfinite(there.search.meeting[0]):
+        ways.append(_bridge(there, back, there.search.meeting))
+    if math.isfinite(back.search.meeting[0]):
+        home = _bridge(back, there, back.search.meeting)
+        _, start = kernels.path_to(back.moves, back.search, int(back.search.meeting[kernels.HERE]))
+        ways.append(Bridge(home.cost, int(start), backwards(home.segments)))
+    return min(ways, key=lambda way: way.cost, default=None)
+
+
+def _bridge(there: Growth, back: Growth, meeting: Sequence[float] | Floats) -> Bridge:
+    """The way over a meeting, see ``kernels.pose_search.Search``."""
+    cost, s1, s2 = (float(value) for value in meeting[:3])
+    first, last = int(meeting[kernels.HERE]), int(meeting[kernels.THERE])
     x, y, heading = there.search.nodes[first, :3].tolist()
     to_x, to_y, turned = back.search.nodes[last, :3].tolist()
     before, _ = kernels.path_to(there.moves, there.search, first)
@@ -172,18 +197,20 @@ def backwards(segments: Floats) -> Floats:
     return np.ascontiguousarray(segments[::-1][:, [1, 0, 2]] * (-1.0, -1.0, 1.0))
 
 
-def _empty(terrain: Terrain, moves: Moves, goal: Floats, headings: Floats, room: int) -> Search:
-    x0, y0, x1, y1 = terrain.window.box
-    rho, _, step, _ = moves.sizes
-    side = kernels.CELL * step
-    around = math.ceil(4.0 * math.pi * rho / step)
+def _empty(
+    terrain: Terrain, moves: Moves, starts: Floats, goal: Floats, headings: Floats, room: int
+) -> Search:
+    steps = moves.scales[:, kernels.STEP]
+    around = np.ceil(4.0 * math.pi * moves.sizes[0] / steps)
     nodes = room
     table = 1 << math.ceil(math.log2(4 * nodes))
     return Search(
-        window=np.array([x0, y0, side, around]),
-        shape=np.array([math.ceil((y1 - y0) / side), math.ceil((x1 - x0) / side)]),
+        window=np.array(terrain.window.box),
+        ends_at=np.concatenate((goal[None], starts[:, :2])),
+        care=np.array(terrain.care),
+        scales=np.column_stack((kernels.CELL * steps, around, terrain.rooms(steps))),
         nodes=np.zeros((nodes, 5)),
-        links=np.zeros((nodes, 3), np.int64),
+        links=np.zeros((nodes, 5), np.int64),
         keys=np.zeros(table, np.int64),
         cells=np.zeros(table, np.int64),
         heap=Heap(np.zeros(nodes), np.zeros(nodes, np.int64), np.zeros(1, np.int64)),
@@ -192,4 +219,5 @@ def _empty(terrain: Terrain, moves: Moves, goal: Floats, headings: Floats, room:
         headings=np.ascontiguousarray(headings, np.float64),
         arrivals=np.zeros((len(headings), 3)),
         ends=np.zeros(len(headings), np.int64),
+        meeting=np.full(5, math.inf),
     )

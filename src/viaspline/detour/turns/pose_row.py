@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.detour.brief import Brief
+from viaspline.detour.turns.growth import Growth
 from viaspline.detour.turns.pose_search import (
     EFFORTS,
     SECTORS,
@@ -31,6 +32,7 @@ Floats = NDArray[np.float64]
 
 KEPT = 6  # arrivals at every place, of different headings
 AFTER = 1.0  # what is looked at after the first arrival, see ``Growth``
+DOUBT = 1000  # states after which it is looked at whether the goal can be come to at all
 APART = math.pi / SECTORS  # headings nearer to each other than this are one [rad]
 
 
@@ -97,9 +99,10 @@ def _through(
             return NotFound(Reason.GOAL_TAKEN, number, expanded), False
         to = headings if goal.headings else np.append(headings, math.nan)
         growth = task.forwards(np.array([a.pose for a in layers[-1]]), goal, to, AFTER)
-        while not growth.is_over:
-            growth.go_on()
-        expanded += growth.expanded
+        is_shut_in, seen = _grown(task, growth, layers[-1][0].pose, goal, headings)
+        expanded += seen
+        if is_shut_in:
+            return NotFound(Reason.GOAL_SHUT_IN, number, expanded), False
         arrivals = []
         for found in growth.arrivals():
             before = layers[-1][found.start].pose[2]
@@ -114,6 +117,27 @@ def _through(
             return NotFound(reason, number, expanded), growth.state == EMPTY and is_cut
         layers.append(_distinct(arrivals))
     return _chains(task, start, goals, layers, expanded), False
+
+
+def _grown(
+    task: Task, growth: Growth, start: Floats, goal: Goal, headings: Floats
+) -> tuple[bool, int]:
+    """Let a search grow to its end, and in doubt another one from its goal.
+
+    Returns:
+        Whether the goal can't be come to from anywhere, and how many states were looked at.
+    """
+    back: Growth | None = None
+    while not growth.is_over:
+        growth.go_on()
+        if growth.has_arrived or growth.expanded < DOUBT:
+            continue
+        if back is None:
+            back = task.backwards(Pose(*start[:3].tolist()), goal, headings)
+        back.go_on()
+        if back.state == EMPTY and (task.terrain.window.is_whole or not back.was_cut):
+            return True, growth.expanded + back.expanded
+    return False, growth.expanded + (0 if back is None else back.expanded)
 
 
 def _distinct(arrivals: Sequence[_Arrival]) -> list[_Arrival]:

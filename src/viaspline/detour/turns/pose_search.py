@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.detour.brief import Brief
-from viaspline.detour.turns.growth import Growth, backwards, bridged
+from viaspline.detour.turns.growth import Growth, backwards, bridged, met
 from viaspline.detour.turns.terrain import Body, Terrain, windows
 from viaspline.kernels.chain import chain_spans, merged, shortened
 from viaspline.kernels.pose_search import CELL, EMPTY, Moves, moves_of
@@ -74,7 +74,8 @@ class NotFound:
 
     Attributes:
         reason: Why. All but BUDGET mean that all was seen at the finest resolution: of the states
-            in a cell of place, heading and curvature the search follows the first one.
+            in a cell of place, heading and curvature the search follows the first one, and the
+            cells are small near the start and the goal and where it is tight.
         goal: Number of the goal that isn't reached from the one before.
         expanded: How many states were looked at.
     """
@@ -114,20 +115,24 @@ class Effort:
     Attributes:
         overhang: Of the discs that cover the body, as a share of its half width.
         ramps: Length of the ramps, as a share of what is asked for.
-        step: Length of a move, as a share of the turning circle's radius.
+        steps: Lengths of moves where it is tight, and where there is ever more room, as shares
+            of the turning circle's radius.
         room: States that are kept, at most.
+        care: How near to the start and the goal longer moves take more room, and how much more,
+            both in radii.
     """
 
     overhang: float
     ramps: float
-    step: float
+    steps: tuple[float, ...]
     room: int
+    care: tuple[float, float] = (0.0, 0.0)
 
 
 EFFORTS = (
-    Effort(0.05, 1.0, 1 / 3, 60_000),
-    Effort(0.05, 0.7, 1 / 6, 60_000),
-    Effort(0.025, 0.4, 1 / 12, 120_000),
+    Effort(0.05, 1.0, (1 / 3,), 60_000),
+    Effort(0.05, 0.7, (1 / 6, 1 / 3), 60_000),
+    Effort(0.025, 0.4, (1 / 12, 1 / 6, 1 / 3), 120_000, (1.5, 0.25)),
 )
 LEAST_RAMP = 0.08  # of the radius
 
@@ -203,10 +208,17 @@ def tasks(
     """The task in ever greater windows."""
     body = Body.of(brief, effort.overhang)
     bent = max(effort.ramps * ramp, min(LEAST_RAMP * rho, ramp))
-    step = max(effort.step * rho, 0.5 * bent)
+    steps = np.maximum(np.array(effort.steps) * rho, 0.5 * bent)
     for window in windows(world, body.reach, places, 3.0 * rho + body.reach):
-        terrain = Terrain(world, window, body, rho, CELL * step)
-        yield Task(terrain, moves_of(rho, bent, step, terrain.pace), effort.room)
+        terrain = Terrain(
+            world,
+            window,
+            body,
+            rho,
+            CELL * float(steps[0]),
+            (effort.care[0] * rho, effort.care[1] * rho),
+        )
+        yield Task(terrain, moves_of(rho, bent, steps, terrain.pace), effort.room)
 
 
 def _one_way(task: Task, start: Pose, goal: Goal) -> tuple[Chain | NotFound, bool]:
@@ -221,8 +233,8 @@ def _one_way(task: Task, start: Pose, goal: Goal) -> tuple[Chain | NotFound, boo
     both = (task.forwards(begin, goal, to), task.backwards(start, goal, headings))
     bridge, due = None, FIRST_BRIDGE
     while bridge is None and not any(growth.is_over for growth in both):
-        for growth in both:
-            growth.go_on()
+        for growth, other in (both, both[::-1]):
+            growth.go_on(other)
         if both[0].expanded >= due and not any(growth.has_arrived for growth in both):
             bridge, due = bridged(*both, PIERS), 2 * due
     expanded = sum(growth.expanded for growth in both)
@@ -231,8 +243,11 @@ def _one_way(task: Task, start: Pose, goal: Goal) -> tuple[Chain | NotFound, boo
         (way.cost, backwards(way.segments), float(headings[way.start]))
         for way in both[1].arrivals()[:1]
     ]
-    if bridge is not None:
-        ways.append((bridge.cost, bridge.segments, float(headings[bridge.start])))
+    ways += [
+        (way.cost, way.segments, float(headings[way.start]))
+        for way in (bridge, met(*both))
+        if way is not None
+    ]
     if not ways:
         return _failure(both, task.terrain.window.is_whole, expanded)
     _, segments, heading = min(ways, key=lambda way: way[0])

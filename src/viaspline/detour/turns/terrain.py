@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from viaspline.detour.brief import Brief
 from viaspline.detour.turns.cover import covering_discs
-from viaspline.kernels.ground import HALF_DIAGONAL, Ground, is_clear
+from viaspline.kernels.ground import HALF_DIAGONAL, KEPT, Ground, is_clear
 from viaspline.kernels.pose_search import Ahead
 from viaspline.kernels.raster import rasterized
 from viaspline.kernels.spread import spread
@@ -139,6 +139,7 @@ class Terrain:
         body: The body.
         rho: The least radius [m].
         cell: Side of a cell of the lattice that is wanted [m].
+        care: How near to the start and the goal longer moves take more room, and how much more [m].
     """
 
     world: World
@@ -146,6 +147,7 @@ class Terrain:
     body: Body
     rho: float
     cell: float
+    care: tuple[float, float]
 
     @cached_property
     def side(self) -> float:
@@ -189,6 +191,18 @@ class Terrain:
     def ground_back(self) -> Ground:
         """The same for one that drives backwards; it shares the table of distances."""
         return self.ground._replace(discs=self.body.rows(self.rho, -1.0))
+
+    def rooms(self, steps: Floats) -> Floats:
+        """Distances of the body's middle to the world from which on moves are so long [m].
+
+        Args:
+            steps: Lengths of moves on ever greater scales [m], (k,).
+        """
+        held = self.body.rows(self.rho, 1.0)[0, KEPT]
+        share = np.arange(len(steps)) / max(1, len(steps) - 1)
+        rooms: Floats = self.body.inner + share * (held - self.body.inner) + np.roll(steps, 1)
+        rooms[0] = 0.0
+        return rooms
 
     def has_room(self, x: float, y: float, heading: float) -> bool:
         """Whether the body may stand in a pose [m, rad]."""
