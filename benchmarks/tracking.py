@@ -26,7 +26,11 @@ SMALL = ("barn-unseen", "depot-round")
 
 
 def drives(name: str) -> dict[str, dict]:
-    """The machines, as large as they are in such places."""
+    """The machines, as large as they are in such places; an example's own if it has one."""
+    own = vs.load(EXAMPLES / f"{name}.yaml").robot.drive
+    if own is not None:
+        kinds = own.model_dump(exclude_defaults=True)
+        return {"its own": {key: value for key, value in kinds.items() if key not in NOISE}}
     size = 0.25 if name in SMALL else 0.6
     return {
         "point": {},

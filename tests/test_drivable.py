@@ -104,6 +104,18 @@ def test_a_path_keeps_turning_circle_clearance_and_via_points(seed: int) -> None
         assert abs(math.remainder(off, math.tau)) < 1e-9
 
 
+def test_turns_that_are_pushed_until_the_last_round_are_served_or_refused() -> None:
+    """The last swing was judged by what the one before came too close to."""
+    discs = [
+        (19.2207, 19.1667, 0.9833), (15.8342, 11.7292, 0.4423), (5.9112, 3.4936, 1.5895),
+        (9.982, 16.8014, 0.4322), (7.6727, 12.9556, 1.443), (14.0511, 14.0629, 0.8597),
+        (3.3829, 0.0338, 1.2644),
+    ]  # fmt: skip
+    known = {"known": [disc(*one) for one in discs]}
+    places = [[17.5172, 5.4034], [11.3516, 13.4867], [7.5767, 17.6411], [14.9296, 2.0388]]
+    drives(vs.plan(mission(*places, closed=True, radius=6.0, world=known)).path, 6.0)
+
+
 def test_a_closed_route_has_a_seam_that_is_none() -> None:
     found = vs.plan(mission([0, 0], [40, 0], [40, 5], [0, 25], closed=True, radius=4.0))
     path, end = found.path, found.path.domain[1]

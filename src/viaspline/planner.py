@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 from viaspline.advice import with_advice
@@ -26,6 +27,7 @@ from viaspline.world.world import World
 
 ROUNDS = 6  # of planning and trial drives
 SPARE = 1.1  # by which an allowance grows that was measured once already
+RESERVE = 1.2  # of a turning circle, where steering at its stop leaves too little to correct with
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,8 @@ def plan(mission: Mission) -> Plan:
     drives. What it gets beside the path, with a margin, is kept in addition, and the mission
     planned again, until that covers what is measured. One with a sensor drives a slalom as well,
     for the bends of paths that it will lay under way. ``robot.tracking_error_m`` says it instead.
+    Where steering at its stop leaves nothing to correct with, so that the robot gets too far beside
+    a path as tight as that, the turning circle is widened by a fifth: ``Plan.mission`` has it.
 
     Raises:
         NoPathError: When there is no path, with the reason and the least change that would serve.
@@ -81,20 +85,45 @@ def plan(mission: Mission) -> Plan:
     mission = with_advice(ordered(mission))
     world, robot = World.known(mission), mission.robot
     error = robot.tracking_error_m or 0.0
-    if robot.tracking_error_m is not None or not is_driven(robot):
-        return _with_error(mission, world, error)
-    if robot.sensor is not None:
+    if robot.tracking_error_m is None and robot.sensor is not None and is_driven(robot):
         error = allowance_on_bends(robot, Brief.of(mission).required)
+    first = _with_error(mission, world, error)
+    if robot.tracking_error_m is not None or not is_driven(robot):
+        return first
+    try:
+        return _as_driven(first)
+    except (NoPathError, GeometryError):
+        if robot.drive is not None and robot.drive.ackermann is not None:
+            with suppress(NoPathError, GeometryError):
+                return _as_driven(_with_error(_with_reserve(mission), world, error))
+        raise
+
+
+def _as_driven(first: Plan) -> Plan:
+    """The plan that keeps as much beyond the clearance as the robot gets beside it.
+
+    Args:
+        first: A plan, whatever it keeps.
+    """
+    result = first
     for _ in range(ROUNDS):
-        result = _with_error(mission, world, error)
-        needed = allowance(result.path, result.trajectory, robot)
-        if needed <= error:
+        needed = allowance(result.path, result.trajectory, result.mission.robot)
+        if needed <= result.tracking_error:
             return result
-        error = SPARE * max(needed, error)
+        error = SPARE * max(needed, result.tracking_error)
+        result = _with_error(first.mission, first.world, error)
     raise GeometryError(
-        f"the robot gets ever farther beside its path, {error:.2f} m in the last trial drive; "
-        f"give it {SOFTER}, or say what to keep by tracking_error_m"
+        f"the robot gets ever farther beside its path, {result.tracking_error:.2f} m in the last "
+        f"trial drive; give it {SOFTER}, or say what to keep by tracking_error_m"
     )
+
+
+def _with_reserve(mission: Mission) -> Mission:
+    """The same with a wider turning circle, so that there is steering left to correct with."""
+    radius = mission.robot.turn_radius
+    assert radius is not None  # steered robots have one
+    eased = mission.robot.model_copy(update={"min_turn_radius_m": RESERVE * radius})
+    return mission.model_copy(update={"robot": eased})
 
 
 def _with_error(mission: Mission, world: World, error: float) -> Plan:

@@ -60,11 +60,8 @@ def gap(spans: Any, world: vs.World) -> float:
 @settings(max_examples=12)
 def test_every_side_that_is_offered_could_be_driven_and_costs_what_it_says(seed: int) -> None:
     asked = mission(seed)
-    if asked is None:
-        return
-    try:
-        plan = vs.plan(asked)
-    except vs.NoPathError:
+    plan = None if asked is None else planned(asked)
+    if asked is None or plan is None:
         return
     for entry in plan.ledger:
         assert entry.chosen is not None
@@ -86,11 +83,8 @@ def test_the_side_that_is_taken_is_the_one_that_is_driven_and_no_other_makes_the
     seed: int,
 ) -> None:
     asked = mission(seed)
-    if asked is None:
-        return
-    try:
-        plan = vs.plan(asked)
-    except vs.NoPathError:
+    plan = None if asked is None else planned(asked)
+    if asked is None or plan is None:
         return
     for entry in plan.ledger:
         assert entry.chosen is not None
@@ -106,7 +100,11 @@ def plan_on_side(asked: vs.Mission, members: tuple[str, ...], side: str) -> vs.P
     for k, obstacle in enumerate(data["world"]["known"]):
         if f"obstacle {k + 1}" in members:
             obstacle["pass_on"] = side
+    return planned(vs.Mission.model_validate(data))
+
+
+def planned(asked: vs.Mission) -> vs.Plan | None:
     try:
-        return vs.plan(vs.Mission.model_validate(data))
+        return vs.plan(asked)
     except vs.NoPathError:
         return None

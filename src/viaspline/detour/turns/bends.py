@@ -52,8 +52,10 @@ class Bends:
         return Bends(rows, self.vias, self.closed)
 
     def leg_of(self, k: int) -> int:
-        """The leg of the course on which detour bend k lies."""
-        return int((self.vias[: k + 1] != DETOUR).sum()) - 1
+        """The leg of the course on which bend k lies; the last of its via points ends the last."""
+        vias = self.vias != DETOUR
+        last = int(vias.sum()) - (1 if self.closed else 2)
+        return min(int(vias[: k + 1].sum()) - 1, last)
 
     def places(self, via: int) -> int:
         """Where in the row a via point of the course stands."""

@@ -90,7 +90,8 @@ def _pushed_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swing
             return _stuck_at(swing, close, world, brief)
         swing = pushed
     assert isinstance(swing, Swing)
-    return _stuck_at(swing, close, world, brief)
+    close = body_conflicts(world, swing.spans, brief)
+    return swing if (close == CLEAR).all() else _stuck_at(swing, close, world, brief)
 
 
 def _stuck_between(failed: NoSwing) -> Stuck:
