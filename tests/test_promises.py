@@ -179,6 +179,7 @@ def test_the_certificate_holds_and_shapely_agrees(shapely_distance: Oracle, seed
 
 @settings(max_examples=200)
 @given(seeds)
+@example(1057)  # a robot without a size took minutes along walls that it touches
 def test_a_dense_world_is_served_or_refused_with_a_reason(seed: int) -> None:
     rng = np.random.default_rng(seed)
     mission = random_mission(seed, most=int(rng.choice([40, 60, 80])))

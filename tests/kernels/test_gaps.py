@@ -1,6 +1,7 @@
 """Gaps that are told of are gaps: nothing that is as wide as the robot goes through."""
 
 import math
+import time
 from typing import Any
 
 import numpy as np
@@ -96,3 +97,13 @@ def test_gaps_among_anything_are_too_narrow(seed: int, rho: float) -> None:
 def test_a_guide_of_one_place_goes_nowhere() -> None:
     world: Any = World([disc(0, 0, 1)])
     assert narrow_places(world.packed, np.array([(1.5, 0.0), (1.5, 0.0)]), 1.0).shape == (0, 4)
+
+
+@pytest.mark.parametrize("rho", [-5e-7, 0.0, 1e-4])
+def test_walls_that_are_all_but_touched_are_followed_in_a_moment(rho):
+    touched = World([Obstacle(polygon=[(0, -1), (100, -1), (100, 0), (0, 0)])])
+    guide = np.array([[0.0, 5e-5], [100.0, 5e-5]])
+    narrow_places(touched.packed, guide, rho)
+    begin = time.process_time()
+    assert len(narrow_places(touched.packed, guide, rho)) == 0
+    assert time.process_time() - begin < 1.0

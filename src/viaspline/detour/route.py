@@ -213,7 +213,7 @@ class Router:
             if len(bends):
                 way = Way(corners, bends, float(taut_length(corners, bends)))
                 return _Tried(way, closed, is_proof)
-            gap = self._gap(guide, stuck)
+            gap = self._gap(guide, stuck, lattice.side)
             lattice = lattice.without(gap)
             proven = narrow_places(self.world.packed, guide, self._floor)
             if self._is_too_narrow(gap):
@@ -232,11 +232,12 @@ class Router:
             self.world.distance(gap[:, :2] + w * (gap[:, 2:] - gap[:, :2])).max() < self._floor
         )
 
-    def _gap(self, guide: Floats, stuck: Floats) -> Floats:
-        """The segment across the gap at which a guide got stuck, (1, 4)."""
+    def _gap(self, guide: Floats, stuck: Floats, side: float) -> Floats:
+        """The segment across the gap at which a guide through cells got stuck, (1, 4)."""
         if stuck[0, 4] < 0.0:
             return np.ascontiguousarray(stuck[:, :4])
-        found: Floats = narrowest(self.world.packed, guide, stuck[0, 4], self._floor)
+        near = max(self._floor, 0.5 * side)  # what is required may be nothing at all
+        found: Floats = narrowest(self.world.packed, guide, stuck[0, 4], near)
         return found
 
     @property

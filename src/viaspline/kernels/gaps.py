@@ -12,6 +12,7 @@ from viaspline.kernels.packed import Floats, PackedWorld
 from viaspline.kernels.rows import new_floats, sized_floats
 
 TOUCHING = 1e-3  # distance from an obstacle at which a chord ends, in radii
+MOST_PLACES = 1000  # at which a guide is looked at beside its corners, where all of it is near
 MOST_STEPS = 64  # of a chord to either side: along a wall it would crawl
 
 
@@ -112,13 +113,19 @@ def narrow_places(world: PackedWorld, guide: Floats, rho: float) -> Floats:
     Args:
         world: PackedWorld.
         guide: (k, 2) [m].
-        rho: Distance to keep [m].
+        rho: Distance to keep [m]; if that is nothing, no gap is too narrow.
 
     Returns:
         Segments x0, y0, x1, y1 [m], (n, 4).
     """
     chords = new_floats(16, 4)
     count = 0
+    if rho <= 0.0:
+        return sized_floats(chords, 0, 0)
+    length = 0.0
+    for k in range(guide.shape[0] - 1):
+        length += math.hypot(guide[k + 1, 0] - guide[k, 0], guide[k + 1, 1] - guide[k, 1])
+    step = max(0.25 * rho, length / MOST_PLACES)
     for k in range(guide.shape[0] - 1):
         dx = guide[k + 1, 0] - guide[k, 0]
         dy = guide[k + 1, 1] - guide[k, 1]
@@ -128,7 +135,7 @@ def narrow_places(world: PackedWorld, guide: Floats, rho: float) -> Floats:
             x = guide[k, 0] + travelled / size * dx
             y = guide[k, 1] + travelled / size * dy
             distance, _ = nearest(world, x, y, 4.0 * rho)
-            travelled += 0.25 * rho + max(distance - rho, 0.0)
+            travelled += step + max(distance - rho, 0.0)
             if not 0.0 < distance < rho:
                 continue
             if count == chords.shape[0]:
