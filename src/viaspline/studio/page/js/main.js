@@ -160,7 +160,7 @@ function planned(answer) {
 /** @param {any[]} entries */
 function putLedger(entries) {
   app.store.ledger = entries;
-  app.scene.later();
+  app.scene.afterwards();
   app.store.tell("ledger");
 }
 

@@ -68,6 +68,12 @@ export class Scene {
     requestAnimationFrame(() => this.told());
   }
 
+  /** Draw in the frame after the one that is waited for: that one is not held up. */
+  afterwards() {
+    if (this.drawn.length) this.drawn.push(() => this.later());
+    else this.later();
+  }
+
   /** Tell who waits that the frame with the newest drawing was given away. */
   told() {
     const waiting = this.drawn;
