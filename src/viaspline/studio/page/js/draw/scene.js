@@ -223,7 +223,7 @@ export class Scene {
       }
     }
     avoid.push([0, camera.height - 40, 250, camera.height]);
-    const line = (isDriving ? [] : store.curve?.samples ?? []).map((s) => camera.toScreen(s.x, s.y));
+    const line = (store.curve?.samples ?? []).map((s) => camera.toScreen(s.x, s.y));
     if (store.show.names) {
       for (const point of points) {
         if (!point.at || (!point.given && store.selection !== point.id)) continue;
