@@ -175,15 +175,41 @@ def test_a_large_jerk_is_none_and_the_way_back_takes_as_long() -> None:
     assert retime(path, even).duration == pytest.approx(retime(back, even).duration, rel=1e-2)
 
 
-def test_under_way_the_jerk_is_limited_from_the_first_rest_on() -> None:
+def test_under_way_the_jerk_is_limited_from_the_start_on() -> None:
     limits = Limits(max_speed=2, max_accel=1, max_jerk=1)
     law = retime(line(60.0), limits, [Station(20.0, 1.0)], start=5.0, start_speed=2.0)
     assert law.speeds[0] == 2.0
     later = law.duration - law.time_at(20.0) - 1.0
     assert later == pytest.approx(rest_to_rest(40.0, 2.0, 1.0, 1.0), rel=0.01)
-    assert law.time_at(20.0) == pytest.approx(13 / 2 + 2)
+    time, room = change(0.0, 2.0, 1.0, 1.0)
+    assert law.time_at(20.0) == pytest.approx(time + (15.0 - room) / 2.0, rel=0.01)
+    assert law.over_limit_until is law.over_jerk_until is None
     whole = retime(line(60.0), limits, start_speed=2.0, end_speed=2.0)
-    assert whole.duration == pytest.approx(30.0)
+    assert whole.duration == pytest.approx(30.0, rel=0.01)
+
+
+@pytest.mark.parametrize("name", LIMITS)
+@pytest.mark.parametrize("part", [0.2, 0.45, 0.6])
+def test_a_law_that_takes_over_goes_on_in_speed_and_acceleration(name: str, part: float) -> None:
+    path, limits = smooth(2), LIMITS[name]
+    old = retime(path, limits)
+    now = part * old.duration
+    s, v, a = (float(x) for x in old.state_at(now))
+    law = retime(path, limits, start=s, start_speed=v, start_accel=a, start_time=now, replaces=old)
+    assert law.over_limit_until is law.over_jerk_until is None
+    assert law.state_at(now) == pytest.approx((s, v, a))
+    assert law.end_time == pytest.approx(old.end_time, rel=0.02)
+    t = np.linspace(now - 1.0, law.end_time, 40_001)
+    accel = np.where(t < now, old.state_at(t)[2], law.state_at(t)[2])
+    assert np.abs(np.diff(accel) / np.diff(t)).max() <= limits.max_jerk * (1 + 1e-4)
+
+
+def test_a_robot_without_room_for_its_jerk_says_how_far() -> None:
+    limits = Limits(max_speed=2, max_accel=1, max_jerk=1)
+    law = retime(line(2.2), limits, start_speed=2.0)  # with the jerk it takes 3 m to stop
+    assert law.over_jerk_until is not None
+    assert law.speeds[-1] == 0.0
+    assert law.accelerations.min() >= -1.0 - 0.02
 
 
 @pytest.mark.parametrize("jerk", [1e3, 1e9])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -74,5 +75,23 @@ def test_a_seam_with_a_corner_is_a_stop_and_an_open_path_no_lap() -> None:
     assert law.speeds[[0, -1]].tolist() == [0, 0]
     with pytest.raises(GeometryError, match="that is no lap"):
         retime_lap(CardinalSpline([[0, 0], [5, 5], [9, 0]]), LIMITS["bends"])
-    with pytest.raises(GeometryError, match="max_jerk"):
-        retime_lap(square, Limits(max_speed=1, max_accel=1, max_jerk=1))
+    law = retime_lap(square, Limits(max_speed=1, max_accel=1, max_lateral_accel=1, max_jerk=1))
+    assert law.speeds[[0, -1]].tolist() == [0, 0]
+
+
+@pytest.mark.parametrize("name", LIMITS)
+@pytest.mark.parametrize("stations", [(), (20.0,), (15.0, 40.0)])
+def test_a_lap_keeps_the_jerk_across_its_seam(name: str, stations: tuple[float, ...]) -> None:
+    path, limits = ring(3), replace(LIMITS[name], max_jerk=0.6)
+    law = retime_lap(path, limits, [Station(at, 2.0) for at in stations])
+    assert law.speeds[-1] == pytest.approx(law.speeds[0])
+    assert law.speeds[0] > 0
+    t = np.linspace(0, law.duration, 40_001)[:-1]
+    twice = np.concatenate((t, t + law.duration))
+    accel = np.tile(law.state_at(t)[2], 2)
+    steepest = np.abs(np.diff(accel) / np.diff(twice)).max()
+    assert steepest <= 0.6 * (1 + 1e-5)
+    rough = retime_lap(path, LIMITS[name], [Station(at, 2.0) for at in stations])
+    assert rough.duration < law.duration < 1.5 * rough.duration
+    for at in stations:
+        assert law.speed_at(at) == 0.0

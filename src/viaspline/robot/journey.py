@@ -262,7 +262,9 @@ def time_law(
         zones=journey.mission.world.speed_zones,
         start=min(distance, path.length),
         start_speed=speed,
+        start_accel=float(journey.law.state_at(time)[2]),
         start_time=time,
+        replaces=journey.law,
     )
     return law if end >= path.length else law.until(end)
 

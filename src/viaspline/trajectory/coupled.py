@@ -154,13 +154,7 @@ class System(NamedTuple):
             middles = 0.5 * (line[1:] + line[:-1])
             within = (middles > part.start) & (middles < part.end)
             tops[within] = np.minimum(tops[within], part.speed**2)
-        caps = np.full(line.size, grain.square)
-        if limits.max_yaw_accel is not None and cells.yaws.size:
-            at = np.searchsorted(line, cells.along[1:-1] - slip)
-            inner = (at > 0) & (at < line.size)
-            rate = limits.max_yaw_accel * SETTLE
-            slow = (rate / np.maximum(cells.jumps[inner], 1e-12)) ** 2
-            np.minimum.at(caps, at[inner], slow)
+        caps = jump_caps(cells, limits, line, grain)
         caps[np.searchsorted(line, self.rests)] = 0.0
         caps[-1] = min(caps[-1], stage.last**2)
         half_planes = planes.stretch_planes(
@@ -176,6 +170,18 @@ class System(NamedTuple):
             self.line, self.planes, self.caps, self.brake, first
         )
         return Profile(self.line, squares, float(over), float(missed))
+
+
+def jump_caps(cells: Cells, limits: Limits, line: Floats, grain: Grain) -> Floats:
+    """The largest v² at nodes, for jumps of the curvature [m²/s²], shape (n + 1,)."""
+    caps = np.full(line.size, grain.square)
+    if limits.max_yaw_accel is None or not cells.yaws.size:
+        return caps
+    at = np.searchsorted(line, cells.along[1:-1] - 1e-9 * (1.0 + line[-1]))
+    inner = (at > 0) & (at < line.size)
+    rate = limits.max_yaw_accel * SETTLE
+    np.minimum.at(caps, at[inner], (rate / np.maximum(cells.jumps[inner], 1e-12)) ** 2)
+    return caps
 
 
 def caps_of_cells(cells: Cells, limits: Limits, grain: Grain) -> Floats:

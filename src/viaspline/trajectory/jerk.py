@@ -1,21 +1,22 @@
-"""The time law with a limit of the jerk: from rest to rest, between all stops."""
+"""The time law with a limit of the jerk."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels import nodes
+from viaspline.trajectory.barrier import Even, Moving, Rest, Rows, Seam
 from viaspline.trajectory.cells import Cells, Grain
-from viaspline.trajectory.coupled import Profile, Stage, caps_of_cells, rests_of
+from viaspline.trajectory.coupled import Profile, Stage, caps_of_cells, jump_caps
 from viaspline.trajectory.course import Course, CubicCourse
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.pieces import time_into
-from viaspline.trajectory.smooth import Motion, Rows, smoothest
+from viaspline.trajectory.smooth import Motion, smoothest, smoothest_from
 from viaspline.trajectory.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
@@ -33,6 +34,9 @@ FEWEST = 32
 GROWTH = 1.25
 """Beside a rest every stretch is longer than the one before it by this."""
 
+WIDEST = 0.01
+"""By what part of it a limit other than the jerk is widened at most where a robot is under way."""
+
 
 def smooth_law(
     course: Course,
@@ -41,87 +45,174 @@ def smooth_law(
     plain: Profile,
     stops: Sequence[Station],
     start_time: float,
+    start_accel: float = 0.0,
+    replaces: Trajectory | None = None,
 ) -> Trajectory:
-    """The fastest drive that keeps the jerk and all other limits, between rests.
+    """The fastest drive that keeps the jerk and all other limits.
 
-    Before the first rest of a drive that begins under way, and after the last one of a drive that
-    ends under way, the jerk is not limited.
+    A drive that begins at a speed begins with ``start_accel`` as well. Where nothing is found that
+    keeps everything before the first rest, the jerk may be larger there, as little as is found,
+    and the time law says up to where. One that ends at a speed does so without acceleration.
 
     Args:
         course: What is driven.
         limits: With ``max_jerk``.
         stage: What is asked.
-        plain: The fastest v² without a limit of the jerk; it has a rest somewhere.
+        plain: The fastest v² without a limit of the jerk.
         stops: With their dwells, in order.
         start_time: [s].
+        start_accel: Acceleration where it begins at a speed [m/s²].
+        replaces: The time law of a robot that is under way: a first guess of how it goes on.
     """
-    assert limits.max_jerk is not None
-    jerk = max(limits.max_accel, limits.brake) / QUICKEST
-    limits = replace(limits, max_jerk=min(limits.max_jerk, jerk))
-    still = np.flatnonzero(plain.squares <= 0.0)
-    start, end = float(plain.points[still[0]]), float(plain.points[still[-1]])
-    lines, motions = [plain.points[: still[0] + 1]], [_without(plain, 0, int(still[0]))]
-    for line, motion in _sections(course, limits, stage, start, end):
+    limits = reachable(limits)
+    still = plain.points[plain.squares <= 0.0]
+    ends = np.array([stage.start, stage.end])
+    places = np.unique(np.concatenate((still[still > stage.start], ends)))
+    fine = fine_course(course, limits, stage)
+    cells, grain = fine.cells(stage)
+    lines, motions, over, harsh = [places[:1]], [], stage.start, stage.start
+    for low, high in pairwise(places.tolist()):
+        begin: Rest | Moving = Rest()
+        if low == stage.start and stage.first > 0.0:
+            begin = Moving(stage.first**2, start_accel)
+        end = Rest() if high < stage.end or plain.squares[-1] <= 0.0 else Even()
+        section = Section.of(cells, limits, stage, grain, low, high)
+        hint = None if replaces is None else _hint(replaces, section.line, start_time)
+        line, motion, beyond, sudden = _under_way(section, limits, plain, begin, end, hint)
+        over, harsh = max(over, beyond), max(harsh, sudden)
         lines.append(line[1:])
         motions.append(motion)
-    lines.append(plain.points[still[-1] + 1 :])
-    motions.append(_without(plain, int(still[-1]), plain.points.size - 1))
-    over = plain.over if plain.over > stage.start else None
-    return _joined(np.concatenate(lines), motions, stops, start_time, over)
+    law = joined(np.concatenate(lines), motions, stops, start_time)
+    return replace(
+        law,
+        over_limit_until=over if over > stage.start else None,
+        over_jerk_until=harsh if harsh > stage.start else None,
+    )
 
 
-def _without(profile: Profile, first: int, last: int) -> Motion:
-    """The motion of a profile from one of its points to another; its jerk is not limited."""
-    squares = profile.squares[first : last + 1]
-    accelerations = 0.5 * np.diff(squares) / np.diff(profile.points[first : last + 1])
-    none = np.zeros(accelerations.size)
-    return Motion(np.sqrt(squares), accelerations, none, none)
-
-
-def _sections(
-    course: Course, limits: Limits, stage: Stage, start: float, end: float
-) -> Iterator[tuple[Floats, Motion]]:
-    """The motions between rests, with the ends of their pieces [m]."""
-    if not end > start:
-        return
+def reachable(limits: Limits) -> Limits:
+    """The same with a jerk that a motor may have."""
     assert limits.max_jerk is not None
-    stage = replace(stage, start=start, end=end, first=0.0, last=0.0)
+    jerk = max(limits.max_accel, limits.brake) / QUICKEST
+    return replace(limits, max_jerk=min(limits.max_jerk, jerk))
+
+
+def fine_course(course: Course, limits: Limits, stage: Stage) -> Course:
+    """A course whose cells are short enough for the jerk, if it is a piecewise cubic."""
+    assert limits.max_jerk is not None
     accel, length = max(limits.max_accel, limits.brake), stage.end - stage.start
-    if isinstance(course, CubicCourse):
-        fast = min(stage.top, (length * length * limits.max_jerk) ** (1.0 / 3.0))
-        longest = max(fast * accel / limits.max_jerk / 6.0, course.length / FINEST)
-        course = replace(course, grid=max(course.grid or 1, int(np.ceil(course.length / longest))))
-    cells, grain = course.cells(stage)
-    ends = np.array([stage.start, stage.end])
-    rests = np.unique(np.concatenate((ends, rests_of(cells, limits, stage))))
-    for low, high in pairwise(rests[(rests >= start) & (rests <= end)]):
-        yield _section(cells, limits, stage, grain, float(low), float(high))
+    if not isinstance(course, CubicCourse):
+        return course
+    fast = min(stage.top, (length * length * limits.max_jerk) ** (1.0 / 3.0) + stage.first)
+    longest = max(fast * accel / limits.max_jerk / 6.0, course.length / FINEST)
+    return replace(course, grid=max(course.grid or 1, int(np.ceil(course.length / longest))))
 
 
-def _section(
-    cells: Cells, limits: Limits, stage: Stage, grain: Grain, low: float, high: float
-) -> tuple[Floats, Motion]:
-    """The motion between two rests, and the ends of its pieces as distances [m]."""
+def _between(plain: Profile, first: int, last: int) -> tuple[Floats, Motion]:
+    """The motion of a profile between two of its points; its jerk is not limited."""
+    squares, line = plain.squares[first : last + 1], plain.points[first : last + 1]
+    accelerations = 0.5 * np.diff(squares) / np.diff(line)
+    none = np.zeros(accelerations.size)
+    return line, Motion(np.sqrt(squares), accelerations, none, none)
+
+
+def _under_way(
+    section: Section,
+    limits: Limits,
+    plain: Profile,
+    start: Rest | Moving,
+    end: Rest | Even,
+    hint: Floats | None,
+) -> tuple[Floats, Motion, float, float]:
+    """The motion on a section, and up to where it is over another limit and over the jerk [m]."""
     assert limits.max_jerk is not None
-    weakest = min(limits.max_accel, limits.brake, grain.axis)
-    first = min(0.05 * weakest**3 / limits.max_jerk**2, (high - low) / 40.0)
-    slip = 1e-12 * (1.0 + high)
-    line, cell, parts = nodes.divide(cells.along, _marks(cells.along, low, high, first), slip)
-    tops = np.full(cell.size, grain.square)
-    middles = 0.5 * (line[1:] + line[:-1])
-    for slow in stage.slow:
-        within = (middles > slow.start) & (middles < slow.end)
-        tops[within] = np.minimum(tops[within], slow.speed**2)
-    rows = _rows(cells, limits, grain, cell, parts, tops)
-    return line, smoothest(np.diff(line), rows, limits.max_jerk)
+    line, widths, rows = section.line, np.diff(section.line), section.rows(start, end)
+    if isinstance(start, Rest):
+        return line, smoothest(widths, rows, limits.max_jerk, end), -np.inf, -np.inf
+    begin = Moving(start.square, min(max(start.accel, -limits.brake), limits.max_accel))
+    first, last = np.searchsorted(plain.points, line[[0, -1]])
+    rough, sudden = _between(plain, int(first), int(last))
+    sums = sudden.speeds[1:] + sudden.speeds[:-1]
+    quick = float((2.0 * np.diff(rough) / np.maximum(sums, 1e-12)).sum())
+    found = smoothest_from(widths, rows, limits.max_jerk, begin, end, limits.brake, quick, hint)
+    if found.beyond < WIDEST and found.time < 2.0 * quick + 4.0 * limits.brake / limits.max_jerk:
+        return line, found.motion, float(line[found.over]), float(line[found.harsh])
+    return rough, sudden, plain.over, float(line[-1])
 
 
-def _marks(along: Floats, low: float, high: float, first: float) -> Floats:
+def _hint(law: Trajectory, line: Floats, time: float) -> Floats:
+    """v² as another law has it from a time on, at the ends of stretches and in their middles."""
+    places = np.interp(np.arange(2 * line.size - 1) / 2.0, np.arange(line.size), line)
+    speeds = law.speed_at(float(law.distance_at(time)) + places - line[0])
+    return np.asarray(speeds * speeds)
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of a path in stretches that are fine enough for the jerk.
+
+    Attributes:
+        cells: Of the path.
+        limits: With ``max_jerk``.
+        grain: What the cells were made for.
+        line: Ends of the stretches as distances [m], shape (n + 1,).
+        cell: Of each stretch, shape (n,).
+        parts: Which part of it, in [0, 1], shape (n, 2).
+        tops: Largest v² on the stretches [m²/s²], shape (n,).
+        caps: The same at their ends, shape (n + 1,).
+    """
+
+    cells: Cells
+    limits: Limits
+    grain: Grain
+    line: Floats
+    cell: NDArray[np.int64]
+    parts: Floats
+    tops: Floats
+    caps: Floats
+
+    @classmethod
+    def of(
+        cls, cells: Cells, limits: Limits, stage: Stage, grain: Grain, low: float, high: float,
+        also: Sequence[float] = (),
+    ) -> Section:  # fmt: skip
+        """The part between two distances [m], with other ends of stretches where they are asked."""
+        assert limits.max_jerk is not None
+        weakest, short = min(limits.max_accel, limits.brake, grain.axis), (high - low) / 40.0
+        rest = min(0.05 * weakest**3 / limits.max_jerk**2, short)
+        moving = min(stage.first * weakest / limits.max_jerk / 20.0, short)
+        moving = min(moving, 0.01 * stage.first**2 / weakest)
+        begin = moving if low == stage.start and stage.first > 0.0 else rest
+        slip = 1e-12 * (1.0 + high)
+        marks = np.union1d(_marks(cells.along, low, high, begin, rest), also)
+        line, cell, parts = nodes.divide(cells.along, marks, slip)
+        tops = np.full(cell.size, grain.square)
+        middles = 0.5 * (line[1:] + line[:-1])
+        for slow in stage.slow:
+            within = (middles > slow.start) & (middles < slow.end)
+            tops[within] = np.minimum(tops[within], slow.speed**2)
+        caps = jump_caps(cells, limits, line, grain)
+        if high >= stage.end and stage.last > 0.0:
+            caps[-1] = min(caps[-1], stage.last**2)
+        return cls(cells, limits, grain, line, cell, parts, tops, caps)
+
+    def rows(self, start: Rest | Moving | Seam, end: Rest | Even | Seam) -> Rows:
+        """The limits of every stretch."""
+        rows = _rows(self.cells, self.limits, self.grain, self.cell, self.parts, self.tops)
+        rows.limits[:, 0] = np.minimum(rows.limits[:, 0], self.caps[:-1])
+        rows.limits[:, 2] = np.minimum(rows.limits[:, 2], self.caps[1:])
+        beside = [(0, 1, 4)] if isinstance(start, Rest) else []
+        beside += [(-1, 0, 2)] if isinstance(end, Rest) else []
+        for k, a, w in beside:
+            _beside_rest(rows, self.cells, self.limits, self.cell, k, a, w)
+        return rows
+
+
+def _marks(along: Floats, low: float, high: float, first: float, last: float) -> Floats:
     """The ends, and places beside them that come ever closer [m]; none beside an end of a cell."""
-    count = int(np.log1p((GROWTH - 1.0) * 0.5 * (high - low) / first) / np.log(GROWTH))
-    steps = first * (GROWTH ** np.arange(1.0, count + 1.0) - 1.0) / (GROWTH - 1.0)
     even = low + (high - low) * np.arange(1, FEWEST) / FEWEST
-    free = np.concatenate((low + steps, even, high - steps))
+    beside = [_steps(0.5 * (high - low), step) for step in (first, last)]
+    free = np.concatenate((low + beside[0], even, high - beside[1]))
     at = np.searchsorted(along, free).clip(1, along.size - 1)
     gap = np.minimum(free - low, high - free)
     apart = 0.05 * np.minimum(along[at] - along[at - 1], gap)
@@ -129,20 +220,21 @@ def _marks(along: Floats, low: float, high: float, first: float) -> Floats:
     return np.unique(np.concatenate(([low], free[far], [high])))
 
 
+def _steps(room: float, first: float) -> Floats:
+    """Distances that grow from a first one on, as far as there is room [m]."""
+    count = int(np.log1p((GROWTH - 1.0) * room / first) / np.log(GROWTH))
+    return np.asarray(first * (GROWTH ** np.arange(1.0, count + 1.0) - 1.0) / (GROWTH - 1.0))
+
+
 def _rows(
     cells: Cells, limits: Limits, grain: Grain, cell: NDArray[np.int64], parts: Floats, tops: Floats
 ) -> Rows:
     """The limits of every stretch as rows over a0, a1, w0, m and w1."""
-    n, d = cell.size, cells.tangents.shape[1]
+    n = cell.size
     lines = caps_of_cells(cells, limits, grain)[cell]
     caps = lines[:, :1] + parts * (lines[:, 1:] - lines[:, :1])
     caps = np.minimum(caps, tops[:, None])
-    axes, misses = limits.of_axes("axis_accel", d), cells.misses[cell]
-    pairs = [
-        (cells.tangents[cell, j], cells.bends[cell, j], 0, 1, axes[j]) for j in range(axes.size)
-    ]
-    if limits.max_yaw_accel is not None and cells.yaws.size:
-        pairs.append((cells.yaws[cell, 0], cells.yaws[cell, 1], 2, 3, limits.max_yaw_accel))
+    misses, pairs = cells.misses[cell], _pairs(cells, limits, cell)
     most = np.full(n, grain.accel)
     for _, _, miss, _, limit in pairs:
         most = np.minimum(most, 0.25 * limit / np.maximum(misses[:, miss], 1e-300))
@@ -159,10 +251,21 @@ def _rows(
             for sign in (1.0, -1.0):
                 weights.append(sign * row + slack)
                 bounds.append(room)
-    rows = Rows(np.stack(weights, axis=1), np.stack(bounds, axis=1))
-    for k, a, w in ((0, 1, 4), (-1, 0, 2)):
-        _beside_rest(rows, k, a, w, pairs, misses)
-    return rows
+    return Rows(np.stack(weights, axis=1), np.stack(bounds, axis=1))
+
+
+def _pairs(
+    cells: Cells, limits: Limits, cell: NDArray[np.int64]
+) -> list[tuple[Floats, Floats, int, int, float]]:
+    """What couples speed and acceleration on stretches: A, B, their misses, and |A a + B w| <=."""
+    axes = limits.of_axes("axis_accel", cells.tangents.shape[1])
+    pairs = [
+        (cells.tangents[cell, j], cells.bends[cell, j], 0, 1, float(axes[j]))
+        for j in range(axes.size)
+    ]
+    if limits.max_yaw_accel is not None and cells.yaws.size:
+        pairs.append((cells.yaws[cell, 0], cells.yaws[cell, 1], 2, 3, limits.max_yaw_accel))
+    return pairs
 
 
 def _part(coefficients: Floats, parts: Floats) -> Floats:
@@ -199,32 +302,27 @@ def _couple(t: Floats, k: Floats, miss: Floats) -> list[tuple[Floats, Floats]]:
 
 
 def _beside_rest(
-    rows: Rows,
-    k: int,
-    a: int,
-    w: int,
-    pairs: Sequence[tuple[Floats, Floats, int, int, float]],
-    misses: Floats,
+    rows: Rows, cells: Cells, limits: Limits, cell: NDArray[np.int64], k: int, a: int, w: int
 ) -> None:
     """Rows of a stretch on which a and w grow from 0, or fall to it: both at their largest."""
-    cap = rows.limits[k, :3].min()
+    cap, at = rows.limits[k, :3].min(), cell[[k]]
     rows.limits[k, 7:] = np.inf
     rows.weights[k, :3], rows.weights[k, 7:] = 0.0, 0.0
     rows.weights[k, 0, w], rows.limits[k, :3] = 1.0, (cap, np.inf, np.inf)
-    for i, (along, across, miss_a, miss_w, limit) in enumerate(pairs):
+    misses = cells.misses[cell[k]]
+    for i, (along, across, miss_a, miss_w, limit) in enumerate(_pairs(cells, limits, at)):
         row = 7 + 10 * i
-        size = np.abs(along[k]).max() + misses[k, miss_a]
+        size = np.abs(along).max() + misses[miss_a]
         rows.weights[k, row, a] = size if a == 1 else -size
-        rows.weights[k, row, w] = np.abs(across[k]).max() + misses[k, miss_w]
+        rows.weights[k, row, w] = np.abs(across).max() + misses[miss_w]
         rows.limits[k, row] = limit
 
 
-def _joined(
+def joined(
     line: Floats,
     motions: Sequence[Motion],
     stops: Sequence[Station],
     start_time: float,
-    over: float | None,
 ) -> Trajectory:
     """The time law of motions one after the other, with the dwells between them."""
     speeds = np.concatenate([motions[0].speeds[:1], *(motion.speeds[1:] for motion in motions)])
@@ -240,4 +338,4 @@ def _joined(
             np.insert(part, at, 0.0) for part in (accelerations, changes, jerks)
         )
     arrivals = start_time + np.concatenate(([0.0], np.cumsum(times)))
-    return Trajectory(line, speeds, arrivals, accelerations, tuple(stops), over, changes, jerks)
+    return Trajectory(line, speeds, arrivals, accelerations, tuple(stops), None, changes, jerks)

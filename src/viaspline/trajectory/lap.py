@@ -14,6 +14,7 @@ from viaspline.trajectory.coupled import Profile, Stage
 from viaspline.trajectory.course import CubicCourse, crawl
 from viaspline.trajectory.limits import SETTLE, Limits, Station
 from viaspline.trajectory.retime import stops_from
+from viaspline.trajectory.smooth_lap import smooth_lap
 from viaspline.trajectory.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
@@ -42,7 +43,7 @@ def retime_lap(
 
     Args:
         path: A piecewise cubic that ends where it starts.
-        limits: As for ``retime``; ``max_jerk`` is for a lap from rest to rest.
+        limits: As for ``retime``; with ``max_jerk`` the acceleration goes on at the seam as well.
         stations: Stops on the lap; one at the seam is made once, at the end of the lap.
         zones: Areas with a lower speed.
         speed_cap: One more limit of the speed [m/s].
@@ -63,11 +64,6 @@ def retime_lap(
         >>> law.speeds.tolist(), round(law.duration, 2)
         ([2.0, 2.0], 31.41)
     """
-    if limits.max_jerk is not None:
-        raise GeometryError(
-            "a lap without a halt can't keep max_jerk yet; use retime for one from rest to rest, "
-            "or leave max_jerk out"
-        )
     course = CubicCourse(path, limits, grid)
     gap = float(np.linalg.norm(path.spans[0, 0] - path.spans[-1, 3]))
     if gap > CLOSE:
@@ -105,6 +101,12 @@ def retime_lap(
             middle = 0.5 * (low + high)
             low, high = (middle, high) if lap(np.sqrt(middle))[1] else (low, middle)
         profile, _ = lap(np.sqrt(low))
+    if limits.max_jerk is not None:
+        stage = Stage(
+            start=0.0, end=length, first=0.0, last=0.0, top=top,
+            stops=tuple(stop.distance for stop in stops), slow=slow,
+        )  # fmt: skip
+        return smooth_lap(course, limits, stage, profile, stops, start_time, top_at_seam)
     profile.squares[-1] = profile.squares[0]
     return Trajectory.through(
         profile.points,

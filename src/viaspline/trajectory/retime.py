@@ -27,10 +27,12 @@ def retime(
     zones: Sequence[SpeedZone] = (),
     start: float = 0.0,
     start_speed: float = 0.0,
+    start_accel: float = 0.0,
     end_speed: float = 0.0,
     speed_cap: float | None = None,
     start_time: float = 0.0,
     grid: int | None = None,
+    replaces: Trajectory | None = None,
 ) -> Trajectory:
     """The fastest drive along a path that keeps every limit everywhere.
 
@@ -45,10 +47,11 @@ def retime(
     The robot comes to rest at stations, and where it would have to turn on the spot (a corner or a
     cusp) if a limit asks for anything across the path.
 
-    ``max_jerk`` bounds the change of the acceleration along the path. From rest to rest it is kept
-    like every other limit; what is found is a local optimum. Where a drive begins or ends under
-    way it is not kept before the first rest and after the last one: a robot that has to brake may
-    not have room for braking gently.
+    ``max_jerk`` bounds the change of the acceleration along the path and is kept like every other
+    limit; what is found is a local optimum. A drive that begins under way begins with
+    ``start_accel``, and one that ends under way ends without acceleration. Where a robot that is
+    under way has no room to keep everything, or none is found, it changes its acceleration faster,
+    up to the first rest at most, and ``over_jerk_until`` says how far.
 
     Args:
         path: What is driven: a piecewise cubic such as ``Path`` or ``CardinalSpline``, or anything
@@ -61,11 +64,14 @@ def retime(
         start: Distance along the path at which the time law begins [m].
         start_speed: Speed there [m/s]. If the limits allow less, the robot brakes as hard as it
             can, and ``over_limit_until`` of the result says how far.
+        start_accel: Acceleration there [m/s²] if the speed isn't 0; only ``max_jerk`` asks for it.
         end_speed: Speed at the end of the path [m/s], or less.
         speed_cap: One more limit of the speed [m/s], e.g. what the sensor allows.
         start_time: Time at the start [s].
         grid: At least so many cells where speed and acceleration are coupled; on a sampled curve
             exactly so many, 1000 by default. By default as many as the limits need.
+        replaces: The time law that is driven until ``start_time``, on this path or one that it
+            leaves; only ``max_jerk`` asks for it, as a first guess of how the robot goes on.
 
     Returns:
         The time law from ``start`` to the end of the path.
@@ -88,7 +94,7 @@ def retime(
     """
     course = course_of(path, limits, grid)
     length = course.length
-    _check(length, start, start_speed, end_speed, speed_cap)
+    _check(length, start, start_speed, start_accel, end_speed, speed_cap)
     stops = stops_from(stations, start, length)
     accel = crawl(limits)
     if length - start <= 0.0:
@@ -111,8 +117,10 @@ def retime(
             f"{start:g} m it needs {start_speed**2 / (2 * limits.brake):g} m; start slower or "
             "stop later"
         )
-    if limits.max_jerk is not None and np.any(profile.squares <= 0.0):
-        return smooth_law(course, limits, stage, profile, stops, start_time)
+    if limits.max_jerk is not None:
+        return smooth_law(
+            course, limits, stage, profile, stops, start_time, float(start_accel), replaces
+        )
     return Trajectory.through(
         profile.points,
         profile.squares,
@@ -142,13 +150,20 @@ def braking(distance: float, speed: float, max_accel: float, start_time: float) 
 
 
 def _check(
-    length: float, start: float, start_speed: float, end_speed: float, speed_cap: float | None
+    length: float,
+    start: float,
+    start_speed: float,
+    start_accel: float,
+    end_speed: float,
+    speed_cap: float | None,
 ) -> None:
     if not 0.0 <= start <= length:
         raise GeometryError(f"start is {start} m; give a distance on the path, 0 to {length:g} m")
     for name, speed in (("start_speed", start_speed), ("end_speed", end_speed)):
         if not 0.0 <= speed < np.inf:
             raise GeometryError(f"{name} is {speed}; give a finite speed of 0 or more")
+    if not np.isfinite(start_accel):
+        raise GeometryError(f"start_accel is {start_accel}; give a finite acceleration")
     if speed_cap is not None and not speed_cap > 0.0:
         raise GeometryError(f"speed_cap is {speed_cap}; give a speed above 0")
 

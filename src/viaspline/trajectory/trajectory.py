@@ -37,6 +37,8 @@ class Trajectory:
         changes: Of the acceleration with the distance [1/s²], shape (n - 1,); None: all 0.
         jerks: Changes of the acceleration with time beside rests [m/s³], shape (n - 1,), 0
             elsewhere; None: all 0.
+        over_jerk_until: Distance up to which ``max_jerk`` is exceeded, because there is no room to
+            keep it from the start on [m]. None if never.
     """
 
     distances: Floats
@@ -47,6 +49,7 @@ class Trajectory:
     over_limit_until: float | None = None
     changes: Floats | None = None
     jerks: Floats | None = None
+    over_jerk_until: float | None = None
 
     def __post_init__(self) -> None:
         for values in (self.distances, self.speeds, self.times, self.accelerations):

@@ -1,0 +1,362 @@
+"""The problem of the fastest v² with a limit of the jerk, and Newton's method for it.
+
+All is in terms of the middle Bernstein coefficients of w = v² on the stretches: a stretch knows its
+own, the one before it and the one after it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+GAP = 2e-4
+"""What the barrier keeps of the time, at most, as a part of it."""
+
+STEEPER = 12.0
+ROUNDS = 60
+
+LOOSER, NEARER = 40, 8
+"""Rounds in which a motion that keeps every limit is sought, and Newton's steps in each."""
+
+SPARE = 0.998
+"""Part of the limits that is planned with."""
+
+_GAUSS = (0.21132486540518713, 0.7886751345948129)
+
+
+class Rest(NamedTuple):
+    """The motion begins or ends at rest, with a stretch of constant jerk beside it."""
+
+
+class Moving(NamedTuple):
+    """The motion begins at a speed.
+
+    Attributes:
+        square: v² [m²/s²], above 0.
+        accel: [m/s²].
+    """
+
+    square: float
+    accel: float
+
+
+class Even(NamedTuple):
+    """The motion ends at any speed, without acceleration."""
+
+
+class Seam(NamedTuple):
+    """The motion goes on at its start where it ends."""
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Limits p · (a0, a1, w0, m, w1) <= g of each stretch: its ends and its middle coefficient.
+
+    Attributes:
+        weights: Shape (n, k, 5).
+        limits: Shape (n, k), above 0.
+    """
+
+    weights: Floats
+    limits: Floats
+
+    def spared(self) -> Rows:
+        """The same with a little less, so that a robot that is re-planned under way has room."""
+        return Rows(self.weights, self.limits * SPARE)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """All in terms of the coefficients of a stretch, the one before and the one after it.
+
+    Attributes:
+        widths: Of the stretches whose coefficients are sought [m], shape (n,).
+        near: Which coefficients a stretch knows, shape (n, 3): n is ``before``, n + 1 none.
+        before: The coefficient of the stretch before all of these [m²/s²].
+        jerk: On each [m/s³], shape (n,).
+        ends: a0, a1, w0, m, w1 of the stretches, shape (n, 5, 3).
+        rows: Linear limits, shape (n, k, 3).
+        limits: Their right-hand sides, shape (n, k); inf where a row is empty.
+        change: da/ds, shape (n, 3).
+        gauss: w at two places of every stretch, shape (n, 2, 3).
+        rests: Stretches beside a rest: the one that moves next to it, its end there, its width.
+        order: Place of every coefficient in the banded matrix, shape (n,).
+        places: Where the products of what a stretch knows go in its bands, shape (n, 3, 3).
+        bands: How many there are.
+    """
+
+    widths: Floats
+    near: Indices
+    before: float
+    jerk: Floats
+    ends: Floats
+    rows: Floats
+    limits: Floats
+    change: Floats
+    gauss: Floats
+    rests: tuple[tuple[int, int, float], ...]
+    order: Indices
+    places: Indices
+    bands: int
+
+    @classmethod
+    def of(
+        cls, widths: Floats, rows: Rows, jerk: float, start: Rest | Moving | Seam,
+        end: Rest | Even | Seam,
+    ) -> Problem:  # fmt: skip
+        """The problem of a motion with this start and this end."""
+        inner = slice(
+            0 if isinstance(start, Seam) else 1, widths.size - (1 if isinstance(end, Rest) else 0)
+        )
+        h, n = widths[inner], widths[inner].size
+        ends = _joined_ends(widths, h, start, end)
+        near = np.stack((np.arange(-1, n - 1), np.arange(n), np.arange(1, n + 1)), axis=1)
+        near[0, 0], near[-1, 2] = (n - 1, 0) if isinstance(start, Seam) else (n, n + 1)
+        inside = np.einsum("nkz,nzc->nkc", rows.weights[inner], ends)
+        more, bound = _outer_rows(widths, rows, jerk, ends, start, end)
+        x = np.array(_GAUSS)[:, None, None]
+        at = (1 - x) ** 2 * ends[:, 2] + 2 * x * (1 - x) * ends[:, 3] + x * x * ends[:, 4]
+        rests: list[tuple[int, int, float]] = []
+        if isinstance(start, Rest):
+            rests.append((0, 2, float(widths[0])))
+        if isinstance(end, Rest):
+            rests.append((n - 1, 4, float(widths[-1])))
+        order = np.arange(n)
+        if isinstance(start, Seam):  # both ends of the line beside each other, and so on
+            order = np.where(2 * order < n, 2 * order, 2 * (n - 1 - order) + 1)
+        places, bands = _places(near, order)
+        before = start.square + start.accel * widths[0] if isinstance(start, Moving) else 0.0
+        return cls(
+            h, near, float(before), np.full(n, jerk), ends, np.concatenate((inside, more), axis=1),
+            np.concatenate((rows.limits[inner], bound), axis=1),
+            (ends[:, 1] - ends[:, 0]) / h[:, None], np.moveaxis(at, 0, 1), tuple(rests), order,
+            places, bands,
+        )  # fmt: skip
+
+    def known(self, m: Floats) -> Floats:
+        """The coefficients before, of and after each stretch, shape (n, 3)."""
+        return np.asarray(np.append(m, (self.before, 0.0))[self.near])
+
+    def slacks(self, m: Floats) -> tuple[Floats, Floats, Floats]:
+        """What is left of the linear limits and of the jerk, and the w that the jerk goes with."""
+        known = self.known(m)
+        linear = self.limits - np.einsum("nkc,nc->nk", self.rows, known)
+        w = np.einsum("nkc,nc->nk", self.ends[:, 2:], known)
+        k = np.einsum("nc,nc->n", self.change, known)
+        with np.errstate(invalid="ignore"):
+            used = k[:, None] * np.sqrt(w)
+        jerk = self.jerk[:, None]
+        return linear, np.concatenate((jerk - used, jerk + used), axis=1), w
+
+    def time(self, m: Floats) -> float:
+        """How long it takes [s], but for what lies before a start at a speed."""
+        w = np.einsum("nkc,nc->nk", self.gauss, self.known(m))
+        total = 0.5 * (self.widths[:, None] / np.sqrt(w)).sum()
+        for i, end, width in self.rests:
+            total += 3.0 * width / np.sqrt(self.ends[i, end, 1] * m[i])
+        return float(total)
+
+    def crawl(self) -> Floats:
+        """So slow that every limit is kept strictly; for motions that don't begin at a speed."""
+        m = np.full(self.widths.size, 1.0)
+        while not self.value(m, 1.0) < np.inf:
+            m *= 0.25
+        return 0.25 * m
+
+    def settled(self, m: Floats) -> tuple[Problem, Floats]:
+        """From any m above 0 one that keeps every limit strictly, or as nearly as is found.
+
+        Limits that are not kept are widened so that they are; from the middle of what that allows
+        they are narrowed again, as far as they are kept there.
+
+        Returns:
+            The problem, with limits that are widened where they have to be, and m.
+        """
+        scale = _sizes(self.limits)
+        wide, best, least, lost = self, (self, m), np.inf, 0
+        for k in range(LOOSER):
+            linear, jerk, _ = self.slacks(m)
+            off = float(np.maximum(-linear / scale, 0.0).sum())
+            off += 0.01 * float(np.maximum(-jerk / self.jerk[:, None], 0.0).sum())
+            if off == 0.0 and self.value(m, 1.0) < np.inf:
+                return self, m
+            wide = wide.narrowed(self, m, scale, *((0.3, 1e-6) if k else (0.0, 0.05)))
+            lost = 0 if off < 0.9 * least else lost + 1
+            if off < least:
+                best, least = (wide, m), off
+            if lost > 8:
+                break
+            m = wide.centred(m, 1e-3 * self.limits.size / self.time(m), NEARER)
+        return best
+
+    def narrowed(
+        self, true: Problem, m: Floats, scale: Floats, share: float, least: float
+    ) -> Problem:
+        """The same with limits nearer to the true ones, that are still kept."""
+        linear, jerk, _ = self.slacks(m)
+        finite = np.isfinite(self.limits)
+        linear = np.where(finite, linear, 0.0)
+        used, spent = np.where(finite, self.limits, 0.0) - linear, self.jerk - jerk.min(axis=1)
+        room = np.maximum(share * linear, least * scale)
+        rate = np.maximum(share * (self.jerk - spent), least * true.jerk)
+        limits = np.where(finite, np.maximum(true.limits, used + room), np.inf)
+        return replace(self, limits=limits, jerk=np.maximum(true.jerk, spent + rate))
+
+    def excess(self, m: Floats, true: Problem) -> tuple[Floats, Floats]:
+        """By what parts linear limits and the jerk of every stretch are beyond true ones, (n,)."""
+        linear, jerk, _ = true.slacks(m)
+        return (-linear / _sizes(true.limits)).max(axis=1), -jerk.min(axis=1) / true.jerk
+
+    def fastest(self, m: Floats) -> Floats:
+        """The fastest from one that keeps every limit strictly."""
+        sharpness = self.limits.size / self.time(m)
+        while True:
+            m = self.centred(m, sharpness)
+            if self.limits.size < GAP * sharpness * self.time(m):
+                return m
+            sharpness *= STEEPER
+
+    def value(self, m: Floats, sharpness: float) -> float:
+        """What the barrier makes least."""
+        if not np.all(m > 0.0):
+            return np.inf
+        linear, jerk, _ = self.slacks(m)
+        if not (np.all(linear > 0.0) and np.all(jerk > 0.0)):
+            return np.inf
+        finite = linear[np.isfinite(linear)]
+        return float(sharpness * self.time(m) - np.log(finite).sum() - np.log(jerk).sum())
+
+    def centred(self, m: Floats, sharpness: float, rounds: int = ROUNDS) -> Floats:
+        """The least of the barrier function from m on, by Newton's method."""
+        from scipy.linalg import solveh_banded  # 0.2 s to import, and few plans ask for the jerk
+
+        value, back = self.value(m, sharpness), np.argsort(self.order)
+        for _ in range(rounds):
+            gradient, matrix = self._newton(m, sharpness)
+            step = -solveh_banded(matrix, gradient[back], lower=True)[self.order]
+            drop = float(gradient @ step)
+            if drop > -1e-6 * (1.0 + abs(value)) * 1e-2:
+                break
+            part = 1.0
+            while part > 1e-8:
+                new = self.value(m + part * step, sharpness)
+                if new <= value + 0.1 * part * drop:
+                    break
+                part *= 0.5
+            else:
+                break
+            m, value = m + part * step, new
+        return m
+
+    def _newton(self, m: Floats, sharpness: float) -> tuple[Floats, Floats]:
+        """Gradient (n,) and lower bands of a positive definite matrix (bands, n)."""
+        linear, jerk, w = self.slacks(m)
+        known = self.known(m)
+        k = np.einsum("nc,nc->n", self.change, known)
+        root = np.sqrt(w)
+        tilt = root[:, :, None] * self.change[:, None] + (
+            0.5 * k[:, None, None] / root[:, :, None] * self.ends[:, 2:]
+        )
+        at = np.einsum("nkc,nc->nk", self.gauss, known)
+        rows = np.concatenate((self.rows, tilt, -tilt, self.gauss), axis=1)
+        push = sharpness * 0.25 * self.widths[:, None] * at**-1.5
+        first = np.concatenate((1.0 / linear, 1.0 / jerk, -push), axis=1)
+        second = np.concatenate((linear**-2.0, jerk**-2.0, 1.5 * push / at), axis=1)
+        slope = np.einsum("nkc,nk->nc", rows, first)
+        local = np.einsum("nkc,nk,nkd->ncd", rows, second, rows, optimize=True)
+        for i, end, width in self.rests:
+            rest = 3.0 * sharpness * width / np.sqrt(self.ends[i, end, 1])
+            slope[i, 1] -= 0.5 * rest * m[i] ** -1.5
+            local[i, 1, 1] += 0.75 * rest * m[i] ** -2.5
+        n = m.size
+        gradient = np.zeros(n + 2)
+        np.add.at(gradient, self.near, slope)
+        filled = np.zeros(self.bands * n + 1)
+        np.add.at(filled, self.places, local)
+        bands = filled[:-1].reshape(self.bands, n)
+        bands[0] += 1e-14 * bands[0].max()
+        return gradient[:n], bands
+
+
+def _sizes(limits: Floats) -> Floats:
+    """What limits are compared with."""
+    return np.asarray(np.where(np.isfinite(limits), np.maximum(np.abs(limits), 1e-6), 1.0))
+
+
+def _joined_ends(
+    widths: Floats, h: Floats, start: Rest | Moving | Seam, end: Rest | Even | Seam
+) -> Floats:
+    """a0, a1, w0, m, w1 of stretches by the coefficients they know, shape (n, 5, 3)."""
+    ends = np.zeros((h.size, 5, 3))
+    ends[:, 3, 1] = 1.0
+    both = h[:-1] + h[1:]
+    ends[1:, 0, 0], ends[1:, 0, 1] = -1.0 / both, 1.0 / both
+    ends[1:, 2, 0], ends[1:, 2, 1] = h[1:] / both, h[:-1] / both
+    ends[:-1, 1, 1:], ends[:-1, 4, 1:] = ends[1:, 0, :2], ends[1:, 2, :2]
+    if isinstance(start, Rest):
+        rest = 1.5 * widths[0]
+        ends[0, 0, 1], ends[0, 2, 1] = 1.0 / (rest + h[0]), rest / (rest + h[0])
+    else:
+        before = widths[0] if isinstance(start, Moving) else h[-1]
+        whole = before + h[0]
+        ends[0, 0, :2] = -1.0 / whole, 1.0 / whole
+        ends[0, 2, :2] = h[0] / whole, before / whole
+    if isinstance(end, Rest):
+        rest = 1.5 * widths[-1]
+        ends[-1, 1, 1], ends[-1, 4, 1] = -1.0 / (rest + h[-1]), rest / (rest + h[-1])
+    elif isinstance(end, Even):
+        ends[-1, 4, 1] = 1.0
+    else:
+        ends[-1, 1, 1:], ends[-1, 4, 1:] = ends[0, 0, :2], ends[0, 2, :2]
+    return ends
+
+
+def _outer_rows(
+    widths: Floats, rows: Rows, jerk: float, ends: Floats, start: Rest | Moving | Seam,
+    end: Rest | Even | Seam,
+) -> tuple[Floats, Floats]:  # fmt: skip
+    """What the stretches beside the ends ask of their neighbours, with right-hand sides."""
+    n, many = ends.shape[0], rows.limits.shape[1]
+    more = np.zeros((n, 3 + 2 * many, 3))
+    bound = np.full(more.shape[:2], np.inf)
+    more[:, 0, 1], bound[:, 0] = -1.0, 0.0
+    beside = [(0, 0, 0)] if isinstance(start, Rest) else []
+    beside += [(-1, -1, 1)] if isinstance(end, Rest) else []
+    for inner, outer, at in beside:
+        k = slice(3 + at * many, 3 + (at + 1) * many)
+        moving = np.zeros((5, 3))
+        moving[1 - at], moving[2 if at else 4] = ends[inner, at], ends[inner, 4 if at else 2]
+        more[inner, k], bound[inner, k] = rows.weights[outer] @ moving, rows.limits[outer]
+        more[inner, 1] = ends[inner, 4 if at else 2]
+        bound[inner, 1] = (4.5 * widths[outer] ** 2 * jerk) ** (2.0 / 3.0)
+    if isinstance(start, Moving):
+        k, first = slice(3, 3 + many), widths[0]
+        moving = np.zeros((5, 3))
+        moving[1], moving[4] = ends[0, 0], ends[0, 2]
+        middle = start.square + start.accel * first
+        given = rows.weights[0] @ np.array([start.accel, 0.0, start.square, middle, 0.0])
+        free = np.any(rows.weights[0][:, [1, 4]] != 0.0, axis=1)
+        more[0, k] = rows.weights[0] @ moving
+        bound[0, k] = np.where(free, rows.limits[0] - given, np.inf)
+        rise = start.accel + 1.5 * jerk * first / np.sqrt(start.square)  # no stretch reaches it
+        room = jerk * first / np.sqrt(max(start.square, middle, middle + rise * first))
+        more[0, 1], bound[0, 1] = ends[0, 0], room + start.accel
+        more[0, 2], bound[0, 2] = -ends[0, 0], room - start.accel
+    return more, bound
+
+
+def _places(near: Indices, order: Indices) -> tuple[Indices, int]:
+    """Where the products of two coefficients go in the lower bands; the last place is for none."""
+    n = order.size
+    place = np.append(order, (-1, -1))[near]
+    row, column = place[:, :, None], place[:, None, :]
+    apart = row - column
+    valid = (row >= 0) & (column >= 0) & (apart >= 0)
+    bands = int(apart[valid].max()) + 1
+    return np.where(valid, apart * n + column, bands * n), bands
