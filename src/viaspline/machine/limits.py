@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from viaspline.machine.machine import is_driven
@@ -19,7 +20,7 @@ def limits_of(robot: RobotSpec, reaction: float = REACTION) -> Limits:
 
     The time between two looks of the sensor is longer by the delay and the lag of the drive: so
     much later it brakes. The outer wheel turns at v (1 + |curvature| track/2): a limit v of the
-    speed and one of the yaw rate share what it can.
+    speed and one of the yaw rate share what it can. Steered wheels turn no faster than they can.
 
     Args:
         robot: The robot of the mission.
@@ -40,6 +41,10 @@ def limits_of(robot: RobotSpec, reaction: float = REACTION) -> Limits:
     if drive is None:
         return _gripping(Limits.of(robot, reaction))
     limits = _gripping(Limits.of(robot, reaction + drive.delay_s + drive.lag_s))
+    steered = drive.ackermann
+    if steered is not None and steered.max_steer_rate_degps is not None:
+        rate = math.radians(steered.max_steer_rate_degps)
+        return replace(limits, max_steer_rate=rate, wheelbase=steered.wheelbase_m)
     sides = drive.differential or drive.skid_steer
     if sides is None or sides.max_wheel_speed_mps is None:
         return limits

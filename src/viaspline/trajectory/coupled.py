@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from viaspline.kernels import cell_caps, nodes, planes, topp
 from viaspline.trajectory.cells import Cells, Grain
 from viaspline.trajectory.limits import SETTLE, Limits
+from viaspline.trajectory.steering import jump_speeds, steered_caps
 from viaspline.trajectory.zones import Slow
 
 Floats = NDArray[np.float64]
@@ -67,7 +68,7 @@ class Stage:
 
 def is_coupled(limits: Limits, dimension: int) -> bool:
     """Whether these limits ask for more than a largest speed at every place."""
-    several = (limits.axis_speed, limits.axis_accel, limits.max_yaw_accel)
+    several = (limits.axis_speed, limits.axis_accel, limits.max_yaw_accel, limits.max_steer_rate)
     over_ground = limits.max_yaw_rate is not None and dimension > 2
     return over_ground or any(limit is not None for limit in several)
 
@@ -84,14 +85,18 @@ def grain_for(limits: Limits, dimension: int, stage: Stage, grid: int | None = N
     if speeds.size:
         square = min(square, float(speeds @ speeds))
     longest = max(square / (2.0 * accel) / RAMP, length / MOST)
+    turning = (limits.max_yaw_rate, limits.max_yaw_accel, limits.max_steer_rate)
+    steered = np.inf
+    if limits.max_steer_rate is not None and limits.wheelbase is not None:
+        steered = limits.max_steer_rate / limits.wheelbase * max(stage.top, stage.first)
     return Grain(
         longest=longest if grid is None else min(longest, length / grid),
         least=length / MOST,
         accel=accel,
         square=square,
         axis=min([*axes.tolist(), _or_inf(limits.max_lateral_accel)]),
-        yaw_accel=np.inf if limits.max_yaw_accel is None else limits.max_yaw_accel,
-        heading=limits.max_yaw_rate is not None or limits.max_yaw_accel is not None,
+        yaw_accel=min(_or_inf(limits.max_yaw_accel), steered),
+        heading=any(limit is not None for limit in turning),
     )
 
 
@@ -175,22 +180,26 @@ class System(NamedTuple):
 def jump_caps(cells: Cells, limits: Limits, line: Floats, grain: Grain) -> Floats:
     """The largest v² at nodes, for jumps of the curvature [m²/s²], shape (n + 1,)."""
     caps = np.full(line.size, grain.square)
-    if limits.max_yaw_accel is None or not cells.yaws.size:
+    if not cells.yaws.size or (limits.max_yaw_accel is None and limits.max_steer_rate is None):
         return caps
     at = np.searchsorted(line, cells.along[1:-1] - 1e-9 * (1.0 + line[-1]))
     inner = (at > 0) & (at < line.size)
-    rate = limits.max_yaw_accel * SETTLE
-    np.minimum.at(caps, at[inner], (rate / np.maximum(cells.jumps[inner], 1e-12)) ** 2)
+    rate = _or_inf(limits.max_yaw_accel) * SETTLE
+    slow = rate / np.maximum(cells.jumps[inner], 1e-12)
+    before, after = cells.yaws[:-1, 0, 2], cells.yaws[1:, 0, 0]
+    slow = np.minimum(slow, jump_speeds(before[inner], after[inner], limits))
+    np.minimum.at(caps, at[inner], slow * slow)
     return caps
 
 
 def caps_of_cells(cells: Cells, limits: Limits, grain: Grain) -> Floats:
     """The line below which v² keeps every limit of a speed, at both ends of each cell, (n, 2)."""
-    return cell_caps.cell_caps(
+    caps = cell_caps.cell_caps(
         cells.along, cells.tangents, cells.bends, cells.yaws, cells.misses, grain.square,
         grain.accel, limits.of_axes("axis_speed", cells.tangents.shape[1]),
         _or_inf(limits.max_lateral_accel), _or_inf(limits.max_yaw_rate),
     )  # fmt: skip
+    return np.asarray(np.minimum(caps, steered_caps(cells, limits)[:, None]))
 
 
 def _or_inf(limit: float | None) -> float:
@@ -199,7 +208,10 @@ def _or_inf(limit: float | None) -> float:
 
 def rests_of(cells: Cells, limits: Limits, stage: Stage) -> Floats:
     """Where the robot rests from start to end [m]: at stops, and where it turns on the spot."""
-    bends = (limits.max_lateral_accel, limits.max_yaw_rate, limits.max_yaw_accel, limits.axis_accel)
+    bends = (
+        limits.max_lateral_accel, limits.max_yaw_rate, limits.max_yaw_accel, limits.axis_accel,
+        limits.max_steer_rate,
+    )  # fmt: skip
     rests = np.array(stage.stops, dtype=np.float64)
     if not rests.size and not cells.rests.any():
         return rests

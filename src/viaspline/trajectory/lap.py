@@ -15,6 +15,7 @@ from viaspline.trajectory.course import CubicCourse, crawl
 from viaspline.trajectory.limits import SETTLE, Limits, Station
 from viaspline.trajectory.retime import stops_from
 from viaspline.trajectory.smooth_lap import smooth_lap
+from viaspline.trajectory.steering import jump_speeds
 from viaspline.trajectory.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
@@ -122,18 +123,25 @@ def _seam_speed(course: CubicCourse) -> float:
     limits, spans = course.limits, course.path.spans
     across = (
         limits.max_lateral_accel, limits.max_yaw_rate, limits.max_yaw_accel, limits.axis_accel,
+        limits.max_steer_rate,
     )  # fmt: skip
     if all(limit is None for limit in across):
         return np.inf
     before, after = _direction(spans[-1, ::-1]), _direction(spans[0])
     if np.linalg.norm(before + after) > 1e-5:
         return 0.0
-    if limits.max_yaw_accel is None:
+    if limits.max_yaw_accel is None and limits.max_steer_rate is None:
         return np.inf
     stage = Stage(start=0.0, end=course.length, first=0.0, last=0.0, top=limits.max_speed)
     cells, _ = course.cells(stage)
-    jump = abs(float(cells.yaws[0, 0, 0] - cells.yaws[-1, 0, 2])) if cells.yaws.size else 0.0
-    return limits.max_yaw_accel * SETTLE / max(jump, 1e-12)
+    if not cells.yaws.size:
+        return np.inf
+    before, after = cells.yaws[-1:, 0, 2], cells.yaws[:1, 0, 0]
+    steered = float(jump_speeds(before, after, limits)[0])
+    if limits.max_yaw_accel is None:
+        return steered
+    jump = abs(float(after[0] - before[0]))
+    return min(steered, limits.max_yaw_accel * SETTLE / max(jump, 1e-12))
 
 
 def _direction(span: Floats) -> Floats:

@@ -26,6 +26,8 @@ _ALONG = (
     "max_yaw_rate",
     "max_yaw_accel",
     "max_jerk",
+    "max_steer_rate",
+    "wheelbase",
 )
 
 
@@ -43,11 +45,16 @@ class Limits:
             the via points of a cardinal spline, the yaw rate would have to jump as well; the robot
             is so slow there that the jump is what this limit allows in ``SETTLE`` seconds.
         max_jerk: Change of the acceleration along the path [m/s³].
+        max_steer_rate: How fast steered wheels turn [rad/s]; with ``wheelbase``. Where the
+            curvature jumps the robot is so slow that while they turn it rolls no farther than at
+            full speed in ``SETTLE`` seconds.
+        wheelbase: From the reference point, on the rear axle, to the steered wheels [m].
         axis_speed: Along every coordinate axis [m/s]: one number, or one for each axis.
         axis_accel: Along every coordinate axis [m/s²], the acceleration across the path included.
 
     Raises:
-        GeometryError: When a limit is not a finite number above 0.
+        GeometryError: When a limit is not a finite number above 0, or a steering rate has no
+            wheelbase.
 
     Example:
         >>> Limits(max_speed=2.0, max_accel=1.0, axis_accel=[0.5, 0.7]).axis_accel
@@ -61,6 +68,8 @@ class Limits:
     max_yaw_rate: float | None = None
     max_yaw_accel: float | None = None
     max_jerk: float | None = None
+    max_steer_rate: float | None = None
+    wheelbase: float | None = None
     axis_speed: float | Sequence[float] | NDArray[np.float64] | None = None
     axis_accel: float | Sequence[float] | NDArray[np.float64] | None = None
 
@@ -71,6 +80,8 @@ class Limits:
                 raise GeometryError(f"{name} is {value}; give a finite number above 0")
             if value is not None:
                 object.__setattr__(self, name, float(value))
+        if self.max_steer_rate is not None and self.wheelbase is None:
+            raise GeometryError("max_steer_rate needs the wheelbase; give wheelbase in metres")
         for name in ("axis_speed", "axis_accel"):
             value = getattr(self, name)
             if value is None or isinstance(value, float):
