@@ -170,3 +170,16 @@ def test_the_robot_that_drives_has_its_shape(visit: Visit, tmp_path: Path) -> No
     front, beside = [x + 3.6, 11.6], [x + 3.6, 12.5]
     assert page.js(colour, front) == page.js(colour, [x + 3.6, 8.4])
     assert page.js(colour, front) != page.js(colour, beside)
+
+
+def test_areas_are_in_the_picture_that_is_exported(visit: Visit, patrol: Path) -> None:
+    page = visit(patrol)
+    page.js("""async () => {
+      const edits = await import("/page/js/core/edits.js"), { store } = studio;
+      const zone = edits.addArea(store.doc, "zone", [[1, 2], [30, 2], [30, 40]])[0];
+      store.edit(edits.addArea(zone, "fence", [[0, 0], [500, 0], [500, 500], [0, 500]])[0]);
+    }""")
+    page.settle()
+    svg = page.js('import("/page/js/files/svg.js").then((m) => m.svgOf(studio.store))')
+    assert "M1 2L30 2L30 40Z" in svg
+    assert "M0 0L500 0L500 500L0 500Z" in svg

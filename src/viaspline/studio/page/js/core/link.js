@@ -108,10 +108,4 @@ export class Link {
       this.send({ ...message, id });
     });
   }
-
-  /** The document as the server has it now, so that what is asked next is asked of this one. */
-  flush() {
-    this.underway = null;
-    this.pump();
-  }
 }

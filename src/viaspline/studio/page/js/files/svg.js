@@ -1,6 +1,6 @@
 /** The scene as SVG: the path as the very Bézier curves that were proven, in metres. */
 
-import { obstaclesOf, pointsOf, requiredOf } from "../core/mission.js";
+import { areasOf, obstaclesOf, pointsOf, requiredOf } from "../core/mission.js";
 import { boxOf } from "../geometry/shapes.js";
 
 /** @param {import("../core/store.js").Store} store @returns {string} */
@@ -16,7 +16,12 @@ export function svgOf(store) {
     ? `<circle cx="${o.circle.center[0]}" cy="${o.circle.center[1]}" r="${o.circle.radius}" ${rest}/>`
     : `<path d="${[o.polygon, ...o.holes].map((ring) => `M${ring.map((/** @type {number[]} */ p) => p.slice(0, 2).join(" ")).join("L")}Z`).join("")}" fill-rule="evenodd" ${rest}/>`;
   const bounds = doc.world?.bounds;
+  const rings = (/** @type {number[][][]} */ all, /** @type {string} */ rest) => all.length ? shape({ polygon: all[0], holes: all.slice(1) }, rest) : "";
+  const areas = areasOf(doc).filter((area) => area.ring.length);
   const parts = [
+    ...areas.filter((a) => a.kind === "zone").map((a) => rings([a.ring], `fill="#fdf1da" stroke="#8a6200" stroke-width="${line / 2}" stroke-dasharray="${line / 2} ${line}"`)),
+    rings(store.goodPlan?.corridor ?? [], `fill="none" stroke="#00795a" stroke-width="${line / 2}" stroke-dasharray="${3 * line} ${1.5 * line}"`),
+    ...areas.filter((a) => a.kind === "fence").map((a) => rings([a.ring], `fill="none" stroke="#6f7985" stroke-width="${line / 2}"`)),
     ...obstacles.filter((o) => o.list === "known").map((o) => shape(o, `fill="#f0f2f5" stroke="#f0f2f5" stroke-width="${2 * required}" stroke-linejoin="round"`)),
     ...obstacles.map((o) => shape(o, o.list === "known" ? `fill="#aeb5bf" stroke="#4d5661" stroke-width="${line / 2}"` : `fill="#fbe3d3" stroke="#c24e00" stroke-width="${line / 2}" stroke-dasharray="${2 * line} ${line}"`)),
     Array.isArray(bounds) ? `<rect x="${bounds[0]}" y="${bounds[1]}" width="${bounds[2] - bounds[0]}" height="${bounds[3] - bounds[1]}" fill="none" stroke="#6f7985" stroke-width="${line / 2}"/>` : "",
