@@ -1,10 +1,12 @@
 """Lattices of worlds with maps: what they must not leave out."""
 
+import re
 from typing import Any
 
 import numpy as np
 import pytest
 
+import viaspline as vs
 from viaspline.detour.route import NO_BARRIERS, Router, Way
 from viaspline.maps.grid import Grid
 from viaspline.mission.parts import Obstacle
@@ -50,3 +52,18 @@ def test_a_way_to_where_one_is_has_no_length() -> None:
     found = way(World([wall()]), (2, -2), (2, -2))
     assert found is not None
     assert found.length == 0.0
+
+
+def test_a_refusal_tells_widths_apart_that_are_the_same_to_the_millimetre():
+    walls = [(-9, 0.29998, -8.5, 40), (-9, -40, -8.5, -0.29998)]
+    known = [{"polygon": [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]} for x0, y0, x1, y1 in walls]
+    data = {
+        "world": {"known": known, "bounds": [-20, -20, 20, 20]},
+        "robot": {"radius_m": 0.3, "clearance_m": 0},
+        "route": {"start": [-15, 0], "goal": [10, 0]},
+    }
+    with pytest.raises(vs.NoPathError) as refused:
+        vs.plan(vs.Mission.model_validate(data))
+    room, needed = re.findall(r"(\d\.\d+) m", refused.value.reason)
+    assert float(room) == pytest.approx(0.59996, abs=2e-5)
+    assert float(room) < float(needed) == 0.6

@@ -107,3 +107,14 @@ def test_walls_that_are_all_but_touched_are_followed_in_a_moment(rho):
     begin = time.process_time()
     assert len(narrow_places(touched.packed, guide, rho)) == 0
     assert time.process_time() - begin < 1.0
+
+
+@pytest.mark.parametrize("off", [0.0, 9e-6, -9e-6])
+def test_a_gap_that_is_hardly_too_narrow_is_found_by_a_guide_along_its_posts(off):
+    """Of BARN's world 175: between two posts just as far apart as the body is wide."""
+    posts = World([disc(0.0, 0.375, 0.075), disc(0.0, -0.375, 0.075)])
+    guide = np.array([[-2.03, off], [2.0, off]])
+    found = narrow_places(posts.packed, guide, 0.3001)
+    assert len(found) > 0
+    assert np.hypot(*(found[:, :2] - found[:, 2:]).T) == pytest.approx(0.6, abs=3e-4)
+    assert len(narrow_places(posts.packed, guide, 0.2999)) == 0

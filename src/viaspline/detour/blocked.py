@@ -145,16 +145,26 @@ def explain_blocked_leg(
     else:
         most = np.floor(required * 1000) / 1000
         moves.insert(0, f"the body's radius may be at most {most:.3f} m there")
+    room, needed = _told_apart(gap.width, 2 * brief.required)
     return NoPathError(
         f"no way from {start.name!r} to {goal.name!r} is wide enough: the best one goes through "
-        f"a gap {gap.between} at ({gap.at[0]:.2f}, {gap.at[1]:.2f}) with {gap.width:.3f} m of "
-        f"room, {2 * brief.required:.3f} m are needed",
+        f"a gap {gap.between} at ({gap.at[0]:.2f}, {gap.at[1]:.2f}) with {room} m of "
+        f"room, {needed} m are needed",
         where=gap.at,
         remedy=" or ".join(moves),
         via=goal.name,
         obstacles=gap.sides,
         changes=changes,
     )
+
+
+def _told_apart(width: float, needed: float) -> tuple[str, str]:
+    """Two widths with as many digits as it takes to tell them apart, of the millimetre at least."""
+    for digits in range(3, 9):
+        shown = f"{width:.{digits}f}", f"{needed:.{digits}f}"
+        if shown[0] != shown[1]:
+            return shown
+    return f"just {width:.3f}", f"more than {needed:.3f}"
 
 
 def reachable_near(start: Floats, goal: Floats, world: World, required: float) -> Floats | None:

@@ -12,7 +12,8 @@ from viaspline.kernels.packed import Floats, PackedWorld
 from viaspline.kernels.rows import new_floats, sized_floats
 
 TOUCHING = 1e-3  # distance from an obstacle at which a chord ends, in radii
-MOST_PLACES = 1000  # at which a guide is looked at beside its corners, where all of it is near
+MOST_CHORDS, MOST_PLACES = 1000, 20_000  # along a guide beside its corners, all of which is near
+PROBE = 1e-6  # step of the gradient in radii: in the middle of a gap either side is the nearest
 MOST_STEPS = 64  # of a chord to either side: along a wall it would crawl
 
 
@@ -46,7 +47,7 @@ def _write_chord(
         2 rho nothing that keeps rho crosses it: no place on it is farther than half of that from
         the world.
     """
-    heading = _away(world, x, y, 1e-3 * rho)
+    heading = _away(world, x, y, max(PROBE * rho, 1e-9))
     width = 0.0
     for end in range(2):
         sense = 2.0 * end - 1.0
@@ -125,7 +126,8 @@ def narrow_places(world: PackedWorld, guide: Floats, rho: float) -> Floats:
     length = 0.0
     for k in range(guide.shape[0] - 1):
         length += math.hypot(guide[k + 1, 0] - guide[k, 0], guide[k + 1, 1] - guide[k, 1])
-    step = max(0.25 * rho, length / MOST_PLACES)
+    step = max(0.25 * rho, length / MOST_CHORDS)
+    finest = max(1e-3 * rho, length / MOST_PLACES)
     for k in range(guide.shape[0] - 1):
         dx = guide[k + 1, 0] - guide[k, 0]
         dy = guide[k + 1, 1] - guide[k, 1]
@@ -135,12 +137,15 @@ def narrow_places(world: PackedWorld, guide: Floats, rho: float) -> Floats:
             x = guide[k, 0] + travelled / size * dx
             y = guide[k, 1] + travelled / size * dy
             distance, _ = nearest(world, x, y, 4.0 * rho)
-            travelled += step + max(distance - rho, 0.0)
             if not 0.0 < distance < rho:
+                travelled += max(distance - rho, -distance, 0.02 * rho, finest)
                 continue
             if count == chords.shape[0]:
                 chords = sized_floats(chords, count, 2 * count)
-            if _write_chord(world, x, y, rho, chords, count) < 2.0 * rho:
+            width = _write_chord(world, x, y, rho, chords, count)
+            if width < 2.0 * rho:
                 count += 1
-                travelled += 0.75 * rho
+                travelled += step + 0.75 * rho
+            else:
+                travelled += min(step, max(0.25 * (width - 2.0 * rho), finest))
     return sized_floats(chords, count, count)
