@@ -6,7 +6,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
 from viaspline.kernels.ground import Ground, is_clear
-from viaspline.kernels.pose_search import LEVELS, WAYS, moves_of
+from viaspline.kernels.moves import LEVELS, WAYS, moves_of
 from viaspline.kernels.spread import OVER, spread
 from viaspline.mission.parts import Obstacle
 from viaspline.world.world import World

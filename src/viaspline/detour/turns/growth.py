@@ -13,7 +13,8 @@ from viaspline.detour.turns.terrain import Terrain
 from viaspline.kernels import pose_search as kernels
 from viaspline.kernels.ground import Ground
 from viaspline.kernels.heap import Heap
-from viaspline.kernels.pose_search import Ahead, Moves, Search
+from viaspline.kernels.moves import LEVELS, STEP, Moves
+from viaspline.kernels.pose_search import Ahead, Search
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -131,7 +132,7 @@ class Growth:
         """
         size = int(self.search.counts[kernels.NODES])
         level = self.search.links[:size, kernels.LEVEL]
-        nodes = np.flatnonzero(level == kernels.LEVELS // 2)
+        nodes = np.flatnonzero(level == LEVELS // 2)
         nodes = nodes[:: 1 + len(nodes) // MANY]
         x, y, heading = self.search.nodes[nodes, :3].T
         rho = self.moves.sizes[0]
@@ -200,7 +201,7 @@ def backwards(segments: Floats) -> Floats:
 def _empty(
     terrain: Terrain, moves: Moves, starts: Floats, goal: Floats, headings: Floats, room: int
 ) -> Search:
-    steps = moves.scales[:, kernels.STEP]
+    steps = moves.scales[:, STEP]
     around = np.ceil(4.0 * math.pi * moves.sizes[0] / steps)
     nodes = room
     table = 1 << math.ceil(math.log2(4 * nodes))

@@ -19,7 +19,8 @@ from viaspline.detour.brief import Brief
 from viaspline.detour.turns.growth import Growth, backwards, bridged, met
 from viaspline.detour.turns.terrain import Body, Terrain, windows
 from viaspline.kernels.chain import chain_spans, merged, shortened
-from viaspline.kernels.pose_search import CELL, EMPTY, Moves, moves_of
+from viaspline.kernels.moves import Moves, moves_of
+from viaspline.kernels.pose_search import CELL, EMPTY
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
