@@ -1,6 +1,7 @@
 """Gaps that are told of are gaps: nothing that is as wide as the robot goes through."""
 
 import math
+import os
 import time
 from typing import Any
 
@@ -99,6 +100,9 @@ def test_a_guide_of_one_place_goes_nowhere() -> None:
     assert narrow_places(world.packed, np.array([(1.5, 0.0), (1.5, 0.0)]), 1.0).shape == (0, 4)
 
 
+@pytest.mark.skipif(
+    os.environ.get("NUMBA_DISABLE_JIT") == "1", reason="nothing is quick with the JIT off"
+)
 @pytest.mark.parametrize("rho", [-5e-7, 0.0, 1e-4])
 def test_walls_that_are_all_but_touched_are_followed_in_a_moment(rho):
     touched = World([Obstacle(polygon=[(0, -1), (100, -1), (100, 0), (0, 0)])])
