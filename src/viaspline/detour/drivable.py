@@ -8,6 +8,7 @@ last by a search among poses.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -41,6 +42,7 @@ from viaspline.world.world import World
 
 Floats = NDArray[np.float64]
 PUSHED = 40  # rows of headings for which legs are pushed clear
+PATIENCE = 16  # pairs of headings of a leg, until one of them can be
 WIDE = (6.0, 3.0, 1.5)  # radii of turns for a long body without a turning circle, and the last,
 ENOUGH = 1.01  # of the shortest ways' length: a longer byway is compared with what a search finds
 NARROW = 0.5  # in distances that its path keeps
@@ -149,7 +151,7 @@ def _swung(drive: _Drive) -> Laid:
         byway = _on_byways(drive, rho)
         if byway is not None and byway.length <= ENOUGH * sum(way.length for way in drive.ways):
             return _laid(drive, [byway])
-        found = _searched(drive, bends, rho)
+        found = _searched(drive, bends, rho, math.inf if byway is None else byway.length)
         if byway is not None and (isinstance(found, NotFound) or found.length > byway.length):
             return _laid(drive, [byway])
         if isinstance(found, Laid):
@@ -159,10 +161,17 @@ def _swung(drive: _Drive) -> Laid:
     raise _refusal(drive, bends, failed)
 
 
-def _searched(drive: _Drive, bends: Bends, rho: float) -> Laid | NotFound:
-    """The headings at all via points chosen together, or else a search among poses."""
+def _searched(drive: _Drive, bends: Bends, rho: float, bound: float) -> Laid | NotFound:
+    """The headings at all via points chosen together, or else a search among poses.
+
+    Args:
+        drive: What is to be driven.
+        bends: Along the shortest ways.
+        rho: The least radius [m].
+        bound: Only shorter rows of headings are of use [m].
+    """
     spots = _spots(drive)
-    poses = _posed(drive, legs_of(bends, spots), rho, bends.closed)
+    poses = _posed(drive, legs_of(bends, spots), rho, bends.closed, bound)
     if poses is not None:
         return _laid(drive, poses.swings)
     chains = tight_chains(drive.course, drive.world, drive.brief, rho, RAMP * rho, spots)
@@ -191,14 +200,16 @@ def _on_byways(drive: _Drive, rho: float) -> Swing | None:
     return swing_on_byways(drive.legs, drive.ways, lay)
 
 
-def _posed(drive: _Drive, legs: Sequence[Leg], rho: float, closed: bool) -> Poses | None:
+def _posed(
+    drive: _Drive, legs: Sequence[Leg], rho: float, closed: bool, bound: float
+) -> Poses | None:
     """The headings at all via points together: legs as they are, else pushed clear."""
     world, brief = drive.world, drive.brief
     as_it_is = partial(swing_if_clear, rho=rho, world=world, brief=brief)
-    poses = posed(legs, rho, closed, as_it_is)
+    poses = posed(legs, rho, closed, as_it_is, bound=bound)
     if poses is None:
         pushed = partial(clear_swing, rho=rho, world=world, brief=brief)
-        poses = posed(legs, rho, closed, pushed, most=PUSHED)
+        poses = posed(legs, rho, closed, pushed, most=PUSHED, patience=PATIENCE, bound=bound)
     return poses
 
 

@@ -105,7 +105,13 @@ def _headings(bends: Bends, via: int, count: int, spots: Collection[int]) -> Flo
 
 
 def posed(
-    legs: Sequence[Leg], rho: float, closed: bool, lay: Lay, most: int = ROUNDS
+    legs: Sequence[Leg],
+    rho: float,
+    closed: bool,
+    lay: Lay,
+    most: int = ROUNDS,
+    patience: int = ROUNDS,
+    bound: float = math.inf,
 ) -> Poses | None:
     """The shortest row of clear legs, None where there is none among the headings that are tried.
 
@@ -115,15 +121,18 @@ def posed(
         closed: Whether the last heading is the first.
         lay: Lays a clear swing round bends, if it can.
         most: Rows of headings that are tried.
+        patience: Pairs of headings of a leg that are tried until one of them is clear.
+        bound: Only shorter rows are of use [m].
     """
     counts = np.array([*(len(leg.starts) for leg in legs), len(legs[-1].goals)])
     costs = np.full((len(legs), counts.max(), counts.max()), np.inf)
     for k, leg in enumerate(legs):
         costs[k, : counts[k], : counts[k + 1]] = leg.lengths(rho).min(axis=(2, 3))
     laid: dict[tuple[int, int, int], Swing] = {}
+    failed = np.zeros(len(legs), np.int64)
     for _ in range(most):
         row, cost = cheapest(costs, counts, closed)
-        if not math.isfinite(cost):
+        if not cost < bound:  # what is not laid yet costs no less than it says
             return None
         keys = [(k, int(row[k]), int(row[k + 1])) for k in range(len(legs))]
         new = [key for key in keys if key not in laid]
@@ -137,6 +146,10 @@ def posed(
             costs[key] = math.inf if swing is None else swing.length
             if swing is not None:
                 laid[key] = swing
+                failed[key[0]] = -ROUNDS  # it isn't hopeless
+            failed[key[0]] += 1
+        if (failed >= patience).any():
+            return None
     return None
 
 
