@@ -1,14 +1,11 @@
-"""How machines move: against closed forms and scipy's integrator."""
+"""What actuators make of a command, and the arc that follows from it: against closed forms."""
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
-from viaspline.kernels import follow
 from viaspline.kernels.motion import (
     ACKERMANN,
     DIFFERENTIAL,
@@ -44,37 +41,6 @@ def test_a_step_is_exactly_an_arc(rate: float) -> None:
         assert y == pytest.approx(2.0 - radius * (math.cos(heading) - math.cos(0.3)), abs=1e-9)
 
 
-@pytest.mark.parametrize("kind", [DIFFERENTIAL, ACKERMANN])
-def test_a_lagging_machine_moves_as_its_differential_equation_says(kind: int) -> None:
-    drive = machine(kind, lag=0.3, length=1.2)
-    to_speed, to_turn = 1.6, 0.4
-
-    def slope(_: float, state: np.ndarray) -> list[float]:
-        _, _, heading, v, w = state
-        rate = v * math.tan(w) / 1.2 if kind == ACKERMANN else w
-        return [v * math.cos(heading), v * math.sin(heading), rate,
-                (to_speed - v) / 0.3, (to_turn - w) / 0.3]  # fmt: skip
-
-    exact = solve_ivp(slope, (0.0, 2.0), [0.0] * 5, rtol=1e-10, atol=1e-12).y[:, -1]
-    state = np.zeros(follow.STATE)
-    rows = follow.move(
-        drive, state, 0.0, 0.01, np.array([0.0]), np.array([to_speed]), np.array([to_turn]),
-        np.zeros((200, 2)),
-    )  # fmt: skip
-    assert state[:5] == pytest.approx(exact, abs=2e-4)
-    assert rows[-1, 1:4] == pytest.approx(exact[:3], abs=2e-4)
-
-
-def test_a_command_acts_after_the_delay() -> None:
-    drive = machine(delay=0.25)
-    rows = follow.move(
-        drive, np.zeros(follow.STATE), 0.0, 0.01, np.array([0.0]), np.array([1.0]),
-        np.array([0.0]), np.zeros((60, 2)),
-    )  # fmt: skip
-    assert np.all(rows[:25, 1] == 0.0)
-    assert rows[-1, 1] == pytest.approx(0.35, abs=0.006)
-
-
 def test_a_wheel_that_is_too_fast_slows_the_robot_and_keeps_the_arc() -> None:
     v, w = limited(machine(wheel=1.0), 1.0, 2.0)
     assert w / v == pytest.approx(2.0)
@@ -89,24 +55,3 @@ def test_steering_has_an_end_and_a_rate() -> None:
     assert limited(drive, 1.0, 2.0) == (1.0, 0.6)
     assert respond(drive, 1.0, 0.0, 1.0, 0.6, 0.1) == (1.0, pytest.approx(0.05))
     assert turning(drive, 1.0, 0.6) == pytest.approx(math.tan(0.6) / 0.5)
-
-
-def test_a_standing_robot_is_not_shaken_by_noise() -> None:
-    rng = np.random.default_rng(0)
-    state = np.zeros(follow.STATE)
-    drive = machine(speed_noise=0.5, yaw_noise=1.0)
-    none = np.empty(0)
-    rows = follow.move(drive, state, 0.0, 0.01, none, none, none, rng.standard_normal((100, 2)))
-    assert np.all(rows[:, 1:4] == 0.0)
-
-
-def test_the_noise_of_a_drive_has_its_standard_deviation() -> None:
-    rng = np.random.default_rng(1)
-    drive = machine(speed_noise=0.1, yaw_noise=0.2)
-    rows = follow.move(
-        drive, np.zeros(follow.STATE), 0.0, 0.01, np.array([0.0]), np.array([1.0]),
-        np.array([0.3]), rng.standard_normal((60_000, 2)),
-    )  # fmt: skip
-    assert rows[1000:, 4].std() == pytest.approx(0.1, rel=0.1)
-    assert rows[1000:, 5].std() == pytest.approx(0.2, rel=0.1)
-    assert rows[1000:, 4].mean() == pytest.approx(1.0, abs=0.02)

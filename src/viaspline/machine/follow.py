@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.kernels import follow as kernels
-from viaspline.kernels.follow import SUBSTEP, Law
+from viaspline.kernels.follow import drive
+from viaspline.kernels.law import Law
+from viaspline.kernels.travel import HEADING, STATE, SUBSTEP, X, Y
 from viaspline.machine.faults import Faults
 from viaspline.machine.machine import PERIOD, machine_of
 from viaspline.machine.rail import rail_of
@@ -92,7 +93,7 @@ def follow(
     substeps = max(math.ceil(period / SUBSTEP - 1e-9), 1)
     count = math.ceil((LONGER * trajectory.duration + GRACE + machine.delay) / period)
     faults = Faults(robot, seed)
-    rows, notes, ticks = kernels.drive(
+    rows, notes, ticks = drive(
         machine, rail, law, state.copy(), period, substeps,
         faults.measured(count), faults.driven(count * substeps),
     )  # fmt: skip
@@ -121,8 +122,8 @@ def start_of(
 ) -> Floats:
     """The state of a machine that stands at a pose, or off it: ahead, to the left [m], [rad]."""
     ahead, left, turned = offset
-    state = np.zeros(kernels.STATE)
-    state[kernels.X] = x + ahead * math.cos(heading) - left * math.sin(heading)
-    state[kernels.Y] = y + ahead * math.sin(heading) + left * math.cos(heading)
-    state[kernels.HEADING] = heading + turned
+    state = np.zeros(STATE)
+    state[X] = x + ahead * math.cos(heading) - left * math.sin(heading)
+    state[Y] = y + ahead * math.sin(heading) + left * math.cos(heading)
+    state[HEADING] = heading + turned
     return state

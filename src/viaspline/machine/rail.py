@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.kernels.follow import Rail
+from viaspline.kernels.rail import Rail
 
 Floats = NDArray[np.float64]
 

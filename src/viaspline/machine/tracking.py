@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels import follow as kernels
-from viaspline.kernels.follow import Rail
+from viaspline.kernels.follow import deviations
+from viaspline.kernels.rail import Rail
 
 Floats = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ class Tracking:
             notes: Of every period of the controller, shape (m, NOTES), m >= 1.
             rows: Of every step of the motion: time, x, y, heading, …, shape (n, 6).
         """
-        off = kernels.deviations(rail, notes, rows)
+        off = deviations(rail, notes, rows)
         return cls(rows[:, 0], off[:, 0], off[:, 1], off[:, 2], off[:, 3], off[:, 4] == 0.0)
 
     @property

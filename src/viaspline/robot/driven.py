@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels import follow as kernels
-from viaspline.kernels.follow import SUBSTEP
+from viaspline.kernels.control import NOTES
+from viaspline.kernels.travel import SUBSTEP, move
 from viaspline.machine.faults import Faults
 from viaspline.machine.follow import start_of
 from viaspline.machine.tracking import Tracking
@@ -88,7 +88,7 @@ def drive_machine(
         if time > limit:
             overdue = f"the drive was broken off after {time:.0f} s, its limit"
             break
-        moved = kernels.move(
+        moved = move(
             machine, state, time, step / substeps, pilot.given[:, 0].copy(),
             pilot.given[:, 1].copy(), pilot.given[:, 2].copy(), faults.driven(substeps),
         )  # fmt: skip
@@ -98,7 +98,7 @@ def drive_machine(
     track = np.concatenate(rows)
     if contact is not None:
         track = track[track[:, 0] <= contact.time + 1e-9]
-    noted = np.array(notes) if notes else np.zeros((1, kernels.NOTES))
+    noted = np.array(notes) if notes else np.zeros((1, NOTES))
     return Driven(nav, track, Tracking.of(pilot.rail, noted, track), contact, overdue)
 
 

@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.path import Path
-from viaspline.kernels import follow as kernels
-from viaspline.kernels.follow import Law, Rail
+from viaspline.kernels import control
+from viaspline.kernels.law import Law
 from viaspline.kernels.motion import Machine
+from viaspline.kernels.rail import Rail
+from viaspline.kernels.travel import STATE, V
 from viaspline.machine.follow import law_of
 from viaspline.machine.rail import rail_of
 from viaspline.robot.state import RobotState
@@ -52,8 +54,8 @@ class Pilot:
     @classmethod
     def of(cls, machine: Machine, period: float, path: Path, trajectory: Trajectory) -> Pilot:
         """A pilot that has not given any command yet."""
-        memory, note = np.zeros(kernels.MEMORY), np.zeros(kernels.NOTES)
-        memory[kernels.THEN] = -math.inf
+        memory, note = np.zeros(control.MEMORY), np.zeros(control.NOTES)
+        memory[control.THEN] = -math.inf
         rail, law = rail_of(path), law_of(trajectory)
         return cls(machine, period, path, rail, trajectory, law, memory, np.empty((0, 3)), note)
 
@@ -76,12 +78,12 @@ class Pilot:
 
         Where it is too far behind, ``late`` says for how long its clock has to wait.
         """
-        memory, pose = self.memory.copy(), np.zeros(kernels.STATE)
-        if math.isinf(memory[kernels.THEN]):
-            memory[kernels.THEN], memory[kernels.PACE] = time, state.speed
-        period = time - memory[kernels.THEN] if len(self.given) else self.period
-        pose[: kernels.V + 1] = (*state.position[:2], state.heading, state.speed)
-        note = kernels.decide(
+        memory, pose = self.memory.copy(), np.zeros(STATE)
+        if math.isinf(memory[control.THEN]):
+            memory[control.THEN], memory[control.PACE] = time, state.speed
+        period = time - memory[control.THEN] if len(self.given) else self.period
+        pose[: V + 1] = (*state.position[:2], state.heading, state.speed)
+        note = control.decide(
             self.machine, self.rail, self.law, memory, pose, time, max(period, 0.0),
             self.given[:, 0].copy(), self.given[:, 1].copy(), self.given[:, 2].copy(),
         )  # fmt: skip
@@ -90,17 +92,17 @@ class Pilot:
     @property
     def late(self) -> float:
         """How long the clock has to wait [s], after a step."""
-        return float(self.memory[kernels.LATE])
+        return float(self.memory[control.LATE])
 
     @property
     def command(self) -> tuple[float, float]:
         """Speed [m/s] and turn of the last step, as its machine's."""
-        return float(self.note[kernels.TO_SPEED]), float(self.note[kernels.TO_TURN])
+        return float(self.note[control.TO_SPEED]), float(self.note[control.TO_TURN])
 
     def gave(self, time: float) -> Pilot:
         """The same when its command has been given at a time [s]; its clock has waited."""
         memory = self.memory.copy()
-        memory[kernels.LATE] = 0.0
+        memory[control.LATE] = 0.0
         on_their_way = self.given[:, 0] >= time - self.ahead - 2.0 * self.period
         on_their_way[:-1] |= on_their_way[1:]  # the one before them acts until they do
         given = np.vstack((self.given[on_their_way & (self.given[:, 0] < time)],

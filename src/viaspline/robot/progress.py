@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import PathVia
-from viaspline.kernels.follow import ASIDE
+from viaspline.kernels.control import ASIDE
 from viaspline.robot.journey import SLIP, Dwell, Journey, law_on
 from viaspline.robot.pilot import Pilot
 from viaspline.robot.run import Event, Visit

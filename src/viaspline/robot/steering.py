@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.follow import turn_law
+from viaspline.kernels.control import turn_law
 from viaspline.kernels.motion import ACKERMANN, DIFFERENTIAL, SKID_STEER, turning
 from viaspline.robot.journey import Journey
 from viaspline.robot.pilot import Pilot
