@@ -7,7 +7,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viaspline.kernels import profile
+from viaspline.kernels.bend_caps import bend_caps
+from viaspline.kernels.profile import speed_profile
 from viaspline.trajectory.coupled import Profile, Stage
 from viaspline.trajectory.limits import Limits
 
@@ -52,7 +53,7 @@ def bend_profile(path: Cubic, limits: Limits, stage: Stage) -> Profile:
         stage: What is asked.
     """
     line, caps, rests = _stretches(path, limits, stage)
-    points, squares, over, missed = profile.speed_profile(
+    points, squares, over, missed = speed_profile(
         line, caps, rests, limits.max_accel, limits.brake, stage.first**2, stage.last**2
     )
     return Profile(points, squares, float(over), float(missed))
@@ -72,7 +73,7 @@ def _stretches(
     else:
         joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
         first = max(int(np.searchsorted(joints, start, side="right")) - 1, 0)
-        arcs, arc_caps, corners = profile.bend_caps(
+        arcs, arc_caps, corners = bend_caps(
             np.ascontiguousarray(path.spans[first:]), joints[first:],
             np.inf if lateral is None else lateral, np.inf if turning is None else turning,
             max(limits.max_accel, limits.brake), square,
