@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.kernels import cells as kernels
+from viaspline.kernels.cell_frames import fill_cells
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -103,7 +104,7 @@ def cubic_cells(spans: Floats, start: float, end: float, grain: Grain) -> Cells:
     )
     if grain.heading and spans.shape[2] > 2:
         rows, cusps = _cut_by_heading(spans, rows, cusps)
-    along, shares, tangents, bends, rests = kernels.fill_cells(spans, rows, cusps)
+    along, shares, tangents, bends, rests = fill_cells(spans, rows, cusps)
     along = start + along * ((end - start) / along[-1])
     along[-1] = end
     misses = np.ascontiguousarray(rows[:, kernels.MISS_T : kernels.MISS_CHANGE + 1])
