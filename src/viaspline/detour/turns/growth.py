@@ -14,7 +14,18 @@ from viaspline.kernels import pose_search as kernels
 from viaspline.kernels.ground import Ground
 from viaspline.kernels.heap import Heap
 from viaspline.kernels.moves import LEVELS, STEP, Moves
-from viaspline.kernels.pose_search import Ahead, Search
+from viaspline.kernels.pose_arrival import bridge, connected
+from viaspline.kernels.pose_nodes import (
+    CELL,
+    EXPANDED,
+    HERE,
+    LEVEL,
+    NODES,
+    OUTSIDE,
+    THERE,
+    Ahead,
+    Search,
+)
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -74,12 +85,12 @@ class Growth:
     @property
     def expanded(self) -> int:
         """How many states were looked at."""
-        return int(self.search.counts[kernels.EXPANDED])
+        return int(self.search.counts[EXPANDED])
 
     @property
     def was_cut(self) -> bool:
         """Whether it came to the edge of the window."""
-        return bool(self.search.counts[kernels.OUTSIDE])
+        return bool(self.search.counts[OUTSIDE])
 
     @property
     def is_over(self) -> bool:
@@ -118,7 +129,7 @@ class Growth:
             x, y, heading = search.nodes[search.ends[k], :3].tolist()
             cost, s1, s2 = search.arrivals[k].tolist()
             goal = float(search.headings[k])
-            last = kernels.connected(
+            last = connected(
                 self.moves, search.goal[0] - x, search.goal[1] - y, heading, goal, s1, s2
             )
             found.append(Arrival(int(start), goal, cost, np.concatenate((segments, last))))
@@ -130,8 +141,8 @@ class Growth:
         Args:
             count: How many at most.
         """
-        size = int(self.search.counts[kernels.NODES])
-        level = self.search.links[:size, kernels.LEVEL]
+        size = int(self.search.counts[NODES])
+        level = self.search.links[:size, LEVEL]
         nodes = np.flatnonzero(level == LEVELS // 2)
         nodes = nodes[:: 1 + len(nodes) // MANY]
         x, y, heading = self.search.nodes[nodes, :3].T
@@ -163,7 +174,7 @@ class Bridge:
 def bridged(there: Growth, back: Growth, count: int) -> Bridge | None:
     """Connect ``count`` states of either search; None if no two of them can be."""
     out, home = there.spread_out(count), back.spread_out(count)
-    cost, first, last, s1, s2 = kernels.bridge(
+    cost, first, last, s1, s2 = bridge(
         there.ground, there.moves, there.search, back.search, out, home
     )
     return None if first < 0 else _bridge(there, back, (cost, s1, s2, first, last))
@@ -176,20 +187,20 @@ def met(there: Growth, back: Growth) -> Bridge | None:
         ways.append(_bridge(there, back, there.search.meeting))
     if math.isfinite(back.search.meeting[0]):
         home = _bridge(back, there, back.search.meeting)
-        _, start = kernels.path_to(back.moves, back.search, int(back.search.meeting[kernels.HERE]))
+        _, start = kernels.path_to(back.moves, back.search, int(back.search.meeting[HERE]))
         ways.append(Bridge(home.cost, int(start), backwards(home.segments)))
     return min(ways, key=lambda way: way.cost, default=None)
 
 
 def _bridge(there: Growth, back: Growth, meeting: Sequence[float] | Floats) -> Bridge:
-    """The way over a meeting, see ``kernels.pose_search.Search``."""
+    """The way over a meeting, see ``kernels.pose_nodes.Search``."""
     cost, s1, s2 = (float(value) for value in meeting[:3])
-    first, last = int(meeting[kernels.HERE]), int(meeting[kernels.THERE])
+    first, last = int(meeting[HERE]), int(meeting[THERE])
     x, y, heading = there.search.nodes[first, :3].tolist()
     to_x, to_y, turned = back.search.nodes[last, :3].tolist()
     before, _ = kernels.path_to(there.moves, there.search, first)
     after, start = kernels.path_to(back.moves, back.search, last)
-    between = kernels.connected(there.moves, to_x - x, to_y - y, heading, turned + math.pi, s1, s2)
+    between = connected(there.moves, to_x - x, to_y - y, heading, turned + math.pi, s1, s2)
     return Bridge(cost, int(start), np.concatenate((before, between, backwards(after))))
 
 
@@ -209,7 +220,7 @@ def _empty(
         window=np.array(terrain.window.box),
         ends_at=np.concatenate((goal[None], starts[:, :2])),
         care=np.array(terrain.care),
-        scales=np.column_stack((kernels.CELL * steps, around, terrain.rooms(steps))),
+        scales=np.column_stack((CELL * steps, around, terrain.rooms(steps))),
         nodes=np.zeros((nodes, 5)),
         links=np.zeros((nodes, 5), np.int64),
         keys=np.zeros(table, np.int64),

@@ -20,7 +20,8 @@ from viaspline.detour.turns.growth import Growth, backwards, bridged, met
 from viaspline.detour.turns.terrain import Body, Terrain, windows
 from viaspline.kernels.chain import chain_spans, merged, shortened
 from viaspline.kernels.moves import Moves, moves_of
-from viaspline.kernels.pose_search import CELL, EMPTY
+from viaspline.kernels.pose_nodes import CELL
+from viaspline.kernels.pose_search import EMPTY
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]

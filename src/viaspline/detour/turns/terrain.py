@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from viaspline.detour.brief import Brief
 from viaspline.detour.turns.cover import covering_discs
 from viaspline.kernels.ground import HALF_DIAGONAL, KEPT, Ground, is_clear
-from viaspline.kernels.pose_search import Ahead
+from viaspline.kernels.pose_nodes import Ahead
 from viaspline.kernels.raster import rasterized
 from viaspline.kernels.spread import spread
 from viaspline.world.world import World
