@@ -2,7 +2,8 @@
 
 numba's own cache does not notice an edit of a helper in another file, and refuses to import a
 cached kernel when its folder can't be written. So the folder's name is a hash of every kernel
-source, of numba's version and of the processor, and without a writable folder there is no cache.
+source, of the versions of numba and numpy (whose constants are compiled in) and of the processor,
+and without a writable folder there is no cache.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numba
+import numpy
 from llvmlite import binding
 from numba.core import config, event, types
 
@@ -28,7 +30,7 @@ def _fingerprint() -> str:
     for source in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(source.name.encode())
         digest.update(source.read_bytes())
-    parts = (numba.__version__, sys.version, binding.get_host_cpu_name())
+    parts = (numba.__version__, numpy.__version__, sys.version, binding.get_host_cpu_name())
     digest.update("|".join(parts).encode())
     return digest.hexdigest()[:16]
 

@@ -29,7 +29,7 @@ def rail_of(path: PiecewiseCubic) -> Rail:
 
     Example:
         >>> rail = rail_of(PiecewiseCubic([[[0, 0], [1, 0], [2, 0], [3, 0]]]))
-        >>> float(rail.distance[-1]), float(rail.heading[-1])
+        >>> round(float(rail.distance[-1]), 9), float(rail.heading[-1])
         (3.0, 0.0)
     """
     if path.dimension != 2:

@@ -32,7 +32,7 @@ def corners(path: PiecewiseCubic) -> tuple[Floats, Floats]:
     Example:
         >>> right, up = [[0, 0], [1, 0], [2, 0], [3, 0]], [[3, 0], [3, 1], [3, 2], [3, 3]]
         >>> at, angle = corners(PiecewiseCubic([right, up]))
-        >>> at.tolist(), angle.round(3).tolist()
+        >>> at.round(9).tolist(), angle.round(3).tolist()
         ([3.0], [1.571])
     """
     flat = path.spans[:, :, :2]
