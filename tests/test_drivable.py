@@ -116,6 +116,23 @@ def test_turns_that_are_pushed_until_the_last_round_are_served_or_refused() -> N
     drives(vs.plan(mission(*places, closed=True, radius=6.0, world=known)).path, 6.0)
 
 
+def test_a_seam_that_a_detour_leads_to_and_from_is_no_turning_back() -> None:
+    """Both neighbours of the start were the same detour: no tangent, and a cusp at the seam."""
+    places = [
+        [112.8176, 58.4268], [117.8875, 195.083], [28.0557, 101.6296], [119.0324, 95.2107],
+        [172.5393, 14.1445], [189.5222, 73.9461], [127.9912, 173.0816],
+    ]  # fmt: skip
+    discs = [
+        (111.0557, 103.9862, 6.7551), (69.3462, 100.049, 7.1024), (23.6174, 23.08, 5.8111),
+        (73.2222, 140.6451, 4.5415),
+    ]  # fmt: skip
+    known = [disc(*one) for one in discs]
+    found = vs.plan(mission(*places, closed=True, radius=3.0, world={"known": known}))
+    path, end = found.path, found.path.domain[1]
+    drives(path, 3.0)
+    assert abs(math.remainder(float(path.heading(end) - path.heading(0.0)), math.tau)) < 1e-9
+
+
 def test_a_closed_route_has_a_seam_that_is_none() -> None:
     found = vs.plan(mission([0, 0], [40, 0], [40, 5], [0, 25], closed=True, radius=4.0))
     path, end = found.path, found.path.domain[1]

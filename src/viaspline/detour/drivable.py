@@ -102,7 +102,9 @@ class _Drive:
         """Whether the body keeps clear, and no turn is sharper than the turning circle."""
         limit = self.brief.turn_radius
         if limit is not None:
-            ground = PiecewiseCubic(np.ascontiguousarray(spans[:, :, :2]))
+            flat = np.ascontiguousarray(spans[:, :, :2])
+            is_round = self.course.closed and np.array_equal(flat[0, 0], flat[-1, 3])
+            ground = PiecewiseCubic(flat, closed=is_round)  # with the seam: no turn there either
             if not curvature_bound(ground)[0] * limit <= 1.0:
                 return False
         return self.is_clear(spans)
