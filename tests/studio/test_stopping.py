@@ -50,6 +50,13 @@ def test_a_call_that_has_ended_is_not_stopped_any_more() -> None:
     assert sum(range(1000)) == 499500  # the thread goes on
 
 
+def _work(n: int) -> None:
+    """Mostly short; every hundredth lasts until it is stopped, however the threads take turns."""
+    while n % 100 == 0:
+        pass
+    sum(range(n % 400))
+
+
 def test_stopping_at_any_moment_leaves_the_thread_as_it_was() -> None:
     """Stops that come while a call ends reach the call or nobody."""
     ends, stray = {"done": 0, "stopped": 0}, list[BaseException]()
@@ -61,7 +68,7 @@ def test_stopping_at_any_moment_leaves_the_thread_as_it_was() -> None:
             for i in range(3000):
                 current[:] = [Stoppable()]
                 try:
-                    current[0].run(lambda n=i: sum(range(n % 400)))  # type: ignore[misc]
+                    current[0].run(lambda n=i: _work(n))  # type: ignore[misc]
                     ends["done"] += 1
                 except StoppedCallError:
                     ends["stopped"] += 1
@@ -80,7 +87,7 @@ def test_stopping_at_any_moment_leaves_the_thread_as_it_was() -> None:
         sys.setswitchinterval(usual)
     assert stray == []
     assert ends["done"] + ends["stopped"] == 3000
-    assert ends["stopped"] > 0
+    assert ends["stopped"] >= 30
 
 
 def test_an_import_is_finished_before_the_call_is_stopped(

@@ -7,7 +7,9 @@ that comes from outside. So does this, for a thread that is not the main one.
 from __future__ import annotations
 
 import ctypes
+import math
 import sys
+import time
 from collections.abc import Callable
 from threading import Lock, get_ident
 from typing import Final, TypeVar
@@ -16,6 +18,11 @@ T = TypeVar("T")
 
 WHOLE: Final = ("importlib", "_frozen_importlib", "numba", "llvmlite")
 """Packages whose work is never broken off: half an import or a kernel would be left behind."""
+
+
+AGAIN: Final = 0.05
+"""Pause before an exception that may have been lost is sent once more [s]: a call that is about to
+end has to come through with it, and would not under a hail of them."""
 
 
 class StoppedCallError(BaseException):
@@ -34,6 +41,7 @@ class Stoppable:
         self._thread: int | None = None
         self._is_over = False
         self._was_stopped = False
+        self._sent = -math.inf
 
     def run(self, call: Callable[[], T]) -> T:
         """What the call returns or raises.
@@ -62,8 +70,8 @@ class Stoppable:
         with self._lock:
             if self._thread is None:
                 self._is_over = True
-            elif _is_free(self._thread):
-                self._was_stopped = True
+            elif time.monotonic() - self._sent > AGAIN and _is_free(self._thread):
+                self._was_stopped, self._sent = True, time.monotonic()
                 _raise_in(self._thread, StoppedCallError)
 
     def _begin(self) -> None:
