@@ -18,8 +18,8 @@ import shapely
 from worlds import RADIUS, SIZE, crossing, dense, obstacles
 
 import viaspline as vs
-from viaspline.curve.bends import curvature_bound
-from viaspline.curve.body import body_conflicts
+from viaspline.curve.bending import curvature_bound
+from viaspline.curve.footprint_conflicts import body_conflicts
 
 CAR = np.array([(-1, -1), (3.5, -1), (3.5, 1), (-1, 1)], float)
 CLEARANCE = 0.5

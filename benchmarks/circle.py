@@ -15,12 +15,12 @@ from timing import in_turn
 from worlds import GOAL, RADIUS, SIZE, START, dense, obstacles
 
 import viaspline as vs
-from viaspline.curve.bends import curvature_bound
-from viaspline.detour.brief import Brief
-from viaspline.detour.course import course_of
-from viaspline.detour.leg_search import LegSearch
-from viaspline.detour.passing import Task
-from viaspline.detour.route import on_the_line
+from viaspline.curve.bending import curvature_bound
+from viaspline.planning.alternatives.lead_round import Task
+from viaspline.planning.alternatives.leg_search import LegSearch
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.via_sequence import course_of
+from viaspline.planning.routing.router import on_the_line
 
 CIRCLE, ROUNDS = 4.0, 7
 

@@ -18,8 +18,8 @@ from timing import in_turn
 from worlds import length
 
 import viaspline as vs
-from viaspline.detour.route import NO_BARRIERS, Router
 from viaspline.maps.grid import Grid
+from viaspline.planning.routing.router import NO_BARRIERS, Router
 
 SIDE, BLOCKED, BLUR, ENDS = 500, 0.2, 6.0, 20  # cells; the two corners are free
 RADIUS = 0.1  # of the robot, in cells

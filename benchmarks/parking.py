@@ -26,9 +26,9 @@ from shapely import affinity
 
 import viaspline as vs
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.detour.brief import Brief
-from viaspline.detour.turns.pose_search import Chain, Goal, Pose, find_poses
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.turning.hybrid_astar.pose_search import Chain, Goal, Pose, find_poses
 
 WORLDS = {
     "parking1": ("car", 0.9), "parking2": ("car", 0.9), "parking3": ("car", 0.9),

@@ -17,8 +17,8 @@ from plan import SAFE, rrt_path
 from worlds import GOAL, RADIUS, START
 
 import viaspline as vs
-from viaspline.detour.brief import Brief
-from viaspline.detour.replan import planned, reflex
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.replan import planned, reflex
 
 AHEAD = 20.0  # how far ahead of the obstacle the robot is when it sees it [m]
 

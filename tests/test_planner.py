@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import viaspline as vs
-from viaspline.detour.brief import Brief
-from viaspline.detour.course import course_of
-from viaspline.detour.find import find_path
+from viaspline.planning.plan_path import find_path
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.via_sequence import course_of
 
 Oracle = Callable[..., Any]
 BOUNDS = [0, 0, 100, 100]

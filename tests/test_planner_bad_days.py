@@ -10,9 +10,9 @@ import pytest
 import shapely
 
 import viaspline as vs
-from viaspline.detour.brief import LEAST, Brief
-from viaspline.detour.course import course_of
-from viaspline.detour.find import find_path
+from viaspline.planning.plan_path import find_path
+from viaspline.planning.problem.requirements import LEAST, Brief
+from viaspline.planning.problem.via_sequence import course_of
 
 Oracle = Callable[..., Any]
 BOUNDS = [0, 0, 100, 100]

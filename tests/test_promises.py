@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 import viaspline as vs
 from viaspline.curve.certificate import SPARE
-from viaspline.detour import replan
-from viaspline.detour.brief import Brief
-from viaspline.detour.detoured import Detoured
+from viaspline.planning import replan
+from viaspline.planning.alternatives.solution import Detoured
+from viaspline.planning.problem.requirements import Brief
 
 Oracle = Callable[..., Any]
 Floats = NDArray[np.float64]

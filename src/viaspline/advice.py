@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from viaspline.curve.certificate import SPARE
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.detour.brief import Brief
-from viaspline.detour.course import Course, Leg, course_of, lay
-from viaspline.kernels.clearance import tightest
-from viaspline.kernels.measure import length_and_curvature
-from viaspline.machine.limits import limits_of
+from viaspline.kernels.clearance.disc import tightest
+from viaspline.kernels.curve.measure import length_and_curvature
+from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.via_sequence import Course, Leg, course_of, lay
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.world.world import World

@@ -18,15 +18,15 @@ import click
 from viaspline import __version__
 from viaspline.errors import MissionError, NoPathError, ViasplineError
 from viaspline.report.interrupts import Terminated, remembered
-from viaspline.report.messages import no_path, say, tell, telling_warnings
+from viaspline.report.words import no_path, say, tell, telling_warnings
 
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
     from viaspline.mission.robot_parts import RobotSpec
     from viaspline.planner import Plan
-    from viaspline.report.files import Folder
     from viaspline.report.film_file import FilmFile
-    from viaspline.report.progress import Watch
+    from viaspline.report.progress_bar import Watch
+    from viaspline.report.result_files import Folder
 
 DEFECT, WRONG, NO_PATH, NOT_REACHED, INTERRUPTED, TERMINATED = 1, 2, 3, 4, 130, 143
 
@@ -195,7 +195,7 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
     ):
         with watch.stage("advise", "trying tensions"):
             from viaspline.advice import advise_tension
-            from viaspline.detour.order import ordered
+            from viaspline.planning.routing.visit_order import ordered
 
             advice = advise_tension(ordered(asked))
         with watch.stage("report", "drawing and writing"):
@@ -223,7 +223,7 @@ def check(mission: Path | None, schema: bool) -> None:
     if schema:
         import json
 
-        from viaspline.mission.schema import json_schema
+        from viaspline.mission.json_schema import json_schema
 
         say(json.dumps(json_schema(), indent=2))
         return
@@ -313,7 +313,7 @@ def _load(path: Path) -> Mission:
 @contextmanager
 def _folder(path: Path, names: Iterable[str]) -> Iterator[Folder]:
     """The folder of the results, tried before the work and not left empty by a failure."""
-    from viaspline.report.files import Folder
+    from viaspline.report.result_files import Folder
 
     folder = Folder(path, names)
     old = folder.holds_earlier_results()
@@ -343,12 +343,12 @@ def _film(path: Path | None) -> Iterator[FilmFile | None]:
 @contextmanager
 def _watch(quiet: bool, robot: RobotSpec | None = None) -> Iterator[Watch]:
     """Progress, which hears of every kernel that is compiled within the block."""
-    from viaspline.report.progress import Watch
+    from viaspline.report.progress_bar import Watch
 
     watch = Watch(quiet=quiet)
     with watch.stage("start", "starting"):
         from viaspline.kernels.jit import compile_progress
-        from viaspline.warm import jobs_for, second_compiler
+        from viaspline.precompile import jobs_for, second_compiler
     compiler = second_compiler() if robot is None else second_compiler(jobs_for(robot))
     with compile_progress(watch.compiling), compiler:
         yield watch

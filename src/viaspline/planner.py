@@ -8,18 +8,18 @@ from dataclasses import dataclass
 from viaspline.advice import with_advice
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
-from viaspline.detour.account import Account
-from viaspline.detour.brief import Brief
-from viaspline.detour.drive import find_drive
-from viaspline.detour.ledger import LedgerEntry
-from viaspline.detour.order import ordered
 from viaspline.errors import GeometryError, NoPathError
 from viaspline.machine.allowance import SOFTER, allowance, allowance_on_bends
-from viaspline.machine.limits import limits_of
 from viaspline.machine.machine import is_driven, machine_of
-from viaspline.machine.turns import with_turns
+from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.turns_on_spot import with_turns
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.planning.alternatives.record import Account
+from viaspline.planning.plan_drive import find_drive
+from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.routing.visit_order import ordered
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory

@@ -14,9 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viaspline.errors import MissionError, OutputError
-from viaspline.formats.frame import LocalFrame
 from viaspline.formats.interpret import mission_of, origin_in
 from viaspline.formats.load import load, origin_of
+from viaspline.formats.local_frame import LocalFrame
 from viaspline.formats.qgc_plan import parse_qgc_plan
 from viaspline.formats.qgc_wpl import parse_qgc_wpl
 from viaspline.formats.write_plan import plan_text

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from viaspline.kernels.motion import moved
+from viaspline.kernels.tracking.drive_model import moved
 from viaspline.machine.trace import TOLERANCE, trace
 
 

@@ -9,8 +9,8 @@ import pytest
 
 from viaspline.errors import MissionError
 from viaspline.mission.model import Mission
-from viaspline.mission.reader import read_yaml
-from viaspline.mission.writer import write_yaml
+from viaspline.mission.yaml_reader import read_yaml
+from viaspline.mission.yaml_writer import write_yaml
 
 LINE = [[0, 0, 3, 3], [20, 0, 3, 3], [20, 20, 3, 3], [0, 20, 3, 3]]
 

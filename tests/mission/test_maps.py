@@ -16,12 +16,12 @@ import viaspline as vs
 from viaspline.errors import MissionError, OutputError
 from viaspline.maps.grid import Grid
 from viaspline.maps.squares import signed_distance
+from viaspline.mission.json_schema import json_schema
 from viaspline.mission.load_map import load_map
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
-from viaspline.mission.reader import read_yaml
-from viaspline.mission.schema import json_schema
-from viaspline.mission.writer import write_yaml, yaml_text
+from viaspline.mission.yaml_reader import read_yaml
+from viaspline.mission.yaml_writer import write_yaml, yaml_text
 
 Site: TypeAlias = Callable[..., Path]
 

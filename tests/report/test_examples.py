@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from viaspline.formats.load import load
-from viaspline.mission.reader import read_yaml
+from viaspline.mission.yaml_reader import read_yaml
 from viaspline.planner import plan
 from viaspline.report.summary import summary
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from rich.console import Console, RenderableType
 
-from viaspline.detour.ledger import Candidate, LedgerEntry
 from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
+from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.report.screen import ledger_table, plan_tables, run_tables
 from viaspline.report.summary import spline_words, summary, tension
 from viaspline.robot.run import Run

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from viaspline.detour import replan
-from viaspline.detour.detoured import Detoured
 from viaspline.errors import NoPathError
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Circle, Obstacle
+from viaspline.planning import replan
+from viaspline.planning.alternatives.solution import Detoured
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.state import RobotState
 

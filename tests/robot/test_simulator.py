@@ -16,8 +16,8 @@ from viaspline.errors import GeometryError, NoPathError
 from viaspline.mission.model import Mission
 from viaspline.planner import plan
 from viaspline.robot.navigator import Navigator
+from viaspline.robot.perception.range_sensor import RangeSensor
 from viaspline.robot.run import Run
-from viaspline.robot.sensor import RangeSensor
 from viaspline.robot.simulator import simulate
 from viaspline.world.world import World
 

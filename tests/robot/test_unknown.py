@@ -17,8 +17,8 @@ from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
 from viaspline.mission.robot_parts import Lidar
-from viaspline.robot.lidar import LidarSensor
 from viaspline.robot.navigator import Navigator
+from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 

@@ -94,7 +94,7 @@ def test_any_changes_give_a_document_or_a_refusal(changes: list[object]) -> None
 
 
 def test_keys_are_taken_apart_as_they_are_spelt() -> None:
-    from viaspline.mission.flaws import spell
+    from viaspline.mission.unplaced_faults import spell
 
     for path in (("route", "via", 2, "at"), ("world", "known", 0, "polygon", 3), ("route",), ()):
         assert path_of(spell(path)) == path

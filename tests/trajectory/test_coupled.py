@@ -15,7 +15,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.mission.parts import SpeedZone
 from viaspline.trajectory.coupled import Stage, System
-from viaspline.trajectory.course import course_of
+from viaspline.trajectory.limited_path import course_of
 from viaspline.trajectory.limits import SETTLE, Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory

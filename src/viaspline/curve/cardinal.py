@@ -13,7 +13,7 @@ from viaspline.curve.arguments import Floats, frozen, working_copy
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.curve.tangents import ALPHA, PIECES, RULES
 from viaspline.errors import GeometryError
-from viaspline.kernels.tangents import knot_spacing
+from viaspline.kernels.curve.cardinal_tangents import knot_spacing
 
 Knots = Literal["uniform", "centripetal", "chordal"]
 Tangents = Literal["cardinal", "continuous"]

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.kernels import clearance as kernels
+from viaspline.kernels.clearance.disc import disc as kernels
 from viaspline.world.outline import outline
 from viaspline.world.world import World
 
@@ -141,7 +141,7 @@ def _bounder(
     spans = np.array(curve.spans)  # numba compiles read-only arrays once more
     if footprint is None:
         return lambda tolerance: _Bounds(*kernels.tightest(world.packed, spans, tolerance))
-    from viaspline.kernels.body import body_tightest, end_direction
+    from viaspline.kernels.clearance.footprint_walk import body_tightest, end_direction
 
     body = outline(footprint)
     arrival = end_direction(spans, True) if curve.closed else math.nan

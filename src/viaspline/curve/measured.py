@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from viaspline.curve.arguments import Floats, as_point, call, frozen, outside
 from viaspline.errors import GeometryError
-from viaspline.kernels import arclength, cubic, extrema, frame
+from viaspline.kernels.curve import arclength, cubic, extrema, frenet
 
 MOST_SAMPLES = 50_000_000
 
@@ -175,7 +175,7 @@ class Measured:
         joints = np.arange(0.0 if self._closed else 1.0, len(self._spans))
         sides = np.empty((2, joints.size))
         for side, left in zip(sides, (True, False), strict=True):
-            frame.curvature(self._spans, joints, self._closed, left, side)
+            frenet.curvature(self._spans, joints, self._closed, left, side)
         cusps = np.isinf(sides).any(axis=0)
         sides[:, cusps] = 0.0
         if self._spans.shape[2] < 3:

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from viaspline.curve.arguments import Floats, call, frozen, outside, working_copy
 from viaspline.curve.measured import Measured
 from viaspline.errors import GeometryError
-from viaspline.kernels import cubic as kernels
-from viaspline.kernels import frame
+from viaspline.kernels.curve import cubic as kernels
+from viaspline.kernels.curve import frenet
 
 
 class PiecewiseCubic(Measured):
@@ -146,7 +146,7 @@ class PiecewiseCubic(Measured):
         """
         parameters, shape = call(u)
         out = np.empty((parameters.size, self.dimension))
-        bad = frame.direction(self._spans, parameters, self._closed, out)
+        bad = frenet.direction(self._spans, parameters, self._closed, out)
         if bad >= 0:
             raise outside("u", parameters[bad], self.domain)
         return out.reshape((*shape, self.dimension))
@@ -186,7 +186,7 @@ class PiecewiseCubic(Measured):
         """
         parameters, shape = call(u)
         out = np.empty(parameters.size)
-        bad = frame.curvature(self._spans, parameters, self._closed, False, out)
+        bad = frenet.curvature(self._spans, parameters, self._closed, False, out)
         if bad >= 0:
             raise outside("u", parameters[bad], self.domain)
         return out.reshape(shape) if shape else float(out[0])

@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from viaspline.curve.bends import CORNER, corner_angles
+from viaspline.curve.bending import CORNER, corner_angles
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.world.outline import outline

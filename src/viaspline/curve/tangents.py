@@ -10,7 +10,7 @@ from collections.abc import Callable
 from types import MappingProxyType
 
 from viaspline.curve.arguments import Floats
-from viaspline.kernels import tangents as kernels
+from viaspline.kernels.curve import cardinal_tangents as kernels
 
 Rule = Callable[[Floats, float, Floats, Floats, Floats, bool, bool, bool], Floats]
 

@@ -12,7 +12,7 @@ from viaspline.formats.commands import (
     INCLUSION_CIRCLE,
     INCLUSION_CORNER,
 )
-from viaspline.formats.faults import fault_at
+from viaspline.formats.file_faults import fault_at
 from viaspline.formats.items import FenceArea, Item, Itinerary
 
 

@@ -12,11 +12,11 @@ from typing import Any, Final
 import numpy as np
 
 from viaspline.errors import Fault, MissionError, MissionWarning
-from viaspline.formats.faults import fault_at, refusal
 from viaspline.formats.fences import fence_areas
-from viaspline.formats.frame import REACH, Floats, LocalFrame
+from viaspline.formats.file_faults import fault_at, refusal
 from viaspline.formats.items import FenceArea, Itinerary, LatLon, Place
 from viaspline.formats.legs import Stop, stops_of
+from viaspline.formats.local_frame import REACH, Floats, LocalFrame
 from viaspline.mission.model import Mission
 
 SAME: Final = 0.02

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from viaspline.errors import Fault
-from viaspline.formats.faults import fault_at, refusal
+from viaspline.formats.file_faults import fault_at, refusal
 from viaspline.formats.items import Place
-from viaspline.mission.flaws import describe
+from viaspline.mission.unplaced_faults import describe
 
 
 @dataclass

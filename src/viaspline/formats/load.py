@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
-from viaspline.formats.faults import refusal
+from viaspline.formats.file_faults import refusal
 from viaspline.formats.items import Itinerary, LatLon, Place
-from viaspline.mission.document import read_text
 from viaspline.mission.model import Mission
+from viaspline.mission.yaml_document import read_text
 
 _UNDERSTOOD: Final = (
     "understood are viaspline's YAML (.yaml, .yml), QGroundControl's plans (.plan, and .mission "
@@ -42,7 +42,7 @@ def load(path: str | Path) -> Mission:
     """
     # Imported late, so that reading YAML doesn't wait for what the other formats need.
     if _is_yaml(path):
-        from viaspline.mission.reader import read_yaml
+        from viaspline.mission.yaml_reader import read_yaml
 
         return read_yaml(path)
     from viaspline.formats.interpret import mission_of

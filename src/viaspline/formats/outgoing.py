@@ -9,8 +9,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from viaspline.errors import OutputError
-from viaspline.formats.frame import REACH, Floats, LocalFrame
 from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
+from viaspline.formats.local_frame import REACH, Floats, LocalFrame
 from viaspline.formats.losses import losses
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import ViaPoint

@@ -14,9 +14,9 @@ from viaspline.errors import MissionError
 from viaspline.formats.interpret import mission_of
 from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
 from viaspline.formats.json_tree import Tree, json_tree
-from viaspline.mission.document import read_text
-from viaspline.mission.flaws import describe
 from viaspline.mission.model import Mission
+from viaspline.mission.unplaced_faults import describe
+from viaspline.mission.yaml_document import read_text
 
 _ROTORCRAFT: Final = frozenset({2, 3, 4, 13, 14, 15, 29, 35})
 """MAV_TYPEs that fly at hoverSpeed; all others go at cruiseSpeed."""

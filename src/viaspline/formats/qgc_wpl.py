@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Final
 
 from viaspline.errors import Fault, MissionError
-from viaspline.formats.faults import fault_at, refusal
+from viaspline.formats.file_faults import fault_at, refusal
 from viaspline.formats.interpret import mission_of
 from viaspline.formats.items import ABSOLUTE, Home, Item, Itinerary, Place
-from viaspline.mission.document import read_text
 from viaspline.mission.model import Mission
+from viaspline.mission.yaml_document import read_text
 
 _HEADER: Final = re.compile(r"QGC\s+WPL\s+(\S+)")
 _VERSIONS: Final = ("110", "120")

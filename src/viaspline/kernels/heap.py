@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from viaspline.kernels.jit import within
-from viaspline.kernels.packed import Floats, Ints
+from viaspline.kernels.world.packed import Floats, Ints
 
 
 class Heap(NamedTuple):

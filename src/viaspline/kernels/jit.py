@@ -27,8 +27,9 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 def _fingerprint() -> str:
     digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(source.name.encode())
+    root = Path(__file__).parent
+    for source in sorted(root.rglob("*.py")):
+        digest.update(source.relative_to(root).as_posix().encode())
         digest.update(source.read_bytes())
     parts = (numba.__version__, numpy.__version__, sys.version, binding.get_host_cpu_name())
     digest.update("|".join(parts).encode())

@@ -9,8 +9,8 @@ import numpy as np
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.machine.follow import follow
-from viaspline.machine.limits import limits_of
+from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.trial_drive import follow
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory

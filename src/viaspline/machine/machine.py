@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import math
 
-from viaspline.kernels.motion import ACKERMANN, DIFFERENTIAL, POINT, SKID_STEER, Machine
+from viaspline.kernels.tracking.drive_model import (
+    ACKERMANN,
+    DIFFERENTIAL,
+    POINT,
+    SKID_STEER,
+    Machine,
+)
 from viaspline.mission.robot_parts import RobotSpec
 
 PERIOD = 0.05

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.follow import deviations
-from viaspline.kernels.rail import Rail
+from viaspline.kernels.tracking.closed_loop import deviations
+from viaspline.kernels.tracking.reference_path import Rail
 
 Floats = NDArray[np.float64]
 

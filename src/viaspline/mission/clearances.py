@@ -9,11 +9,11 @@ from typing import NamedTuple
 from viaspline.errors import Change
 from viaspline.maps.squares import is_unknown
 from viaspline.mission.corridors import CORRIDOR, corridor_of
-from viaspline.mission.draft import Corners, Draft, obstacle_label
-from viaspline.mission.flaws import Flaw, Path, number, spell
 from viaspline.mission.freespace import FreeSpace
+from viaspline.mission.partial_mission import Corners, Draft, obstacle_label
 from viaspline.mission.parts import Obstacle, ViaPoint
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.unplaced_faults import Flaw, Path, number, spell
 
 TOLERANCE = 1e-9
 """A point may be this much too near [m]: round-off, not a fault."""

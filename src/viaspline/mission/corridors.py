@@ -7,9 +7,9 @@ from typing import Final
 
 import numpy as np
 
-from viaspline.mission.draft import Corners, Draft
-from viaspline.mission.flaws import Flaw, Path, number
+from viaspline.mission.partial_mission import Corners, Draft
 from viaspline.mission.parts import Corridor
+from viaspline.mission.unplaced_faults import Flaw, Path, number
 
 CORRIDOR: Final[Path] = ("route", "corridor")
 SAME_PLACE = 1e-6  # rows nearer to each other than this are one place [m]

@@ -16,9 +16,9 @@ import numpy as np
 
 from viaspline.maps.grid import Grid
 from viaspline.maps.squares import blocked_ground, signed_distance
-from viaspline.mission.draft import Corners
+from viaspline.mission.partial_mission import Corners
 from viaspline.mission.parts import Obstacle
-from viaspline.mission.shapes import Geometries, polygons_of
+from viaspline.mission.polygon_checks import Geometries, polygons_of
 
 Floats: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
 Indices: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]

@@ -9,10 +9,10 @@ from pydantic import ValidationError
 
 from viaspline.errors import MissionError
 from viaspline.maps.reading import Unknown
-from viaspline.mission.flaws import located
 from viaspline.mission.parts import MapSpec, Obstacle
-from viaspline.mission.structure import structural_flaws
-from viaspline.mission.unfold import obstacles_of
+from viaspline.mission.resolve_files import obstacles_of
+from viaspline.mission.schema_errors import structural_flaws
+from viaspline.mission.unplaced_faults import located
 
 
 def load_map(

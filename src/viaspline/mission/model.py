@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ModelWrapValidatorHandler, ValidationInfo, model_validator
 
 from viaspline.mission.parts import MissionParts
-from viaspline.mission.soundness import sound_mission
+from viaspline.mission.validation import sound_mission
 
 
 class Mission(MissionParts):

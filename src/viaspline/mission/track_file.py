@@ -7,7 +7,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from viaspline.mission.fields import FAR
-from viaspline.mission.flaws import Flaw, Path, children
+from viaspline.mission.unplaced_faults import Flaw, Path, children
 
 COLUMNS = "x, y, right, left"
 AT: Path = ("route", "corridor", "csv")

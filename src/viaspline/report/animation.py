@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 from matplotlib.text import Text
 
-from viaspline.detour.brief import Brief
+from viaspline.planning.problem.requirements import Brief
 from viaspline.report import style
 from viaspline.report.column import Column
 from viaspline.report.drawing import any_name, polyline

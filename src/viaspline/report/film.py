@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from viaspline.errors import OutputError
-from viaspline.report.files import replacing
 from viaspline.report.film_file import FilmFile
+from viaspline.report.result_files import replacing
 
 Frame = NDArray[np.uint8]  # (height, width, 3)
 RATE = 15  # frames a second

@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 from viaspline.errors import OutputError
-from viaspline.report.files import Folder
+from viaspline.report.result_files import Folder
 
 KINDS = (".gif", ".mp4")
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from viaspline.curve.bends import curvature_bound
+from viaspline.curve.bending import curvature_bound
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
-from viaspline.detour.ledger import LedgerEntry
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
+from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.report.plain import dumps
 from viaspline.report.summary import tension
 

@@ -7,9 +7,9 @@ from matplotlib.artist import Artist
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
-from viaspline.detour.brief import Brief
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
+from viaspline.planning.problem.requirements import Brief
 from viaspline.report import strips, style
 from viaspline.report.bodies import draw_swept, draw_zones
 from viaspline.report.close_up import close_up

@@ -24,7 +24,7 @@ def remarks(mission: Mission) -> list[str]:
         if zone.max_speed_mps > top
     ]
     if robot.turn_radius is not None:
-        from viaspline.machine.limits import limits_of
+        from viaspline.machine.machine_limits import limits_of
 
         found += limits_of(robot).conflicts(robot.turn_radius)
     return found

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from viaspline.planner import Plan
-from viaspline.report.files import Folder
 from viaspline.report.plan_json import plan_json
 from viaspline.report.plan_picture import plan_picture
+from viaspline.report.result_files import Folder
 from viaspline.report.run_json import run_json, timing_json
 from viaspline.report.run_picture import run_picture
 from viaspline.report.tables import path_csv, run_csv, spacing

@@ -9,7 +9,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import Colormap, ListedColormap, Normalize
 
 from viaspline.curve.path import PathVia
-from viaspline.detour.brief import Brief
+from viaspline.planning.problem.requirements import Brief
 from viaspline.report import strips, style
 from viaspline.report.bodies import draw_swept, draw_zones
 from viaspline.report.close_up import ROOM, close_up

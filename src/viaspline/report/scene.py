@@ -17,12 +17,19 @@ from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
 from viaspline.maps.grid import Grid
-from viaspline.mission.edge import edge_of
+from viaspline.mission.map_edge import edge_of
 from viaspline.mission.parts import Obstacle
 from viaspline.report import style
 from viaspline.report.drawing import Floats, outline, shape_of, shapes_of
-from viaspline.report.ground import UNKNOWN_LABEL, Ground, Tone, nearest_point, too_near, view_of
 from viaspline.report.labels import Labels
+from viaspline.report.map_ground import (
+    UNKNOWN_LABEL,
+    Ground,
+    Tone,
+    nearest_point,
+    too_near,
+    view_of,
+)
 from viaspline.report.sheet import Box
 from viaspline.world.world import World
 

@@ -11,12 +11,12 @@ from rich.table import Table
 
 from viaspline.advice import TensionAdvice
 from viaspline.curve.path import GUIDE
-from viaspline.detour.ledger import Candidate, LedgerEntry
 from viaspline.planner import Plan
-from viaspline.report.messages import deafen
+from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.report.style import without_folder
 from viaspline.report.summary import map_words
 from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
+from viaspline.report.words import deafen
 from viaspline.robot.run import Run
 
 LINES = 12  # of a long list, before the rest is only counted

@@ -14,10 +14,10 @@ from viaspline.mission.parts import Obstacle
 from viaspline.mission.robot_parts import Lidar
 from viaspline.report import style
 from viaspline.report.drawing import Floats, outline, shape_of
-from viaspline.report.ground import Ground, Tone
+from viaspline.report.map_ground import Ground, Tone
 from viaspline.report.sheet import Sheet
-from viaspline.robot.belief import ON_MAP
-from viaspline.robot.lidar import LidarSensor
+from viaspline.robot.perception.belief import ON_MAP
+from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.run import Run
 
 

@@ -9,15 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.control import NOTES
-from viaspline.kernels.travel import SUBSTEP, move
-from viaspline.machine.faults import Faults
-from viaspline.machine.follow import start_of
+from viaspline.kernels.tracking.control_law import NOTES
+from viaspline.kernels.tracking.drive_motion import SUBSTEP, move
+from viaspline.machine.drive_noise import Faults
 from viaspline.machine.tracking import Tracking
+from viaspline.machine.trial_drive import start_of
 from viaspline.mission.parts import Obstacle
 from viaspline.robot.contact import touched
-from viaspline.robot.lidar import Scan
 from viaspline.robot.navigator import Navigator
+from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
 from viaspline.world.world import World

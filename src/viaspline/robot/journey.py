@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.path import Path, PathVia
-from viaspline.detour.brief import Brief
 from viaspline.errors import GeometryError
-from viaspline.machine.turns import with_turns
+from viaspline.machine.turns_on_spot import with_turns
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
-from viaspline.robot.belief import LEAST_ROOM, Belief
-from viaspline.robot.pilot import Pilot
+from viaspline.planning.problem.requirements import Brief
+from viaspline.robot.controller import Pilot
+from viaspline.robot.perception.belief import LEAST_ROOM, Belief
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import braking, retime

@@ -9,21 +9,21 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.machine.limits import limits_of
 from viaspline.machine.machine import PERIOD, is_driven, machine_of
+from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan, plan
-from viaspline.robot.belief import Belief
+from viaspline.robot.advance import advance, commanded, happened
+from viaspline.robot.controller import Pilot
 from viaspline.robot.journey import Journey, law_on
-from viaspline.robot.lidar import Scan
-from viaspline.robot.look import look
-from viaspline.robot.pilot import Pilot
-from viaspline.robot.progress import advance, commanded, happened
-from viaspline.robot.reroute import notice
+from viaspline.robot.perception.belief import Belief
+from viaspline.robot.perception.lidar import Scan
+from viaspline.robot.perception.perceive import look
+from viaspline.robot.replanning.reroute import notice
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
-from viaspline.robot.steering import steer
+from viaspline.robot.steer import steer
 from viaspline.robot.visits import visits_of
 from viaspline.trajectory.limits import REACTION
 from viaspline.trajectory.trajectory import Trajectory

@@ -10,9 +10,9 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.robot.journey import Journey
+from viaspline.robot.replanning.replan_context import Scene
+from viaspline.robot.replanning.ways_on import Choice
 from viaspline.robot.run import Event, Replan
-from viaspline.robot.scene import Scene
-from viaspline.robot.ways import Choice
 from viaspline.trajectory.retime import braking
 
 

@@ -16,11 +16,11 @@ from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan
 from viaspline.robot.driven import Sensed, drive_machine
 from viaspline.robot.driven_run import run_of
-from viaspline.robot.lidar import LidarSensor
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.outcome import outcome
+from viaspline.robot.perception.lidar import LidarSensor
+from viaspline.robot.perception.range_sensor import RangeSensor
 from viaspline.robot.run import Event, Run
-from viaspline.robot.sensor import RangeSensor
 from viaspline.trajectory.limits import REACTION
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.detour.ledger import Candidate
 from viaspline.maps.grid import Grid
 from viaspline.planner import Plan
+from viaspline.planning.problem.ledger import Candidate
 from viaspline.studio.maps import grid_name
 from viaspline.studio.planning import Planned, Problem
 

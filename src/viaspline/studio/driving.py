@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from viaspline.mission.robot_parts import Lidar
 from viaspline.planner import Plan
 from viaspline.report.plain import plain
-from viaspline.robot.belief import ON_MAP
-from viaspline.robot.lidar import LidarSensor
+from viaspline.robot.perception.belief import ON_MAP
+from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 from viaspline.studio.answers import finite, flat, rounded

@@ -80,8 +80,8 @@ class Engine:
 
     def _load(self) -> None:
         from viaspline.kernels.jit import compile_progress
+        from viaspline.precompile import second_compiler
         from viaspline.studio import answers
-        from viaspline.warm import second_compiler
 
         # Never left: drives and pictures may compile more.
         self._listening.enter_context(compile_progress(self._hear))

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from viaspline.errors import OutputError
-from viaspline.report.files import write
+from viaspline.report.result_files import write
 from viaspline.studio.refused import RefusedError
 from viaspline.studio.saving import SAVED
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from viaspline.errors import Fault, MissionError
 from viaspline.formats.items import LatLon
-from viaspline.mission.document import read_document
-from viaspline.mission.flaws import located
+from viaspline.mission.unplaced_faults import located
+from viaspline.mission.yaml_document import read_document
 from viaspline.studio import keeping
 from viaspline.studio.document import Document, check_size
 
@@ -73,7 +73,7 @@ def _opened(path: Path) -> Opened:
 
 def _understood(path: Path) -> tuple[Document, tuple[str, ...], LatLon | None]:
     from viaspline.formats.load import load, origin_of
-    from viaspline.mission.writer import yaml_text
+    from viaspline.mission.yaml_writer import yaml_text
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")

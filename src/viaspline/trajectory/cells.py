@@ -8,8 +8,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viaspline.kernels import cells as kernels
-from viaspline.kernels.cell_frames import fill_cells
+from viaspline.kernels.timing import cut_cells as kernels
+from viaspline.kernels.timing.cell_frames import fill_cells
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]

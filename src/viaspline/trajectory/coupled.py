@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels import cell_caps, nodes, planes, topp
+from viaspline.kernels.timing import cell_caps, halfplanes, reachability, time_grid
 from viaspline.trajectory.cells import Cells, Grain
 from viaspline.trajectory.limits import SETTLE, Limits
-from viaspline.trajectory.steering import jump_speeds, steered_caps
-from viaspline.trajectory.zones import Slow
+from viaspline.trajectory.slow_zones import Slow
+from viaspline.trajectory.steering_rate import jump_speeds, steered_caps
 
 Floats = NDArray[np.float64]
 
@@ -115,7 +115,7 @@ def coupled_profile(cells: Cells, limits: Limits, stage: Stage, grain: Grain) ->
     system = System.of(cells, limits, stage, grain)
     first = system.solve(stage.first**2)
     scale = min(grain.axis, grain.accel)
-    finer = nodes.refined(first.points, first.squares, first.over, scale, GATE, SHARE, PIECES)
+    finer = time_grid.refined(first.points, first.squares, first.over, scale, GATE, SHARE, PIECES)
     if finer.size == first.points.size:
         return first
     return system.on(finer, limits, stage, grain).solve(stage.first**2)
@@ -153,7 +153,7 @@ class System(NamedTuple):
     def on(self, marks: Floats, limits: Limits, stage: Stage, grain: Grain) -> System:
         """The same on the grid of some marks and all ends of cells."""
         cells, slip = self.cells, 1e-9 * (1.0 + stage.end)
-        line, cell, ends = nodes.divide(cells.along, marks, slip)
+        line, cell, ends = time_grid.divide(cells.along, marks, slip)
         tops = np.full(cell.size, grain.square)
         for part in stage.slow:
             middles = 0.5 * (line[1:] + line[:-1])
@@ -162,7 +162,7 @@ class System(NamedTuple):
         caps = jump_caps(cells, limits, line, grain)
         caps[np.searchsorted(line, self.rests)] = 0.0
         caps[-1] = min(caps[-1], stage.last**2)
-        half_planes = planes.stretch_planes(
+        half_planes = halfplanes.stretch_planes(
             line, cell, ends, tops, caps, cells.tangents, cells.bends, cells.yaws, cells.misses,
             self.speeds, limits.max_accel, limits.brake, grain.accel,
             limits.of_axes("axis_accel", cells.tangents.shape[1]), _or_inf(limits.max_yaw_accel),
@@ -171,7 +171,7 @@ class System(NamedTuple):
 
     def solve(self, first: float) -> Profile:
         """The fastest v² from one at the start on [m²/s²]."""
-        squares, over, missed = topp.reachable_profile(
+        squares, over, missed = reachability.reachable_profile(
             self.line, self.planes, self.caps, self.brake, first
         )
         return Profile(self.line, squares, float(over), float(missed))
@@ -229,4 +229,4 @@ def _marks(along: Floats, rests: Floats, stage: Stage, grain: Grain) -> Floats:
     edges = np.array(sorted(place for place in places if start < place < end), dtype=np.float64)
     graded = stage.first <= 0.0 or (rests.size > 0 and bool(rests[0] <= start))
     ramp = grain.square / (2.0 * grain.accel)
-    return nodes.marks(along, stops, edges, graded, ramp, 1e-9 * (1.0 + end))
+    return time_grid.marks(along, stops, edges, graded, ramp, 1e-9 * (1.0 + end))

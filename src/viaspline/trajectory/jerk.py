@@ -9,14 +9,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels import nodes
-from viaspline.trajectory.barrier import Even, Moving, Rest, Rows, Seam
+from viaspline.kernels.timing import time_grid
 from viaspline.trajectory.cells import Cells, Grain
 from viaspline.trajectory.coupled import Profile, Stage, caps_of_cells, jump_caps
-from viaspline.trajectory.course import Course, CubicCourse
+from viaspline.trajectory.interior_point import Even, Moving, Rest, Rows, Seam
+from viaspline.trajectory.jerk_limited import Motion, smoothest, smoothest_from
+from viaspline.trajectory.limited_path import Course, CubicCourse
 from viaspline.trajectory.limits import Limits, Station
-from viaspline.trajectory.pieces import time_into
-from viaspline.trajectory.smooth import Motion, smoothest, smoothest_from
+from viaspline.trajectory.motion_pieces import time_into
 from viaspline.trajectory.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
@@ -185,7 +185,7 @@ class Section:
         begin = moving if low == stage.start and stage.first > 0.0 else rest
         slip = 1e-12 * (1.0 + high)
         marks = np.union1d(_marks(cells.along, low, high, begin, rest), also)
-        line, cell, parts = nodes.divide(cells.along, marks, slip)
+        line, cell, parts = time_grid.divide(cells.along, marks, slip)
         tops = np.full(cell.size, grain.square)
         middles = 0.5 * (line[1:] + line[:-1])
         for slow in stage.slow:

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.mission.parts import SpeedZone
-from viaspline.trajectory.bends import Cubic
 from viaspline.trajectory.coupled import Profile, Stage
-from viaspline.trajectory.course import CubicCourse, crawl
+from viaspline.trajectory.curvature_limited import Cubic
+from viaspline.trajectory.jerk_limited_lap import smooth_lap
+from viaspline.trajectory.limited_path import CubicCourse, crawl
 from viaspline.trajectory.limits import SETTLE, Limits, Station
 from viaspline.trajectory.retime import stops_from
-from viaspline.trajectory.smooth_lap import smooth_lap
-from viaspline.trajectory.steering import jump_speeds
+from viaspline.trajectory.steering_rate import jump_speeds
 from viaspline.trajectory.trajectory import Trajectory
 
 Floats = NDArray[np.float64]

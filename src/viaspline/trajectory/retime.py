@@ -8,11 +8,11 @@ import numpy as np
 
 from viaspline.errors import GeometryError
 from viaspline.mission.parts import SpeedZone
-from viaspline.trajectory.bends import Cubic
 from viaspline.trajectory.cells import Evaluable
 from viaspline.trajectory.coupled import Stage
-from viaspline.trajectory.course import course_of, crawl
+from viaspline.trajectory.curvature_limited import Cubic
 from viaspline.trajectory.jerk import smooth_law
+from viaspline.trajectory.limited_path import course_of, crawl
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.trajectory import Trajectory
 

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viaspline.kernels.ride import ride
+from viaspline.kernels.timing.integrate import ride
 from viaspline.trajectory.limits import Station
-from viaspline.trajectory.pieces import after, speed_into, time_into
+from viaspline.trajectory.motion_pieces import after, speed_into, time_into
 
 Floats = NDArray[np.float64]
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
-from viaspline.kernels import distance as kernels
-from viaspline.kernels.groups import group_labels
-from viaspline.kernels.packed import PackedWorld
+from viaspline.kernels.world import distance as kernels
+from viaspline.kernels.world.clusters import group_labels
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle, Side
 from viaspline.mission.strip import corridor_rings
@@ -194,7 +194,7 @@ class World:
         self, positions: ArrayLike, headings: ArrayLike, footprint: ArrayLike
     ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """The same and what is nearest to the body, as in ``nearest``."""
-        from viaspline.kernels.body_pose import body_distances
+        from viaspline.kernels.clearance.footprint_pose import body_distances
 
         flat, shape = _as_points(positions)
         angles = np.asarray(headings, np.float64)

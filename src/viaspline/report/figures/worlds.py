@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from viaspline.curve.path import PathVia
-from viaspline.detour.brief import Brief
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
+from viaspline.planning.problem.requirements import Brief
 from viaspline.report import style
 from viaspline.report.column import Column
 from viaspline.report.drawing import Floats, png, polyline

@@ -1,0 +1,86 @@
+"""What is proven of how a curve bends: its largest curvature, its corners, its loops."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import GeometryError
+from viaspline.kernels.curve import curvature_bound as kernels
+from viaspline.kernels.curve import self_intersection
+
+CORNER = 1e-7  # a tangent that jumps by less is smooth but for rounding [rad]
+
+
+def curvature_bound(curve: PiecewiseCubic) -> tuple[float, float]:
+    """A proven upper bound of the curvature of the whole curve, without its sign.
+
+    By branch and bound on Bernstein coefficients, not by samples. Turning circles need it: a
+    curve with this bound never asks for a smaller one than 1 / bound.
+
+    Args:
+        curve: Any piecewise cubic.
+
+    Returns:
+        (bound [1/m], u): no place bends more; at u the curve bends as much, to a millionth.
+        Infinite at a corner, where the tangent jumps by more than rounding, and at a cusp.
+
+    Example:
+        >>> curve = PiecewiseCubic([[(0, 0), (1, 2), (2, 2), (3, 0)]])
+        >>> bound, u = curvature_bound(curve)
+        >>> round(bound, 5), u
+        (1.33333, 0.5)
+        >>> curvature_bound(PiecewiseCubic([[(0, 0), (1, 0), (2, 0), (3, 0)],
+        ...                                 [(3, 0), (3, 1), (3, 2), (3, 3)]]))
+        (inf, 1.0)
+    """
+    sharp = np.flatnonzero(corner_angles(curve) > CORNER)
+    if sharp.size:
+        return math.inf, float(sharp[0])
+    upper, _, w = kernels.curvature_bounds(np.array(curve.spans), 0.0)
+    span = int(np.argmax(upper))
+    return float(upper[span]), float(span + w[span])
+
+
+def corner_angles(curve: PiecewiseCubic) -> NDArray[np.float64]:
+    """The angles by which the tangent jumps at the joints [rad], shape (m + 1,), in [0, pi].
+
+    Joint 0 first; 0 at the ends of an open curve, the seam of a closed one stands at both ends.
+
+    Example:
+        >>> from viaspline.curve.cardinal import CardinalSpline
+        >>> corner_angles(CardinalSpline([(0, 0), (1, 0), (1, 1)], tension=1.0)).round(4)
+        array([0. , 1.5708, 0. ])
+    """
+    angles: NDArray[np.float64] = kernels.corners(np.array(curve.spans), curve.closed)
+    return angles
+
+
+def self_loops(spans: ArrayLike) -> NDArray[np.bool_]:
+    """Which spans loop back on themselves.
+
+    A span does that crosses itself, has a cusp, turns back on a straight line, or whose headings
+    lie more than half a turn apart.
+
+    Args:
+        spans: Bézier control polygons [m], (m, 4, d), d at least 2; of spans in space, the ground
+            track counts.
+
+    Returns:
+        Shape (m,).
+
+    Raises:
+        GeometryError: For other shapes.
+
+    Example:
+        >>> self_loops([[(0, 0), (9, 9), (-6, 9), (3, 0)], [(3, 0), (4, 0), (5, 0), (6, 0)]])
+        array([ True, False])
+    """
+    control = np.array(spans, np.float64)
+    if control.ndim != 3 or control.shape[1] != 4 or control.shape[2] < 2:
+        raise GeometryError(f"spans have to be of shape (m, 4, d), d > 1, not {control.shape}")
+    found: NDArray[np.bool_] = self_intersection.self_loops(control)
+    return found

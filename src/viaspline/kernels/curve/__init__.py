@@ -1,0 +1,1 @@
+"""Cubics: evaluation, arc length, tangents and curvature, extrema, proven bounds."""

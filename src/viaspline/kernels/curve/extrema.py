@@ -1,0 +1,286 @@
+"""Exact extrema on piecewise cubics: the nearest point and the sharpest curvature.
+
+Both are roots of a polynomial in Bernstein form. Where the signs of its coefficients don't change
+there is no root; elsewhere it is halved. So every candidate is found, none by luck of a sample.
+
+Polynomials are kept in the scaled form ``sum a_i v^(n-i) w^i`` with v = 1 - w, in which a product
+is a convolution; ``a_i`` over the binomial (n, i) is the Bernstein coefficient.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.curve.cubic import speed_bound
+from viaspline.kernels.curve.frenet import curvature_at
+from viaspline.kernels.jit import inner, kernel
+
+Floats = NDArray[np.float64]
+
+NARROW = 2.0**-26
+DEPTH = 32
+
+
+@inner
+def _add_product(a: Floats, b: Floats, factor: float, out: Floats) -> None:
+    """Add ``factor * a * b`` to ``out``; all in the scaled form."""
+    for i in range(a.shape[0]):
+        for j in range(b.shape[0]):
+            out[i + j] += factor * a[i] * b[j]
+
+
+@inner
+def _slope(a: Floats, out: Floats) -> None:
+    """Derivative in the scaled form."""
+    degree = a.shape[0] - 1
+    for i in range(degree):
+        out[i] = (i + 1) * a[i + 1] - (degree - i) * a[i]
+
+
+@inner
+def _to_bernstein(a: Floats) -> None:
+    """From the scaled form to Bernstein coefficients, in place."""
+    degree = a.shape[0] - 1
+    binomial = 1.0
+    for i in range(degree + 1):
+        a[i] /= binomial
+        binomial = binomial * (degree - i) / (i + 1)
+
+
+@inner
+def _changes_sign(coefficients: Floats) -> bool:
+    low = coefficients[0]
+    high = coefficients[0]
+    for i in range(1, coefficients.shape[0]):
+        low = min(low, coefficients[i])
+        high = max(high, coefficients[i])
+    return bool(low < 0.0 < high)
+
+
+@kernel
+def roots(coefficients: Floats, stack: Floats, out: Floats) -> int:
+    """Roots of a Bernstein polynomial inside (0, 1), to ``NARROW``; those at 0 and 1 don't count.
+
+    Args:
+        coefficients: (n + 1,).
+        stack: Room, (DEPTH, n + 3).
+        out: (8 n,), the roots in order.
+
+    Returns:
+        How many there are; a multiple root may stand there several times.
+    """
+    size = coefficients.shape[0]
+    found = 0
+    for i in range(size):
+        stack[0, i] = coefficients[i]
+    stack[0, size] = 0.0
+    stack[0, size + 1] = 1.0
+    top = 0
+    while top >= 0 and found < out.shape[0]:
+        if not _changes_sign(stack[top, :size]):
+            top -= 1
+            continue
+        start = stack[top, size]
+        width = stack[top, size + 1]
+        if width <= NARROW:
+            out[found] = start + 0.5 * width
+            found += 1
+            top -= 1
+            continue
+        right = stack[top]
+        left = stack[top + 1]
+        for i in range(size):
+            left[i] = right[0]
+            for j in range(size - 1 - i):
+                right[j] = 0.5 * (right[j] + right[j + 1])
+        left[size] = start
+        left[size + 1] = 0.5 * width
+        right[size] = start + 0.5 * width
+        right[size + 1] = 0.5 * width
+        if right[0] == 0.0 and found < out.shape[0]:
+            out[found] = right[size]
+            found += 1
+        top += 1
+    return found
+
+
+@inner
+def _moved(spans: Floats, k: int, point: Floats, out: Floats) -> float:
+    """Control points of span k seen from a point into ``out``, and a bound: distance squared."""
+    bound = 0.0
+    for axis in range(point.shape[0]):
+        low = np.inf
+        high = -np.inf
+        for j in range(4):
+            value = spans[k, j, axis] - point[axis]
+            out[j, axis] = value
+            low = min(low, value)
+            high = max(high, value)
+        gap = max(0.0, low, -high)
+        bound += gap * gap
+    return bound
+
+
+@inner
+def _squared(control: Floats, w: float) -> float:
+    """Squared distance of a span from the origin at w."""
+    v = 1.0 - w
+    total = 0.0
+    for axis in range(control.shape[1]):
+        value = v * v * (v * control[0, axis] + 3.0 * w * control[1, axis])
+        value += w * w * (3.0 * v * control[2, axis] + w * control[3, axis])
+        total += value * value
+    return total
+
+
+@inner
+def _polished(control: Floats, w: float) -> float:
+    """Newton steps on P . P' = 0 as long as they come nearer."""
+    for _ in range(4):
+        v = 1.0 - w
+        value = 0.0
+        slope = 0.0
+        for axis in range(control.shape[1]):
+            p0, p1, p2, p3 = control[0, axis], control[1, axis], control[2, axis], control[3, axis]
+            p = v * v * (v * p0 + 3.0 * w * p1) + w * w * (3.0 * v * p2 + w * p3)
+            first = 3.0 * (v * v * (p1 - p0) + 2.0 * v * w * (p2 - p1) + w * w * (p3 - p2))
+            second = 6.0 * (v * (p2 - 2.0 * p1 + p0) + w * (p3 - 2.0 * p2 + p1))
+            value += p * first
+            slope += first * first + p * second
+        if slope <= 0.0:
+            return w
+        better = min(max(w - value / slope, 0.0), 1.0)
+        if better == w or abs(better - w) > 4.0 * NARROW:
+            return w
+        w = better
+    return w
+
+
+@kernel
+def nearest_parameter(
+    spans: Floats, point: Floats, start: float, end: float
+) -> tuple[float, float]:
+    """The nearest point of a piecewise cubic, of all of it.
+
+    The candidates are the ends of spans and the roots of (P(w) - point) . P'(w), of degree 5;
+    spans whose box of control points is farther away than the best so far are passed over.
+
+    Args:
+        spans: (m, 4, d) [m].
+        point: (d,) [m].
+        start: First parameter that counts.
+        end: Last parameter that counts.
+
+    Returns:
+        (u, distance [m]); of several nearest ones the first.
+    """
+    count, _, dimension = spans.shape
+    control = np.empty((4, dimension))
+    first = min(int(start), count - 1)
+    last = min(int(end), count - 1)
+    best = np.inf
+    at = start
+    for k in range(first, last + 1):
+        _moved(spans, k, point, control)
+        low = max(start - k, 0.0)
+        high = min(end - k, 1.0)
+        here = _squared(control, low)
+        if here < best:
+            best, at = here, k + low
+        if k == last or high < 1.0:
+            here = _squared(control, high)
+            if here < best:
+                best, at = here, k + high
+    stack = np.empty((DEPTH, 8))
+    found = np.empty(40)
+    position = np.empty(4)
+    velocity = np.empty(3)
+    product = np.empty(6)
+    for k in range(first, last + 1):
+        if _moved(spans, k, point, control) >= best:
+            continue
+        for j in range(6):
+            product[j] = 0.0
+        for axis in range(dimension):
+            for j in range(4):
+                position[j] = control[j, axis] * (3.0 if 0 < j < 3 else 1.0)
+            for j in range(3):
+                velocity[j] = (control[j + 1, axis] - control[j, axis]) * (2.0 if j == 1 else 1.0)
+            _add_product(position, velocity, 1.0, product)
+        _to_bernstein(product)
+        for i in range(roots(product, stack, found)):
+            w = min(max(_polished(control, found[i]), start - k), end - k)
+            here = _squared(control, w)
+            if here < best or (here == best and k + w < at):
+                best, at = here, k + w
+    return at, math.sqrt(best)
+
+
+@inner
+def _curvature_slope(spans: Floats, k: int, scale: float, out: Floats) -> None:
+    """Bernstein coefficients of Y' q - 3 Y q', whose sign is that of the slope of curvature.
+
+    With Y = |P' x P''|^2 and q = |P'|^2 curvature squared is Y / q^3. With the differences d of
+    the control points, P' x P'' = 18 (v^2 d0 x d1 + v w d0 x d2 + w^2 d1 x d2).
+    """
+    dimension = spans.shape[2]
+    step = np.empty((3, dimension))
+    for j in range(3):
+        for axis in range(dimension):
+            step[j, axis] = 3.0 * (spans[k, j + 1, axis] - spans[k, j, axis]) / scale
+    q = np.zeros(5)
+    y = np.zeros(5)
+    factor = np.empty(3)
+    for i in range(dimension):
+        factor[0] = step[0, i]
+        factor[1] = 2.0 * step[1, i]
+        factor[2] = step[2, i]
+        _add_product(factor, factor, 1.0, q)
+        for j in range(i):
+            factor[0] = step[0, i] * step[1, j] - step[0, j] * step[1, i]
+            factor[1] = step[0, i] * step[2, j] - step[0, j] * step[2, i]
+            factor[2] = step[1, i] * step[2, j] - step[1, j] * step[2, i]
+            _add_product(factor, factor, 1.0, y)
+    slope = np.empty(4)
+    for j in range(8):
+        out[j] = 0.0
+    _slope(y, slope)
+    _add_product(slope, q, 1.0, out)
+    _slope(q, slope)
+    _add_product(y, slope, -3.0, out)
+    _to_bernstein(out)
+
+
+@kernel
+def sharpest(spans: Floats) -> tuple[float, int, float]:
+    """The largest curvature of a piecewise cubic, both sides of every joint included.
+
+    Args:
+        spans: (m, 4, d) [m].
+
+    Returns:
+        (curvature without sign [1/m], span, w); the first of several.
+    """
+    stack = np.empty((DEPTH, 10))
+    found = np.empty(56)
+    slope = np.empty(8)
+    largest = -1.0
+    span_at = 0
+    w_at = 0.0
+    for k in range(spans.shape[0]):
+        candidates = 1
+        found[0] = 0.0
+        scale = speed_bound(spans, k)
+        if scale > 0.0 and spans.shape[2] > 1:
+            _curvature_slope(spans, k, scale, slope)
+            candidates = 1 + roots(slope, stack, found[1:55])
+            found[candidates] = 1.0
+            candidates += 1
+        for i in range(candidates):
+            value = abs(curvature_at(spans, k, found[i]))
+            if value > largest:
+                largest, span_at, w_at = value, k, found[i]
+    return largest, span_at, w_at

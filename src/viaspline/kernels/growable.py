@@ -1,0 +1,40 @@
+"""Tables that grow. numba compiles ``np.empty`` anew for every kernel that calls it: here once."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.kernels.jit import inner
+from viaspline.kernels.world.packed import Floats, Ints
+
+
+@inner
+def new_floats(count: int, columns: int) -> Floats:
+    """Rows that are yet to be written."""
+    return np.empty((count, columns))
+
+
+@inner
+def new_ints(count: int, columns: int) -> Ints:
+    """Rows that are yet to be written."""
+    return np.empty((count, columns), np.int64)
+
+
+@inner
+def sized_floats(rows: Floats, count: int, room: int) -> Floats:
+    """The first ``count`` rows in a table of its own with ``room`` of them."""
+    other = new_floats(room, rows.shape[1])
+    for i in range(count):
+        for k in range(rows.shape[1]):
+            other[i, k] = rows[i, k]
+    return other
+
+
+@inner
+def sized_ints(rows: Ints, count: int, room: int) -> Ints:
+    """The first ``count`` rows in a table of its own with ``room`` of them."""
+    other = new_ints(room, rows.shape[1])
+    for i in range(count):
+        for k in range(rows.shape[1]):
+            other[i, k] = rows[i, k]
+    return other

@@ -1,0 +1,1 @@
+"""Any-angle shortest paths on a lattice: free rectangles and Polyanya."""

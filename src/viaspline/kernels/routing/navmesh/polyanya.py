@@ -1,0 +1,155 @@
+"""Shortest paths through a mesh of rectangles: Polyanya.
+
+Michael Cui, Daniel Harabor, Alban Grastien: "Compromise-free Pathfinding on a Navigation Mesh",
+IJCAI 2017. A* over intervals: a node is the part [a, b] of a portal that is seen from its root, the
+last place where the path turned. The path that it finds is the shortest of all in the mesh.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.kernels.growable import new_floats, new_ints, sized_floats
+from viaspline.kernels.jit import inner, kernel, within
+from viaspline.kernels.routing.navmesh.polyanya_nodes import (
+    GOAL,
+    PARENT,
+    PORTAL,
+    ROOT,
+    ROOT_X,
+    ROOT_Y,
+    START,
+    UP,
+    A,
+    Search,
+    next_node,
+    sized,
+)
+from viaspline.kernels.routing.navmesh.polyanya_successors import expand, spread
+from viaspline.kernels.routing.navmesh.rectangles import (
+    FIRST_ABOVE,
+    FIRST_BELOW,
+    HEIGHT,
+    LEFT,
+    OVER,
+    PIECE,
+    RIGHT,
+    UNDER,
+    Mesh,
+    rectangle_at,
+)
+from viaspline.kernels.world.packed import Floats
+
+
+@within
+def _doors_of(mesh: Mesh, room: int) -> int:
+    """How many portals a rectangle has."""
+    below = mesh.doors[room, FIRST_BELOW + 1] - mesh.doors[room, FIRST_BELOW]
+    return below + mesh.doors[room, FIRST_ABOVE + 1] - mesh.doors[room, FIRST_ABOVE]
+
+
+@within
+def _most_after(mesh: Mesh, search: Search, here: int) -> int:
+    """How many nodes there are at most when a node has been expanded."""
+    portal = search.links[here, PORTAL]
+    room = mesh.portals[portal, OVER if search.links[here, UP] == 1 else UNDER]
+    return search.sizes[0, 0] + 1 + 6 * _doors_of(mesh, room)
+
+
+@inner
+def _begun(mesh: Mesh, start: Floats, goal: Floats, room: int) -> Search:
+    """A search with what is seen from the start."""
+    cheapest = new_floats(2 * mesh.portals.shape[0], 1)
+    for k in range(cheapest.shape[0]):
+        cheapest[k, 0] = np.inf
+    size = 1024 + 2 * mesh.portals.shape[0]
+    search = Search(
+        new_floats(size, 5),
+        new_ints(size, 4),
+        new_floats(size, 1),
+        new_ints(size, 1),
+        new_ints(1, 2),
+        cheapest,
+        goal,
+    )
+    search.sizes[0, 0] = 0
+    search.sizes[0, 1] = 0
+    left = float(mesh.rectangles[room, LEFT])
+    right = float(mesh.rectangles[room, RIGHT])
+    for up in range(2):
+        spread(mesh, search, room, -1, up, left, right, start[0], start[1], 0.0, START)
+    return search
+
+
+@kernel
+def shortest_path(mesh: Mesh, start: Floats, goal: Floats) -> Floats:
+    """The shortest path between two places of a mesh.
+
+    Args:
+        mesh: Mesh.
+        start: (2,) [cells].
+        goal: (2,) [cells].
+
+    Returns:
+        Start, the corners where it turns, goal, (k, 2) [cells]; no rows where there is no path.
+    """
+    room = rectangle_at(mesh, start[0], start[1])
+    last_room = rectangle_at(mesh, goal[0], goal[1])
+    if room < 0 or last_room < 0:
+        return new_floats(0, 2)
+    if mesh.rectangles[room, PIECE] != mesh.rectangles[last_room, PIECE]:
+        return new_floats(0, 2)
+    if room == last_room:
+        return _path(new_floats(0, 2), 0, start, goal)
+    search = _begun(mesh, start, goal, room)
+    here = next_node(search)
+    while here >= 0 and search.links[here, PORTAL] != GOAL:
+        most = _most_after(mesh, search, here)
+        if most > search.places.shape[0]:
+            search = sized(search, 2 * most)
+        expand(mesh, search, here, last_room)
+        here = next_node(search)
+    turns, count = _turns(mesh, search, here)
+    return _path(turns, count, start, goal)
+
+
+@inner
+def _turns(mesh: Mesh, search: Search, last: int) -> tuple[Floats, int]:
+    """Where the path to the last node turns, from its end to its start, and how often."""
+    gx = search.goal[0]
+    gy = search.goal[1]
+    turns = new_floats(16, 2)
+    count = 0
+    # the last turn may be at an end of the last interval
+    at = search.places[last]
+    x = at[A]
+    y = float(mesh.portals[search.links[search.links[last, PARENT], PORTAL], HEIGHT])
+    area = (x - at[ROOT_X]) * (gy - y) - (y - at[ROOT_Y]) * (gx - x)
+    if abs(area) > 1e-7 * (abs(gx - x) + abs(gy - y) + 1.0):
+        turns[0, 0] = x
+        turns[0, 1] = y
+        count = 1
+    node = last
+    while node >= 0 and search.links[node, ROOT] != START:
+        x = search.places[node, ROOT_X]
+        y = search.places[node, ROOT_Y]
+        if count == turns.shape[0]:
+            turns = sized_floats(turns, count, 2 * count)
+        if count == 0 or x != turns[count - 1, 0] or y != turns[count - 1, 1]:
+            turns[count, 0] = x
+            turns[count, 1] = y
+            count += 1
+        node = search.links[node, PARENT]
+    return turns, count
+
+
+@inner
+def _path(turns: Floats, count: int, start: Floats, goal: Floats) -> Floats:
+    """Start, turns in their order, goal, (count + 2, 2)."""
+    path = new_floats(count + 2, 2)
+    for axis in range(2):
+        path[0, axis] = start[axis]
+        path[count + 1, axis] = goal[axis]
+        for k in range(count):
+            path[count - k, axis] = turns[k, axis]
+    return path

@@ -1,0 +1,138 @@
+"""The nodes of Polyanya's search, and the heap of those that have not been expanded."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from viaspline.kernels.growable import sized_floats, sized_ints
+from viaspline.kernels.jit import inner, within
+from viaspline.kernels.world.packed import Floats, Ints
+
+TINY = 1e-9
+# columns of the two tables of nodes
+A, B, ROOT_X, ROOT_Y, COST = range(5)
+PORTAL, UP, ROOT, PARENT = range(4)
+START = -1  # the root before the first turn
+GOAL = -2  # in place of the portal: the path has arrived
+
+
+class Search(NamedTuple):
+    """Nodes, and a heap of those that have not been expanded.
+
+    A root is a portal's end: ``2 * portal`` for the left one, ``2 * portal + 1`` for the right.
+
+    Attributes:
+        places: The interval, the root, and the length of the path up to it, (n, 5).
+        links: The portal, whether the path goes up through it, the root, the node before, (n, 4).
+        keys: The heap's keys: how long a path through the node is at least, (n, 1).
+        items: The heap's nodes, (n, 1).
+        sizes: How many nodes there are, and how many of them are in the heap, (1, 2).
+        cheapest: Length of the shortest path yet to each root, (2 p, 1).
+        goal: (2,).
+    """
+
+    places: Floats
+    links: Ints
+    keys: Floats
+    items: Ints
+    sizes: Ints
+    cheapest: Floats
+    goal: Floats
+
+
+@within
+def push(search: Search, key: float, item: int) -> None:
+    """Put a node into the heap."""
+    k = search.sizes[0, 1]
+    while k > 0:
+        parent = (k - 1) >> 1
+        if search.keys[parent, 0] <= key:
+            break
+        search.keys[k, 0] = search.keys[parent, 0]
+        search.items[k, 0] = search.items[parent, 0]
+        k = parent
+    search.keys[k, 0] = key
+    search.items[k, 0] = item
+    search.sizes[0, 1] += 1
+
+
+@within
+def _pop(search: Search) -> int:
+    """Take the node with the smallest key; -1 where there is none."""
+    size = search.sizes[0, 1] - 1
+    if size < 0:
+        return -1
+    first = search.items[0, 0]
+    key = search.keys[size, 0]
+    item = search.items[size, 0]
+    k = 0
+    while True:
+        child = 2 * k + 1
+        if child >= size:
+            break
+        if child + 1 < size and search.keys[child + 1, 0] < search.keys[child, 0]:
+            child += 1
+        if search.keys[child, 0] >= key:
+            break
+        search.keys[k, 0] = search.keys[child, 0]
+        search.items[k, 0] = search.items[child, 0]
+        k = child
+    search.keys[k, 0] = key
+    search.items[k, 0] = item
+    search.sizes[0, 1] = size
+    return first
+
+
+@within
+def next_node(search: Search) -> int:
+    """The next node that no shorter path to its root has made worthless; -1 where none is left."""
+    while True:
+        node = _pop(search)
+        if node < 0:
+            return -1
+        root = search.links[node, ROOT]
+        if root == START or search.places[node, COST] <= search.cheapest[root, 0] + TINY:
+            return node
+
+
+@within
+def add(
+    search: Search,
+    portal: int,
+    up: int,
+    a: float,
+    b: float,
+    x: float,
+    y: float,
+    cost: float,
+    root: int,
+    parent: int,
+) -> int:
+    """A new node, which is not in the heap yet; returns its number."""
+    count = search.sizes[0, 0]
+    search.sizes[0, 0] += 1
+    search.places[count, A] = a
+    search.places[count, B] = b
+    search.places[count, ROOT_X] = x
+    search.places[count, ROOT_Y] = y
+    search.places[count, COST] = cost
+    search.links[count, PORTAL] = portal
+    search.links[count, UP] = up
+    search.links[count, ROOT] = root
+    search.links[count, PARENT] = parent
+    return count
+
+
+@inner
+def sized(search: Search, room: int) -> Search:
+    """The same with room for that many nodes."""
+    count = search.sizes[0, 0]
+    return Search(
+        sized_floats(search.places, count, room),
+        sized_ints(search.links, count, room),
+        sized_floats(search.keys, search.sizes[0, 1], room),
+        sized_ints(search.items, search.sizes[0, 1], room),
+        search.sizes,
+        search.cheapest,
+        search.goal,
+    )

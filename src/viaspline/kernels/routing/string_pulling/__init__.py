@@ -1,0 +1,1 @@
+"""A guide pulled taut on the true shapes of obstacles."""

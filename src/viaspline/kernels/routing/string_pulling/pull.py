@@ -1,0 +1,272 @@
+"""Pulling a guide taut: the shortest path among inflated obstacles that can be bent into it.
+
+A string is a row of arcs round features and the common tangents between them. Where a tangent or
+an arc comes too close to a feature that is not in the row, the feature is put in, on the side on
+which the guide passes it; where the string bends away from a feature, the feature is left out.
+What remains is taut. Two features that have to be passed between and stand too close together are
+a gap that is too narrow: the guide itself is no way.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viaspline.kernels.growable import new_floats, sized_floats
+from viaspline.kernels.jit import kernel, part, within
+from viaspline.kernels.routing.string_pulling.features import (
+    FEATURE_RADIUS,
+    FEATURE_X,
+    FEATURE_Y,
+    features_near,
+)
+from viaspline.kernels.routing.string_pulling.guide import foot, side_of, turn_at
+from viaspline.kernels.routing.string_pulling.string_conflicts import SMALL, next_conflict
+from viaspline.kernels.routing.string_pulling.string_rows import (
+    COLUMNS,
+    PLACE,
+    insert,
+    is_row,
+    write,
+    write_end,
+)
+from viaspline.kernels.routing.string_pulling.tighten import slacken
+from viaspline.kernels.routing.tangent_arcs import (
+    BEND_RADIUS,
+    BEND_X,
+    BEND_Y,
+    SIDE,
+    TURN,
+    corners_round,
+)
+from viaspline.kernels.world.distance import nearest
+from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.segment import nearest_to_segment
+
+ROOM = 256  # features that are looked at near one place
+OFTEN = 2  # times that a feature may be put in anew on one side
+
+
+@part
+def _inside(
+    world: PackedWorld, guide: Floats, k: int, nx: float, ny: float, rho: float, side: float,
+    found: Floats,
+) -> int:  # fmt: skip
+    """The feature that the guide goes round at a corner: what is most in its way.
+
+    Args:
+        world: PackedWorld.
+        guide: (k, 2) [m].
+        k: The corner.
+        nx: To the inside of the turn.
+        ny: The same.
+        rho: Distance at which the string turns [m].
+        side: How far the corner may be from the feature [m].
+        found: Room for features.
+
+    Returns:
+        Its row in ``found``, -1 where there is none.
+    """
+    x = guide[k, 0] + 0.7 * side * nx
+    y = guide[k, 1] + 0.7 * side * ny
+    distance, _ = nearest(world, x, y, rho + 3.0 * side)
+    near = features_near(world, x, y, max(distance, 0.0) + 0.75 * side, found)
+    best = -np.inf
+    chosen = -1
+    for j in range(near):
+        inwards = (found[j, FEATURE_X] - x) * nx + (found[j, FEATURE_Y] - y) * ny
+        reach = found[j, FEATURE_RADIUS] - inwards
+        if reach > best:
+            best = reach
+            chosen = j
+    return chosen
+
+
+@part
+def _begin(
+    world: PackedWorld, guide: Floats, rho: float, side: float, found: Floats
+) -> tuple[Floats, int]:
+    """One row for every feature that a corner of the guide goes round, and the two ends."""
+    corners = guide.shape[0]
+    rows = new_floats(max(16, 2 * corners), COLUMNS)
+    write_end(rows, 0, guide, 0)
+    count = 1
+    for k in range(1, corners - 1):
+        turn, nx, ny = turn_at(guide, k)
+        if turn == 0.0:
+            continue
+        chosen = _inside(world, guide, k, nx, ny, rho, side, found)
+        if chosen < 0:
+            continue
+        lean = math.copysign(1.0, turn)
+        if not is_row(rows, count - 1, found, chosen, lean):
+            write(rows, count, found, chosen, rho, lean, float(k))
+            count += 1
+        rows[count - 1, TURN] += abs(turn)
+    write_end(rows, count, guide, corners - 1)
+    return rows, count + 1
+
+
+@within
+def _most_in_the_way(
+    rows: Floats,
+    k: int,
+    at: int,
+    guide: Floats,
+    found: Floats,
+    near: int,
+    rho: float,
+    heading: float,
+) -> tuple[int, float, float]:
+    """The feature that the string has to be bent round most.
+
+    Args:
+        rows: The string.
+        k: The line begins where it touches row k.
+        at: The row after which the feature is missing: k, or k - 1 where the arc conflicts.
+        guide: It says on which side to pass.
+        found: Features near the conflict.
+        near: How many.
+        rho: Distance at which the string turns [m].
+        heading: Of the line [rad].
+
+    Returns:
+        (row in ``found``, side, place along the guide); -1 where there is none.
+    """
+    dx = math.cos(heading)
+    dy = math.sin(heading)
+    reach = rows[k, SIDE] * rows[k, BEND_RADIUS]
+    ax = rows[k, BEND_X] + reach * dy
+    ay = rows[k, BEND_Y] - reach * dx
+    first = int(rows[at, PLACE])
+    last = max(first + 1, min(math.ceil(rows[k + 1, PLACE]), guide.shape[0] - 1))
+    best = 1e-9 * (1.0 + rho)
+    chosen = -1
+    side = 0.0
+    place = 0.0
+    for j in range(near):
+        there = foot(guide, first, last, found[j, FEATURE_X], found[j, FEATURE_Y])
+        here = side_of(guide, there, found, j)
+        left = dx * (found[j, FEATURE_Y] - ay) - dy * (found[j, FEATURE_X] - ax)
+        violation = found[j, FEATURE_RADIUS] + rho - here * left
+        if violation <= best:
+            continue
+        is_there = False
+        for row in range(at, k + 2):
+            is_there = is_there or is_row(rows, row, found, j, here)
+        if not is_there:
+            best = violation
+            chosen = j
+            side = here
+            place = there
+    return chosen, side, place
+
+
+@within
+def _remember(history: Floats, count: int, found: Floats, j: int, side: float) -> int:
+    """Note in row ``count`` that a feature is put in; how often it has been on this side."""
+    history[count, BEND_X] = found[j, FEATURE_X]
+    history[count, BEND_Y] = found[j, FEATURE_Y]
+    history[count, SIDE] = side
+    times = 0
+    for i in range(count):
+        if is_row(history, i, found, j, side):
+            times += 1
+    return times
+
+
+@part
+def _pulled(
+    world: PackedWorld, guide: Floats, rho: float, floor: float, side: float, stuck: Floats
+) -> tuple[Floats, int]:
+    """The rows of a taut string; none where it gets stuck, and ``stuck`` says where."""
+    found = new_floats(ROOM, 5)
+    rows, count = _begin(world, guide, rho, side, found)
+    history = new_floats(64, COLUMNS)
+    insertions = 0
+    k = 0
+    while True:
+        before = count
+        count, narrow = slacken(rows, count)
+        if narrow >= 0:
+            for end in range(2):
+                stuck[0, 2 * end] = rows[narrow + end, BEND_X]
+                stuck[0, 2 * end + 1] = rows[narrow + end, BEND_Y]
+            stuck[0, 4] = -1.0
+            return rows, 0
+        k = max(0, k - 2 - before + count)
+        k, at, heading, x, y = next_conflict(world, rows, count, k, floor)
+        if at < 0:
+            return rows, count
+        chosen = -1
+        lean = 0.0
+        place = 0.0
+        wide = 1.26 * floor + SMALL
+        while chosen < 0 and wide < 40.0 * floor + 4.0 * side:
+            near = features_near(world, x, y, wide, found)
+            chosen, lean, place = _most_in_the_way(rows, k, at, guide, found, near, rho, heading)
+            wide *= 2.0
+        if chosen < 0:
+            stuck[0, 4] = foot(guide, int(rows[k, PLACE]), guide.shape[0] - 1, x, y)
+            return rows, 0
+        if insertions == history.shape[0]:
+            history = sized_floats(history, insertions, 2 * insertions)
+        if _remember(history, insertions, found, chosen, lean) > OFTEN:
+            stuck[0, 4] = place
+            return rows, 0
+        insertions += 1
+        rows = insert(rows, count, at + 1)
+        write(rows, at + 1, found, chosen, rho, lean, place)
+        count += 1
+
+
+@part
+def _is_clear(world: PackedWorld, corners: Floats, floor: float) -> bool:
+    """Whether every piece of a row of corners keeps ``floor``."""
+    for k in range(corners.shape[0] - 1):
+        distance, _ = nearest_to_segment(
+            world, corners[k, 0], corners[k, 1], corners[k + 1, 0], corners[k + 1, 1], floor
+        )
+        if distance < floor:
+            return False
+    return True
+
+
+@kernel
+def pulled_taut(
+    world: PackedWorld, guide: Floats, rhos: Floats, floor: float, side: float, steps: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """The taut string of a guide.
+
+    Args:
+        world: PackedWorld.
+        guide: Places from start to goal that pass everything on the right sides, (k, 2) [m].
+        rhos: Distances from features at which the string may turn [m], the best first, (r,).
+        floor: Distance that the string keeps [m].
+        side: How far the guide's corners may be from the features that they go round [m].
+        steps: Largest turns at one corner that may be taken [rad], the coarsest first, (s,).
+
+    Returns:
+        (bends (n, 6) as in ``taut``, corners round them (m, 8) as in ``corners``, in so fine
+        steps as keep the floor, stuck (1, 5)). Where the guide goes through a gap that is too
+        narrow there are no bends, and ``stuck`` has the two obstacles x0, y0, x1, y1 [m] between
+        which it is and -1; or only, in its last column, where along the guide the string got
+        stuck: the number of the piece, and the part of it that lies before.
+    """
+    stuck = new_floats(1, 5)
+    for r in range(rhos.size):
+        rows, count = _pulled(world, guide, rhos[r], floor, side, stuck)
+        if count == 0:
+            continue
+        bends = new_floats(count, PLACE)
+        for i in range(count):
+            for column in range(PLACE):
+                bends[i, column] = rows[i, column]
+        corners = corners_round(bends, steps[0])
+        for s in range(1, steps.size):
+            if _is_clear(world, corners, floor):
+                break
+            corners = corners_round(bends, steps[s])
+        return bends, corners, stuck
+    return new_floats(0, PLACE), new_floats(0, 8), stuck

@@ -1,0 +1,105 @@
+"""Where a string's tangents and arcs come too close to the world."""
+
+from __future__ import annotations
+
+import math
+
+from viaspline.kernels.jit import part
+from viaspline.kernels.routing.tangent_arcs import (
+    BEND_RADIUS,
+    BEND_X,
+    BEND_Y,
+    HEADING_IN,
+    SIDE,
+    TURN,
+)
+from viaspline.kernels.world.distance import nearest
+from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.segment import nearest_to_segment
+
+SMALL = 1e-9  # [m]
+
+
+@part
+def _closest_on(
+    world: PackedWorld, ax: float, ay: float, bx: float, by: float, floor: float
+) -> tuple[float, float]:
+    """A place on a segment near which it comes closer than ``floor`` to the world."""
+    size = math.hypot(bx - ax, by - ay)
+    while size > 0.25 * floor + SMALL:
+        mx = 0.5 * (ax + bx)
+        my = 0.5 * (ay + by)
+        distance, _ = nearest_to_segment(world, ax, ay, mx, my, floor)
+        if distance < floor:
+            bx = mx
+            by = my
+        else:
+            ax = mx
+            ay = my
+        size *= 0.5
+    return 0.5 * (ax + bx), 0.5 * (ay + by)
+
+
+@part
+def _arc_conflict(
+    world: PackedWorld, rows: Floats, k: int, floor: float
+) -> tuple[float, float, float]:
+    """Where along the turn of row k the arc comes too close to something: place and turn so far.
+
+    The turn is below 0 where it is clear.
+    """
+    turn = 0.0
+    radius = rows[k, BEND_RADIUS]
+    while turn < rows[k, TURN]:
+        heading = rows[k, HEADING_IN] + rows[k, SIDE] * turn
+        x = rows[k, BEND_X] + rows[k, SIDE] * radius * math.sin(heading)
+        y = rows[k, BEND_Y] - rows[k, SIDE] * radius * math.cos(heading)
+        distance, _ = nearest(world, x, y, floor + radius)
+        if distance < floor:
+            return x, y, turn
+        turn += max(0.02, (distance - floor) / radius)
+    return 0.0, 0.0, -1.0
+
+
+@part
+def _conflict(
+    world: PackedWorld, rows: Floats, k: int, floor: float
+) -> tuple[int, float, float, float]:
+    """Where the tangent after row k, or the arc of row k, comes closer than ``floor``.
+
+    Returns:
+        (row after which something is missing, heading there, x, y); -1 where both are clear.
+    """
+    heading = rows[k + 1, HEADING_IN]
+    reach = rows[k, SIDE] * rows[k, BEND_RADIUS]
+    ax = rows[k, BEND_X] + reach * math.sin(heading)
+    ay = rows[k, BEND_Y] - reach * math.cos(heading)
+    reach = rows[k + 1, SIDE] * rows[k + 1, BEND_RADIUS]
+    bx = rows[k + 1, BEND_X] + reach * math.sin(heading)
+    by = rows[k + 1, BEND_Y] - reach * math.cos(heading)
+    distance, _ = nearest_to_segment(world, ax, ay, bx, by, floor)
+    if distance < floor:
+        x, y = _closest_on(world, ax, ay, bx, by, floor)
+        return k, heading, x, y
+    x, y, turned = _arc_conflict(world, rows, k, floor)
+    if turned < 0.0:
+        return -1, heading, x, y
+    at = k if turned >= 0.5 * rows[k, TURN] else k - 1
+    return at, rows[k, HEADING_IN] + rows[k, SIDE] * turned, x, y
+
+
+@part
+def next_conflict(
+    world: PackedWorld, rows: Floats, count: int, k: int, floor: float
+) -> tuple[int, int, float, float, float]:
+    """The first conflict of a string from row k on, and round to it again.
+
+    Returns:
+        (row, and what ``_conflict`` says of it).
+    """
+    for i in range(count - 1):
+        row = (k + i) % (count - 1)
+        at, heading, x, y = _conflict(world, rows, row, floor)
+        if at >= 0:
+            return row, at, heading, x, y
+    return 0, -1, 0.0, 0.0, 0.0

@@ -1,0 +1,74 @@
+"""The rows of a string: the features that it goes round, and its two ends."""
+
+from __future__ import annotations
+
+from viaspline.kernels.growable import sized_floats
+from viaspline.kernels.jit import inner, within
+from viaspline.kernels.routing.string_pulling.features import FEATURE_RADIUS, FEATURE_X, FEATURE_Y
+from viaspline.kernels.routing.tangent_arcs import (
+    BEND_RADIUS,
+    BEND_X,
+    BEND_Y,
+    HEADING_IN,
+    SIDE,
+    TURN,
+)
+from viaspline.kernels.world.packed import Floats
+
+# a string's row is a bend and where its feature lies along the guide
+PLACE = 6
+COLUMNS = 7
+
+
+@inner
+def insert(rows: Floats, count: int, at: int) -> Floats:
+    """Make room for one more row at ``at``."""
+    if count == rows.shape[0]:
+        rows = sized_floats(rows, count, 2 * count)
+    for i in range(count, at, -1):
+        for k in range(COLUMNS):
+            rows[i, k] = rows[i - 1, k]
+    return rows
+
+
+@within
+def remove(rows: Floats, count: int, at: int) -> int:
+    """Take out the row at ``at``; how many are left."""
+    for i in range(at, count - 1):
+        for k in range(COLUMNS):
+            rows[i, k] = rows[i + 1, k]
+    return count - 1
+
+
+@within
+def write_end(rows: Floats, k: int, guide: Floats, corner: int) -> None:
+    """Write an end of the guide to row k."""
+    for column in range(COLUMNS):
+        rows[k, column] = 0.0
+    rows[k, BEND_X] = guide[corner, 0]
+    rows[k, BEND_Y] = guide[corner, 1]
+    rows[k, PLACE] = corner
+
+
+@within
+def write(
+    rows: Floats, k: int, found: Floats, j: int, rho: float, side: float, place: float
+) -> None:
+    """Write feature j to row k."""
+    rows[k, BEND_X] = found[j, FEATURE_X]
+    rows[k, BEND_Y] = found[j, FEATURE_Y]
+    rows[k, BEND_RADIUS] = found[j, FEATURE_RADIUS] + rho
+    rows[k, SIDE] = side
+    rows[k, HEADING_IN] = 0.0
+    rows[k, TURN] = 0.0
+    rows[k, PLACE] = place
+
+
+@within
+def is_row(rows: Floats, k: int, found: Floats, j: int, side: float) -> bool:
+    """Whether row k goes round feature j on this side."""
+    return (
+        rows[k, BEND_X] == found[j, FEATURE_X]
+        and rows[k, BEND_Y] == found[j, FEATURE_Y]
+        and rows[k, SIDE] == side
+    )

@@ -1,0 +1,1 @@
+"""Beams of a lidar, and what they say is free."""

@@ -1,0 +1,129 @@
+"""What beams say: where a body can go inside of what they passed, and what they saw through."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.world.packed import Flags, Floats, Ints
+
+
+@inner
+def _beam_before(dx: float, dy: float, first: float, step: float) -> int:
+    """The last beam of a full turn that points to the right of (dx, dy), or straight at it."""
+    return math.floor(((math.atan2(dy, dx) - first) % (2.0 * math.pi)) / step)
+
+
+@inner
+def _is_seen(
+    x: float, y: float, origins: Floats, firsts: Floats, step: float, lengths: Floats
+) -> bool:
+    """Whether in one of some scans the beams on either side of (x, y) go at least as far as it."""
+    beams = lengths.shape[1]
+    full = beams >= round(2.0 * math.pi / step)
+    for scan in range(origins.shape[0]):
+        dx = x - origins[scan, 0]
+        dy = y - origins[scan, 1]
+        right = _beam_before(dx, dy, firsts[scan], step)
+        left = right + 1
+        if full:
+            right %= beams
+            left %= beams
+        if left >= beams:
+            continue
+        shorter = min(lengths[scan, right], lengths[scan, left])
+        if dx * dx + dy * dy <= shorter * shorter:
+            return True
+    return False
+
+
+@kernel
+def seen_ahead(
+    places: Floats, ahead: Floats, radius: float, gap: float, origins: Floats, firsts: Floats,
+    step: float, lengths: Floats,
+) -> int:  # fmt: skip
+    """How far a disc can go with its front half always on places that a scan has seen.
+
+    All that a disc newly covers on its way has been under its front half at some moment.
+
+    Args:
+        places: Of its middle, close together [m], (n, 2).
+        ahead: Unit vectors in which it moves there, (n, 2).
+        radius: [m].
+        gap: From point to point on its rim, at most [m].
+        origins: Where scans were taken, (k, 2); the one that is likeliest to tell comes first.
+        firsts: Directions of their first beams [rad], (k,).
+        step: From beam to beam [rad].
+        lengths: How far their beams are known to be free [m], (k, beams).
+
+    Returns:
+        How many places it can take, from the first on.
+    """
+    half = math.ceil(0.5 * math.pi * radius / gap)
+    for k in range(places.shape[0]):
+        for point in range(-half, half + 1):
+            angle = 0.5 * math.pi * point / max(half, 1)
+            along = radius * math.cos(angle)
+            aside = radius * math.sin(angle)
+            x = places[k, 0] + along * ahead[k, 0] - aside * ahead[k, 1]
+            y = places[k, 1] + along * ahead[k, 1] + aside * ahead[k, 0]
+            if not _is_seen(x, y, origins, firsts, step, lengths):
+                return k
+    return places.shape[0]
+
+
+@kernel
+def seen_through(
+    points: Floats, x: float, y: float, first: float, step: float, lengths: Floats, finest: float,
+    margin: float,
+) -> Flags:  # fmt: skip
+    """Which points (n, 2) have a beam on either side that goes on well beyond them.
+
+    Args:
+        points: [m], (n, 2).
+        x: Of the sensor [m].
+        y: Of the sensor [m].
+        first: Direction of beam 0 [rad].
+        step: From beam to beam [rad].
+        lengths: How far each beam is known to be free [m], (b,).
+        finest: Where the beams are farther apart than this, they say nothing [m].
+        margin: How far they have to go on beyond the point [m].
+    """
+    beams = lengths.size
+    full = beams >= round(2.0 * math.pi / step)
+    through = np.zeros(points.shape[0], np.bool_)
+    for k in range(points.shape[0]):
+        dx = points[k, 0] - x
+        dy = points[k, 1] - y
+        distance = math.hypot(dx, dy)
+        if distance * step > finest:
+            continue
+        right = _beam_before(dx, dy, first, step)
+        left = right + 1
+        if full:
+            right %= beams
+            left %= beams
+        if left < beams:
+            through[k] = min(lengths[right], lengths[left]) > distance + margin
+    return through
+
+
+@kernel
+def spread(points: Floats, gap: float) -> Ints:
+    """Indices of points (n, 2), taken in order, that are farther than ``gap`` from those taken."""
+    taken = np.empty(points.shape[0], np.int64)
+    count = 0
+    for k in range(points.shape[0]):
+        alone = True
+        for other in range(count - 1, -1, -1):
+            dx = points[k, 0] - points[taken[other], 0]
+            dy = points[k, 1] - points[taken[other], 1]
+            if dx * dx + dy * dy <= gap * gap:
+                alone = False
+                break
+        if alone:
+            taken[count] = k
+            count += 1
+    return taken[:count].copy()

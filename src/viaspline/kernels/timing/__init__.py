@@ -1,0 +1,1 @@
+"""The time law along a path: bounds on cells, reachability, the fastest profile."""

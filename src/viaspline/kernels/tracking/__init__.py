@@ -1,0 +1,1 @@
+"""A machine that follows a path: its reference, its control law, its motion."""

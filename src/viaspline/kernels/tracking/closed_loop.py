@@ -1,0 +1,121 @@
+"""Following a path with its time law: the closed loop, and how far off the machine was."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.jit import kernel
+from viaspline.kernels.tracking.control_law import (
+    HIGH,
+    LATE,
+    LOW,
+    MEMORY,
+    NOTES,
+    PLACE,
+    REST,
+    SPEED,
+    TIME,
+    TO_SPEED,
+    TO_TURN,
+    TURN,
+    decide_into,
+)
+from viaspline.kernels.tracking.drive_model import Machine, clip
+from viaspline.kernels.tracking.drive_motion import STATE, V, W, move_into
+from viaspline.kernels.tracking.reference_path import Rail, beside, nearest_on, on_rail
+from viaspline.kernels.tracking.reference_timing import Law
+
+Floats = NDArray[np.float64]
+
+
+@kernel
+def drive(
+    machine: Machine,
+    rail: Rail,
+    law: Law,
+    state: Floats,
+    period: float,
+    substeps: int,
+    measured: Floats,
+    noise: Floats,
+) -> tuple[Floats, Floats, int]:
+    """A whole drive along a path: measure, decide, move, until the time law is over.
+
+    Args:
+        machine: The drive, with its noise.
+        rail: The path.
+        law: The time law; it begins at time 0.
+        state: At the start, shape (STATE,), changed in place.
+        period: Of the controller [s].
+        substeps: Of the motion in a period.
+        measured: Errors of the measured x, y and heading in every period, shape (n, 3).
+        noise: Standard normal numbers, shape (n * substeps, 2).
+
+    Returns:
+        The track, as of ``move``, and what was noted in every period, both as long as the drive;
+        the number of periods, -1 if it was not over after n.
+    """
+    n = measured.shape[0]
+    track, notes = np.empty((n * substeps, 6)), np.zeros((n, NOTES))
+    times, speeds, turns = np.empty(n), np.empty(n), np.empty(n)
+    memory, pose, note = np.zeros(MEMORY), np.zeros(STATE), np.zeros(NOTES)
+    memory[LATE], memory[TURN] = machine.delay, state[W]
+    end = law.time[law.time.shape[0] - 1]
+    for tick in range(n):
+        time = tick * period
+        if time - memory[LATE] >= end:
+            return track, notes, tick
+        for k in range(3):
+            pose[k] = state[k] + measured[tick, k]
+        pose[V] = state[V]
+        decide_into(
+            machine, rail, law, memory, pose, time, period, times, speeds, turns, tick, note
+        )
+        for k in range(NOTES):
+            notes[tick, k] = note[k]
+        times[tick], speeds[tick], turns[tick] = time, note[TO_SPEED], note[TO_TURN]
+        move_into(
+            machine, state, time, period / substeps, tick * substeps, (tick + 1) * substeps, times,
+            speeds, turns, tick + 1, noise, track,
+        )  # fmt: skip
+    return track, notes, -1
+
+
+@kernel
+def deviations(rail: Rail, notes: Floats, track: Floats) -> Floats:
+    """How far beside, turned from and behind its path a machine really was.
+
+    Args:
+        rail: The path.
+        notes: Of every period, shape (m, NOTES).
+        track: Of every step, shape (n, 6).
+
+    Returns:
+        Distance along the path, distance from the path, positive to the left, heading error,
+        distance behind where it should be, and 1 where it should stand, shape (n, 5).
+    """
+    out = np.zeros((track.shape[0], 5))
+    k = -1
+    s = low = notes[0, LOW]
+    for i in range(track.shape[0]):
+        time, x, y = track[i, 0], track[i, 1], track[i, 2]
+        while k + 1 < notes.shape[0] and notes[k + 1, TIME] <= time + 1e-9:
+            k += 1
+        should, rests = notes[0, PLACE], True
+        if k >= 0:
+            should = notes[k, PLACE] + notes[k, SPEED] * (time - notes[k, TIME])
+            rests = notes[k, REST] > 0.0
+        high = should
+        if not rests:
+            low, high = notes[k, LOW], max(notes[k, HIGH] - 1e-9, notes[k, LOW])
+            should = min(should, high)
+        s = nearest_on(rail, clip(should, s - 0.5, s + 0.5), x, y, low, high)
+        px, py, _, _ = on_rail(rail, s)
+        aside, error = beside(rail, s, x, y, track[i, 3])
+        out[i, 0], out[i, 2] = s, error
+        out[i, 1] = math.copysign(math.hypot(x - px, y - py), aside)
+        out[i, 3], out[i, 4] = should - s, 1.0 if rests else 0.0
+    return out

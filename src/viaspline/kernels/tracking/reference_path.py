@@ -1,0 +1,76 @@
+"""A path as points close together: places on it, and how far beside it a robot is."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.curve.arclength import panel_of
+from viaspline.kernels.jit import inner
+from viaspline.kernels.tracking.drive_model import clip
+
+Floats = NDArray[np.float64]
+
+
+class Rail(NamedTuple):
+    """A path as points close together; a corner has two at the same distance.
+
+    Attributes:
+        distance: Along the path [m], not decreasing, shape (n,).
+        x: [m], shape (n,).
+        y: [m], shape (n,).
+        heading: Without jumps of a whole turn [rad], shape (n,).
+        curvature: [1/m], shape (n,).
+    """
+
+    distance: Floats
+    x: Floats
+    y: Floats
+    heading: Floats
+    curvature: Floats
+
+
+@inner
+def on_rail(rail: Rail, s: float) -> tuple[float, float, float, float]:
+    """Place, heading and curvature at a distance along a path; at a corner those after it."""
+    i = panel_of(rail.distance, s)
+    width = rail.distance[i + 1] - rail.distance[i]
+    if width <= 0.0:
+        return rail.x[i + 1], rail.y[i + 1], rail.heading[i + 1], rail.curvature[i + 1]
+    w = clip((s - rail.distance[i]) / width, 0.0, 1.0)
+    first, last = rail.heading[i], rail.heading[i + 1]
+    a, b = w * (1.0 - w) * (1.0 - w) * width, -w * w * (1.0 - w) * width
+    c = w * w * (3.0 - 2.0 * w)
+    x = rail.x[i] + c * (rail.x[i + 1] - rail.x[i]) + a * math.cos(first) + b * math.cos(last)
+    y = rail.y[i] + c * (rail.y[i + 1] - rail.y[i]) + a * math.sin(first) + b * math.sin(last)
+    bend = rail.curvature[i] + w * (rail.curvature[i + 1] - rail.curvature[i])
+    return x, y, first + w * (last - first), bend
+
+
+@inner
+def nearest_on(rail: Rail, s: float, x: float, y: float, low: float, high: float) -> float:
+    """The distance along a path of the place nearest to a point, sought from ``s`` on."""
+    s = clip(s, low, high)
+    for _ in range(12):
+        px, py, heading, curvature = on_rail(rail, s)
+        cosine, sine = math.cos(heading), math.sin(heading)
+        along = (x - px) * cosine + (y - py) * sine
+        aside = (y - py) * cosine - (x - px) * sine
+        step = along / max(1.0 - curvature * aside, 0.5)
+        to = clip(s + clip(step, -0.5, 0.5), low, high)
+        if abs(to - s) < 1e-8:
+            return to
+        s = to
+    return s
+
+
+@inner
+def beside(rail: Rail, s: float, x: float, y: float, heading: float) -> tuple[float, float]:
+    """How far to the left of its place on a path a robot is, and its heading error."""
+    px, py, ahead, _ = on_rail(rail, s)
+    aside = (y - py) * math.cos(ahead) - (x - px) * math.sin(ahead)
+    error = heading - ahead
+    return aside, error - 2.0 * math.pi * math.floor(error / (2.0 * math.pi) + 0.5)

@@ -1,0 +1,1 @@
+"""Lines and turns with clothoid ramps, for robots with a turning circle."""

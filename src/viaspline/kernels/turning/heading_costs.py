@@ -1,0 +1,91 @@
+"""The heading at every via point: what each leg costs from each heading to each other one."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.jit import kernel
+from viaspline.kernels.turning.turn_sequence import FINE, HEADING, SIDE, swing, swung_length
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+@kernel
+def leg_lengths(bends: Floats, starts: Floats, goals: Floats, rho: float, ramp: float) -> Floats:
+    """Lengths of a leg from every heading at its start to every heading at its goal.
+
+    Args:
+        bends: The leg's row of bends, see ``kernels.turning.turn_sequence``, (n, 5).
+        starts: Headings at its start [rad], (k,); NaN: it is free.
+        goals: Headings at its goal [rad], (l,); NaN: it is free.
+        rho: The least radius [m].
+        ramp: Length of the ramps [m].
+
+    Returns:
+        (k, l, 2, 2) [m]: leaving to the left or to the right, arriving in a left or in a right
+        turn; infinite where there is no such swing.
+    """
+    row = bends.copy()
+    last = bends.shape[0] - 1
+    lengths = np.full((starts.shape[0], goals.shape[0], 2, 2), np.inf)
+    for i in range(starts.shape[0]):
+        for j in range(goals.shape[0]):
+            row[0, HEADING], row[last, HEADING] = starts[i], goals[j]
+            for a in range(2):
+                if a == 1 and math.isnan(starts[i]):
+                    continue
+                for b in range(2):
+                    if b == 1 and math.isnan(goals[j]):
+                        continue
+                    row[0, SIDE] = 0.0 if math.isnan(starts[i]) else 1.0 - 2.0 * a
+                    row[last, SIDE] = 0.0 if math.isnan(goals[j]) else 1.0 - 2.0 * b
+                    lines, turns, apexes, ramps, state, _ = swing(row, False, rho, ramp)
+                    if state == FINE:
+                        lengths[i, j, a, b] = swung_length(
+                            row, False, rho, lines, turns, apexes, ramps
+                        )
+    return lengths
+
+
+@kernel
+def cheapest(costs: Floats, counts: Indices, closed: bool) -> tuple[Indices, float]:
+    """The cheapest row of headings.
+
+    Args:
+        costs: From heading i at via point m to heading j at the next, (legs, k, k).
+        counts: Headings of every via point, (legs + 1,); when closed the last is the first again.
+        closed: Whether the last heading has to be the first.
+
+    Returns:
+        The index of the heading at each via point, (legs + 1,), and what they cost together;
+        infinite where there is no row.
+    """
+    legs = costs.shape[0]
+    best = np.inf
+    row = np.zeros(legs + 1, np.int64)
+    came = np.zeros((legs + 1, costs.shape[1]), np.int64)
+    for first in range(counts[0] if closed else 1):
+        reach = np.full(costs.shape[1], np.inf)
+        for i in range(counts[0]):
+            if not closed or i == first:
+                reach[i] = 0.0
+        for leg in range(legs):
+            further = np.full(costs.shape[1], np.inf)
+            for j in range(counts[leg + 1]):
+                for i in range(counts[leg]):
+                    cost = reach[i] + costs[leg, i, j]
+                    if cost < further[j]:
+                        further[j] = cost
+                        came[leg + 1, j] = i
+            reach = further
+        for j in range(counts[legs]):
+            if (not closed or j == first) and reach[j] < best:
+                best = reach[j]
+                row[legs] = j
+                for leg in range(legs, 0, -1):
+                    row[leg - 1] = came[leg, row[leg]]
+    return row, best

@@ -1,0 +1,373 @@
+"""Straight lines and turns with ramps round a row of bends, through via points at their apexes.
+
+What a car does: every bend of the way becomes a turn whose radius is at least that of the turning
+circle, as near to what it goes round as may be. A via point is a bend of radius 0, so the turn
+runs through it at its apex; it swings out to either side of it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.turning.clothoid import (
+    STEP,
+    STRAIGHT,
+    arc_and_ramp,
+    shape_of,
+    spans_between,
+    turn_length,
+    turn_nodes,
+)
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+# Columns of a bend: its middle, the radius that is kept from it, the side to which it turns (1
+# left, -1 right, 0 whichever comes), and the heading that is given at an end (NaN: it is free).
+X, Y, KEPT, SIDE, HEADING = range(5)
+FINE, NO_TANGENT, NO_ROOM, RESTLESS, LEFT_OUT = range(5)
+ROUNDS = 400
+STILL = 1e-13  # change of a heading in the last round [rad]
+GENTLE = 1.2  # turns up to this are reckoned from where their lines meet [rad]
+LEAST_RAMP = 0.08  # of the radius
+SHORTER = 0.6
+NODES = 64  # of one turn, at most
+SHORTEST = 1e-3  # straight piece that is laid by itself [m]
+
+
+@inner
+def _wrapped(angle: float, about: float) -> float:
+    """The angle plus whole turns, within half a turn of ``about``."""
+    return angle - 2.0 * math.pi * math.floor((angle - about + math.pi) / (2.0 * math.pi))
+
+
+@inner
+def _line(circles: Floats, i: int, j: int) -> float:
+    """Heading of the line that touches circle i and then circle j; NaN where there is none."""
+    dx = circles[j, 0] - circles[i, 0]
+    dy = circles[j, 1] - circles[i, 1]
+    gap = math.hypot(dx, dy)
+    offset = circles[j, 2] - circles[i, 2]
+    if gap <= abs(offset) or gap == 0.0:
+        return np.nan
+    return math.atan2(dy, dx) - math.asin(offset / gap)
+
+
+@inner
+def _turn_at(bend: Floats, before: float, after: float, last: float) -> float:
+    """By how much the path turns at a bend, left positive; ``last`` is what it was."""
+    turn = _wrapped(after - before, last)
+    if not math.isnan(bend[HEADING]) and bend[SIDE] * turn < 0.0:
+        turn += bend[SIDE] * 2.0 * math.pi  # from a given heading, to the given side
+        if abs(turn) > 2.0 * math.pi - 1e-9:
+            turn = 0.0
+    return turn
+
+
+@inner
+def _settle(bend: Floats, kind: int, turn: float, heading: float, rho: float, ramp: float,
+            circle: Floats, apex: Floats) -> None:  # fmt: skip
+    """Where the turn of a bend lies: the circle that its lines touch, and its apex.
+
+    Args:
+        bend: Its row.
+        kind: -1 where the path starts at it, 1 where it ends, 0 in between.
+        turn: [rad], left is positive.
+        heading: At the apex [rad].
+        rho: The least radius [m].
+        ramp: [m].
+        circle: x, y, signed radius; filled. A radius of 0 is the point where the lines meet.
+        apex: x, y; filled.
+    """
+    theta = abs(turn)
+    if theta < STRAIGHT or (kind == 0 and bend[SIDE] * turn < 0.0):
+        off = bend[SIDE] * bend[KEPT]  # what may prove needless is touched without a turn
+        apex[0], apex[1] = bend[X] + off * math.sin(heading), bend[Y] - off * math.cos(heading)
+        circle[0], circle[1], circle[2] = apex[0], apex[1], 0.0
+        return
+    side = 1.0 if turn > 0.0 else -1.0
+    radius, shift, lead = shape_of(theta, max(rho, bend[KEPT]), ramp)
+    touch = radius + shift
+    out_x, out_y = side * math.sin(heading), -side * math.cos(heading)
+    if kind == 0:
+        apex[0], apex[1] = bend[X] + bend[KEPT] * out_x, bend[Y] + bend[KEPT] * out_y
+        center_x, center_y = apex[0] - radius * out_x, apex[1] - radius * out_y
+    else:
+        given = heading + kind * 0.5 * turn
+        c, s = math.cos(given), math.sin(given)
+        if theta < GENTLE:
+            reach = -kind * (lead + touch * math.tan(0.5 * theta))
+            meet_x, meet_y = bend[X] + reach * c, bend[Y] + reach * s
+            height = touch / math.cos(0.5 * theta)
+            center_x, center_y = meet_x - height * out_x, meet_y - height * out_y
+        else:
+            center_x = bend[X] - kind * lead * c - side * touch * s
+            center_y = bend[Y] - kind * lead * s + side * touch * c
+        apex[0], apex[1] = center_x + radius * out_x, center_y + radius * out_y
+    if theta < GENTLE:
+        height = touch / math.cos(0.5 * theta)
+        circle[0], circle[1] = center_x + height * out_x, center_y + height * out_y
+        circle[2] = 0.0
+    else:
+        circle[0], circle[1], circle[2] = center_x, center_y, side * touch
+
+
+@inner
+def _failed(bends: Floats, closed: bool, turns: Floats, state: int, where: int) -> tuple[int, int]:
+    """A state and where, unless a bend is turned at to the wrong side: the others make it needless.
+
+    Only the last round tells: before the turns have settled, one may seem so that is needed.
+    """
+    worst, count = -1e-9, bends.shape[0]
+    for k in range(0 if closed else 1, count if closed else count - 1):
+        if bends[k, SIDE] * turns[k] < worst:
+            worst = bends[k, SIDE] * turns[k]
+            state, where = LEFT_OUT, k
+    return state, where
+
+
+@inner
+def _relaxed(
+    bends: Floats, closed: bool, rho: float, ramps: Floats, lines: Floats, turns: Floats,
+    circles: Floats, apexes: Floats,
+) -> tuple[int, int]:  # fmt: skip
+    """Let lines and turns settle; both have the values of a first guess.
+
+    Returns:
+        What came of it, and at which line or bend.
+    """
+    count = bends.shape[0]
+    last = count if closed else count - 1
+    for round_ in range(ROUNDS):
+        moved = 0.0
+        for k in range(last):
+            line = _line(circles, k, (k + 1) % count)
+            if math.isnan(line):
+                return _failed(bends, closed, turns, NO_TANGENT, k)
+            line = _wrapped(line, lines[k])
+            moved = max(moved, abs(line - lines[k]))
+            lines[k] = line
+        if round_ > 0 and moved < STILL:
+            return _failed(bends, closed, turns, FINE, -1)
+        for k in range(count):
+            kind = 0
+            before, after = 0.0, 0.0
+            if not closed and k == 0:
+                kind, after = -1, lines[0]
+                before = after if math.isnan(bends[k, HEADING]) else bends[k, HEADING]
+            elif not closed and k == count - 1:
+                kind, before = 1, lines[last - 1]
+                after = before if math.isnan(bends[k, HEADING]) else bends[k, HEADING]
+            else:
+                before, after = lines[(k - 1) % last], lines[k]
+            turns[k] = _turn_at(bends[k], before, after, turns[k])
+            middle = before + 0.5 * turns[k] if kind >= 0 else after - 0.5 * turns[k]
+            _settle(bends[k], kind, turns[k], middle, rho, ramps[k], circles[k], apexes[k])
+    return _failed(bends, closed, turns, FINE if moved < 1e-10 else RESTLESS, -1)
+
+
+@inner
+def _guess(bends: Floats, closed: bool, lines: Floats, turns: Floats, circles: Floats) -> None:
+    """Begin with the polyline through the bends' middles, and circles of what is kept."""
+    count = bends.shape[0]
+    last = count if closed else count - 1
+    for k in range(last):
+        after = (k + 1) % count
+        lines[k] = math.atan2(bends[after, Y] - bends[k, Y], bends[after, X] - bends[k, X])
+    for k in range(count):
+        circles[k, 0], circles[k, 1] = bends[k, X], bends[k, Y]
+        circles[k, 2] = bends[k, SIDE] * bends[k, KEPT]
+        turns[k] = 0.0
+        if closed or 0 < k < count - 1:
+            about = bends[k, SIDE]
+            turns[k] = _wrapped(lines[k % last] - lines[(k - 1) % last], about)
+        elif bends[k, SIDE] != 0.0:
+            turns[k] = bends[k, SIDE]
+
+
+@inner
+def _heading_at(bends: Floats, closed: bool, lines: Floats, turns: Floats, k: int) -> float:
+    """Heading at the apex of a bend [rad]."""
+    count = bends.shape[0]
+    if not closed and k == count - 1:
+        return lines[k - 1] + 0.5 * turns[k]
+    return lines[k] - 0.5 * turns[k]
+
+
+@inner
+def _nodes_of(
+    bends: Floats, closed: bool, rho: float, lines: Floats, turns: Floats, apexes: Floats,
+    ramps: Floats, k: int, nodes: Floats,
+) -> int:  # fmt: skip
+    """Fill in the nodes of one bend, the apex in the middle; returns their number."""
+    heading = _heading_at(bends, closed, lines, turns, k)
+    if abs(turns[k]) < STRAIGHT:
+        nodes[0, 0], nodes[0, 1] = bends[k, X], bends[k, Y]
+        nodes[0, 2], nodes[0, 3] = heading, 0.0
+        return 1
+    radius = max(rho, bends[k, KEPT])
+    return turn_nodes(apexes[k, 0], apexes[k, 1], heading, turns[k], radius, ramps[k], nodes)
+
+
+@inner
+def _crowded(
+    bends: Floats, closed: bool, rho: float, ramps: Floats, lines: Floats, turns: Floats,
+    apexes: Floats, ends: Floats,
+) -> int:  # fmt: skip
+    """The first line on which two turns overlap, -1 if there is none."""
+    count = bends.shape[0]
+    nodes = np.empty((NODES, 4))
+    for k in range(count):
+        size = _nodes_of(bends, closed, rho, lines, turns, apexes, ramps, k, nodes)
+        for i in range(2):
+            ends[k, i], ends[k, 2 + i] = nodes[0, i], nodes[size - 1, i]
+    for k in range(count if closed else count - 1):
+        after = (k + 1) % count
+        dx, dy = ends[after, 0] - ends[k, 2], ends[after, 1] - ends[k, 3]
+        if dx * math.cos(lines[k]) + dy * math.sin(lines[k]) < -1e-9:
+            return k
+    return -1
+
+
+@kernel
+def swing(
+    bends: Floats, closed: bool, rho: float, ramp: float
+) -> tuple[Floats, Floats, Floats, Floats, int, int]:
+    """Lay lines and turns round a row of bends.
+
+    Args:
+        bends: (n, 5), see the columns above; start and goal among them unless closed.
+        closed: Whether the last bend is followed by the first.
+        rho: The least radius [m].
+        ramp: Length of the ramps [m]; shorter where there is not as much room.
+
+    Returns:
+        Headings of the lines (n - 1,) or (n,), turns (n,) [rad], apexes (n, 2) [m] and ramps
+        (n,) [m]; what came of it, and the line or bend where it failed.
+    """
+    count = bends.shape[0]
+    lines, turns = np.zeros(count if closed else count - 1), np.zeros(count)
+    circles, apexes = np.zeros((count, 3)), np.zeros((count, 2))
+    ends, ramps = np.empty((count, 4)), np.full(count, ramp)
+    _guess(bends, closed, lines, turns, circles)
+    while True:
+        state, where = _relaxed(bends, closed, rho, ramps, lines, turns, circles, apexes)
+        if state == FINE:
+            where = _crowded(bends, closed, rho, ramps, lines, turns, apexes, ends)
+            if where < 0:
+                return lines, turns, apexes, ramps, FINE, -1
+            state = NO_ROOM
+        if state != NO_ROOM and state != NO_TANGENT:
+            return lines, turns, apexes, ramps, state, where
+        after = (where + 1) % count
+        if max(ramps[where], ramps[after]) <= LEAST_RAMP * rho:
+            return lines, turns, apexes, ramps, state, where
+        ramps[where] = max(SHORTER * ramps[where], LEAST_RAMP * rho)
+        ramps[after] = max(SHORTER * ramps[after], LEAST_RAMP * rho)
+        if state == NO_TANGENT:
+            _guess(bends, closed, lines, turns, circles)
+
+
+@inner
+def _straight(nodes: Floats, a: int, b: int, polygons: Floats) -> None:
+    for axis in range(2):
+        start, end = nodes[a, axis], nodes[b, axis]
+        for i in range(4):
+            polygons[i, axis] = start + (end - start) * i / 3.0
+
+
+@kernel
+def swung_spans(
+    bends: Floats, closed: bool, rho: float, lines: Floats, turns: Floats, apexes: Floats,
+    ramps: Floats,
+) -> tuple[Floats, Indices]:  # fmt: skip
+    """The spans of a swing.
+
+    Args:
+        bends: (n, 5).
+        closed: As in ``swing``.
+        rho: The same.
+        lines: What ``swing`` found.
+        turns: The same.
+        apexes: The same.
+        ramps: The same.
+
+    Returns:
+        Bézier control polygons (m, 4, 2) [m], and for every bend the span that begins at its
+        apex, (n,), or (n + 1,) when closed: the last one is the end of the curve.
+    """
+    count = bends.shape[0]
+    total = count + 1 if closed else count
+    polygons = np.empty((3 * NODES * total, 4, 2))
+    begins = np.zeros(total, np.int64)
+    nodes, lengths = np.empty((NODES + 1, 4)), np.empty(NODES)
+    size = 0
+    for row in range(total):
+        k = row % count
+        number = _nodes_of(bends, closed, rho, lines, turns, apexes, ramps, k, nodes[1:])
+        if number > 1:
+            _lengths(abs(turns[k]), max(rho, bends[k, KEPT]), ramps[k], number, lengths)
+        first, end, middle = 1, number, 1 + number // 2
+        if closed and row == 0:
+            first = middle
+        elif closed and row == count:
+            end = middle
+        elif not closed and row == 0:
+            middle = first
+        elif not closed and row == count - 1:
+            middle = end
+        if row > 0:
+            if math.hypot(nodes[first, 0] - nodes[0, 0], nodes[first, 1] - nodes[0, 1]) > SHORTEST:
+                _straight(nodes, 0, first, polygons[size])
+                size += 1
+            else:
+                for axis in range(2):
+                    nodes[first, axis] = nodes[0, axis]
+        begins[row] = size + 3 * (middle - first)
+        if end > first:
+            spans_between(
+                nodes[first : end + 1], end - first + 1, lengths[first - 1 :],
+                polygons[size : size + 3 * (end - first)],
+            )  # fmt: skip
+            size += 3 * (end - first)
+        for column in range(4):
+            nodes[0, column] = nodes[end, column]
+    return polygons[:size].copy(), begins
+
+
+@inner
+def _lengths(theta: float, rho: float, ramp: float, number: int, lengths: Floats) -> None:
+    """Lengths between the nodes of a turn [m]."""
+    radius, ramp = arc_and_ramp(theta, rho, ramp)
+    on_ramp = 0.5 * ramp / radius
+    half = number // 2
+    ramps = max(1, math.ceil(on_ramp / STEP))
+    arcs = half - ramps
+    for k in range(half):
+        piece = ramp / ramps
+        if k >= ramps:
+            piece = radius * (0.5 * theta - on_ramp) / arcs
+        lengths[k] = piece
+        lengths[2 * half - 1 - k] = piece
+
+
+@kernel
+def swung_length(
+    bends: Floats, closed: bool, rho: float, lines: Floats, turns: Floats, apexes: Floats,
+    ramps: Floats,
+) -> float:  # fmt: skip
+    """Length of a swing [m]."""
+    count = bends.shape[0]
+    ends = np.empty((count, 4))
+    _crowded(bends, closed, rho, ramps, lines, turns, apexes, ends)
+    length = 0.0
+    for k in range(count):
+        length += turn_length(turns[k], max(rho, bends[k, KEPT]), ramps[k])
+        if closed or k < count - 1:
+            after = (k + 1) % count
+            length += math.hypot(ends[after, 0] - ends[k, 2], ends[after, 1] - ends[k, 3])
+    return length

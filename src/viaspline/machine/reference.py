@@ -1,0 +1,67 @@
+"""A path as a controller looks at it: points close together, with headings that run on."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import GeometryError
+from viaspline.kernels.tracking.reference_path import Rail
+
+Floats = NDArray[np.float64]
+
+APART = 0.25  # from one point to the next, at most [m],
+BENT = 0.03  # with so much turning between them [rad]
+FEWEST, MOST = 2, 400  # points on a span
+INSIDE = 1e-9  # a heading at the end of a span is looked up so far before it
+BEND = 100.0  # curvatures beyond this are those of a cusp [1/m]
+
+
+def rail_of(path: PiecewiseCubic) -> Rail:
+    """The points of a path in the plane.
+
+    Between them a place is interpolated by the cubic through both with their headings: within a
+    tenth of a millimetre of the path.
+
+    Raises:
+        GeometryError: When the path is not in the plane.
+
+    Example:
+        >>> rail = rail_of(PiecewiseCubic([[[0, 0], [1, 0], [2, 0], [3, 0]]]))
+        >>> round(float(rail.distance[-1]), 9), float(rail.heading[-1])
+        (3.0, 0.0)
+    """
+    if path.dimension != 2:
+        raise GeometryError(
+            "a drive needs a route in the plane: leave out the heights, or robot.drive and "
+            "robot.localization"
+        )
+    counts = _counts(path.spans)
+    k = np.repeat(np.arange(len(counts)), counts)
+    first = np.repeat(np.cumsum(counts) - counts, counts)
+    w = (np.arange(len(k)) - first) / (np.repeat(counts, counts) - 1.0)
+    u = k + w
+    inside = np.where(w >= 1.0, k + (1.0 - INSIDE), u)
+    places = path.evaluate(u)
+    heading = np.asarray(path.heading(inside))
+    curvature = np.nan_to_num(np.asarray(path.curvature(inside)), posinf=0.0, neginf=0.0)
+    turns = np.remainder(np.diff(heading) + np.pi, 2.0 * np.pi) - np.pi
+    return Rail(
+        np.maximum.accumulate(np.asarray(path.distance(u))),
+        places[:, 0].copy(),
+        places[:, 1].copy(),
+        heading[0] + np.concatenate(([0.0], np.cumsum(turns))),
+        np.clip(curvature, -BEND, BEND),
+    )
+
+
+def _counts(spans: Floats) -> NDArray[np.int64]:
+    """How many points each span needs, (m,)."""
+    legs = np.diff(spans, axis=1)
+    length = np.linalg.norm(legs, axis=2).sum(axis=1)
+    angles = np.arctan2(legs[..., 1], legs[..., 0])
+    turned = np.abs(np.remainder(np.diff(angles, axis=1) + np.pi, 2 * np.pi) - np.pi).sum(axis=1)
+    # a span may turn most of its angle within a small part of it
+    needed = np.where(length > 0.0, np.maximum(length / APART, 2.0 * turned / BENT), 0.0)
+    return np.clip(np.ceil(needed).astype(np.int64) + 2, FEWEST, MOST)

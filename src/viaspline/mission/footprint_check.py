@@ -1,0 +1,40 @@
+"""Is the robot's footprint a body about its reference point?"""
+
+from __future__ import annotations
+
+from viaspline.mission.partial_mission import Corners
+from viaspline.mission.polygon_checks import polygon_flaws
+from viaspline.mission.unplaced_faults import Flaw, Path, number
+
+PATH: Path = ("robot", "footprint")
+
+
+def footprint_flaw(corners: Corners) -> Flaw | None:
+    """Why corners [m] are no body about the reference point (0, 0), or None.
+
+    >>> footprint_flaw([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    >>> print(footprint_flaw([(1, -1), (3, -1), (3, 1), (1, 1)]).problem)
+    the body does not contain its reference point (0, 0), which lies 1 m outside
+    """
+    if len(corners) < 3:
+        problem = f"the body has {len(corners)} corners, which enclose nothing"
+        return Flaw(PATH, problem, "give three or more, [[x, y], [x, y], [x, y]]")
+    unsound = polygon_flaws([PATH], [(corners, ())])
+    if unsound:
+        return unsound[0]
+    import shapely
+
+    body, origin = shapely.Polygon(corners), shapely.Point(0.0, 0.0)
+    if body.contains(origin):
+        return None
+    gap = body.distance(origin)
+    where = "lies on its edge" if gap == 0.0 else f"lies {number(gap)} m outside"
+    centre = body.centroid if body.contains(body.centroid) else body.representative_point()
+    dx, dy = -round(centre.x, 3), -round(centre.y, 3)
+    shifted = ", ".join(f"[{number(x + dx)}, {number(y + dy)}]" for x, y in corners)
+    return Flaw(
+        PATH,
+        f"the body does not contain its reference point (0, 0), which {where}",
+        "the point that follows the path is the origin of the corners, x forward and y left: "
+        f"shift it so that it lies inside, e.g. [{shifted}]",
+    )

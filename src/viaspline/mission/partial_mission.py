@@ -1,0 +1,183 @@
+"""The parts of a mission that are structurally sound, each with its path.
+
+A sound mission is a draft in which nothing is missing. If something is, the semantic checks still
+run on the rest, so that the user hears of every fault at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+from pydantic import TypeAdapter, ValidationError
+
+from viaspline.mission.fields import Ring
+from viaspline.mission.parts import (
+    Corridor,
+    EndPoint,
+    MissionParts,
+    Obstacle,
+    SplineSpec,
+    ViaPoint,
+    WorldSpec,
+)
+from viaspline.mission.resolve_files import Unfolded
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.schema_errors import parts
+from viaspline.mission.unplaced_faults import Path, children, spell
+
+Corners: TypeAlias = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class Draft:
+    """What could be read of a mission.
+
+    Attributes:
+        bounds: ``x_min, y_min, x_max, y_max`` [m].
+        fences: Inclusion polygons.
+        known: Obstacles on the map.
+        unseen: Obstacles that the sensor has to find.
+        robot: None if it is faulty.
+        points: Start, via points, goal in order; None where one is faulty.
+        closed: Whether the route is closed; None if that can't be said.
+        has_goal: Whether there is a goal, sound or not.
+        has_route: Whether the number of points is known.
+        spline: None if it is faulty.
+        edge: Paths of the bounds or the fence that maps brought.
+        corridor: What the route is to stay inside of; None if there is none, or it is faulty.
+        laps: How often a closed route is driven; 1 if that can't be said.
+    """
+
+    bounds: tuple[float, float, float, float] | None = None
+    fences: list[tuple[Path, Corners]] = field(default_factory=list)
+    known: list[tuple[Path, Obstacle]] = field(default_factory=list)
+    unseen: list[tuple[Path, Obstacle]] = field(default_factory=list)
+    robot: RobotSpec | None = None
+    points: list[tuple[Path, ViaPoint | None]] = field(default_factory=list)
+    closed: bool | None = None
+    has_goal: bool = False
+    has_route: bool = True
+    spline: SplineSpec | None = None
+    edge: frozenset[Path] = frozenset()
+    corridor: Corridor | None = None
+    laps: int = 1
+
+    @property
+    def is_line(self) -> bool:
+        """Whether a closed corridor says alone where the route goes round."""
+        return bool(self.closed and self.corridor is not None and self.corridor.line is not None)
+
+    @classmethod
+    def of(cls, mission: MissionParts, unfolded: Unfolded) -> Draft:
+        """A whole mission as a draft; obstacles of maps have the path of their map."""
+        world, route = mission.world, mission.route
+        points: list[tuple[Path, ViaPoint | None]] = [(("route", "start"), route.start)]
+        points += [(("route", "via", i), via) for i, via in enumerate(route.via)]
+        if route.goal is not None:
+            points.append((("route", "goal"), route.goal))
+        return cls(
+            bounds=world.bounds,
+            fences=[(("world", "fences", i), ring) for i, ring in enumerate(world.fences)],
+            known=_placed(enumerate(world.known), "known", unfolded),
+            unseen=_placed(enumerate(world.unseen), "unseen", unfolded),
+            robot=mission.robot,
+            points=points,
+            closed=route.closed,
+            has_goal=route.goal is not None,
+            spline=mission.spline,
+            edge=unfolded.edge,
+            corridor=route.corridor,
+            laps=route.laps,
+        )
+
+    @classmethod
+    def salvage(cls, unfolded: Unfolded) -> Draft:
+        """What is sound in data that is not."""
+        top = children(unfolded.data) or {}
+        world = children(top.get("world")) or {}
+        route = children(top.get("route")) or {}
+        bounds = _attempt(WorldSpec, {"bounds": world.get("bounds")})
+        via = route.get("via", ())
+        points: list[tuple[Path, ViaPoint | None]] = [
+            (("route", "start"), _point(_END, route.get("start")))
+        ]
+        points += [(("route", "via", i), _point(_VIA, item)) for i, item in parts(via)]
+        if route.get("goal") is not None:
+            points.append((("route", "goal"), _point(_END, route["goal"])))
+        closed = route.get("closed", False)
+        laps = route.get("laps", 1)
+        return cls(
+            bounds=bounds.bounds if bounds is not None else None,
+            fences=_placed(_sound(TypeAdapter(Ring), world, "fences"), "fences", unfolded),
+            known=_placed(_sound(TypeAdapter(Obstacle), world, "known"), "known", unfolded),
+            unseen=_placed(_sound(TypeAdapter(Obstacle), world, "unseen"), "unseen", unfolded),
+            robot=_robot(top.get("robot", {})),
+            points=points,
+            closed=closed if isinstance(closed, bool) else None,
+            has_goal=route.get("goal") is not None,
+            has_route=bool(route) and (isinstance(via, list | tuple) or hasattr(via, "tolist")),
+            spline=_attempt(SplineSpec, top.get("spline", {})),
+            edge=unfolded.edge,
+            corridor=_attempt(Corridor, route.get("corridor")),
+            laps=laps if isinstance(laps, int) else 1,
+        )
+
+
+_VIA = TypeAdapter(ViaPoint)
+_END = TypeAdapter(EndPoint)
+
+
+def _point(adapter: TypeAdapter[Any], value: Any) -> ViaPoint | None:
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    data = {"at": value} if isinstance(value, list | tuple) else value
+    point: ViaPoint | None = _validated(adapter, data)
+    return point
+
+
+def _robot(data: Any) -> RobotSpec | None:
+    """The robot without what is faulty about it, unless that is its size."""
+    given = children(data)
+    if given is None:
+        return None
+    sound = {}
+    for key in RobotSpec.model_fields.keys() & given.keys():
+        if _attempt(RobotSpec, {key: given[key]}) is not None:
+            sound[key] = given[key]
+        elif key in ("radius_m", "footprint", "clearance_m", "sensor"):
+            return None
+    robot: RobotSpec | None = _attempt(RobotSpec, sound)
+    return robot
+
+
+def _attempt(kind: type[Any], value: Any) -> Any:
+    return _validated(TypeAdapter(kind), value)
+
+
+def _validated(adapter: TypeAdapter[Any], value: Any) -> Any:
+    try:
+        return adapter.validate_python(value)
+    except ValidationError:
+        return None
+
+
+def _sound(adapter: TypeAdapter[Any], world: Any, key: str) -> Iterator[tuple[int, Any]]:
+    tried = ((i, _validated(adapter, item)) for i, item in parts(world.get(key)))
+    return ((i, value) for i, value in tried if value is not None)
+
+
+def _placed(items: Iterable[tuple[int, Any]], key: str, unfolded: Unfolded) -> list[Any]:
+    """Items of a list under ``world``, each with its path in the mission as it was given."""
+    return [(unfolded.original(("world", key, i)), value) for i, value in items]
+
+
+def obstacle_label(path: Path, obstacle: Obstacle) -> str:
+    """What an obstacle is called in a message."""
+    kind = "obstacle" if obstacle.grid is None else "map"
+    if obstacle.name:
+        return f"{kind} '{obstacle.name}'"
+    if obstacle.grid is not None and obstacle.grid.source is not None:
+        return f"map '{obstacle.grid.source}'"
+    return f"{kind} {spell(path)}"

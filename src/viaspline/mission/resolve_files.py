@@ -1,0 +1,184 @@
+"""Maps read and put in the place of the items that ask for them.
+
+``{map: depot.yaml}`` becomes an obstacle with a grid, ``{map: site.geojson}`` as many obstacles as
+there are polygons. What comes after sees obstacles only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path as FilePath
+from typing import Any
+
+from pydantic import ValidationError
+
+from viaspline.errors import Fault, MissionError
+from viaspline.maps.grid import Grid
+from viaspline.maps.kinds import is_of_squares, read_areas, read_grid
+from viaspline.mission.map_edge import edge_of
+from viaspline.mission.parts import MapSpec, Obstacle
+from viaspline.mission.schema_errors import structural_flaws
+from viaspline.mission.unplaced_faults import Flaw, Path, children
+
+
+@dataclass(frozen=True)
+class Unfolded:
+    """A mission's data without maps.
+
+    Attributes:
+        data: The data, with obstacles instead of maps.
+        flaws: What was wrong with the maps; those that couldn't be read are left out.
+        places: For each obstacle under ``known`` and ``unseen``, the item that it came from; a
+            list that has no map isn't there.
+        edge: Paths of the bounds or the fence that the maps brought.
+    """
+
+    data: Any
+    flaws: tuple[Flaw, ...] = ()
+    places: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    edge: frozenset[Path] = frozenset()
+
+    def original(self, path: Path) -> Path:
+        """Where in the mission as it was given something stands."""
+        if len(path) < 3 or path[0] != "world":
+            return path
+        places = self.places.get(str(path[1]), ())
+        i = path[2]
+        if not isinstance(i, int) or i >= len(places):
+            return path
+        return (*path[:2], places[i], *path[3:])
+
+
+def unfold_maps(data: Any, folder: FilePath) -> Unfolded:
+    """Read the maps of a mission.
+
+    Args:
+        data: What a mission file holds, sound or not.
+        folder: Where files of maps are looked for.
+
+    Returns:
+        The data with obstacles for maps; ``data`` itself if there is no grid.
+    """
+    top = children(data) or {}
+    world = children(top.get("world")) or {}
+    lists = {key: world[key] for key in ("known", "unseen") if _is_list(world.get(key))}
+    if not any(_is_map(item) or _grid_of(item) for items in lists.values() for item in items):
+        return Unfolded(data)
+    taken = {_name_of(item) for items in lists.values() for item in items}
+    flaws: list[Flaw] = []
+    places: dict[str, list[int]] = {}
+    unfolded = dict(world)
+    for key, items in lists.items():
+        places[key], unfolded[key] = [], []
+        for i, item in enumerate(items):
+            obstacles, faulty = _of_item(item, ("world", key, i), folder, taken)
+            places[key] += [i] * len(obstacles)
+            unfolded[key] += obstacles
+            flaws += faulty
+    edge = frozenset[Path]() if flaws else _bring_edge(unfolded)
+    return Unfolded({**top, "world": unfolded}, tuple(flaws), places, edge)
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, list | tuple)
+
+
+def _is_map(item: Any) -> bool:
+    return isinstance(item, Mapping) and "map" in item
+
+
+def _grid_of(item: Any) -> Grid | None:
+    grid = item.get("grid") if isinstance(item, Mapping) else getattr(item, "grid", None)
+    return grid if isinstance(grid, Grid) else None
+
+
+def _name_of(item: Any) -> Any:
+    name = item.get("name") if isinstance(item, Mapping) else getattr(item, "name", None)
+    return name if isinstance(name, str) else None
+
+
+def _of_item(
+    item: Any, path: Path, folder: FilePath, taken: set[Any]
+) -> tuple[Sequence[Any], Sequence[Flaw]]:
+    """The obstacles of an item that may be a map, or what is wrong with it."""
+    if not _is_map(item):
+        return [item], ()
+    try:
+        return obstacles_of(MapSpec.model_validate(dict(item)), folder, taken), ()
+    except ValidationError as error:
+        return (), structural_flaws(error, path)
+    except MissionError as error:
+        return (), [_flaw(path, fault) for fault in error.faults]
+
+
+def _flaw(path: Path, fault: Fault) -> Flaw:
+    """A fault of a map as a flaw of the key that asks for it."""
+    if fault.line is None and fault.key in ("unknown", "resolution_m"):
+        return Flaw((*path, fault.key), fault.problem, fault.remedy, at_key=True)
+    place = fault.source if fault.line is None else f"{fault.source}:{fault.line}:{fault.column}"
+    key = f"{fault.key}: " if fault.key else ""
+    return Flaw((*path, "map"), f"{place}: {key}{fault.problem}", fault.remedy, at_key=True)
+
+
+def obstacles_of(spec: MapSpec, folder: FilePath, taken: set[Any]) -> list[Obstacle]:
+    """The obstacles of a map.
+
+    Args:
+        spec: The map.
+        folder: Where its file is looked for.
+        taken: Names that other obstacles have; those that are given here are added.
+
+    Raises:
+        MissionError: The map can't be read or makes no sense.
+    """
+    path = folder / spec.map
+    sides = {"pass_on": spec.pass_on, "never_pass_on": spec.never_pass_on}
+    if is_of_squares(path):
+        grid = read_grid(path, spec.unknown, spec.resolution_m, source=spec.map)
+        return [Obstacle.model_validate({"grid": grid, "name": spec.name} | sides)]
+    areas = read_areas(path, spec.unknown, spec.resolution_m)
+    obstacles = []
+    for number, area in enumerate(areas, start=1):
+        name = area.name
+        if spec.name is not None:
+            name = spec.name if len(areas) == 1 else f"{spec.name} {area.name or number}"
+        if name is not None and name != spec.name:
+            name = _free(name, taken)
+        shape = {"polygon": area.outline, "holes": area.holes, "name": name}
+        obstacles.append(Obstacle.model_validate(shape | sides))
+    return obstacles
+
+
+def _free(name: str, taken: set[Any]) -> str:
+    """The name, or the name with a number, so that no other obstacle has it."""
+    number, free = 2, name
+    while free in taken:
+        number, free = number + 1, f"{name}-{number}"
+    taken.add(free)
+    return free
+
+
+def _bring_edge(world: dict[str, Any]) -> frozenset[Path]:
+    """Keep the robot on the maps that are known, if nobody said how far it may go."""
+    fences = world.get("fences") or ()
+    if world.get("bounds") is not None or not _is_list(fences):
+        return frozenset()
+    known = world.get("known")
+    items = known if isinstance(known, list | tuple) else ()
+    edge = edge_of([grid for item in items if (grid := _grid_of(item)) is not None])
+    if edge.bounds is not None:
+        world["bounds"] = edge.bounds
+        return frozenset({("world", "bounds")})
+    if edge.fence is None or edge.fence in map(_corners, fences):
+        return frozenset()
+    world["fences"] = [*fences, edge.fence]
+    return frozenset({("world", "fences", len(fences))})
+
+
+def _corners(ring: Any) -> Any:
+    """A ring as tuples, if it is one."""
+    try:
+        return tuple(map(tuple, ring))
+    except TypeError:
+        return None

@@ -1,0 +1,163 @@
+"""The structural errors that pydantic finds, said in the user's words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from pydantic import ValidationError
+
+from viaspline.mission.key_words import expectation, field_of, suggestion
+from viaspline.mission.parts import MapSpec, Obstacle
+from viaspline.mission.unplaced_faults import Flaw, Path, describe, number
+
+if TYPE_CHECKING:
+    from pydantic_core import ErrorDetails
+
+_LIMITS = {
+    "greater_than": ("gt", "greater than"),
+    "greater_than_equal": ("ge", "not less than"),
+    "less_than": ("lt", "less than"),
+    "less_than_equal": ("le", "not greater than"),
+}
+
+
+def structural_flaws(error: ValidationError, at: Path = ()) -> list[Flaw]:
+    """Every error of pydantic's as a flaw; one for each place and mistake.
+
+    Args:
+        error: What pydantic says.
+        at: Where in the mission what it was about stands.
+    """
+    details = error.errors(include_url=False)
+    for detail in details:
+        detail["loc"] = (*at, *detail["loc"])
+    meant = {key for detail in details if (key := _meant(detail)) is not None}
+    flaws: dict[Path, Flaw] = {}
+    short: set[Path] = set()
+    for detail in details:
+        path = _path(detail["loc"])
+        if detail["type"] == "missing" and path in meant:
+            continue  # The mistyped key beside it says it all.
+        if _is_other_branch(detail, path):
+            continue
+        flaw = _flaw(detail, path)
+        flaws.setdefault(flaw.path, flaw)
+        if detail["type"] == "too_short":
+            short.add(path)
+    # A list that lost its faulty items is called too short as well; it isn't.
+    around = {path[:i] for path in flaws for i in range(len(path))}
+    return [flaw for path, flaw in flaws.items() if path not in short or path not in around]
+
+
+def _path(loc: tuple[int | str, ...]) -> Path:
+    """Pydantic's location without the branches of unions, which are no keys."""
+    if len(loc) > 2 and loc[0] == "spline" and loc[1] in ("tension", "slack"):
+        return loc[:2] + tuple(part for part in loc[2:] if isinstance(part, int))
+    return loc
+
+
+def _is_other_branch(detail: ErrorDetails, path: Path) -> bool:
+    """Whether this is the error of the branch of "a number or a list" that wasn't meant."""
+    if path not in (("spline", "tension"), ("spline", "slack")):
+        return False
+    if detail["type"] == "literal_error":
+        return not isinstance(detail["input"], str)
+    if isinstance(detail["input"], str):
+        return detail["type"] == "tuple_type" or path == ("spline", "tension")
+    found_list = isinstance(detail["input"], list | tuple) or hasattr(detail["input"], "tolist")
+    return detail["type"] == ("float_type" if found_list else "tuple_type")
+
+
+def _meant(detail: ErrorDetails) -> Path | None:
+    """The path that an unknown key was meant to be."""
+    if detail["type"] != "extra_forbidden":
+        return None
+    *parent, key = detail["loc"]
+    meant = suggestion(str(key), tuple(parent))[1]
+    return None if meant is None else (*parent, meant)
+
+
+def _flaw(detail: ErrorDetails, path: Path) -> Flaw:
+    kind, found = detail["type"], detail["input"]
+    if kind == "extra_forbidden" or path[-1:] == ("grid",):
+        return _unknown_key(path)
+    if kind == "invalid_key":
+        key = path[-1] if path else ""
+        problem = f"the key {describe(key)} is not a text"
+        return Flaw((*path[:-1], str(key)), problem, "keys are words such as route", at_key=True)
+    if kind == "missing":
+        return _missing(path, found)
+    if kind in ("none_of", "two_of"):
+        return _one_of(path, kind, detail["ctx"]["keys"])
+    if kind == "finite_number":
+        problem = f"{describe(found)} is not a place or a size"
+        return Flaw(path, problem, f"it should be {expectation(path)}")
+    if kind in _LIMITS:
+        name, words = _LIMITS[kind]
+        limit = number(float(detail["ctx"][name]))
+        problem = f"{describe(found)} is out of range"
+        if kind.startswith("greater") and found < 0:
+            problem = f"{describe(found)} is negative"
+        return Flaw(path, problem, f"it should be a number {words} {limit}")
+    if kind in ("too_short", "too_long"):
+        return _wrong_length(path, found)
+    return Flaw(path, f"found {describe(found)}", _remedy(path, found))
+
+
+def _one_of(path: Path, kind: str, keys: Sequence[str]) -> Flaw:
+    """None or several of keys of which one is to be given."""
+    both = ", ".join(keys[:-1]) + " and " + keys[-1]
+    if kind == "two_of":
+        name = field_of(path)
+        problem = f"{name} has {both}, which exclude each other"
+        return Flaw((*path, keys[0]), problem, f"keep one of {both}", at_key=True)
+    return Flaw(path, f"has none of {both}", f"it should be {expectation(path)}")
+
+
+def _remedy(path: Path, found: Any) -> str:
+    expected = expectation(path)
+    if isinstance(found, str) and "number" in expected:
+        try:
+            float(found)
+        except ValueError:
+            pass
+        else:
+            return f"it should be {expected}: write {found.strip()} without quotes"
+    return f"it should be {expected}"
+
+
+def _unknown_key(path: Path) -> Flaw:
+    parent, key = path[:-1], str(path[-1])
+    if field_of(parent) in ("known", "unseen"):
+        if key in MapSpec.model_fields:
+            remedy = "give map, or leave it out"
+            return Flaw(path, "goes with a map only", remedy, at_key=True)
+        if key in Obstacle.model_fields and key != "grid":
+            remedy = "keep one of the two, or make it two obstacles"
+            return Flaw(path, "doesn't go with a map", remedy, at_key=True)
+    return Flaw(path, "unknown key", suggestion(key, parent)[0], at_key=True)
+
+
+def _missing(path: Path, found: Any) -> Flaw:
+    if isinstance(path[-1], int):
+        parent = path[:-1]
+        return Flaw(parent, f"found {describe(found)}", f"it should be {expectation(parent)}")
+    return Flaw(path, "is missing", f"give {path[-1]}: {expectation(path)}")
+
+
+def _wrong_length(path: Path, found: Any) -> Flaw:
+    if found == "":
+        return Flaw(path, "is empty", f"it should be {expectation(path)}")
+    remedy = f"it should be {expectation(path)}"
+    if field_of(path) == "center" and isinstance(found, list | tuple) and len(found) == 3:
+        remedy += "; obstacles are flat in this version"
+    return Flaw(path, f"found {describe(found)}", remedy)
+
+
+def parts(value: Any) -> Iterator[tuple[int, Any]]:
+    """The items of a list with their indices; nothing if it is none."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        yield from enumerate(value)

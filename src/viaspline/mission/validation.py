@@ -1,0 +1,90 @@
+"""From data to a mission, or to every fault that the data has."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+from pydantic import ModelWrapValidatorHandler, ValidationError
+
+from viaspline.errors import MissionError
+from viaspline.mission.partial_mission import Draft
+from viaspline.mission.parts import MissionParts
+from viaspline.mission.resolve_files import unfold_maps
+from viaspline.mission.schema_errors import structural_flaws
+from viaspline.mission.semantic_checks import semantic_flaws
+from viaspline.mission.track_file import given_twice, unfold_corridor
+from viaspline.mission.unplaced_faults import Flaw, Origin, located
+
+Sound = TypeVar("Sound", bound=MissionParts)
+
+
+class Context:
+    """What the validator is told of data that came from a file."""
+
+    def __init__(self, origin: Origin) -> None:
+        self.origin = origin
+
+
+def sound_mission(
+    data: Any, handler: ModelWrapValidatorHandler[Sound], context: Any = None
+) -> Sound:
+    """The mission that ``data`` describes.
+
+    Args:
+        data: A mapping with what a mission file holds, or a mission. Files of maps are read; they
+            are looked for beside the mission file, or from the working directory if there is none.
+        handler: Pydantic's own validation.
+        context: A `Context` if the data came from a file.
+
+    Raises:
+        MissionError: The data has faults; all of them.
+    """
+    if isinstance(data, MissionParts):
+        return cast(Sound, data)
+    origin = context.origin if isinstance(context, Context) else None
+    flaws: list[Flaw] = list(origin.flaws) if origin is not None else []
+    folder = Path(origin.source).parent if origin is not None else Path()
+    if origin is not None:
+        flaws += given_twice(data)
+    with_line, faulty = unfold_corridor(data, folder)
+    flaws += faulty
+    unfolded = unfold_maps(with_line, folder)
+    flaws += unfolded.flaws
+    mission: Sound | None = None
+    try:
+        mission = _validated(unfolded.data, handler)
+        draft = Draft.of(mission, unfolded)
+    except ValidationError as error:
+        found = structural_flaws(error)
+        flaws += (flaw._replace(path=unfolded.original(flaw.path)) for flaw in found)
+        draft = Draft.salvage(unfolded)
+    flaws += semantic_flaws(draft)
+    if flaws or mission is None:
+        raise MissionError(located(flaws, data, origin)) from None
+    return mission
+
+
+def _validated(data: Any, handler: ModelWrapValidatorHandler[Sound]) -> Sound:
+    """Validate; if that fails because of numpy's numbers, once more with Python's."""
+    try:
+        return handler(data)
+    except ValidationError as error:
+        if not any(_is_scalar(detail["input"]) for detail in error.errors(include_url=False)):
+            raise
+    return handler(_plain(data))
+
+
+def _is_scalar(value: Any) -> bool:
+    """Whether this is a number of numpy's that is none of Python's."""
+    return hasattr(value, "tolist") and getattr(value, "shape", None) == ()
+
+
+def _plain(value: Any) -> Any:
+    if hasattr(value, "tolist"):
+        return cast(Any, value.tolist())
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value

@@ -1,0 +1,1 @@
+"""The sides on which obstacles may be passed: laid, compared, recorded."""

@@ -1,0 +1,87 @@
+"""The ways past what a leg meets, side by side."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viaspline.mission.parts import Side
+from viaspline.planning.alternatives.leg_search import Curve, LegSearch
+from viaspline.planning.problem.ledger import Candidate, LedgerEntry
+from viaspline.planning.routing.router import Way
+from viaspline.planning.routing.side_barrier import Barriers
+
+SIDES: tuple[Side, Side] = ("left", "right")
+
+
+@dataclass(frozen=True)
+class Met:
+    """A group that stands in the way of a leg.
+
+    Attributes:
+        members: The names of its obstacles.
+        barriers: What closes either side of it.
+    """
+
+    members: tuple[str, ...]
+    barriers: Barriers
+
+    def side_of(self, way: Way) -> Side:
+        """The side on which a way passes it."""
+        return "right" if way.crosses(self.barriers.right) else "left"
+
+
+@dataclass(frozen=True)
+class Weighed:
+    """A leg, what it met and the curves past that.
+
+    Attributes:
+        leg: The leg.
+        met: The groups in its way.
+        curves: One along the shortest way, and those on the other side of a group.
+        winner: The one that is taken, of these.
+        reasons: For each group, why there might be no curve on one of its sides.
+    """
+
+    leg: LegSearch
+    met: tuple[Met, ...]
+    curves: tuple[Curve, ...]
+    winner: Curve
+    reasons: tuple[str, ...]
+
+    @property
+    def entries(self) -> tuple[LedgerEntry, ...]:
+        """For each group the shortest curve on either side."""
+        start, goal = self.leg.course.ends(self.leg.index)
+        return tuple(
+            LedgerEntry(
+                group.members,
+                (start.name, goal.name),
+                tuple(self._candidate(group, side, reason) for side in SIDES),
+            )
+            for group, reason in zip(self.met, self.reasons, strict=True)
+        )
+
+    def taking(self, curve: Curve) -> Weighed:
+        """The same with another curve in the place of the winner."""
+        curves = tuple(curve if one is self.winner else one for one in self.curves)
+        return replace(self, curves=curves, winner=curve)
+
+    def _candidate(self, group: Met, side: Side, reason: str) -> Candidate:
+        passing = [curve for curve in self.curves if group.side_of(curve.way) == side]
+        if not passing:
+            dimension = len(self.leg.ends[0])
+            none = np.empty((0, dimension))
+            return Candidate(side, none, none.reshape(0, 4, dimension), impossible=reason)
+        chosen = any(curve is self.winner for curve in passing)
+        curve = self.winner if chosen else min(passing, key=lambda c: c.measured.length)
+        return Candidate(
+            side=side,
+            vias=curve.vias,
+            spans=curve.spans,
+            length=curve.measured.length,
+            clearance=curve.measured.clearance,
+            max_curvature=curve.measured.max_curvature,
+            chosen=chosen,
+        )

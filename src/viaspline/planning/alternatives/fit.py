@@ -1,0 +1,159 @@
+"""Fitting the spline of one leg to a way until it is proven clear.
+
+As the slack goes to 0 a cardinal spline tends to its polyline. The via points of a way stand so
+that their polyline is clear; so there is always a slack at which the spline is clear as well. It
+is lowered only on the spans that need it, and only as far as they need it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.bending import self_loops
+from viaspline.curve.certificate import SPARE
+from viaspline.kernels.clearance.disc import conflicts
+from viaspline.planning.problem.via_sequence import Course, Leg, lay
+from viaspline.planning.routing.router import Way
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+
+# Largest turn from via point to via point [rad], how far out they stand, how far off the helpers,
+# and what part of the length may be spent on roundness. Rounder first, closer where it is tight.
+EFFORTS = (
+    (0.2, 1.0, 1.0, 1e-4),
+    (0.2, 1.0, 1.0, 2e-5),
+    (0.2, 1.0, 1.0, 0.0),
+    (0.1, 1.0, 1.0, 0.0),
+)
+LOWER = (0.7, 0.5)  # slack of a leg whose straight line is clear, before it gets helpers
+HALVINGS = 24
+TAUT = 1e-3  # slack below which a loop is too small to matter
+CLEAR = -1
+HELPER = 0.1  # of a straight leg's length, where the spline would swing out into something
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A course in which one leg is clear, and that leg's curve.
+
+    Attributes:
+        course: With the leg in it.
+        spans: The leg's curve [m], shape (m, 4, d).
+    """
+
+    course: Course
+    spans: Floats
+
+
+def too_close(world: World, spans: Floats, required: float) -> NDArray[np.int64]:
+    """What each span comes nearer to than ``required``: indices as in ``World.nearest``, or -1.
+
+    A little stricter than the certificate, which is never quite at the true distance.
+    """
+    writable = spans if spans.flags.writeable else spans.copy()  # numba compiles for one kind
+    found: NDArray[np.int64] = conflicts(world.packed, writable, required - 0.8 * SPARE)[0]
+    return found
+
+
+def fit(course: Course, index: int, way: Way, world: World, required: float) -> Fitted | None:
+    """Lay the leg's spline along a way.
+
+    Returns:
+        The fitted leg, or None if no slack makes it clear (the two via points themselves have
+        then less room than the proof needs).
+    """
+    base = _base_slack(course, index)
+    for leg in _attempts(course, index, way, base):
+        candidate = course.with_leg(index, leg)
+        spans = leg_spans(candidate, index)
+        if (too_close(world, spans, required) == CLEAR).all():
+            return Fitted(candidate, spans)
+    tightened = tighten(candidate, index, world, required)
+    if tightened is not None or way.is_direct:
+        return tightened
+    # Arcs that run into each other leave no clear polyline along them; the corners always have one.
+    points = lifted(way.turns, *(via.at for via in course.ends(index)))
+    leg = Leg(points, np.full(len(points) + 1, base))
+    return tighten(course.with_leg(index, leg), index, world, required)
+
+
+def tighten(course: Course, index: int, world: World, required: float) -> Fitted | None:
+    """Halve the slack of a leg's spans that come too close, until none does."""
+    for _ in range(HALVINGS):
+        spans = leg_spans(course, index)
+        close = too_close(world, spans, required) != CLEAR
+        if not close.any():
+            return Fitted(course, spans)
+        course = _halved(course, index, close)
+    return None
+
+
+def untied(course: Course, spans: Floats) -> Course:
+    """The course with less slack where a span loops back on itself; itself if none does.
+
+    Where a heading is given the curve may have to come round.
+    """
+    legs = np.diff(spans[:, :, :2], axis=1)
+    ahead, after = legs[:, :-1], legs[:, 1:]
+    cross = ahead[..., 0] * after[..., 1] - ahead[..., 1] * after[..., 0]
+    turns = np.abs(np.arctan2(cross, (ahead * after).sum(axis=2))).sum(axis=1)
+    if turns.max() <= np.pi:  # a curve turns no more than its control polygon
+        return course
+    loops = self_loops(spans)
+    if course.start_tangent is not None:
+        loops[: course.pieces] = False
+    if course.end_tangent is not None:
+        loops[-course.pieces :] = False
+    first = course.first_spans()
+    for index, leg in enumerate(course.legs):
+        tied = loops[first[index] : first[index + 1]]
+        tied &= np.repeat(leg.slack > TAUT, course.pieces)
+        if tied.any():
+            course = _halved(course, index, tied)
+    return course
+
+
+def _halved(course: Course, index: int, close: NDArray[np.bool_]) -> Course:
+    """Half the slack between those via points of a leg between which a span is too close."""
+    leg = course.legs[index]
+    near = close.reshape(-1, course.pieces).any(axis=1)
+    return course.with_leg(index, Leg(leg.points, np.where(near, leg.slack / 2, leg.slack)))
+
+
+def leg_spans(course: Course, index: int) -> Floats:
+    """The curve of one leg, laid with all others around it."""
+    first = course.first_spans()
+    return lay(course)[first[index] : first[index + 1]]
+
+
+def _base_slack(course: Course, index: int) -> float:
+    return float(course.legs[index].slack.max())
+
+
+def _attempts(course: Course, index: int, way: Way, slack: float) -> Iterator[Leg]:
+    """Legs along a way, the roundest first."""
+    start, goal = (via.at for via in course.ends(index))
+    if way.is_direct:
+        helpers = np.array([start + w * (goal - start) for w in (HELPER, 1 - HELPER)])
+        for factor in LOWER:
+            yield Leg(np.empty((0, len(start))), np.array([slack * factor]))
+        yield Leg(helpers, np.full(3, slack))
+        return
+    for effort in EFFORTS:
+        points = lifted(way.points(*effort), start, goal)
+        yield Leg(points, np.full(len(points) + 1, slack))
+
+
+def lifted(points: Floats, start: Floats, goal: Floats) -> Floats:
+    """Planar points between start and goal with their other coordinates in proportion."""
+    if len(start) == 2:
+        return points
+    track = np.vstack((start[:2], points, goal[:2]))
+    run = np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))
+    share = (run[:-1] / run[-1])[:, None] if run[-1] > 0 else np.zeros((len(points), 1))
+    return np.hstack((points, start[None, 2:] + share * (goal[2:] - start[2:])[None, :]))

@@ -1,0 +1,108 @@
+"""Clutter and maps: what stands together is an island of blocked cells, with two sides.
+
+The way that was taken is the shortest of all, whatever stands around it. The other side of an
+island is sought when the ledger is read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.mission.parts import Side
+from viaspline.planning.alternatives.comparison import Met, Weighed
+from viaspline.planning.alternatives.fit import Fitted
+from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite
+from viaspline.planning.routing.router import Floats, on_the_line
+from viaspline.planning.routing.side_barrier import barriers_at
+from viaspline.world.world import World
+
+MAP = 2  # kind of an obstacle
+MEMBERS = 12  # names that an island is given
+
+
+@dataclass(frozen=True)
+class PassedIslands:
+    """A leg that was led through clutter.
+
+    Attributes:
+        leg: What was led round.
+        best: The curve along the shortest way.
+    """
+
+    leg: LegSearch
+    best: Spline
+
+    @property
+    def fitted(self) -> Fitted:
+        """The leg's spline."""
+        return self.best.fitted
+
+    @cached_property
+    def weighed(self) -> Weighed:
+        """The curves on either side of every island that the straight line meets."""
+        met = tuple(islands_met(self.leg))
+        sides = [opposite(island.side_of(self.best.way)) for island in met]
+        found = [self._passing(island, side) for island, side in zip(met, sides, strict=True)]
+        others = [curve for curve in found if curve is not None]
+        reasons = tuple(f"no way is wide enough on the {side}" for side in sides)
+        return Weighed(self.leg, met, (self.best, *others), self.best, reasons)
+
+    def _passing(self, island: Met, side: Side) -> Spline | None:
+        closed = island.barriers.closing(opposite(side))
+        active = on_the_line(self.leg.world, *self.leg.ends, self.leg.brief.required)
+        way, _ = self.leg.shortest_allowed(active, closed)
+        return self.leg.curve(way)
+
+
+def islands_met(leg: LegSearch) -> Iterator[Met]:
+    """The islands that the straight line of a leg goes through, in its order."""
+    from scipy.ndimage import label
+
+    lattice = leg.router.lattice
+    labels: NDArray[Any] = label(lattice.cells, structure=np.ones((3, 3)))[0]
+    start, goal = leg.ends
+    size = float(np.hypot(*(goal - start)[:2]))
+    share = np.linspace(0.0, 1.0, int(2 * size / lattice.side) + 2)
+    places = start[None, :2] + share[:, None] * (goal - start)[None, :2]
+    found = lattice.at(labels, places)
+    seen: set[int] = set()
+    for k in np.flatnonzero(found).tolist():
+        island = int(found[k])
+        if island in seen:
+            continue
+        seen.add(island)
+        inside = places[k : k + np.argmax(np.append(found[k:] != island, True))]
+        middle = inside[len(inside) // 2]
+        barriers = barriers_at(leg.world, middle, start, goal)
+        yield Met(_names(leg, labels == island, middle), barriers)
+
+
+def _names(leg: LegSearch, island: NDArray[np.bool_], middle: Floats) -> tuple[str, ...]:
+    """What an island consists of: its obstacles, and where on a map it is."""
+    world = leg.world
+    names = []
+    within = leg.router.lattice.at(island, _centres(world))
+    for i in np.flatnonzero(within | (world.packed.kind == MAP)).tolist():
+        if world.packed.kind[i] != MAP:
+            names.append(world.name(i))
+        elif world.distances_to(i, middle[None, :])[0] < leg.brief.required:
+            names.append(f"{world.name(i)} at ({middle[0]:.2f}, {middle[1]:.2f})")
+    if len(names) > MEMBERS:
+        return (*names[:MEMBERS], f"{len(names) - MEMBERS} more")
+    return tuple(names)
+
+
+def _centres(world: World) -> Floats:
+    """The middle of every obstacle's box [m], shape (n, 2)."""
+    packed = world.packed
+    leaves = packed.leaf >= 0
+    centres = np.empty((len(world), 2))
+    boxes = packed.boxes[leaves]
+    centres[packed.leaf[leaves]] = 0.5 * (boxes[:, :2] + boxes[:, 2:])
+    return centres

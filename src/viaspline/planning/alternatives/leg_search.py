@@ -1,0 +1,117 @@
+"""One leg of a course on its way round what it meets: ways, curves along them, and their prices."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.mission.parts import Side
+from viaspline.planning.alternatives.fit import Fitted, fit
+from viaspline.planning.checking.cost import Measured, measure
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.via_sequence import Course
+from viaspline.planning.routing.router import NO_BARRIERS, Flags, Floats, Router, Way
+from viaspline.planning.routing.side_barrier import barriers_of
+from viaspline.world.world import World
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve along a way, and what it costs.
+
+    Attributes:
+        way: What it follows.
+        vias: Its detour via points [m], shape (k, d).
+        spans: Bézier control polygons of the whole leg [m], shape (m, 4, d).
+        measured: Its price.
+    """
+
+    way: Way
+    vias: Floats
+    spans: Floats
+    measured: Measured
+
+
+@dataclass(frozen=True)
+class Spline(Curve):
+    """The spline that was fitted to a way.
+
+    Attributes:
+        fitted: The course with it.
+    """
+
+    fitted: Fitted
+
+
+@dataclass(frozen=True)
+class LegSearch:
+    """A leg in its course and world.
+
+    Attributes:
+        course: What there is so far.
+        index: The leg.
+        world: The known world.
+        brief: What to keep.
+        router: Of this world and brief.
+    """
+
+    course: Course
+    index: int
+    world: World
+    brief: Brief
+    router: Router
+
+    @property
+    def ends(self) -> tuple[Floats, Floats]:
+        """The places of the via points before and after [m], shape (d,)."""
+        start, goal = self.course.ends(self.index)
+        return start.at, goal.at
+
+    def shortest_allowed(
+        self, active: Flags, closed: Floats = NO_BARRIERS
+    ) -> tuple[Way | None, Floats]:
+        """The shortest way that passes what it meets on the sides that the mission allows.
+
+        A way can meet obstacles with a side of their own that were not met before; each such
+        round adds at least one barrier, so there are no more rounds than obstacles.
+
+        Args:
+            active: (n,): obstacles to begin with; those met are added in place.
+            closed: Further segments not to cross, (b, 4).
+
+        Returns:
+            The way, or None where there is none, and the barriers that forbid sides, (f, 4).
+        """
+        barriers = self.forced_barriers(active)
+        while True:
+            way = self.router.find(*self.ends, np.vstack((closed, barriers)), active)
+            needed = self.forced_barriers(active)
+            if len(needed) == len(barriers):
+                return way, barriers
+            barriers = needed
+
+    def forced_barriers(self, active: Flags) -> Floats:
+        """Barriers on the forbidden sides of those obstacles that allow one side only."""
+        rows = [
+            barriers_of(self.world, int(i), *self.ends).closing(opposite(forced))
+            for i in np.flatnonzero(active)
+            if (forced := self.world.obstacles[i].forced_side) is not None
+        ]
+        return np.vstack(rows) if rows else NO_BARRIERS
+
+    def curve(self, way: Way | None) -> Spline | None:
+        """The spline along a way, or None where no slack makes it clear."""
+        if way is None:
+            return None
+        fitted = fit(self.course, self.index, way, self.world, self.brief.required)
+        if fitted is None:
+            return None
+        vias = fitted.course.legs[self.index].points
+        price = measure(fitted.spans, self.world, self.brief)
+        return Spline(way, vias, fitted.spans, price, fitted)
+
+
+def opposite(side: Side) -> Side:
+    """The other side."""
+    return "right" if side == "left" else "left"

@@ -1,0 +1,1 @@
+"""Is a path clear, and what does it cost?"""

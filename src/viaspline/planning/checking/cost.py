@@ -1,0 +1,44 @@
+"""Length, proven clearance and curvature of a candidate's curve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.clearance.disc import tightest
+from viaspline.kernels.curve.measure import length_and_curvature
+from viaspline.planning.checking.conflicts import proven
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.routing.router import Floats
+from viaspline.world.world import World
+
+TOLERANCE = 1e-2  # of a candidate's clearance [m]; the path's own certificate is proven anew
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What a curve costs: length [m], proven clearance of the body [m], sharpest bend [1/m]."""
+
+    length: float
+    clearance: float
+    max_curvature: float
+
+
+def measure(spans: Floats, world: World, brief: Brief) -> Measured:
+    """What a curve costs.
+
+    Args:
+        spans: A curve that is known to keep what the brief requires, shape (m, 4, d).
+        world: The known world.
+        brief: What it keeps.
+    """
+    lower = float(tightest(world.packed, spans, TOLERANCE)[0])
+    length, sharpest = length_and_curvature(spans)
+    return Measured(float(length), max(lower - brief.radius, brief.kept), float(sharpest))
+
+
+def measure_body(spans: Floats, world: World, brief: Brief) -> Measured:
+    """What a curve costs that a body drives, whether it keeps what the brief requires or not."""
+    length, sharpest = length_and_curvature(spans)
+    clearance = proven(PiecewiseCubic(spans), world, brief).clearance
+    return Measured(float(length), clearance, float(sharpest))

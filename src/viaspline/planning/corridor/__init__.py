@@ -1,0 +1,1 @@
+"""The line of least curvature inside a corridor."""

@@ -1,0 +1,185 @@
+"""From a corridor with a line of its own to a proven path inside of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.certificate import certify
+from viaspline.curve.path import GUIDE, Path, PathVia, ViaKind
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.clearance.disc import tightest
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import SplineSpec
+from viaspline.mission.strip import Strip, rings_of, strip_of
+from viaspline.planning.alternatives.fit import CLEAR, too_close
+from viaspline.planning.alternatives.solution import Detoured
+from viaspline.planning.checking.conflicts import proven as prove_body
+from viaspline.planning.corridor.corridor_refusals import (
+    no_room,
+    refuse_disorder,
+    refuse_narrow,
+    refuse_sharp,
+)
+from viaspline.planning.corridor.initial_line import seed
+from viaspline.planning.corridor.minimum_curvature import (
+    PER_SPAN,
+    SHARE,
+    Gate,
+    Line,
+    Task,
+    fixed,
+    improved,
+    settled,
+)
+from viaspline.planning.corridor.strip_line import StripLine, split
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.via_sequence import Course, course_of
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+
+PROOFS = 25  # times that a line is moved away from where the proof fails
+FINER = 1e-4  # to which it is known by how much it fails [m]
+BEYOND = 1.2  # times as far as it fails a line is moved away
+GUIDED = 4  # spans from guide to guide: re-plans under way come back to the line at one of them
+ROUNDER = 0.999  # of the curvature that is allowed is what a line is held to
+
+
+def line_through(
+    strip: Strip,
+    margin: float,
+    *,
+    places: Sequence[tuple[float, float]],
+    directions: Sequence[Floats | None] | None = None,
+    world: World | None = None,
+    max_curvature: float | None = None,
+) -> StripLine:
+    """The line of least curvature in a strip, through places, proven to keep a margin.
+
+    Args:
+        strip: Where it lies.
+        margin: What it keeps from the edges, and from what stands in the strip [m].
+        places: Where it runs through, in the order of driving [m], (k, 2): at least its start;
+            the start and the end of an open line.
+        directions: Unit vectors in which it runs there, each (2,) or None.
+        world: What it is proven against, the corridor itself among it; None: the strip alone.
+        max_curvature: [1/m]; None: no limit.
+
+    Raises:
+        NoPathError: When there is no such line, naming the place.
+
+    Example:
+        >>> strip = Strip.of_rows([[0, 0, 3, 3], [20, 0, 3, 3], [40, 10, 3, 3]], closed=False)
+        >>> laid = line_through(strip, 1.0, places=[(0, 0), (40, 10)])
+        >>> laid.spans[0, 0].tolist(), laid.spans[-1, 3].tolist()
+        ([0.0, 0.0], [40.0, 10.0])
+        >>> laid.at.tolist() == [0, len(laid.spans)]
+        True
+    """
+    if world is None:
+        world = World(corridor=rings_of(strip.area))
+    strip = strip.finer(SHARE * float(np.median(strip.widths)))
+    refuse_narrow(strip, margin)
+    rows = [int(strip.nearest_row(place)) for place in places]
+    aims = directions or [None] * len(rows)
+    gates = tuple(
+        Gate(np.array(place, np.float64), row, aim)
+        for place, row, aim in zip(places, rows, aims, strict=True)
+    )
+    others = None
+    if world.obstacles or world.bounds is not None or world.fences:
+        others = World(world.obstacles, bounds=world.bounds, fences=world.fences)
+    limit = None if max_curvature is None else ROUNDER * max_curvature
+    task = Task(strip, margin, others, gates, limit)
+    line = proven(settled(seed(task, world), task), task, world)
+    laid = split(line, task)
+    if max_curvature is not None:
+        refuse_sharp(laid, max_curvature)
+    return laid
+
+
+def find_line(mission: Mission, world: World, brief: Brief) -> Detoured:
+    """A proven path along a mission's corridor.
+
+    Raises:
+        NoPathError: When there is none: the corridor is too narrow, or blocked, or its bends are
+            too sharp; the place is named.
+    """
+    strip = strip_of(mission.route)
+    assert strip is not None
+    course = course_of(mission.model_copy(update={"spline": SplineSpec()}))
+    refuse_disorder(course, strip)
+    aims: list[Floats | None] = [None] * len(course.vias)
+    aims[0] = course.start_tangent
+    if not course.closed:
+        aims[-1] = course.end_tangent
+    for margin in _margins(brief):
+        laid = line_through(
+            strip, margin, places=[(via.at[0], via.at[1]) for via in course.vias],
+            directions=aims, world=world,
+            max_curvature=None if brief.turn_radius is None else 1.0 / brief.turn_radius,
+        )  # fmt: skip
+        path = Path(laid.spans, _path_vias(course, laid))
+        certificate = prove_body(path, world, brief)
+        if certificate.holds:
+            break
+    else:
+        raise no_room(certificate.tightest_at, certificate.clearance, brief.kept, strip)
+    return Detoured(path, certificate, None)
+
+
+def _margins(brief: Brief) -> Floats:
+    """What the reference point may have to keep: more for a body that is no disc."""
+    if brief.footprint is None:
+        return np.array([brief.required])
+    outer = max(math.hypot(x, y) for x, y in brief.footprint)
+    return brief.required + np.array([0.0, 0.25, 0.5, 1.0]) * (outer - brief.radius)
+
+
+def proven(line: Line, task: Task, world: World) -> Line:
+    """The line moved away from where it comes too close, until none of its spans does.
+
+    Raises:
+        NoPathError: When that can't be had.
+    """
+    for _ in range(PROOFS):
+        line = fixed(line, task)
+        spans = line.spans
+        close = np.flatnonzero(too_close(world, spans, task.margin) != CLEAR)
+        if not close.size:
+            return line
+        extra = line.extra.copy()
+        for span in close.tolist():
+            lower = tightest(world.packed, spans[span : span + 1], FINER)[0]
+            at = np.arange(PER_SPAN * span, PER_SPAN * (span + 1) + 1)
+            at = at % extra.size if line.knots.closed else at
+            extra[at] += BEYOND * max(task.margin - lower, 0.0) + FINER
+        for _ in range(2):
+            line, _ = improved(replace(line, extra=extra), task)
+    certificate = certify(PiecewiseCubic(line.spans), world, task.margin)
+    raise no_room(certificate.tightest_at, certificate.clearance, task.margin, task.strip)
+
+
+def _path_vias(course: Course, laid: StripLine) -> tuple[PathVia, ...]:
+    """The points of the route on the line, and guides between them."""
+    kind: ViaKind = "user"
+    vias = [
+        PathVia(
+            via.name, (float(via.at[0]), float(via.at[1])), kind, float(u), via.dwell, via.index
+        )
+        for via, u in zip(course.vias, laid.at.tolist(), strict=True)
+    ]
+    if course.closed:
+        vias.append(replace(vias[0], u=float(len(laid.spans)), index=len(course.vias)))
+    taken = {via.u for via in vias}
+    vias += [
+        PathVia(GUIDE, tuple(laid.spans[u, 0].tolist()), "detour", float(u))
+        for u in range(GUIDED, len(laid.spans), GUIDED)
+        if float(u) not in taken
+    ]
+    return tuple(sorted(vias, key=lambda via: via.u))

@@ -1,0 +1,347 @@
+r"""The line of least curvature inside a strip, through given places.
+
+The line is a cubic B-spline on equal knots, so that its curvature is continuous. Its control points
+:math:`c_i` move along their normals by :math:`a_i`. With the curvature linearised in a, the sum of
+:math:`\kappa^2 \mathrm{d}s` is a sum of squares, and the room to the edges of the strip and to what
+stands in it is linear too: a quadratic programme with a handful of numbers in each row. Solved over
+and over from where it led, in steps that are kept short, it comes to a line at which no small
+change makes the curvature less.
+
+Source: F. Braghin et al., Race driver model (2008), for the objective; A. Heilmeier et al., Minimum
+curvature trajectory planning and control for an autonomous race car (2019), for solving it again
+about its own result. Both move the points of an interpolating spline; control points make the
+matrices sparse.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+from scipy.sparse import csr_array, diags_array, eye_array, vstack
+
+from viaspline.mission.strip import Strip
+from viaspline.planning.corridor.bspline import Knots
+from viaspline.planning.corridor.quadratic_program import Programme, solve
+from viaspline.planning.corridor.strip_edges import Edge
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+Rows = NDArray[np.int64]
+
+PER_SPAN = 3  # samples
+FINE = 8  # samples a span where the line is laid through anew
+SHARE = 0.4  # of the strip's width: the length of a span
+MOST = 2000  # spans
+STRIDE = 0.25  # of the width: farthest that a control point moves at once
+SETTLED = 0.05  # of the width: below it the line isn't laid through equal distances again
+STILL = 2e-3  # of the width: such a step is the last
+ROUNDS = 40
+SNAP = 5e-3  # a gate so near to a joint is moved onto it, as a parameter
+NEWTON = 8  # steps to the place that is nearest to a gate
+PRICE = 1.5e5  # of room that is missing
+LENGTH = 0.03  # what a metre is worth beside curvature, with the width as the unit
+PEAK = 1.0  # weight of the fourth power of the curvature beside its square, in the same units
+GRADIENT = 1e-5  # step of differences [m]
+
+
+@dataclass(frozen=True, eq=False)
+class Gate:
+    """A place that the line runs through, exactly.
+
+    Attributes:
+        place: [m], (2,).
+        row: Row of the strip that is nearest.
+        direction: Unit vector in which it runs there, (2,), or None.
+    """
+
+    place: Floats
+    row: int
+    direction: Floats | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """What a line has to keep.
+
+    Attributes:
+        strip: Where it lies.
+        margin: What it keeps from the edges, and from what stands in the strip [m].
+        obstacles: What stands in the strip; None: nothing.
+        gates: In the order of driving; an open line runs from the first to the last.
+        max_curvature: [1/m]; None: no limit.
+    """
+
+    strip: Strip
+    margin: float
+    obstacles: World | None = None
+    gates: tuple[Gate, ...] = ()
+    max_curvature: float | None = None
+
+    @cached_property
+    def width(self) -> float:
+        """The strip's usual width [m]."""
+        return float(np.median(self.strip.widths))
+
+    @cached_property
+    def window(self) -> int:
+        """How many rows before and after a place have edges that it may be near to."""
+        return self.strip.rows_within(1.5 * float(self.strip.widths.max()))
+
+    @cached_property
+    def edges(self) -> tuple[Edge, Edge]:
+        """On the right and on the left."""
+        strip = self.strip
+        return (
+            Edge(strip.right, 1.0, strip.closed, self.window),
+            Edge(strip.left, -1.0, strip.closed, self.window),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A line on its way to the least curvature.
+
+    Attributes:
+        knots: Of its spline.
+        controls: Control points [m], (n, 2).
+        rows: Nearest row of the strip at each sample.
+        at: Parameters of the gates.
+        extra: Added to the margin at each sample [m].
+    """
+
+    knots: Knots
+    controls: Floats
+    rows: Rows
+    at: Floats
+    extra: Floats
+
+    @classmethod
+    def through(cls, points: Floats, rows: Rows, task: Task) -> Line:
+        """The line through points at equal distances.
+
+        Args:
+            points: Close together along it [m], (k, 2).
+            rows: The strip's row that is nearest to each.
+            task: What it keeps.
+        """
+        closed = task.strip.closed
+        ring = np.vstack((points, points[:1])) if closed else points
+        along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(ring, axis=0), axis=1))]
+        long = max(SHARE * task.width, along[-1] / MOST)
+        knots = Knots(max(round(along[-1] / long), 8), closed)
+        curve = CubicSpline(along, ring, bc_type="periodic" if closed else "natural")
+        equal = np.linspace(0.0, along[-1], knots.count + 1)
+        controls = knots.through(curve(equal[:-1] if closed else equal))
+        at = samples(knots, PER_SPAN)
+        count = len(task.strip.middle)
+        unwrapped = np.unwrap(rows, period=count) if closed else rows
+        if closed:
+            unwrapped = np.r_[unwrapped, unwrapped[0] + count]
+        guess = np.rint(np.interp(at * along[-1] / knots.count, along, unwrapped)).astype(np.int64)
+        places = knots.matrix(at) @ controls
+        found = task.strip.follow(places, guess, task.window)
+        line = cls(knots, controls, found, np.zeros(0), np.zeros(at.size))
+        return replace(line, at=line.passing(task, places, at))
+
+    def passing(self, task: Task, places: Floats, at: Floats) -> Floats:
+        """Parameters at which the line is nearest to the gates."""
+        if not task.gates:
+            return np.zeros(0)
+        closed, count = self.knots.closed, float(self.knots.count)
+        aims = np.array([gate.place for gate in task.gates])
+        rows = np.array([gate.row for gate in task.gates])
+        apart = np.abs(self.rows - rows[:, None])
+        if closed:
+            size = len(task.strip.middle)
+            apart = np.minimum(apart % size, -apart % size)
+        gap = np.linalg.norm(places - aims[:, None], axis=2)
+        found = at[np.where(apart <= task.window, gap, np.inf).argmin(axis=1)]
+        for _ in range(NEWTON):
+            here = found % count if closed else np.clip(found, 0.0, count)
+            place, slope, bend = (self.knots.matrix(here, k) @ self.controls for k in range(3))
+            away = place - aims
+            steep = (slope * slope).sum(axis=1)
+            steep = np.maximum(steep + (away * bend).sum(axis=1), 0.1 * steep)
+            found = here - np.clip((away * slope).sum(axis=1) / steep, -0.5, 0.5)
+        if closed:
+            return np.asarray(found % count, np.float64)
+        found[0], found[-1] = 0.0, count
+        return np.asarray(np.clip(found, 0.0, count), np.float64)
+
+    @property
+    def spans(self) -> Floats:
+        """Bézier control polygons [m], (m, 4, 2)."""
+        return self.knots.spans(self.controls)
+
+
+def samples(knots: Knots, each: int) -> Floats:
+    """Equally spaced parameters, the end of an open spline among them."""
+    return np.arange(each * knots.count + (not knots.closed)) / each
+
+
+def settled(line: Line, task: Task) -> Line:
+    """The line of least curvature that is reached from a line."""
+    for _ in range(ROUNDS):
+        line, moved = improved(line, task)
+        if moved <= STILL * task.width:
+            break
+        if moved > SETTLED * task.width:
+            at = samples(line.knots, FINE)
+            rows = line.rows[np.minimum((at * PER_SPAN).astype(int), len(line.rows) - 1)]
+            line = Line.through(line.knots.matrix(at) @ line.controls, rows, task)
+    return line
+
+
+def improved(line: Line, task: Task) -> tuple[Line, float]:
+    """One quadratic programme farther.
+
+    Returns:
+        (line, farthest that a control point was moved [m]).
+    """
+    at = samples(line.knots, PER_SPAN)
+    normals = _normals(line)
+    moves = [_Moves(line.knots.matrix(at, order), line.controls, normals) for order in range(3)]
+    hessian, gradient, bend_rows, bend_floors = _bending(moves, task)
+    room_rows, room_floors = _rooms(line, moves[0], task)
+    still = eye_array(line.knots.controls)
+    stride = np.full(line.knots.controls, -STRIDE * task.width)
+    equal, values = _gate_rows(line, normals, task)
+    answer = solve(
+        Programme(
+            hessian, gradient,
+            csr_array(vstack([*room_rows, *bend_rows, still, -still])),
+            np.concatenate([*room_floors, *bend_floors, stride, stride]),
+            PRICE / task.width**2, equal, values,
+        )
+    )  # fmt: skip
+    moved = replace(line, controls=line.controls + answer[:, None] * normals)
+    places = moves[0].matrix @ moved.controls
+    moved = replace(moved, rows=task.strip.follow(places, line.rows, task.window))
+    moved = replace(moved, at=moved.passing(task, places, at))
+    return moved, float(np.abs(answer).max())
+
+
+def fixed(line: Line, task: Task) -> Line:
+    """The line moved as little as possible so that it runs through its gates to the last digit."""
+    if not task.gates:
+        return line
+    whole = np.rint(line.at)
+    line = replace(line, at=np.where(np.abs(line.at - whole) < SNAP, whole, line.at))
+    for _ in range(3):
+        rows = line.knots.matrix(line.at).toarray()
+        off = np.array([gate.place for gate in task.gates]) - rows @ line.controls
+        shift = np.linalg.lstsq(rows, off, rcond=None)[0]
+        line = replace(line, controls=line.controls + shift)
+    return line
+
+
+class _Moves:
+    """How samples of a derivative change as the control points move along their normals."""
+
+    def __init__(self, matrix: csr_array, controls: Floats, normals: Floats) -> None:
+        self.matrix = matrix
+        self.values: Floats = matrix @ controls
+        self._x = csr_array(matrix @ diags_array(normals[:, 0]))
+        self._y = csr_array(matrix @ diags_array(normals[:, 1]))
+
+    def along(self, directions: Floats) -> csr_array:
+        """The change along a direction at each sample, (k, n)."""
+        return csr_array(
+            diags_array(directions[:, 0]) @ self._x + diags_array(directions[:, 1]) @ self._y
+        )
+
+
+def _normals(line: Line) -> Floats:
+    """Unit normals at the control points, to the left."""
+    controls = line.controls
+    if line.knots.closed:
+        along = np.roll(controls, -1, axis=0) - np.roll(controls, 1, axis=0)
+    else:
+        along = np.gradient(controls, axis=0)
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    return left_of(along)
+
+
+def left_of(vectors: Floats) -> Floats:
+    """Vectors turned to the left, (k, 2)."""
+    return np.column_stack((-vectors[:, 1], vectors[:, 0]))
+
+
+def _bending(moves: Sequence[_Moves], task: Task) -> tuple[Any, Floats, list[Any], list[Floats]]:
+    """The objective, and what keeps the curvature below its limit."""
+    slope, bend = moves[1].values, moves[2].values
+    speed = np.linalg.norm(slope, axis=1)
+    turned = left_of(slope) / speed[:, None] ** 3
+    curvature = (turned * bend).sum(axis=1)
+    by_slope = -left_of(bend) / speed[:, None] ** 3
+    by_slope -= 3.0 * (curvature / speed**2)[:, None] * slope
+    change = moves[1].along(by_slope) + moves[2].along(turned)
+    step = speed / PER_SPAN
+    unit = task.width
+    across = moves[1].along(left_of(slope) / speed[:, None])
+    along = moves[1].along(slope / speed[:, None])
+    worth = LENGTH / unit**2
+    sharp = PEAK * (unit * curvature) ** 2
+    hessian = change.T @ diags_array(step * (1.0 + 4.0 * sharp)) @ change
+    hessian += across.T @ diags_array(worth / (speed * PER_SPAN)) @ across
+    hessian += 1e-9 / unit**3 * eye_array(hessian.shape[0])
+    gradient = change.T @ (step * curvature * (1.0 + 2.0 * sharp)) + along.T @ np.full(
+        step.size, worth / PER_SPAN
+    )
+    if task.max_curvature is None:
+        return hessian, gradient, [], []
+    scale = unit**2
+    rows = [scale * change, -scale * change]
+    floors = [scale * (-task.max_curvature - curvature), scale * (curvature - task.max_curvature)]
+    return hessian, gradient, rows, floors
+
+
+def _rooms(line: Line, places: _Moves, task: Task) -> tuple[list[Any], list[Floats]]:
+    """What keeps samples away from the edges and from what stands in the strip."""
+    reach = task.margin + line.extra + 1.5 * STRIDE * task.width
+    found = [edge.room(places.values, line.rows) for edge in task.edges]
+    if task.obstacles is not None:
+        found.append(_free(task.obstacles, places.values))
+    rows, floors = [], []
+    for distance, direction in found:
+        near = np.flatnonzero(distance < reach)
+        rows.append(places.along(direction)[near])
+        floors.append((task.margin + line.extra - distance)[near])
+    return rows, floors
+
+
+def _free(world: World, places: Floats) -> tuple[Floats, Floats]:
+    """Distance of places to a world and the direction in which it grows."""
+    distance = world.distance(places)
+    slope = np.column_stack([
+        world.distance(places + step) - world.distance(places - step)
+        for step in (np.array([GRADIENT, 0.0]), np.array([0.0, GRADIENT]))
+    ])  # fmt: skip
+    size = np.linalg.norm(slope, axis=1)
+    return distance, slope / np.where(size > 0.0, size, 1.0)[:, None]
+
+
+def _gate_rows(line: Line, normals: Floats, task: Task) -> tuple[Any, Floats]:
+    """What leads the line through its gates."""
+    if not task.gates:
+        return csr_array((0, line.knots.controls)), np.zeros(0)
+    place = _Moves(line.knots.matrix(line.at), line.controls, normals)
+    slope = _Moves(line.knots.matrix(line.at, 1), line.controls, normals)
+    across = left_of(slope.values)
+    across /= np.linalg.norm(across, axis=1)[:, None]
+    aims = np.array([gate.place for gate in task.gates])
+    rows = [place.along(across)]
+    values = [((aims - place.values) * across).sum(axis=1)]
+    turned = [k for k, gate in enumerate(task.gates) if gate.direction is not None]
+    if turned:
+        aside = np.zeros((len(task.gates), 2))
+        aside[turned] = left_of(np.array([task.gates[k].direction for k in turned]))
+        rows.append(slope.along(aside)[turned])
+        values.append(-(slope.values * aside).sum(axis=1)[turned])
+    return csr_array(vstack(rows)), np.concatenate(values)

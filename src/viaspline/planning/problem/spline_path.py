@@ -1,0 +1,71 @@
+"""A course as it was laid in the end: its curve and where its via points lie on it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.path import PathVia, ViaKind
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.planning.problem.via_sequence import Course
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Laid:
+    """The curve of a course.
+
+    Attributes:
+        spans: Bézier control polygons [m], shape (m, 4, d).
+        joints: The span that begins at each via point of the course; m at its end, shape (n,), or
+            (n + 1,) when it is closed.
+        vias: The via points of the course and its detours, in order.
+    """
+
+    spans: Floats
+    joints: NDArray[np.int64]
+    vias: tuple[PathVia, ...]
+
+    @classmethod
+    def through(
+        cls, course: Course, spans: Floats, joints: NDArray[np.int64], detours: Sequence[int]
+    ) -> Laid:
+        """The curve of a course with a detour via point where each of some spans begins."""
+        vias = [_user_via(course, k, int(u)) for k, u in enumerate(joints)]
+        taken = set(joints.tolist())
+        vias += [
+            PathVia("detour", tuple(spans[k, 0].tolist()), "detour", float(k))
+            for k in detours
+            if k not in taken
+        ]
+        return cls(spans, joints, tuple(sorted(vias, key=lambda via: via.u)))
+
+    @property
+    def length(self) -> float:
+        """[m]."""
+        return PiecewiseCubic(self.spans).length
+
+    def leg(self, k: int) -> Floats:
+        """The spans of one leg [m], shape (l, 4, d)."""
+        return self.spans[self.joints[k] : self.joints[k + 1]]
+
+    def detours(self, k: int) -> Floats:
+        """The detour via points of one leg [m], shape (j, d)."""
+        first, last = self.joints[k], self.joints[k + 1]
+        found = [via.at for via in self.vias if first < via.u < last]
+        return np.array(found).reshape(-1, self.spans.shape[2])
+
+    def vias_from(self, first: int) -> tuple[PathVia, ...]:
+        """The via points if the curve begins with span ``first`` of another one."""
+        return tuple(replace(via, u=via.u + first) for via in self.vias)
+
+
+def _user_via(course: Course, k: int, u: int) -> PathVia:
+    via = course.vias[k % len(course.vias)]
+    kind: ViaKind = "detour" if via.index is None else "user"
+    index = len(course.vias) if k == len(course.vias) else via.index
+    return PathVia(via.name, tuple(via.at.tolist()), kind, float(u), via.dwell, index)

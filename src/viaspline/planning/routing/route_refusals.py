@@ -1,0 +1,320 @@
+"""Why there is no path, and the least change that would allow one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.certificate import SPARE
+from viaspline.errors import Change, NoPathError
+from viaspline.kernels.routing.corners import X, Y
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.via_sequence import Course, RouteVia
+from viaspline.planning.routing.router import NO_BARRIERS, Floats, Router, Way, on_the_line
+from viaspline.world.world import World
+
+BISECTIONS = 30
+TRIALS = 8  # places that are tried as a better goal
+
+
+def refuse_blocked_vias(course: Course, world: World, brief: Brief) -> None:
+    """Raise NoPathError for the first via point that has not the room that is required."""
+    at = np.array([via.at[:2] for via in course.vias])
+    distance, index = world.nearest(at)
+    for via, room, nearest in zip(course.vias, distance, index, strict=True):
+        if room < brief.required - SPARE:
+            raise _no_room(via, float(room), int(nearest), world, brief)
+
+
+def _no_room(via: RouteVia, room: float, index: int, world: World, brief: Brief) -> NoPathError:
+    name = world.name(index)
+    free = room - brief.radius
+    place = _nearest_free(via.at, world, brief.required)
+    moves = [] if place is None else [f"move it to ({place[0]:.3f}, {place[1]:.3f})"]
+    changes = _moved(via, place)
+    if 0 <= free < brief.clearance:
+        most = float(np.floor(free * 1000) / 1000)
+        moves.append(f"set robot.clearance_m to at most {most:.3f}")
+        changes += (Change("robot.clearance_m", most),)
+    missing = brief.required - room
+    what = "outside" if index < -1 and room < 0 else f"{missing:.3f} m inside the clearance of"
+    return NoPathError(
+        f"via point {via.name!r} lies {what} {name!r}",
+        where=via.at,
+        remedy=" or ".join(moves) or "move it",
+        via=via.name,
+        obstacles=(name,),
+        changes=changes,
+    )
+
+
+def _moved(via: RouteVia, place: Floats | None) -> tuple[Change, ...]:
+    """The change that moves a via point to a place [m], shape (2,), if there is one."""
+    if place is None or not via.key:
+        return ()
+    at = [round(x, 3) for x in place.tolist()]
+    return (Change(f"{via.key}.at", (*at, *via.at[2:].tolist())),)
+
+
+def _nearest_free(at: Floats, world: World, required: float) -> Floats | None:
+    """A place near ``at`` with the room that is required: rings of growing radius, then closer."""
+    angles = np.linspace(0, 2 * np.pi, 180, endpoint=False)
+    ring = np.column_stack((np.cos(angles), np.sin(angles)))
+    radius = max(required, 1e-3) * 0.05
+    for _ in range(60):
+        places = at[:2] + radius * ring
+        free = np.flatnonzero(world.distance(places) >= required)
+        if free.size:
+            return _pulled_back(at[:2], places[free[0]], world, required)
+        radius *= 1.25
+    return None
+
+
+def _pulled_back(at: Floats, place: Floats, world: World, required: float) -> Floats:
+    low, high = 0.0, 1.0
+    for _ in range(30):
+        middle = 0.5 * (low + high)
+        if world.distance(at + middle * (place - at)) >= required + 1e-3:
+            high = middle
+        else:
+            low = middle
+    found: Floats = at + high * (place - at)
+    return found
+
+
+class BlockedLegError(NoPathError):
+    """No way leads from one via point to the next; why is found out when it is asked for.
+
+    Finding the least change that would serve takes many more searches than finding that there is
+    no way, and who has another way to try doesn't ask.
+
+    Args:
+        via: The via point that can't be reached.
+        explain: Finds the reason.
+    """
+
+    def __init__(self, via: str, explain: Callable[[], NoPathError]) -> None:
+        Exception.__init__(self)
+        self.via = via
+        self._explain = explain
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in ("reason", "where", "remedy", "obstacles", "changes"):
+            raise AttributeError(name)
+        told = self._explain()
+        self.reason, self.where, self.remedy = told.reason, told.where, told.remedy
+        self.obstacles, self.changes = told.obstacles, told.changes
+        return vars(self)[name]
+
+    def __str__(self) -> str:
+        return f"{self.reason}: {self.remedy}"
+
+
+def explain_blocked_leg(
+    course: Course, leg: int, world: World, brief: Brief, barriers: Floats
+) -> NoPathError:
+    """Why there is no way between two via points."""
+    start, goal = course.ends(leg)
+    if len(barriers) and _way(start, goal, world, brief.required, NO_BARRIERS) is not None:
+        return _forced(start, goal, world)
+    opened = _widest(start, goal, world, brief.required)
+    moved = reachable_near(start.at, goal.at, world, brief.required)
+    moves = [] if moved is None else [f"move {goal.name!r} to ({moved[0]:.3f}, {moved[1]:.3f})"]
+    changes = _moved(goal, moved)
+    if opened is None:
+        walls = _walls(start, goal, world)
+        moves.append(f"open a gap of {2 * brief.required:.3f} m")
+        return NoPathError(
+            f"nothing leads from {start.name!r} to {goal.name!r}: {_listed(walls)} shuts it off",
+            where=goal.at,
+            remedy=" or ".join(moves),
+            via=goal.name,
+            obstacles=walls,
+            changes=changes,
+        )
+    required, way = opened
+    gap = _narrowest(way, world)
+    clearance = np.floor((required - brief.radius) * 1000) / 1000
+    if clearance >= 0:
+        moves.insert(0, f"set robot.clearance_m to at most {clearance:.3f}")
+        changes = (Change("robot.clearance_m", float(clearance)), *changes)
+    else:
+        most = np.floor(required * 1000) / 1000
+        moves.insert(0, f"the body's radius may be at most {most:.3f} m there")
+    room, needed = _told_apart(gap.width, 2 * brief.required)
+    return NoPathError(
+        f"no way from {start.name!r} to {goal.name!r} is wide enough: the best one goes through "
+        f"a gap {gap.between} at ({gap.at[0]:.2f}, {gap.at[1]:.2f}) with {room} m of "
+        f"room, {needed} m are needed",
+        where=gap.at,
+        remedy=" or ".join(moves),
+        via=goal.name,
+        obstacles=gap.sides,
+        changes=changes,
+    )
+
+
+def _told_apart(width: float, needed: float) -> tuple[str, str]:
+    """Two widths with as many digits as it takes to tell them apart, of the millimetre at least."""
+    for digits in range(3, 9):
+        shown = f"{width:.{digits}f}", f"{needed:.{digits}f}"
+        if shown[0] != shown[1]:
+            return shown
+    return f"just {width:.3f}", f"more than {needed:.3f}"
+
+
+def reachable_near(start: Floats, goal: Floats, world: World, required: float) -> Floats | None:
+    """A place near ``goal`` that ``start`` has a way to, to within a lattice's cell.
+
+    Returns:
+        Shape (2,) [m]; None where none was found.
+    """
+    router = Router(world, required, np.array([start[:2], goal[:2]]))
+    closed, place = NO_BARRIERS, goal
+    for _ in range(TRIALS):
+        closed = router.closed_between(start, place, closed)
+        candidate = _nearest_in_room(router, start, goal, closed)
+        if candidate is None:
+            return None
+        if router.find(start, candidate, NO_BARRIERS, np.zeros(len(world), np.bool_)) is not None:
+            return candidate
+        place = candidate
+    return None
+
+
+def _nearest_in_room(router: Router, start: Floats, goal: Floats, closed: Floats) -> Floats | None:
+    """The middle of a free cell that is connected to the start's, as near to the goal as can be."""
+    from scipy.ndimage import label
+
+    lattice = router.lattice.without(closed)
+    rooms: NDArray[Any] = label(lattice.cells == 0)[0]
+    here = lattice.at(rooms, start[None, :2])[0]
+    if here == 0:
+        return None
+    rows, columns = np.nonzero(rooms == here)
+    free = (np.column_stack((columns, rows)) + 0.5) * lattice.side + (lattice.x, lattice.y)
+    free = free[np.argsort(np.hypot(*(free - goal[:2]).T), kind="stable")]
+    for some in np.array_split(free, max(1, len(free) // 1000)):
+        roomy = np.flatnonzero(router.world.distance(some) >= router.required + 1e-3)
+        if roomy.size:
+            nearest: Floats = some[roomy[0]]
+            return nearest
+    return None
+
+
+def explain_tight_leg(course: Course, leg: int, world: World, brief: Brief) -> NoPathError:
+    """Why no spline along a leg is clear: one of its via points has no room for the curve."""
+    start, goal = course.ends(leg)
+    room, index = world.nearest(np.array([start.at[:2], goal.at[:2]]))
+    worse = int(np.argmin(room))
+    via = (start, goal)[worse]
+    return NoPathError(
+        f"the curve can't pass {via.name!r} with the clearance of "
+        f"{world.name(int(index[worse]))!r}: it has {room[worse]:.4f} m, just what is required",
+        where=via.at,
+        remedy=f"move {via.name!r} a little away, or lower robot.clearance_m",
+        via=via.name,
+        obstacles=(world.name(int(index[worse])),),
+    )
+
+
+def _forced(start: RouteVia, goal: RouteVia, world: World) -> NoPathError:
+    sided = [i for i, obstacle in enumerate(world.obstacles) if obstacle.forced_side]
+    forced = tuple(world.name(i) for i in sided)
+    keys = ("pass_on", "never_pass_on")
+    changes = tuple(
+        Change(f"world.known[{i}].{key}", None)
+        for i in sided
+        for key in keys
+        if getattr(world.obstacles[i], key) is not None
+    )
+    return NoPathError(
+        f"from {start.name!r} to {goal.name!r} there is no way on the sides that are asked for",
+        where=goal.at,
+        remedy=f"drop pass_on or never_pass_on of {', '.join(map(repr, forced))}",
+        via=goal.name,
+        obstacles=forced,
+        changes=changes,
+    )
+
+
+def _way(
+    start: RouteVia, goal: RouteVia, world: World, required: float, barriers: Floats
+) -> Way | None:
+    router = Router(world, required, np.array([start.at[:2], goal.at[:2]]))
+    active = on_the_line(world, start.at, goal.at, required)
+    return router.find(start.at, goal.at, barriers, active)
+
+
+def _widest(
+    start: RouteVia, goal: RouteVia, world: World, required: float
+) -> tuple[float, Way] | None:
+    """The largest distance that a way can keep, and that way; None if there is no way at all."""
+    low, high = 1e-6, required
+    best = _way(start, goal, world, low, NO_BARRIERS)
+    if best is None:
+        return None
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        way = _way(start, goal, world, middle, NO_BARRIERS)
+        if way is None:
+            high = middle
+        else:
+            low, best = middle, way
+        if high - low < 1e-4 * required:
+            break
+    return low, best
+
+
+class _Gap(NamedTuple):
+    """The narrowest place of a way: where [m], how wide [m], and what stands on either side."""
+
+    at: tuple[float, float]
+    width: float
+    sides: tuple[str, ...]
+
+    @property
+    def between(self) -> str:
+        """The sides in words."""
+        return "beside " + repr(self.sides[0]) if len(self.sides) == 1 else _pair(self.sides)
+
+
+def _pair(names: tuple[str, ...]) -> str:
+    return f"between {names[0]!r} and {names[1]!r}"
+
+
+def _narrowest(way: Way, world: World) -> _Gap:
+    """Where a way is tightest."""
+    w = np.linspace(0.0, 1.0, 201)[:, None]
+    corners = way.corners[:, X : Y + 1]
+    places = np.vstack([a + w * (b - a) for a, b in pairwise(corners)])
+    inner = places[2:-2] if len(places) > 4 else places
+    distance, index = world.nearest(inner)
+    k = int(np.argmin(distance))
+    at, room = inner[k], float(distance[k])
+    step = 1e-3 * max(room, 1e-6)
+    away = world.distance(at + step * np.eye(2)) - room
+    size = float(np.hypot(*away))
+    sides = [world.name(int(index[k]))]
+    if size > 0.0:
+        opposite = int(world.nearest(at + 0.5 * room * away / size)[1])
+        sides.append(world.name(opposite))
+    return _Gap((float(at[0]), float(at[1])), 2.0 * room, tuple(dict.fromkeys(sides)))
+
+
+def _walls(start: RouteVia, goal: RouteVia, world: World) -> tuple[str, ...]:
+    """The obstacles that the straight line between two via points meets."""
+    found = on_the_line(world, start.at, goal.at, SPARE)
+    return tuple(world.name(int(i)) for i in np.flatnonzero(found))
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    """The first few names, and how many more there are."""
+    if not names:
+        return "what stands there"
+    shown = " and ".join(map(repr, names[:2]))
+    return shown if len(names) <= 2 else f"{shown} and {len(names) - 2} more"

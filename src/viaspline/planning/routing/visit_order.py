@@ -1,0 +1,144 @@
+"""The order of the via points of a round, improved: shorter in all, start and goal where they are.
+
+The travelling salesman's problem over the lengths of the ways between all points, round what stands
+between them: exact for few via points (Held and Karp, "A Dynamic Programming Approach to Sequencing
+Problems", 1962), else by exchanges until none makes the round shorter (2-opt and Or-opt).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.mission.model import Mission
+from viaspline.mission.parts import ViaPoint
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.routing.router import NO_BARRIERS, Router, on_the_line
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+EXACT = 9  # via points up to which all orders are compared
+SLIGHT = 1e-9  # shorter by less is not shorter [m]
+
+
+def ordered(mission: Mission) -> Mission:
+    """The mission with its via points in the order that makes the round short.
+
+    A mission that asks for ``order: given`` is returned as it is. Via points without a name get
+    the one that they had in the given order, so that they are still known by it.
+
+    Example:
+        >>> mission = Mission.model_validate({"route": {
+        ...     "start": [0, 0], "via": [[30, 0], [10, 0], [20, 0]], "goal": [40, 0],
+        ...     "order": "shortest",
+        ... }})
+        >>> [(via.name, via.at[0]) for via in ordered(mission).route.via]
+        [('via 2', 10.0), ('via 3', 20.0), ('via 1', 30.0)]
+    """
+    route = mission.route
+    if route.order == "given":
+        return mission
+    vias = tuple(_named(via, i) for i, via in enumerate(route.via))
+    order = _shortest_order(lengths_between(mission), len(vias), closed=route.closed)
+    changed = {"via": tuple(vias[i] for i in order), "order": "given"}
+    return mission.model_copy(update={"route": route.model_copy(update=changed)})
+
+
+def _named(via: ViaPoint, place: int) -> ViaPoint:
+    return via if via.name else via.model_copy(update={"name": f"via {place + 1}"})
+
+
+def lengths_between(mission: Mission) -> Floats:
+    """Lengths of the shortest ways between all points of the route [m], shape (n, n).
+
+    Start first, then the via points, then the goal if there is one; infinite where there is none.
+    """
+    at = np.array([point.at[:2] for _, point in mission.route.points()])
+    world, required = World.known(mission), Brief.of(mission).required
+    router = Router(world, required, at)
+    lengths = np.zeros((len(at), len(at)))
+    for i, j in combinations(range(len(at)), 2):
+        active = on_the_line(world, at[i], at[j], required)
+        way = router.find(at[i], at[j], NO_BARRIERS, active)
+        lengths[i, j] = lengths[j, i] = np.inf if way is None else way.length
+    return lengths
+
+
+def _shortest_order(lengths: Floats, count: int, *, closed: bool) -> tuple[int, ...]:
+    """The order of the via points, from 0, between the first point and the last."""
+    last = 0 if closed else (count + 1 if len(lengths) > count + 1 else None)
+    if count <= EXACT:
+        return _held_karp(lengths, count, last)
+    return _exchanged(lengths, _nearest_first(lengths, count), last)
+
+
+def _held_karp(lengths: Floats, count: int, last: int | None) -> tuple[int, ...]:
+    """The best of all orders, built up from the best of all subsets of the via points."""
+    best: dict[tuple[int, int], tuple[float, tuple[int, ...]]] = {
+        (1 << k, k): (float(lengths[0, k + 1]), (k,)) for k in range(count)
+    }
+    for size in range(2, count + 1):
+        for chosen in combinations(range(count), size):
+            mask = sum(1 << k for k in chosen)
+            for k in chosen:
+                before = [best[mask ^ (1 << k), j] for j in chosen if j != k]
+                steps = [
+                    (length + float(lengths[order[-1] + 1, k + 1]), (*order, k))
+                    for length, order in before
+                ]
+                best[mask, k] = min(steps)
+    full = (1 << count) - 1
+    ends = [
+        (length + (0.0 if last is None else float(lengths[k + 1, last])), order)
+        for k in range(count)
+        for length, order in [best[full, k]]
+    ]
+    return min(ends)[1] if ends else ()
+
+
+def _nearest_first(lengths: Floats, count: int) -> tuple[int, ...]:
+    """Always on to the nearest that is left."""
+    here, order = 0, []
+    left = set(range(count))
+    while left:
+        here = min(left, key=lambda k: (lengths[here, k + 1], k)) + 1
+        order.append(here - 1)
+        left.remove(here - 1)
+    return tuple(order)
+
+
+def _exchanged(lengths: Floats, order: tuple[int, ...], last: int | None) -> tuple[int, ...]:
+    """Take the first exchange that makes the round shorter, until there is none."""
+    best = _round(lengths, order, last)
+    improved = True
+    while improved:
+        improved = False
+        for candidate in _neighbours(order):
+            length = _round(lengths, candidate, last)
+            if length < best - SLIGHT:
+                order, best, improved = candidate, length, True
+                break
+    return order
+
+
+def _neighbours(order: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
+    """Orders with a part turned round (2-opt), or one of up to three points elsewhere (Or-opt)."""
+    count = len(order)
+    for i, j in combinations(range(count + 1), 2):
+        if j - i > 1:
+            yield order[:i] + order[i:j][::-1] + order[j:]
+    for size in (1, 2, 3):
+        for i in range(count - size + 1):
+            part, rest = order[i : i + size], order[:i] + order[i + size :]
+            for j in range(len(rest) + 1):
+                if j != i:
+                    yield rest[:j] + part + rest[j:]
+                    yield rest[:j] + part[::-1] + rest[j:]
+
+
+def _round(lengths: Floats, order: tuple[int, ...], last: int | None) -> float:
+    stops = [0, *(k + 1 for k in order), *([] if last is None else [last])]
+    return float(lengths[stops[:-1], stops[1:]].sum())

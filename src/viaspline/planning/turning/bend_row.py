@@ -1,0 +1,107 @@
+"""A row of bends: the via points of a course, and what the ways between them go round."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.routing.corners import X as CORNER_X
+from viaspline.kernels.routing.corners import Y as CORNER_Y
+from viaspline.kernels.routing.tangent_arcs import BEND_RADIUS, BEND_X, BEND_Y
+from viaspline.kernels.routing.tangent_arcs import SIDE as BEND_SIDE
+from viaspline.kernels.turning.turn_sequence import HEADING, KEPT, SIDE, X, Y
+from viaspline.planning.problem.via_sequence import Course
+from viaspline.planning.routing.router import Way
+
+Floats = NDArray[np.float64]
+DETOUR = -1
+
+
+@dataclass(frozen=True)
+class Bends:
+    """Bends in the order of the path.
+
+    Attributes:
+        rows: See ``kernels.turning.turn_sequence``, shape (n, 5).
+        vias: Index of each one's via point in the course, or ``DETOUR``, shape (n,).
+        closed: Whether the last one is followed by the first.
+    """
+
+    rows: Floats
+    vias: NDArray[np.int64]
+    closed: bool = False
+
+    def with_bend(self, k: int, row: Floats) -> Bends:
+        """The same with a detour bend before bend k."""
+        return Bends(
+            np.insert(self.rows, k, row, axis=0), np.insert(self.vias, k, DETOUR), self.closed
+        )
+
+    def without(self, k: int) -> Bends:
+        """The same without bend k."""
+        return Bends(np.delete(self.rows, k, axis=0), np.delete(self.vias, k), self.closed)
+
+    def widened(self, k: int, by: float) -> Bends:
+        """The same with more room kept from what detour bend k goes round [m]."""
+        rows = self.rows.copy()
+        rows[k, KEPT] += by
+        return Bends(rows, self.vias, self.closed)
+
+    def leg_of(self, k: int) -> int:
+        """The leg of the course on which bend k lies; the last of its via points ends the last."""
+        vias = self.vias != DETOUR
+        last = int(vias.sum()) - (1 if self.closed else 2)
+        return min(int(vias[: k + 1].sum()) - 1, last)
+
+    def places(self, via: int) -> int:
+        """Where in the row a via point of the course stands."""
+        return int(np.flatnonzero(self.vias == via)[0])
+
+
+def bend(x: float, y: float, kept: float = 0.0, side: float = 0.0) -> Floats:
+    """A row of ``Bends``."""
+    row = np.array([x, y, 0.0, 0.0, math.nan])
+    row[KEPT], row[SIDE] = kept, side
+    return row
+
+
+def bends_along(course: Course, ways: Sequence[Way]) -> Bends:
+    """The bends of a course whose legs go along given ways."""
+    rows: list[Floats] = []
+    vias: list[int] = []
+    for k, via in enumerate(course.vias):
+        rows.append(bend(float(via.at[0]), float(via.at[1])))
+        vias.append(k)
+        if k < len(ways):
+            inner = _bends_of(ways[k])
+            rows += inner
+            vias += [DETOUR] * len(inner)
+    table = np.array(rows)
+    if not course.closed:
+        for k, tangent in ((0, course.start_tangent), (-1, course.end_tangent)):
+            if tangent is not None:
+                table[k, HEADING] = math.atan2(tangent[1], tangent[0])
+    return Bends(table, np.array(vias), course.closed)
+
+
+def _bends_of(way: Way) -> list[Floats]:
+    """What a way goes round; where its arcs have no common tangents, its corners."""
+    if len(way.bends):
+        return [
+            bend(row[BEND_X], row[BEND_Y], row[BEND_RADIUS], row[BEND_SIDE])
+            for row in way.bends[1:-1]
+        ]
+    corners = way.corners[:, [CORNER_X, CORNER_Y]]
+    steps = np.diff(corners, axis=0)
+    turns = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
+    return [
+        bend(x, y, 0.0, math.copysign(1.0, turn))
+        for (x, y), turn in zip(corners[1:-1].tolist(), turns.tolist(), strict=True)
+    ]
+
+
+__all__ = ["DETOUR", "HEADING", "KEPT", "SIDE", "Bends", "X", "Y", "bend", "bends_along"]

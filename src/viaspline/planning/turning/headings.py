@@ -1,0 +1,184 @@
+"""Headings at the via points, chosen together: for via points too close for the turning circle.
+
+Between two via points with given headings there is always a way for a car in the open: it drives
+on and comes round again. So every via point gets a row of headings, and the cheapest row of legs
+between them is found by dynamic programming; legs that can't be laid are left
+out, one after the other, until a row is clear.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.turning.heading_costs import cheapest, leg_lengths
+from viaspline.planning.turning.bend_row import DETOUR, HEADING, SIDE, Bends
+from viaspline.planning.turning.turn_path import RAMP, Swing
+
+Floats = NDArray[np.float64]
+Lay = Callable[[Bends], Swing | None]
+
+HEADINGS = 36
+ROUNDS = 300
+FINER = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they are turned then
+
+
+@dataclass(frozen=True)
+class Leg:
+    """What lies between two via points of a row of bends.
+
+    Attributes:
+        rows: Its bends, the via points among them, (n, 5).
+        starts: The headings at its start [rad], (k,); a NaN is free.
+        goals: The headings at its goal [rad], (l,).
+    """
+
+    rows: Floats
+    starts: Floats
+    goals: Floats
+
+    def lengths(self, rho: float) -> Floats:
+        """See ``kernels.turning.heading_costs.leg_lengths``."""
+        found: Floats = leg_lengths(self.rows, self.starts, self.goals, rho, RAMP * rho)
+        return found
+
+    def between(self, start: float, goal: float) -> Bends:
+        """Its bends with headings at both ends [rad]."""
+        rows = self.rows.copy()
+        rows[[0, -1], HEADING] = start, goal
+        rows[[0, -1], SIDE] = 0.0
+        return Bends(rows, np.full(len(rows), DETOUR))
+
+
+@dataclass(frozen=True)
+class Poses:
+    """Legs that follow each other with the same heading at every via point between them.
+
+    Attributes:
+        headings: At every via point [rad], (v,); NaN where the robot turns on the spot.
+        swings: One for each leg.
+    """
+
+    headings: Floats
+    swings: tuple[Swing, ...]
+
+    @cached_property
+    def length(self) -> float:
+        """[m]."""
+        return sum(swing.length for swing in self.swings)
+
+
+def legs_of(bends: Bends, spots: Collection[int]) -> tuple[Leg, ...]:
+    """The legs of a row of bends.
+
+    Args:
+        bends: The row.
+        spots: Via points at which the robot may turn on the spot.
+    """
+    count = bends.closed + int(bends.vias.max()) + 1
+    places = [bends.places(via) for via in range(count - bends.closed)]
+    rows = bends.rows
+    if bends.closed:
+        rows = np.vstack((rows, rows[:1]))
+        places.append(len(rows) - 1)
+    headings = [_headings(bends, via, count, spots) for via in range(count)]
+    return tuple(
+        Leg(rows[a : b + 1].copy(), headings[k], headings[k + 1])
+        for k, (a, b) in enumerate(pairwise(places))
+    )
+
+
+def _headings(bends: Bends, via: int, count: int, spots: Collection[int]) -> Floats:
+    """The headings that a via point may have [rad]."""
+    is_end = not bends.closed and via in (0, count - 1)
+    if is_end:
+        return bends.rows[[bends.places(via)], HEADING]
+    if via % (count - bends.closed) in spots:
+        return np.array([math.nan])
+    return np.arange(HEADINGS, dtype=np.float64) * (math.tau / HEADINGS)
+
+
+def posed(
+    legs: Sequence[Leg],
+    rho: float,
+    closed: bool,
+    lay: Lay,
+    most: int = ROUNDS,
+    patience: int = ROUNDS,
+    bound: float = math.inf,
+) -> Poses | None:
+    """The shortest row of clear legs, None where there is none among the headings that are tried.
+
+    Args:
+        legs: The legs.
+        rho: The least radius [m].
+        closed: Whether the last heading is the first.
+        lay: Lays a clear swing round bends, if it can.
+        most: Rows of headings that are tried.
+        patience: Pairs of headings of a leg that are tried until one of them is clear.
+        bound: Only shorter rows are of use [m].
+    """
+    counts = np.array([*(len(leg.starts) for leg in legs), len(legs[-1].goals)])
+    costs = np.full((len(legs), counts.max(), counts.max()), np.inf)
+    for k, leg in enumerate(legs):
+        costs[k, : counts[k], : counts[k + 1]] = leg.lengths(rho).min(axis=(2, 3))
+    laid: dict[tuple[int, int, int], Swing] = {}
+    failed = np.zeros(len(legs), np.int64)
+    for _ in range(most):
+        row, cost = cheapest(costs, counts, closed)
+        if not cost < bound:  # what is not laid yet costs no less than it says
+            return None
+        keys = [(k, int(row[k]), int(row[k + 1])) for k in range(len(legs))]
+        new = [key for key in keys if key not in laid]
+        if not new:
+            headings = [leg.starts[key[1]] for leg, key in zip(legs, keys, strict=True)]
+            ends = np.array([*headings, legs[-1].goals[row[-1]]])
+            return _finer(Poses(ends, tuple(laid[key] for key in keys)), legs, closed, lay)
+        for key in new:
+            leg = legs[key[0]]
+            swing = lay(leg.between(leg.starts[key[1]], leg.goals[key[2]]))
+            costs[key] = math.inf if swing is None else swing.length
+            if swing is not None:
+                laid[key] = swing
+                failed[key[0]] = -ROUNDS  # it isn't hopeless
+            failed[key[0]] += 1
+        if (failed >= patience).any():
+            return None
+    return None
+
+
+def _finer(poses: Poses, legs: Sequence[Leg], closed: bool, lay: Lay) -> Poses:
+    """The same with headings turned a little, each as long as that makes it shorter."""
+    free = [k for k in range(len(legs)) if len(legs[k].starts) > 1]
+    for part in FINER:
+        step = part * math.tau / HEADINGS
+        for k in free:
+            for turn in (step, -step):
+                turned = _turned(poses, legs, closed, lay, k, turn)
+                if turned is not None and turned.length < poses.length - 1e-9:
+                    poses = turned
+                    break
+    return poses
+
+
+def _turned(
+    poses: Poses, legs: Sequence[Leg], closed: bool, lay: Lay, k: int, turn: float
+) -> Poses | None:
+    """The same with another heading at via point k."""
+    headings = poses.headings.copy()
+    headings[k] += turn
+    if closed and k == 0:
+        headings[-1] = headings[0]
+    swings = list(poses.swings)
+    for leg in {k, (k - 1) % len(legs) if closed else max(k - 1, 0)}:
+        swing = lay(legs[leg].between(headings[leg], headings[leg + 1]))
+        if swing is None:
+            return None
+        swings[leg] = swing
+    return Poses(headings, tuple(swings))

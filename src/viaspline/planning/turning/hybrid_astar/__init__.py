@@ -1,0 +1,1 @@
+"""The search among poses: for tight space, the last of the methods."""

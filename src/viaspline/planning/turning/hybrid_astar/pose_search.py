@@ -1,0 +1,302 @@
+"""Ways through tight space for robots with a turning circle: the last resort of a planner.
+
+What is between places is searched for with poses, forwards from the start and backwards from the
+goal in turns, until the two of them know: one has found the other's end, or has seen everything
+that it can reach. What is found is shortened and laid as spans.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
+from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL
+from viaspline.kernels.turning.hybrid_astar.primitives import Moves, moves_of
+from viaspline.kernels.turning.segment_chain import chain_spans, merged, shortened
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.turning.hybrid_astar.search_tree import Growth, backwards, bridged, met
+from viaspline.planning.turning.hybrid_astar.search_window import Body, Terrain, windows
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+
+FIRST_BRIDGE, PIERS = 1000, 24  # states after which, and between how many, a bridge is tried
+AFTER = 0.25  # what is looked at after the first arrival, see ``Growth``
+SECTORS = 16  # headings that are tried where any is allowed
+PASSES = 4  # of shortcuts
+ENOUGH = 1e-3  # share of its length that a pass has to save for another one
+SPACING = 0.5  # between states on a line that shortcuts begin and end at, in radii
+STATES = 40  # but not many more than these
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A place [m] and the heading there [rad], which is driven through without curvature."""
+
+    x: float
+    y: float
+    heading: float
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A place to get to.
+
+    Attributes:
+        x: [m].
+        y: [m].
+        headings: Those that it may be driven through with [rad]; if there are none, any.
+    """
+
+    x: float
+    y: float
+    headings: tuple[float, ...] = ()
+
+
+class Reason(Enum):
+    """Why no way was found."""
+
+    START_TAKEN = "there is no room for the body at the start"
+    GOAL_TAKEN = "there is no room for the body at the goal"
+    START_SHUT_IN = "forwards, the robot can't get far from the start"
+    GOAL_SHUT_IN = "forwards, the robot can't come to the goal from anywhere far"
+    NO_WAY = "nothing that can be reached from the start leads to the goal"
+    BUDGET = "the search was given up before it had seen everything"
+
+
+@dataclass(frozen=True)
+class NotFound:
+    """Nothing was found.
+
+    Attributes:
+        reason: Why. All but BUDGET mean that all was seen at the finest resolution: of the states
+            in a cell of place, heading and curvature the search follows the first one, and the
+            cells are small near the start and the goal and where it is tight.
+        goal: Number of the goal that isn't reached from the one before.
+        expanded: How many states were looked at.
+    """
+
+    reason: Reason
+    goal: int = 0
+    expanded: int = 0
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A way.
+
+    Attributes:
+        segments: Curvature at the start and the end, and length, of its lines, arcs and ramps
+            [1/m, 1/m, m], (n, 3).
+        spans: The same as Bézier control polygons [m], (m, 4, 2): exactly through both ends, with
+            continuous curvature, which is 0 at the ends.
+        length: [m].
+        start: Where it begins.
+        end: Where it ends.
+        expanded: How many states were looked at.
+    """
+
+    segments: Floats = field(repr=False)
+    spans: Floats = field(repr=False)
+    length: float
+    start: Pose
+    end: Pose
+    expanded: int = 0
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How finely and how long a search looks.
+
+    Attributes:
+        overhang: Of the discs that cover the body, as a share of its half width.
+        ramps: Length of the ramps, as a share of what is asked for.
+        steps: Lengths of moves where it is tight, and where there is ever more room, as shares
+            of the turning circle's radius.
+        room: States that are kept, at most.
+        care: How near to the start and the goal longer moves take more room, and how much more,
+            both in radii.
+    """
+
+    overhang: float
+    ramps: float
+    steps: tuple[float, ...]
+    room: int
+    care: tuple[float, float] = (0.0, 0.0)
+
+
+EFFORTS = (
+    Effort(0.05, 1.0, (1 / 3,), 60_000),
+    Effort(0.05, 0.7, (1 / 6, 1 / 3), 60_000),
+    Effort(0.025, 0.4, (1 / 12, 1 / 6, 1 / 3), 120_000, (1.5, 0.25)),
+)
+LEAST_RAMP = 0.08  # of the radius
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is asked for, in one window with one effort."""
+
+    terrain: Terrain
+    moves: Moves
+    room: int
+
+    def forwards(
+        self, starts: Floats, goal: Goal, headings: Floats, after: float = AFTER
+    ) -> Growth:
+        """A search from some poses to the goal."""
+        place = np.array([goal.x, goal.y])
+        return Growth(
+            self.terrain, self.terrain.ground, self.moves, starts, place, headings, self.room, after
+        )
+
+    def backwards(self, start: Pose, goal: Goal, headings: Floats) -> Growth:
+        """A search from the goal to the start, as of a robot that drives backwards."""
+        starts = np.zeros((len(headings), 4))
+        starts[:, 0], starts[:, 1], starts[:, 2] = goal.x, goal.y, headings + math.pi
+        place, back = np.array([start.x, start.y]), np.array([start.heading + math.pi])
+        return Growth(
+            self.terrain,
+            self.terrain.ground_back,
+            self.moves,
+            starts,
+            place,
+            back,
+            self.room,
+            AFTER,
+        )
+
+
+def find_poses(
+    world: World, brief: Brief, rho: float, ramp: float, start: Pose, goal: Goal
+) -> Chain | NotFound:
+    """A way from a pose to a place, forwards, with continuous curvature of at most 1 / rho.
+
+    Args:
+        world: What to keep clear of.
+        brief: The body and what it keeps.
+        rho: The least radius [m].
+        ramp: Length on which the curvature rises from 0 to 1 / rho [m]; half of it, but not less
+            than a twelfth of rho, where nothing is found otherwise.
+        start: Where it begins.
+        goal: Where it ends.
+
+    Returns:
+        A chain whose discs (see ``cover``) are clear; or why there is none.
+    """
+    places = np.array([[start.x, start.y], [goal.x, goal.y]])
+    expanded, reason = 0, Reason.BUDGET
+    for effort in EFFORTS:
+        for task in tasks(world, brief, rho, ramp, places, effort):
+            found, is_cut = _one_way(task, start, goal)
+            expanded += found.expanded
+            if isinstance(found, Chain):
+                return replace(found, expanded=expanded)
+            reason = found.reason
+            if not is_cut:
+                break
+    return NotFound(reason, 0, expanded)
+
+
+def tasks(
+    world: World, brief: Brief, rho: float, ramp: float, places: Floats, effort: Effort
+) -> Iterator[Task]:
+    """The task in ever greater windows."""
+    body = Body.of(brief, effort.overhang)
+    bent = max(effort.ramps * ramp, min(LEAST_RAMP * rho, ramp))
+    steps = np.maximum(np.array(effort.steps) * rho, 0.5 * bent)
+    for window in windows(world, body.reach, places, 3.0 * rho + body.reach):
+        terrain = Terrain(
+            world,
+            window,
+            body,
+            rho,
+            CELL * float(steps[0]),
+            (effort.care[0] * rho, effort.care[1] * rho),
+        )
+        yield Task(terrain, moves_of(rho, bent, steps, terrain.pace), effort.room)
+
+
+def _one_way(task: Task, start: Pose, goal: Goal) -> tuple[Chain | NotFound, bool]:
+    """The way in one window, or why there is none and whether a greater window may have one."""
+    headings = headings_at(task, goal)
+    if not task.terrain.has_room(start.x, start.y, start.heading):
+        return NotFound(Reason.START_TAKEN), False
+    if not len(headings):
+        return NotFound(Reason.GOAL_TAKEN), False
+    to = headings if goal.headings else np.append(headings, math.nan)
+    begin = np.array([[start.x, start.y, start.heading, 0.0]])
+    both = (task.forwards(begin, goal, to), task.backwards(start, goal, headings))
+    bridge, due = None, FIRST_BRIDGE
+    while bridge is None and not any(growth.is_over for growth in both):
+        for growth, other in (both, both[::-1]):
+            growth.go_on(other)
+        if both[0].expanded >= due and not any(growth.has_arrived for growth in both):
+            bridge, due = bridged(*both, PIERS), 2 * due
+    expanded = sum(growth.expanded for growth in both)
+    ways = [(way.cost, way.segments, way.heading) for way in both[0].arrivals()[:1]]
+    ways += [
+        (way.cost, backwards(way.segments), float(headings[way.start]))
+        for way in both[1].arrivals()[:1]
+    ]
+    ways += [
+        (way.cost, way.segments, float(headings[way.start]))
+        for way in (bridge, met(*both))
+        if way is not None
+    ]
+    if not ways:
+        return _failure(both, task.terrain.window.is_whole, expanded)
+    _, segments, heading = min(ways, key=lambda way: way[0])
+    free = math.nan if not goal.headings else heading
+    return finished(task, start, np.array([goal.x, goal.y, free]), segments, expanded), False
+
+
+def headings_at(task: Task, goal: Goal) -> Floats:
+    """The headings with which the body may stand at a goal, of those that are tried."""
+    headings = np.array(goal.headings or np.arange(SECTORS) * (2.0 * math.pi / SECTORS))
+    return headings[[task.terrain.has_room(goal.x, goal.y, each) for each in headings]]
+
+
+def _failure(both: Sequence[Growth], is_whole: bool, expanded: int) -> tuple[NotFound, bool]:
+    forward, backward = both
+    if forward.state == EMPTY and (is_whole or not forward.was_cut):
+        return NotFound(Reason.START_SHUT_IN, 0, expanded), False
+    if backward.state == EMPTY and (is_whole or not backward.was_cut):
+        return NotFound(Reason.GOAL_SHUT_IN, 0, expanded), False
+    is_cut = EMPTY in (forward.state, backward.state)
+    return NotFound(Reason.BUDGET, 0, expanded), is_cut
+
+
+def turn_of(segments: Floats) -> float:
+    """By how much a chain turns [rad]."""
+    return 0.5 * float(((segments[:, 0] + segments[:, 1]) * segments[:, 2]).sum())
+
+
+def _reversed(segments: Floats) -> Floats:
+    """The same way driven from its end."""
+    return np.ascontiguousarray(segments[::-1][:, [1, 0, 2]] * (-1.0, -1.0, 1.0))
+
+
+def finished(task: Task, start: Pose, goal: Floats, segments: Floats, expanded: int) -> Chain:
+    """The chain of what was found, with shortcuts."""
+    rho, ramp = task.moves.sizes[:2].tolist()
+    begin = np.array([start.x, start.y, start.heading])
+    length = math.inf
+    for _ in range(PASSES):
+        spacing = max(SPACING * rho, float(segments[:, 2].sum()) / STATES)
+        segments = merged(segments, rho)
+        segments = shortened(task.terrain.ground, begin, goal, segments, rho, ramp, spacing)
+        before, length = length, float(segments[:, 2].sum())
+        if length > (1.0 - ENOUGH) * before:
+            break
+    segments = merged(segments, rho)
+    spans = chain_spans(begin, goal, segments)
+    heading = start.heading + turn_of(segments) if math.isnan(goal[2]) else float(goal[2])
+    end = Pose(float(goal[0]), float(goal[1]), heading)
+    return Chain(segments, spans, length, start, end, expanded)

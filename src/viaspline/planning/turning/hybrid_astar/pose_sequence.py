@@ -1,0 +1,167 @@
+"""Ways through a row of places: the best heading at one of them may bar the way to the next."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.turning.hybrid_astar.pose_search import (
+    EFFORTS,
+    SECTORS,
+    Chain,
+    Goal,
+    NotFound,
+    Pose,
+    Reason,
+    Task,
+    finished,
+    headings_at,
+    tasks,
+    turn_of,
+)
+from viaspline.planning.turning.hybrid_astar.search_tree import Growth
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+
+KEPT = 6  # arrivals at every place, of different headings
+AFTER = 1.0  # what is looked at after the first arrival, see ``Growth``
+DOUBT = 1000  # states after which it is looked at whether the goal can be come to at all
+APART = math.pi / SECTORS  # headings nearer to each other than this are one [rad]
+
+
+@dataclass(frozen=True)
+class _Arrival:
+    """A pose at a place, and how it was come to.
+
+    Attributes:
+        pose: x, y, heading and length so far, (4,).
+        before: Number of the arrival at the place before.
+        segments: From there, (n, 3).
+    """
+
+    pose: Floats
+    before: int
+    segments: Floats
+
+
+def find_row(
+    world: World, brief: Brief, rho: float, ramp: float, start: Pose, goals: Sequence[Goal]
+) -> tuple[Chain, ...] | NotFound:
+    """Ways from a pose through a row of places, one after the other; see ``find_poses``.
+
+    Args:
+        world: What to keep clear of.
+        brief: The body and what it keeps.
+        rho: The least radius [m].
+        ramp: Length on which the curvature rises from 0 to 1 / rho [m].
+        start: Where the first begins.
+        goals: Where they end.
+
+    Returns:
+        A chain for every goal, each beginning with the pose in which the one before ends; or why
+        there are none. NO_WAY is no proof here: of every place, only the ``KEPT`` shortest
+        arrivals with different headings are followed.
+    """
+    places = np.array([[start.x, start.y], *([goal.x, goal.y] for goal in goals)])
+    failed = NotFound(Reason.BUDGET)
+    expanded = 0
+    for effort in EFFORTS:
+        for task in tasks(world, brief, rho, ramp, places, effort):
+            found, is_cut = _through(task, start, goals)
+            if not isinstance(found, NotFound):
+                return found
+            expanded += found.expanded
+            failed = found
+            if not is_cut:
+                break
+    return NotFound(failed.reason, failed.goal, expanded)
+
+
+def _through(
+    task: Task, start: Pose, goals: Sequence[Goal]
+) -> tuple[tuple[Chain, ...] | NotFound, bool]:
+    """The chains in one window, or why there are none and whether a greater one may have some."""
+    if not task.terrain.has_room(start.x, start.y, start.heading):
+        return NotFound(Reason.START_TAKEN), False
+    begin = np.array([start.x, start.y, start.heading, 0.0])
+    layers = [[_Arrival(begin, -1, np.empty((0, 3)))]]
+    expanded = 0
+    for number, goal in enumerate(goals):
+        headings = headings_at(task, goal)
+        if not len(headings):
+            return NotFound(Reason.GOAL_TAKEN, number, expanded), False
+        to = headings if goal.headings else np.append(headings, math.nan)
+        growth = task.forwards(np.array([a.pose for a in layers[-1]]), goal, to, AFTER)
+        is_shut_in, seen = _grown(task, growth, layers[-1][0].pose, goal, headings)
+        expanded += seen
+        if is_shut_in:
+            return NotFound(Reason.GOAL_SHUT_IN, number, expanded), False
+        arrivals = []
+        for found in growth.arrivals():
+            before = layers[-1][found.start].pose[2]
+            heading = before + turn_of(found.segments)
+            pose = np.array([goal.x, goal.y, heading, found.cost])
+            arrivals.append(_Arrival(pose, found.start, found.segments))
+        if not arrivals:
+            is_cut = growth.was_cut and not task.terrain.window.is_whole
+            reason = Reason.START_SHUT_IN if number == 0 else Reason.NO_WAY
+            if growth.state != EMPTY or is_cut:
+                reason = Reason.BUDGET
+            return NotFound(reason, number, expanded), growth.state == EMPTY and is_cut
+        layers.append(_distinct(arrivals))
+    return _chains(task, start, goals, layers, expanded), False
+
+
+def _grown(
+    task: Task, growth: Growth, start: Floats, goal: Goal, headings: Floats
+) -> tuple[bool, int]:
+    """Let a search grow to its end, and in doubt another one from its goal.
+
+    Returns:
+        Whether the goal can't be come to from anywhere, and how many states were looked at.
+    """
+    back: Growth | None = None
+    while not growth.is_over:
+        growth.go_on()
+        if growth.has_arrived or growth.expanded < DOUBT:
+            continue
+        if back is None:
+            back = task.backwards(Pose(*start[:3].tolist()), goal, headings)
+        back.go_on()
+        if back.state == EMPTY and (task.terrain.window.is_whole or not back.was_cut):
+            return True, growth.expanded + back.expanded
+    return False, growth.expanded + (0 if back is None else back.expanded)
+
+
+def _distinct(arrivals: Sequence[_Arrival]) -> list[_Arrival]:
+    """The best arrivals whose headings differ."""
+    kept: list[_Arrival] = []
+    for arrival in arrivals:
+        gaps = [math.remainder(arrival.pose[2] - other.pose[2], math.tau) for other in kept]
+        if all(abs(gap) >= APART for gap in gaps):
+            kept.append(arrival)
+    return kept[:KEPT]
+
+
+def _chains(
+    task: Task, start: Pose, goals: Sequence[Goal], layers: Sequence[list[_Arrival]], expanded: int
+) -> tuple[Chain, ...]:
+    """The legs of the shortest row."""
+    row = [layers[-1][0]]
+    for layer in layers[-2:0:-1]:
+        row.insert(0, layer[row[0].before])
+    chains: list[Chain] = []
+    for number, (arrival, goal) in enumerate(zip(row, goals, strict=True)):
+        free = number == len(goals) - 1 and not goal.headings
+        heading = math.nan if free else float(arrival.pose[2])
+        end = np.array([goal.x, goal.y, heading])
+        chains.append(finished(task, start, end, arrival.segments, expanded))
+        start = chains[-1].end
+    return tuple(chains)

@@ -1,0 +1,235 @@
+"""One search through poses, in one direction, as it grows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.heap import Heap
+from viaspline.kernels.turning.collision_cache import Ground
+from viaspline.kernels.turning.hybrid_astar import expand_poses as kernels
+from viaspline.kernels.turning.hybrid_astar.goal_arrival import bridge, connected
+from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
+    CELL,
+    EXPANDED,
+    HERE,
+    LEVEL,
+    NODES,
+    OUTSIDE,
+    THERE,
+    Ahead,
+    Search,
+)
+from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, STEP, Moves
+from viaspline.planning.turning.hybrid_astar.search_window import Terrain
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+FIRST_SLICE, SLICE = 64, 4000  # states between which a search can be stopped
+FEW = 800
+MANY = 3000  # states of which some are chosen
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """A way that a search has found.
+
+    Attributes:
+        start: Number of the start.
+        heading: At the goal; NaN if it comes straight [rad].
+        cost: With what it cost up to the start [m].
+        segments: See ``kernels.turning.collision_cache``, (n, 3).
+    """
+
+    start: int
+    heading: float
+    cost: float
+    segments: Floats
+
+
+class Growth:
+    """A search that is stopped and goes on."""
+
+    def __init__(
+        self, terrain: Terrain, ground: Ground, moves: Moves, starts: Floats, goal: Floats,
+        headings: Floats, room: int, after: float,
+    ) -> None:  # fmt: skip
+        """Begin.
+
+        Args:
+            terrain: Where.
+            ground: The same for the kernels.
+            moves: What the robot can do.
+            starts: x, y, heading, cost so far, (n, 4).
+            goal: x, y [m], (2,).
+            headings: Those that are allowed there [rad], NaN for whichever comes straight, (h,).
+            room: States that are kept, at most.
+            after: How many states are looked at after the first arrival, as a share of those
+                before it and of ``FEW``.
+        """
+        self.ground, self.moves = ground, moves
+        self.ahead: Ahead = terrain.ahead(goal[None])
+        self.search = _empty(terrain, moves, starts, goal, headings, room)
+        self._nobody = _empty(terrain, moves, starts, goal, headings, 1)
+        self.state = kernels.RUNNING
+        self._slice = FIRST_SLICE
+        self._until = math.inf
+        self._after = after
+        kernels.set_off(ground, self.search, self.ahead, float(moves.sizes[0]), starts)
+
+    @property
+    def expanded(self) -> int:
+        """How many states were looked at."""
+        return int(self.search.counts[EXPANDED])
+
+    @property
+    def was_cut(self) -> bool:
+        """Whether it came to the edge of the window."""
+        return bool(self.search.counts[OUTSIDE])
+
+    @property
+    def is_over(self) -> bool:
+        """Whether there is nothing more to be done."""
+        return self.state != kernels.RUNNING or self.expanded >= self._until
+
+    @property
+    def has_arrived(self) -> bool:
+        """Whether it has come to the goal, or to what another search has found."""
+        return bool((self.search.ends >= 0).any() or math.isfinite(self.search.meeting[0]))
+
+    def go_on(self, other: Growth | None = None, bound: float = math.inf) -> None:
+        """Look at some more states.
+
+        Args:
+            other: A search that comes the other way.
+            bound: Only shorter arrivals count [m].
+        """
+        left = self._until - self.expanded
+        quota = int(min(self._slice, left)) if left > 0 else 0
+        self._slice = min(2 * self._slice, SLICE)
+        had = self.has_arrived
+        opposite = self._nobody if other is None else other.search
+        self.state = kernels.go_on(
+            self.ground, self.moves, self.search, opposite, self.ahead, quota, float(bound)
+        )
+        if self.has_arrived and not had:
+            self._until = self.expanded + math.ceil(self._after * (self.expanded + FEW))
+
+    def arrivals(self) -> list[Arrival]:
+        """The best with each heading, the shortest first."""
+        search = self.search
+        found = []
+        for k in np.flatnonzero(search.ends >= 0).tolist():
+            segments, start = kernels.path_to(self.moves, search, int(search.ends[k]))
+            x, y, heading = search.nodes[search.ends[k], :3].tolist()
+            cost, s1, s2 = search.arrivals[k].tolist()
+            goal = float(search.headings[k])
+            last = connected(
+                self.moves, search.goal[0] - x, search.goal[1] - y, heading, goal, s1, s2
+            )
+            found.append(Arrival(int(start), goal, cost, np.concatenate((segments, last))))
+        return sorted(found, key=lambda arrival: arrival.cost)
+
+    def spread_out(self, count: int) -> Ints:
+        """Some states without curvature, as far from each other as may be: the farthest first.
+
+        Args:
+            count: How many at most.
+        """
+        size = int(self.search.counts[NODES])
+        level = self.search.links[:size, LEVEL]
+        nodes = np.flatnonzero(level == LEVELS // 2)
+        nodes = nodes[:: 1 + len(nodes) // MANY]
+        x, y, heading = self.search.nodes[nodes, :3].T
+        rho = self.moves.sizes[0]
+        states = np.column_stack((x / rho, y / rho, np.cos(heading), np.sin(heading)))
+        gaps = np.full(len(nodes), math.inf)
+        chosen = [0]
+        for _ in range(min(count, len(nodes)) - 1):
+            gaps = np.minimum(gaps, ((states - states[chosen[-1]]) ** 2).sum(axis=1))
+            chosen.append(int(np.argmax(gaps)))
+        return np.asarray(nodes[chosen], np.int64)
+
+
+@dataclass(frozen=True)
+class Bridge:
+    """A way from the start of one search to that of another, which came backwards.
+
+    Attributes:
+        cost: Its length [m].
+        start: Number of the start of the search that came backwards.
+        segments: See ``kernels.turning.collision_cache``, (n, 3).
+    """
+
+    cost: float
+    start: int
+    segments: Floats
+
+
+def bridged(there: Growth, back: Growth, count: int) -> Bridge | None:
+    """Connect ``count`` states of either search; None if no two of them can be."""
+    out, home = there.spread_out(count), back.spread_out(count)
+    cost, first, last, s1, s2 = bridge(
+        there.ground, there.moves, there.search, back.search, out, home
+    )
+    return None if first < 0 else _bridge(there, back, (cost, s1, s2, first, last))
+
+
+def met(there: Growth, back: Growth) -> Bridge | None:
+    """The best way on which one of two searches has met the other, None if neither has."""
+    ways = []
+    if math.isfinite(there.search.meeting[0]):
+        ways.append(_bridge(there, back, there.search.meeting))
+    if math.isfinite(back.search.meeting[0]):
+        home = _bridge(back, there, back.search.meeting)
+        _, start = kernels.path_to(back.moves, back.search, int(back.search.meeting[HERE]))
+        ways.append(Bridge(home.cost, int(start), backwards(home.segments)))
+    return min(ways, key=lambda way: way.cost, default=None)
+
+
+def _bridge(there: Growth, back: Growth, meeting: Sequence[float] | Floats) -> Bridge:
+    """The way over a meeting, see ``kernels.pose_nodes.Search``."""
+    cost, s1, s2 = (float(value) for value in meeting[:3])
+    first, last = int(meeting[HERE]), int(meeting[THERE])
+    x, y, heading = there.search.nodes[first, :3].tolist()
+    to_x, to_y, turned = back.search.nodes[last, :3].tolist()
+    before, _ = kernels.path_to(there.moves, there.search, first)
+    after, start = kernels.path_to(back.moves, back.search, last)
+    between = connected(there.moves, to_x - x, to_y - y, heading, turned + math.pi, s1, s2)
+    return Bridge(cost, int(start), np.concatenate((before, between, backwards(after))))
+
+
+def backwards(segments: Floats) -> Floats:
+    """The same way driven from its end."""
+    return np.ascontiguousarray(segments[::-1][:, [1, 0, 2]] * (-1.0, -1.0, 1.0))
+
+
+def _empty(
+    terrain: Terrain, moves: Moves, starts: Floats, goal: Floats, headings: Floats, room: int
+) -> Search:
+    steps = moves.scales[:, STEP]
+    around = np.ceil(4.0 * math.pi * moves.sizes[0] / steps)
+    nodes = room
+    table = 1 << math.ceil(math.log2(4 * nodes))
+    return Search(
+        window=np.array(terrain.window.box),
+        ends_at=np.concatenate((goal[None], starts[:, :2])),
+        care=np.array(terrain.care),
+        scales=np.column_stack((CELL * steps, around, terrain.rooms(steps))),
+        nodes=np.zeros((nodes, 5)),
+        links=np.zeros((nodes, 5), np.int64),
+        keys=np.zeros(table, np.int64),
+        cells=np.zeros(table, np.int64),
+        heap=Heap(np.zeros(nodes), np.zeros(nodes, np.int64), np.zeros(1, np.int64)),
+        counts=np.zeros(3, np.int64),
+        goal=np.ascontiguousarray(goal, np.float64),
+        headings=np.ascontiguousarray(headings, np.float64),
+        arrivals=np.zeros((len(headings), 3)),
+        ends=np.zeros(len(headings), np.int64),
+        meeting=np.full(5, math.inf),
+    )

@@ -1,0 +1,217 @@
+"""A window of a world, made ready for searches through poses in both directions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.routing.distance_field import spread
+from viaspline.kernels.turning.collision_cache import HALF_DIAGONAL, KEPT, Ground, is_clear
+from viaspline.kernels.turning.hybrid_astar.pose_nodes import Ahead
+from viaspline.kernels.world.rasterize import rasterized
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.turning.hybrid_astar.disc_cover import covering_discs
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+Cells = NDArray[np.uint8]
+Box = tuple[float, float, float, float]
+
+GREED = 1.3  # by how much what is still to come counts more than what has been
+FINEST = 400  # cells of the lattice along a window's longer side, at most
+TABLE = 1000  # the same of the table of distances
+PACE = 0.02  # between places that are looked at, as a share of the body's half width
+NO_CELLS: Cells = np.empty((0, 0), np.uint8)
+
+
+@dataclass(frozen=True)
+class Window:
+    """Where a search may go.
+
+    Attributes:
+        box: x_min, y_min, x_max, y_max [m].
+        is_whole: Whether that is everywhere.
+    """
+
+    box: Box
+    is_whole: bool
+
+
+def windows(world: World, reach: float, places: Floats, margin: float) -> Iterator[Window]:
+    """Windows round some places, ever greater, the last one everywhere.
+
+    Args:
+        world: What to keep clear of.
+        reach: How far the body reaches from its reference point [m].
+        places: (n, 2) [m].
+        margin: Round the places in the first window [m].
+    """
+    whole = _everywhere(world, reach + margin, places)
+    low, high = places.min(axis=0), places.max(axis=0)
+    for wider in (margin, 3.0 * margin + 0.5 * float(np.max(high - low))):
+        box = _box(np.maximum(low - wider, whole[:2]), np.minimum(high + wider, whole[2:]))
+        if _area(box) > 0.6 * _area(whole):
+            break
+        yield Window(box, False)
+    yield Window(whole, True)
+
+
+def _area(box: Box) -> float:
+    return (box[2] - box[0]) * (box[3] - box[1])
+
+
+def _everywhere(world: World, margin: float, places: Floats) -> Box:
+    """What there is, with a way round it; the bounds or the fences if there are any."""
+    if world.bounds is not None:
+        return world.bounds
+    low, high = places.min(axis=0), places.max(axis=0)
+    if world.fences:
+        ring = np.concatenate([np.array(fence) for fence in world.fences])
+        low, high = np.minimum(low, ring.min(axis=0)), np.maximum(high, ring.max(axis=0))
+        return _box(low, high)
+    if len(world):
+        box = world.packed.boxes[0]
+        low, high = np.minimum(low, box[:2]), np.maximum(high, box[2:])
+    return _box(low - margin, high + margin)
+
+
+def _box(low: Floats, high: Floats) -> Box:
+    return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+
+@dataclass(frozen=True)
+class Body:
+    """A body as searches see it.
+
+    Attributes:
+        discs: That cover it with what is kept round it: x, y, radius, (n, 3) [m].
+        inner: Distance that the reference point itself keeps at least [m].
+        width: Half the body's width, or its radius [m].
+    """
+
+    discs: Floats
+    inner: float
+    width: float
+
+    @classmethod
+    def of(cls, brief: Brief, overhang: float) -> Body:
+        """The body of a brief; the discs jut out by a share ``overhang`` of its half width."""
+        if brief.footprint is None:
+            return cls(np.array([[0.0, 0.0, brief.required]]), brief.required, brief.required)
+        width = 0.5 * float(np.ptp(np.array(brief.footprint), axis=0).min())
+        discs = covering_discs(tuple(brief.footprint), overhang * width).copy()
+        discs[:, 2] += brief.kept
+        return cls(discs, brief.required, width)
+
+    @property
+    def reach(self) -> float:
+        """How far it reaches from the reference point [m]."""
+        return float(np.max(np.hypot(self.discs[:, 0], self.discs[:, 1]) + self.discs[:, 2]))
+
+    def _held(self) -> Floats:
+        """The discs after one that holds them all."""
+        if len(self.discs) == 1:
+            return self.discs
+        low, high = self.discs[:, :2].min(axis=0), self.discs[:, :2].max(axis=0)
+        middle = 0.5 * (low + high)
+        radius = np.max(np.linalg.norm(self.discs[:, :2] - middle, axis=1) + self.discs[:, 2])
+        return np.vstack((np.append(middle, radius), self.discs))
+
+    def rows(self, rho: float, way: float) -> Floats:
+        """Rows of discs of the kernels, for a robot that drives forwards (1) or backwards (-1)."""
+        x, y, kept = self._held().T
+        speed = np.hypot(1.0 + np.abs(y) / rho, x / rho)
+        return np.ascontiguousarray(np.column_stack((way * x, way * y, kept, speed)))
+
+
+@dataclass(frozen=True)
+class Terrain:
+    """A window of a world for a body.
+
+    Attributes:
+        world: What to keep clear of.
+        window: Where the reference point may be.
+        body: The body.
+        rho: The least radius [m].
+        cell: Side of a cell of the lattice that is wanted [m].
+        care: How near to the start and the goal longer moves take more room, and how much more [m].
+    """
+
+    world: World
+    window: Window
+    body: Body
+    rho: float
+    cell: float
+    care: tuple[float, float]
+
+    @cached_property
+    def side(self) -> float:
+        """Side of a cell of the lattice [m]."""
+        x0, y0, x1, y1 = self.window.box
+        return max(self.cell, max(x1 - x0, y1 - y0) / FINEST)
+
+    @cached_property
+    def pace(self) -> float:
+        """Distance between places of a path that are looked at [m]."""
+        return PACE * self.body.width
+
+    @cached_property
+    def cells(self) -> Cells:
+        """The lattice: cells where the reference point surely can't be are not 0."""
+        x0, y0, x1, y1 = self.window.box
+        height, width = math.ceil((y1 - y0) / self.side), math.ceil((x1 - x0) / self.side)
+        near = max(self.body.inner - HALF_DIAGONAL * self.side, 0.0)
+        cells: Cells = rasterized(
+            self.world.packed, x0, y0, self.side, height, width, near, NO_CELLS
+        )
+        return cells
+
+    @cached_property
+    def ground(self) -> Ground:
+        """The ground for a robot that drives forwards."""
+        x0, y0, x1, y1 = self.window.box
+        reach = self.body.reach
+        size = max(x1 - x0, y1 - y0) + 2.0 * reach
+        side = max(size / TABLE, 0.12 * self.body.width)
+        shape = (
+            math.ceil((y1 - y0 + 2.0 * reach) / side),
+            math.ceil((x1 - x0 + 2.0 * reach) / side),
+        )
+        frame = np.array([x0 - reach, y0 - reach, side, self.pace])
+        return Ground(
+            self.world.packed, frame, np.full(shape, np.nan), self.body.rows(self.rho, 1.0)
+        )
+
+    @cached_property
+    def ground_back(self) -> Ground:
+        """The same for one that drives backwards; it shares the table of distances."""
+        return self.ground._replace(discs=self.body.rows(self.rho, -1.0))
+
+    def rooms(self, steps: Floats) -> Floats:
+        """Distances of the body's middle to the world from which on moves are so long [m].
+
+        Args:
+            steps: Lengths of moves on ever greater scales [m], (k,).
+        """
+        held = self.body.rows(self.rho, 1.0)[0, KEPT]
+        share = np.arange(len(steps)) / max(1, len(steps) - 1)
+        rooms: Floats = self.body.inner + share * (held - self.body.inner) + np.roll(steps, 1)
+        rooms[0] = 0.0
+        return rooms
+
+    def has_room(self, x: float, y: float, heading: float) -> bool:
+        """Whether the body may stand in a pose [m, rad]."""
+        nothing = np.empty((0, 3))
+        return bool(is_clear(self.ground, float(x), float(y), float(heading), nothing, 0))
+
+    def ahead(self, places: Floats) -> Ahead:
+        """How far it is to some places (n, 2) from everywhere."""
+        x0, y0 = self.window.box[:2]
+        found = np.floor((places[:, ::-1] - (y0, x0)) / self.side).astype(np.int64)
+        lengths = spread(self.cells, np.ascontiguousarray(found))
+        return Ahead(np.array([x0, y0, self.side, GREED]), lengths)

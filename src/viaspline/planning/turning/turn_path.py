@@ -1,0 +1,103 @@
+"""Lines and turns with ramps round a row of bends."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.turning.turn_sequence import FINE, LEFT_OUT, swing, swung_length, swung_spans
+from viaspline.planning.turning.bend_row import HEADING, SIDE, Bends
+
+Floats = NDArray[np.float64]
+OVERSHOOT = 1.0035  # of the least radius over the turning circle: cubics bend a little more
+RAMP = 1.0  # length of a ramp, in radii
+
+
+@dataclass(frozen=True, eq=False)
+class Swing:
+    """A curve round a row of bends.
+
+    Attributes:
+        bends: The row.
+        spans: Bézier control polygons [m], shape (m, 4, 2); curvature is continuous.
+        begins: The span that begins at the apex of each bend, (n,), (n + 1,) when closed; at the
+            goal and where a closed curve ends it is m.
+        length: [m].
+    """
+
+    bends: Bends
+    spans: Floats
+    begins: NDArray[np.int64]
+    length: float
+
+
+@dataclass(frozen=True)
+class NoSwing:
+    """Why there is none.
+
+    Attributes:
+        bends: The row.
+        state: One of the states of ``kernels.turning.turn_sequence``.
+        where: The line or the bend at which it failed, -1 where it can't be said.
+    """
+
+    bends: Bends
+    state: int
+    where: int
+
+
+def swing_round(bends: Bends, rho: float) -> Swing | NoSwing:
+    """The shortest swing round a row of bends, to whichever sides given headings are left.
+
+    A detour bend that the others make needless is left out.
+
+    Args:
+        bends: The row.
+        rho: The least radius [m].
+    """
+    best: Swing | NoSwing | None = None
+    for tried in with_sides(bends):
+        found = swing_on_sides(tried, rho)
+        if best is None or (isinstance(found, Swing) and _is_longer(best, found)):
+            best = found
+    assert best is not None  # there is always one choice of sides
+    return best
+
+
+def _is_longer(swing: Swing | NoSwing, other: Swing) -> bool:
+    return isinstance(swing, NoSwing) or swing.length > other.length
+
+
+def swing_on_sides(bends: Bends, rho: float, ramp: float = RAMP) -> Swing | NoSwing:
+    """The swing round a row of bends, to the sides that are set.
+
+    Args:
+        bends: The row.
+        rho: The least radius [m].
+        ramp: Length of the ramps, in radii.
+    """
+    while True:
+        lines, turns, apexes, ramps, state, where = swing(bends.rows, bends.closed, rho, ramp * rho)
+        if state != LEFT_OUT:
+            break
+        bends = bends.without(where)
+    if state != FINE:
+        return NoSwing(bends, int(state), int(where))
+    laid = (bends.rows, bends.closed, rho, lines, turns, apexes, ramps)
+    spans, begins = swung_spans(*laid)
+    return Swing(bends, spans, begins, float(swung_length(*laid)))
+
+
+def with_sides(bends: Bends) -> Iterator[Bends]:
+    """Every choice of the sides to which given headings at the ends are left."""
+    ends = [k for k in (0, -1) if not bends.closed and not math.isnan(bends.rows[k, HEADING])]
+    for sides in product((1.0, -1.0), repeat=len(ends)):
+        rows = bends.rows.copy()
+        for k, side in zip(ends, sides, strict=True):
+            rows[k, SIDE] = side
+        yield replace(bends, rows=rows)

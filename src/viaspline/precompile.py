@@ -1,0 +1,168 @@
+"""The first run on a machine: a second process compiles half of the kernels meanwhile.
+
+Compiling is most of a first run and numba does it on one core. The kernels of curves and of the
+time law need none of those of the world; so while a run begins with the latter, another process
+(``python -m viaspline.precompile``) compiles the former into the same cache. For a robot with a turning
+circle, a body or a drive it goes on with what such a robot needs at the end of its plan.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Final, Literal
+
+from viaspline.kernels.jit import CACHE_FOLDER
+from viaspline.mission.robot_parts import RobotSpec
+
+Job = Literal["curves", "driving"]
+LOCK = "compiling"
+LONGEST = 300.0  # a lock that is older than this was left behind [s]
+
+
+def compile_curves() -> None:
+    """Call every kernel of curves and of the time law once, as a run does."""
+    from viaspline.curve.path import Path
+    from viaspline.trajectory.limits import Limits, Station
+    from viaspline.trajectory.retime import retime
+
+    path = Path([[[0, 0], [1, 0], [2, 1], [3, 1]], [[3, 1], [4, 1], [5, 0], [6, 2]]], vias=[])
+    limits = Limits(max_speed=2.0, max_accel=1.0, max_lateral_accel=0.5)
+    retime(path, limits, [Station(2.0, 1.0)])
+    u, _, _ = path.sample(1.0)
+    path.heading(u)
+    path.curvature(u)
+    path.max_curvature()
+    path.section(0.2, 1.5)
+    path.project((1.0, 1.0))
+
+
+def compile_driving() -> None:
+    """Call the kernels of trial drives, of the search among poses, of turns and of bodies once.
+
+    In this order: a run that compiles as well comes to the last of them first.
+    """
+    import numpy as np
+
+    from viaspline.curve.bending import curvature_bound
+    from viaspline.curve.piecewise import PiecewiseCubic
+    from viaspline.machine.allowance import allowance_on_bends
+    from viaspline.mission.model import Mission
+    from viaspline.planning.checking.conflicts import is_clear, proven
+    from viaspline.planning.problem.requirements import Brief
+    from viaspline.planning.problem.via_sequence import course_of
+    from viaspline.planning.turning.bend_row import Bends, bend
+    from viaspline.planning.turning.hybrid_astar.via_route import tight_chains
+    from viaspline.planning.turning.turn_path import RAMP, Swing, swing_round
+    from viaspline.world.world import World
+
+    mission = Mission.model_validate(
+        {
+            "world": {"known": [{"polygon": [[4, 0], [5, -0.5], [6, 0]]}]},
+            "robot": {
+                "footprint": [[-0.3, -0.4], [1, -0.4], [1, 0.4], [-0.3, 0.4]],
+                "clearance_m": 0.1,
+                "drive": {"ackermann": {"wheelbase_m": 1.0, "max_steer_deg": 35}},
+            },
+            "route": {"start": [0, 0.2], "goal": [12, 3]},
+        }
+    )
+    world, brief, circle = World.known(mission), Brief.of(mission), 2.0
+    allowance_on_bends(mission.robot, circle)
+    tight_chains(course_of(mission), world, brief, circle, RAMP * circle, ())
+    rows = [bend(0, 0), bend(6, 3, 1.0, 1.0), bend(12, 0)]
+    swing = swing_round(Bends(np.array(rows), np.array([0, -1, 1])), circle)
+    assert isinstance(swing, Swing)
+    curve = PiecewiseCubic(swing.spans)
+    curvature_bound(curve)
+    is_clear(world, swing.spans, brief)
+    proven(curve, world, brief)
+
+
+JOBS: Final[Mapping[Job, Callable[[], None]]] = {
+    "curves": compile_curves,
+    "driving": compile_driving,
+}
+
+
+def jobs_for(robot: RobotSpec) -> tuple[Job, ...]:
+    """What the first run of a robot has compiled for it.
+
+    >>> jobs_for(RobotSpec(radius_m=0.4)), jobs_for(RobotSpec(min_turn_radius_m=2))
+    (('curves',), ('curves', 'driving'))
+    """
+    parts = (robot.footprint, robot.turn_radius, robot.drive, robot.localization)
+    return ("curves",) if all(part is None for part in parts) else ("curves", "driving")
+
+
+def compile_all(jobs: Sequence[Job]) -> None:
+    """Do the jobs, each with a mark when it is done."""
+    for job in jobs:
+        JOBS[job]()
+        if CACHE_FOLDER is not None:
+            _mark(job).touch()
+
+
+def _mark(job: Job) -> Path:
+    assert CACHE_FOLDER is not None
+    return CACHE_FOLDER / f"{job}-compiled"
+
+
+def _taken() -> bool:
+    """Take the job: one helper is enough, however many first runs begin at once."""
+    assert CACHE_FOLDER is not None
+    lock = CACHE_FOLDER / LOCK
+    with suppress(OSError):
+        if time.time() - lock.stat().st_mtime > LONGEST:
+            lock.unlink()
+    try:
+        lock.touch(exist_ok=False)
+    except OSError:
+        return False
+    return True
+
+
+def _release() -> None:
+    assert CACHE_FOLDER is not None
+    with suppress(OSError):
+        (CACHE_FOLDER / LOCK).unlink()
+
+
+@contextmanager
+def second_compiler(jobs: Sequence[Job] = ("curves",)) -> Iterator[None]:
+    """Within the block another process compiles what is not yet, if there is a core for it.
+
+    Args:
+        jobs: What this run will need.
+    """
+    cores = os.cpu_count() or 1
+    left = [] if CACHE_FOLDER is None else [job for job in jobs if not _mark(job).exists()]
+    if CACHE_FOLDER is None or not left or cores < 2 or not _taken():
+        yield
+        return
+    try:
+        process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "viaspline.precompile", *left],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+    except OSError:  # no interpreter of its own, as in a frozen program: the run compiles all
+        _release()
+        yield
+        return
+    try:
+        yield
+    finally:
+        process.kill()
+        process.wait()
+        _release()
+
+
+if __name__ == "__main__":
+    compile_all([job for job in JOBS if job in sys.argv[1:]])

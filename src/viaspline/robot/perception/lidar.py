@@ -1,0 +1,142 @@
+"""A simulated lidar: it sees surfaces, and what stands before them hides what is behind."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.errors import GeometryError
+from viaspline.kernels.sensing.raycast import cast
+from viaspline.mission.parts import Obstacle
+from viaspline.mission.robot_parts import Lidar
+from viaspline.world.world import World
+
+Floats = NDArray[np.float64]
+
+WILDEST = 3.0
+"""No measurement is farther off than so many standard deviations."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scan:
+    """One look round, in the words of ROS's LaserScan, and from where it was taken.
+
+    Attributes:
+        position: Of the sensor [m], shape (2,) or longer.
+        heading: Of the sensor, anticlockwise from x [rad].
+        angle_min: Direction of the first beam from the heading, anticlockwise [rad].
+        angle_increment: From each beam to the next, anticlockwise, above 0 [rad].
+        range_max: The length of a beam [m].
+        ranges: Distance to what each beam hit [m], shape (beams,), read-only: infinite where there
+            was nothing as far as the beam reaches, NaN where nothing was measured.
+
+    Raises:
+        GeometryError: When a number makes no scan.
+
+    Example:
+        >>> scan = Scan((1.0, 2.0), 0.0, -np.pi / 2, np.pi / 2, 9.0, [np.inf, 3.0, np.nan])
+        >>> scan.hits, scan.free
+        (array([[4., 2.]]), array([9., 3., 0.]))
+    """
+
+    position: tuple[float, ...]
+    heading: float
+    angle_min: float
+    angle_increment: float
+    range_max: float
+    ranges: Floats
+
+    def __post_init__(self) -> None:
+        ranges: Floats = np.array(self.ranges, np.float64)
+        if ranges.ndim != 1 or not ranges.size:
+            raise GeometryError(f"ranges have shape {ranges.shape}; give one for each beam")
+        numbers = (*self.position, self.heading, self.angle_min, self.range_max)
+        if len(self.position) < 2 or not all(math.isfinite(value) for value in numbers):
+            raise GeometryError("a scan needs a finite position, heading, angle_min and range_max")
+        if not 0.0 < self.angle_increment * max(ranges.size - 1, 1) <= math.tau + 1e-9:
+            raise GeometryError(
+                f"angle_increment is {self.angle_increment} for {ranges.size} beams; give an angle "
+                "above 0 that makes a full turn at most"
+            )
+        ranges[ranges >= self.range_max] = np.inf
+        ranges[ranges < 0.0] = np.nan
+        ranges.flags.writeable = False
+        object.__setattr__(self, "ranges", ranges)
+
+    @property
+    def first_direction(self) -> float:
+        """Direction of the first beam, anticlockwise from x [rad]."""
+        return self.heading + self.angle_min
+
+    def has_beams_of(self, other: Scan) -> bool:
+        """Whether both have equally many beams, equally far apart."""
+        same = self.angle_increment == other.angle_increment
+        return same and len(self.ranges) == len(other.ranges)
+
+    @cached_property
+    def free(self) -> Floats:
+        """How far each beam met nothing [m], shape (beams,)."""
+        return np.where(np.isnan(self.ranges), 0.0, np.minimum(self.ranges, self.range_max))
+
+    @cached_property
+    def hits(self) -> Floats:
+        """Where the beams hit something, in their order [m], shape (k, 2)."""
+        beams = np.flatnonzero(np.isfinite(self.ranges))
+        angles = self.first_direction + beams * self.angle_increment
+        rays = np.column_stack((np.cos(angles), np.sin(angles)))
+        return np.asarray(self.ranges[beams, None] * rays + np.asarray(self.position[:2]))
+
+
+class LidarSensor:
+    """Measures the distance to the first surface along each beam.
+
+    The beams of a field of view below 360 degrees reach from one edge of it to the other; those of
+    a full turn are equally spaced all round, from straight behind on.
+
+    Args:
+        obstacles: What there is to see, known to the robot or not.
+        spec: Range, field of view, beams and noise.
+        seed: For the noise. It is Gaussian, cut off at three standard deviations, and depends on
+            nothing but the seed and the number of the scan.
+
+    Example:
+        >>> post = Obstacle(circle={"center": (3, 0), "radius": 1})
+        >>> sensor = LidarSensor([post], Lidar(range_m=5, fov_deg=180, beams=3))
+        >>> sensor.scan((0.0, 0.0), heading=0.0).ranges
+        array([inf,  2., inf])
+    """
+
+    def __init__(self, obstacles: Iterable[Obstacle], spec: Lidar, seed: int = 0) -> None:
+        self.spec = spec
+        self.seed = seed
+        self._world = World(obstacles)
+        full = spec.fov_deg >= 360.0
+        fov = math.radians(spec.fov_deg)
+        self._step = fov / spec.beams if full else fov / max(spec.beams - 1, 1)
+        self._first = -0.5 * fov if full or spec.beams > 1 else 0.0
+
+    def scan(self, position: tuple[float, ...], heading: float, number: int = 0) -> Scan:
+        """What is measured at a place [m] with a heading [rad].
+
+        Args:
+            position: Of the sensor, which is the robot's centre [m], shape (2,) or longer.
+            heading: Of the robot, anticlockwise from x [rad].
+            number: Of the scan; scans with the same number have the same noise.
+        """
+        spec = self.spec
+        ranges = cast(
+            self._world.packed, float(position[0]), float(position[1]), heading + self._first,
+            self._step, spec.beams, spec.range_m,
+        )  # fmt: skip
+        if spec.noise_m > 0.0:
+            noise = np.random.default_rng((self.seed, number)).standard_normal(spec.beams)
+            ranges += spec.noise_m * np.clip(noise, -WILDEST, WILDEST)
+            np.maximum(ranges, 0.0, out=ranges)
+        return Scan(
+            tuple(position), heading, self._first, self._step, spec.range_m, np.asarray(ranges)
+        )

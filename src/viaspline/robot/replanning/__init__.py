@@ -1,0 +1,1 @@
+"""What a robot does about something in its way."""

@@ -1,0 +1,88 @@
+"""From progress along a path to what the robot's wheels are to do."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.tracking.control_law import turn_law
+from viaspline.kernels.tracking.drive_model import ACKERMANN, DIFFERENTIAL, SKID_STEER, turning
+from viaspline.robot.advance import ON_PATH
+from viaspline.robot.controller import Pilot
+from viaspline.robot.journey import Journey
+from viaspline.robot.state import Command, RobotState
+
+Floats = NDArray[np.float64]
+
+NEAREST_AIM = 1.0  # a robot beside its path comes back to it over at least this distance [m]
+AIM_TIME = 1.0  # and over what it drives in this time [s]
+
+
+def steer(journey: Journey, state: RobotState) -> Command:
+    """The command for a robot at this point of its journey.
+
+    On the path it is the path's own curvature; beside it the control law leads back. The same
+    law drives robots with a drive, whose pilot has decided already.
+    """
+    distance, speed, acceleration = (float(x) for x in journey.law.state_at(journey.time))
+    if journey.off > ON_PATH and journey.pilot is None:
+        distance = journey.distance
+        speed = float(journey.law.speed_at(distance))
+    path = journey.path
+    u = float(path.parameter(distance))
+    position = np.asarray(path.evaluate(u))
+    heading, curvature = float(path.heading(u)), float(path.curvature(u))
+    if not math.isfinite(curvature):
+        curvature = 0.0  # a cusp, where the robot turns on the spot
+    if path.dimension > 2:
+        curvature = _ground_curvature(journey, u)
+    stopped = speed == 0.0 and acceleration == 0.0
+    steered, wheels, rate = None, None, None
+    if journey.pilot is not None:
+        speed, rate, steered, wheels = _driven(journey.pilot)
+        curvature = rate / speed if speed > 0.0 else curvature
+    elif journey.off > ON_PATH:
+        curvature = _led_back(curvature, state, position, heading)
+    return Command(
+        speed=speed,
+        acceleration=acceleration,
+        curvature=curvature,
+        yaw_rate=speed * curvature if rate is None else rate,
+        position=tuple(position.tolist()),
+        heading=heading,
+        distance=distance,
+        stopped=stopped,
+        finished=journey.finished,
+        steer=steered,
+        wheels=wheels,
+    )
+
+
+def _driven(pilot: Pilot) -> tuple[float, float, float | None, tuple[float, float] | None]:
+    """Speed, yaw rate, angle of the front wheels, speeds of the left and right wheels."""
+    machine, (speed, turn) = pilot.machine, pilot.command
+    rate = float(turning(machine, speed, turn))
+    if machine.kind == ACKERMANN:
+        return speed, rate, turn, None
+    if machine.kind in (DIFFERENTIAL, SKID_STEER):
+        apart = 0.5 * rate * machine.length / machine.grip
+        return speed, rate, None, (speed - apart, speed + apart)
+    return speed, rate, None, None
+
+
+def _led_back(curvature: float, state: RobotState, position: Floats, heading: float) -> float:
+    aside = np.asarray(state.position)[:2] - position[:2]
+    offset = float(aside[1] * math.cos(heading) - aside[0] * math.sin(heading))
+    error = math.remainder(state.heading - heading, math.tau)
+    return turn_law(curvature, offset, error, max(NEAREST_AIM, AIM_TIME * state.speed))
+
+
+def _ground_curvature(journey: Journey, u: float) -> float:
+    """Curvature of the ground track of a curve in space, left is positive [1/m]."""
+    first = np.asarray(journey.path.evaluate(u, 1))[:2]
+    second = np.asarray(journey.path.evaluate(u, 2))[:2]
+    speed = float(np.linalg.norm(first))
+    cross = float(first[0] * second[1] - first[1] * second[0])
+    return cross / speed**3 if speed > 0.0 else 0.0

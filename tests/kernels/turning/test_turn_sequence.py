@@ -1,0 +1,136 @@
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.jit import kernel
+from viaspline.kernels.turning import clothoid
+from viaspline.kernels.turning.turn_sequence import (
+    FINE,
+    HEADING,
+    KEPT,
+    LEFT_OUT,
+    SIDE,
+    X,
+    Y,
+    swing,
+    swung_length,
+    swung_spans,
+)
+
+RHO = 4.0
+
+
+@kernel
+def along_ramp(sharpness, distance):
+    return clothoid.along_ramp(sharpness, distance)
+
+
+def bends_through(points, kept=0.0, side=0.0, ends=(math.nan, math.nan), sides=(0.0, 0.0)):
+    rows = np.zeros((len(points), 5))
+    rows[:, [X, Y]] = points
+    rows[:, KEPT], rows[:, SIDE], rows[:, HEADING] = kept, side, math.nan
+    rows[[0, -1], HEADING], rows[[0, -1], SIDE] = ends, sides
+    rows[[0, -1], KEPT] = 0.0
+    return rows
+
+
+def swung(bends, closed=False, rho=RHO, ramp=RHO):
+    *found, state, _ = swing(bends, closed, rho, ramp)
+    if state != FINE:
+        return None
+    lines, turns, apexes, ramps = found
+    spans, begins = swung_spans(bends, closed, rho, lines, turns, apexes, ramps)
+    length = swung_length(bends, closed, rho, lines, turns, apexes, ramps)
+    return PiecewiseCubic(spans, closed=closed), begins, length
+
+
+@pytest.mark.parametrize("sharpness", [-0.3, 0.0, 0.05, 0.4])
+@pytest.mark.parametrize("distance", [0.1, 1.0, 2.0])
+def test_a_ramp_is_the_integral_of_its_heading(sharpness, distance):
+    x, y = along_ramp(sharpness, distance)
+    assert x == pytest.approx(quad(lambda s: math.cos(sharpness * s * s / 2), 0, distance)[0])
+    assert y == pytest.approx(quad(lambda s: math.sin(sharpness * s * s / 2), 0, distance)[0])
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_random_swings_pass_their_points_without_jumps_or_sharper_turns(closed):
+    rng = np.random.default_rng(7)
+    served = 0
+    for _ in range(60):
+        points = rng.uniform(0, 200, (int(rng.integers(3, 10)), 2))
+        found = swung(bends_through(points), closed)
+        if found is None:
+            continue
+        served += 1
+        curve, begins, length = found
+        ends = np.vstack((points, points[:1])) if closed else points
+        assert np.abs(curve.evaluate(begins.astype(float)) - ends).max() < 1e-8
+        assert curve.max_curvature()[0] * RHO < 1.003
+        assert curve.curvature_jumps().max() < 1e-6
+        heading = np.unwrap(curve.heading(np.linspace(0, len(curve.spans), 4001)))
+        assert np.abs(np.diff(heading)[:-1]).max() < 0.3
+        assert curve.length == pytest.approx(length, rel=1e-5)
+    assert served > 50
+
+
+@pytest.mark.parametrize("start", [-3.0, 0.0, 1.5])
+@pytest.mark.parametrize("goal", [-2.0, 0.4])
+@pytest.mark.parametrize("sides", [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+def test_given_headings_are_taken_over_at_both_ends_to_either_side(start, goal, sides):
+    bends = bends_through([(0, 0), (50, 10)], ends=(start, goal), sides=sides)
+    curve, _, _ = swung(bends)
+    end = curve.domain[1]
+    assert math.remainder(curve.heading(0.0) - start, math.tau) == pytest.approx(0.0, abs=1e-9)
+    assert math.remainder(curve.heading(end) - goal, math.tau) == pytest.approx(0.0, abs=1e-9)
+    assert curve.evaluate(0.0) == pytest.approx([0, 0], abs=1e-8)
+    assert curve.evaluate(end) == pytest.approx([50, 10], abs=1e-8)
+    assert curve.max_curvature()[0] * RHO < 1.003
+    assert abs(curve.curvature(0.0)) + abs(curve.curvature(end)) < 1e-9
+
+
+def test_a_turn_stays_outside_of_what_it_goes_round():
+    bends = bends_through([(0, 0), (30, 2), (60, -20)], kept=np.array([0, 3.0, 0]), side=-1.0)
+    bends[[0, -1], SIDE] = 0.0
+    curve, _, _ = swung(bends)
+    gaps = np.linalg.norm(curve.evaluate(np.linspace(*curve.domain, 5001)) - [30, 2], axis=1)
+    assert gaps.min() == pytest.approx(3.0, abs=1e-3)
+    assert gaps.min() > 3.0 - 1e-4
+
+
+def test_there_and_back_again_swings_out_to_a_turn_of_less_than_half_a_circle():
+    curve, begins, _ = swung(bends_through([(0, 0), (50, 0), (0, 0)]))
+    assert curve.evaluate(float(begins[1])) == pytest.approx([50, 0])
+    assert 100 < curve.length < 106
+
+
+@pytest.mark.parametrize("bend", [[(30, 0), (30, 1)], [(30, 0), (31, 4), (28, 4)]])
+def test_points_that_are_too_close_for_the_circle_are_refused(bend):
+    points = [(0, 0), *bend, (0, 1)]
+    assert swung(bends_through(points)) is None
+    assert swung(bends_through(points), rho=0.1, ramp=0.1) is not None
+
+
+def test_a_bend_that_only_wide_turns_come_near_is_not_left_out():
+    """The taut way goes by the third bend, but not the line between turns of 4 m."""
+    rows = bends_through(
+        [(77.2, 66.2), (98.62, 86.42), (108.59, 92.89), (129.36, 110.49), (169.12, 158.25)],
+        kept=[0.0, 2.001, 2.002, 7.959, 0.0], side=[0.0, 1.0, -1.0, -1.0, 0.0],
+    )  # fmt: skip
+    curve, _, _ = swung(rows)
+    points = curve.evaluate(np.linspace(*curve.domain, 20_001))
+    without, _, _ = swung(np.delete(rows, 2, axis=0))
+    beside = without.evaluate(np.linspace(*without.domain, 20_001))
+    assert np.linalg.norm(beside - rows[2, :2], axis=1).min() < 2.0
+    for x, y, kept, *_ in rows[1:-1]:
+        assert np.hypot(points[:, 0] - x, points[:, 1] - y).min() == pytest.approx(kept, abs=1e-4)
+
+
+def test_a_bend_that_the_others_make_needless_is_left_out():
+    rows = bends_through(
+        [(0, 0), (20, 10), (30, 30), (60, 0)], kept=[0, 3, 3, 0], side=[0.0, -1.0, 1.0, 0.0]
+    )
+    *_, state, where = swing(rows, False, RHO, RHO)
+    assert (state, where) == (LEFT_OUT, 2)

@@ -1,0 +1,83 @@
+from itertools import permutations
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import viaspline as vs
+from viaspline.planning.routing.visit_order import lengths_between, ordered
+
+seeds = st.integers(0, 100_000)
+
+
+def mission(places: Any, *, closed: bool = False, **world: Any) -> vs.Mission:
+    start, *via = np.asarray(places).tolist()
+    route: dict[str, Any] = {"start": start, "via": via, "order": "shortest", "closed": closed}
+    if not closed:
+        route["goal"] = route["via"].pop()
+    return vs.Mission.model_validate({"world": world, "route": route})
+
+
+def length(route: Any, *, closed: bool) -> float:
+    stops = np.array([point.at for _, point in route.points()])
+    if closed:
+        stops = np.vstack((stops, stops[:1]))
+    return float(np.hypot(*np.diff(stops, axis=0).T).sum())
+
+
+@settings(max_examples=30)
+@given(seeds, st.integers(1, 6), st.booleans())
+def test_few_via_points_come_in_the_best_of_all_orders(seed: int, count: int, closed: bool) -> None:
+    places = np.random.default_rng(seed).uniform(0, 100, (count + 2 - closed, 2))
+    asked = mission(places, closed=closed)
+    best = min(
+        length(asked.route.model_copy(update={"via": via}), closed=closed)
+        for via in permutations(asked.route.via)
+    )
+    assert length(ordered(asked).route, closed=closed) == pytest.approx(best)
+
+
+@settings(max_examples=10)
+@given(seeds)
+def test_among_many_no_exchange_of_two_makes_the_round_shorter(seed: int) -> None:
+    places = np.random.default_rng(seed).uniform(0, 100, (20, 2))
+    route = ordered(mission(places, closed=True)).route
+    found = length(route, closed=True)
+    assert found <= length(mission(places, closed=True).route, closed=True) + 1e-9
+    for i in range(len(route.via)):
+        for j in range(i):
+            via = list(route.via)
+            via[i], via[j] = via[j], via[i]
+            changed = route.model_copy(update={"via": tuple(via)})
+            # an exchange of neighbours turns a part round; others are two moves of one point
+            if i - j == 1:
+                assert length(changed, closed=True) >= found - 1e-9
+
+
+def test_what_stands_between_counts() -> None:
+    wall = {"polygon": [[4, -50], [6, -50], [6, 3], [4, 3]]}
+    asked = mission([[0, 0], [8, 0], [2, 9], [3, 20]], known=[wall], bounds=[-60, -49, 60, 60])
+    lengths = lengths_between(asked)
+    assert lengths[0, 1] > 8.0
+    assert lengths == pytest.approx(lengths.T)
+    assert [via.name for via in ordered(asked).route.via] == ["via 1", "via 2"]
+
+
+def test_the_plan_serves_the_via_points_in_the_order_that_was_found() -> None:
+    asked = mission([[0, 0], [60, 1], [20, 0], [40, -1], [80, 0]])
+    plan = vs.plan(asked)
+    names = [via.name for via in plan.path.vias if via.kind == "user"]
+    assert names == ["start", "via 2", "via 3", "via 1", "goal"]
+    assert plan.mission.route.order == "given"
+
+
+def test_a_mission_that_gives_its_order_is_left_alone() -> None:
+    asked = vs.Mission.model_validate({"route": {"start": [0, 0], "via": [[9, 0], [1, 0]]}})
+    assert ordered(asked) is asked
+
+
+def test_one_point_alone_and_none_at_all_are_in_order() -> None:
+    assert ordered(mission([[0, 0], [5, 0], [9, 0]])).route.via[0].at == (5.0, 0.0)
+    assert ordered(mission([[0, 0], [9, 0]])).route.via == ()

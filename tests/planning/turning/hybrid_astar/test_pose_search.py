@@ -1,0 +1,234 @@
+import math
+
+import numpy as np
+import pytest
+import shapely
+from shapely import affinity
+
+from viaspline.curve.certificate import certify
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.jit import kernel
+from viaspline.kernels.turning import dubins
+from viaspline.mission.parts import Obstacle
+from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.turning.hybrid_astar.pose_search import (
+    Chain,
+    Goal,
+    NotFound,
+    Pose,
+    Reason,
+    find_poses,
+)
+from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
+from viaspline.world.world import World
+
+RHO, RAMP = 4.0, 1.0
+DISC = Brief(radius=0.5, clearance=0.1)
+CAR = Brief(
+    radius=0.9, clearance=0.1, footprint=((-1.0, -0.9), (3.2, -0.9), (3.2, 0.9), (-1.0, 0.9))
+)
+OPEN = World([], bounds=(-40, -40, 40, 40))
+
+
+@kernel
+def dubins_length(dx, dy, start, goal, rho):
+    return dubins.dubins_length(dx, dy, start, goal, rho)
+
+
+def box(x0, y0, x1, y1):
+    return Obstacle(polygon=[(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+
+
+def is_sound(chain, world, brief, start, goal):
+    """Check all that is promised of a chain."""
+    assert isinstance(chain, Chain), chain
+    curve = PiecewiseCubic(chain.spans)
+    assert curve.evaluate(0.0) == pytest.approx((start.x, start.y), abs=1e-12)
+    assert curve.evaluate(curve.domain[1]) == pytest.approx((goal.x, goal.y), abs=1e-12)
+    at = np.linspace(*curve.domain, 4001)
+    heading = curve.heading(at)
+    assert math.remainder(heading[0] - start.heading, math.tau) == pytest.approx(0, abs=1e-8)
+    assert math.remainder(heading[-1] - chain.end.heading, math.tau) == pytest.approx(0, abs=1e-8)
+    if goal.headings:
+        gaps = [abs(math.remainder(heading[-1] - each, math.tau)) for each in goal.headings]
+        assert min(gaps) < 1e-8
+    assert np.abs(curve.curvature(at)).max() * RHO < 1.003
+    assert curve.curvature_jumps().max(initial=0.0) * RHO < 1e-6
+    assert curve.length == pytest.approx(chain.length, rel=1e-5)
+    if brief.footprint is None:
+        assert certify(curve, world, brief.kept, radius=brief.radius).holds
+    else:
+        assert gap_of(world, brief, curve.evaluate(at), heading) > brief.kept - 1e-3
+
+
+def gap_of(world, brief, places, headings):
+    body = shapely.Polygon(brief.footprint)
+    walls = shapely.union_all([shapely.Polygon(o.polygon) for o in world.obstacles])
+    swept = [
+        affinity.translate(
+            affinity.rotate(body, h, origin=(0, 0), use_radians=True), *place.tolist()
+        )
+        for place, h in zip(places, headings, strict=True)
+    ]
+    gap = min((walls.distance(one) for one in swept), default=math.inf) if walls else math.inf
+    low, high = np.reshape(world.bounds, (2, 2))
+    corners = shapely.get_coordinates(swept)
+    return min(gap, (corners - low).min(), (high - corners).min())
+
+
+def test_in_the_open_it_is_little_longer_than_the_way_of_dubins():
+    rng = np.random.default_rng(3)
+    for _ in range(25):
+        x, y = rng.uniform(-20, 20, 2)
+        heading = rng.uniform(-math.pi, math.pi)
+        start, goal = Pose(0, 0, 0), Goal(x, y, (heading,))
+        chain = find_poses(OPEN, DISC, RHO, 0.4, start, goal)
+        is_sound(chain, OPEN, DISC, start, goal)
+        least = dubins_length(x, y, 0.0, heading, RHO)
+        assert least - 1e-6 <= chain.length < 1.08 * least + 0.5
+
+
+def test_a_goal_of_any_heading_is_come_to_straight():
+    start, goal = Pose(0, 0, 0), Goal(15, 8)
+    chain = find_poses(OPEN, DISC, RHO, RAMP, start, goal)
+    is_sound(chain, OPEN, DISC, start, goal)
+    assert chain.length < 1.02 * dubins_length(15, 8, 0.0, chain.end.heading, RHO)
+
+
+def test_of_the_allowed_headings_one_is_taken():
+    start, goal = Pose(0, 0, 0), Goal(12, 0, (math.pi, 0.1, -1.5))
+    chain = find_poses(OPEN, DISC, RHO, RAMP, start, goal)
+    is_sound(chain, OPEN, DISC, start, goal)
+    assert chain.end.heading == 0.1
+
+
+WALLS = World(
+    [box(5, -20, 6, 3), box(5, 4.6, 6, 20), box(14, -20, 15, -4), box(14, -2.4, 15, 20)],
+    bounds=(-20, -20, 30, 20),
+)
+
+
+def test_a_disc_gets_through_two_doors():
+    start, goal = Pose(-10, 0, 0), Goal(22, 5, (1.0,))
+    chain = find_poses(WALLS, DISC, RHO, RAMP, start, goal)
+    is_sound(chain, WALLS, DISC, start, goal)
+
+
+YARD = World(
+    [box(x, y, x + 2.0, y + 5.0) for x in (0, 2.6, 8.2, 10.8) for y in (0, 14)],
+    bounds=(-12, -1, 25, 20),
+)
+
+
+def test_a_car_drives_out_of_one_bay_and_into_another():
+    start, goal = Pose(6.4, 1.5, math.pi / 2), Goal(7.0, 15.5, (math.pi / 2,))
+    chain = find_poses(YARD, CAR, RHO, RAMP, start, goal)
+    is_sound(chain, YARD, CAR, start, goal)
+
+
+def test_backing_out_of_a_bay_is_not_asked_for():
+    start, inside = Pose(-8, 9.5, 0.0), Pose(6.4, 17, math.pi / 2)
+    closed = World([*YARD.obstacles, box(4, 19.1, 9, 19.5)], bounds=YARD.bounds)
+    chain = find_poses(closed, CAR, RHO, RAMP, start, Goal(6.4, 15.0, (math.pi / 2,)))
+    is_sound(chain, closed, CAR, start, Goal(6.4, 15.0, (math.pi / 2,)))
+    assert gap_of(closed, CAR, np.array([[6.4, 15.0]]), [math.pi / 2]) > CAR.kept
+    stuck = Pose(6.4, 15.0, math.pi / 2)
+    found = find_poses(closed, CAR, RHO, RAMP, stuck, Goal(start.x, start.y, (0.0,)))
+    assert isinstance(found, NotFound)
+    assert found.reason is Reason.START_SHUT_IN
+    found = find_poses(closed, CAR, RHO, RAMP, start, Goal(6.4, 15.0, (-math.pi / 2,)))
+    assert isinstance(found, NotFound)
+    assert found.reason is Reason.GOAL_SHUT_IN
+    found = find_poses(closed, CAR, RHO, RAMP, start, Goal(inside.x, inside.y, (0.0,)))
+    assert found.reason is Reason.GOAL_TAKEN
+
+
+def test_the_same_task_gives_the_same_bytes():
+    start, goal = Pose(-10, 0, 0), Goal(22, 5)
+    one, two = (find_poses(WALLS, DISC, RHO, RAMP, start, goal) for _ in range(2))
+    assert one.spans.tobytes() == two.spans.tobytes()
+
+
+def test_a_mirrored_world_has_a_way_of_about_the_same_length():
+    mirrored = World(
+        [Obstacle(polygon=[(x, -y) for x, y in o.polygon]) for o in WALLS.obstacles],
+        bounds=WALLS.bounds,
+    )
+    one = find_poses(WALLS, DISC, RHO, RAMP, Pose(-10, 0, 0), Goal(22, 5, (1.0,)))
+    two = find_poses(mirrored, DISC, RHO, RAMP, Pose(-10, 0, 0), Goal(22, -5, (-1.0,)))
+    assert one.length == pytest.approx(two.length, rel=0.03)
+
+
+def test_a_row_of_places_joins_with_headings_that_fit():
+    start = Pose(-10, 0, 0)
+    goals = [Goal(5.5, 3.8), Goal(14.5, -3.2), Goal(22, 5, (1.0,))]
+    chains = find_row(WALLS, DISC, RHO, RAMP, start, goals)
+    assert not isinstance(chains, NotFound)
+    for chain, goal in zip(chains, goals, strict=True):
+        is_sound(chain, WALLS, DISC, start, goal)
+        start = chain.end
+
+
+def test_a_row_says_which_place_cannot_be_come_to():
+    goals = [Goal(0, 5), Goal(5.5, 0), Goal(22, 5)]
+    found = find_row(WALLS, DISC, RHO, RAMP, Pose(-10, 0, 0), goals)
+    assert isinstance(found, NotFound)
+    assert (found.reason, found.goal) == (Reason.GOAL_TAKEN, 1)
+
+
+def test_a_row_says_that_a_place_cannot_be_come_to_from_anywhere():
+    """A dead end is left by its open side, but only come to backwards; all around is open."""
+    pocket = [box(-1.2, -1, 8, -0.8), box(-1.2, 0.8, 8, 1), box(-1.2, -0.8, -1, 0.8)]
+    world = World(pocket)
+    start, goals = Pose(0, 0, 0.0), [Goal(20, 9), Goal(0, 0, (0.0,))]
+    found = find_row(world, DISC, RHO, RAMP, start, goals)
+    assert isinstance(found, NotFound)
+    assert (found.reason, found.goal) == (Reason.GOAL_SHUT_IN, 1)
+    assert isinstance(find_row(world, DISC, RHO, RAMP, start, goals[:1]), tuple)
+
+
+def test_a_car_gets_out_of_a_bay_with_short_moves_and_across_a_field_with_long_ones():
+    lane = [box(-60, -60, -0.25, -3), box(3.05, -60, 60, -3), box(-60, 5.5, -9, 60)]
+    world = World([*lane, box(-9, 5.5, 60, 60)], bounds=(-60, -60, 60, 60))
+    start, goal = Pose(1.4, -30.0, math.pi / 2), Goal(40.0, 1.0, (0.0,))
+    chain = find_poses(world, CAR, RHO, RAMP, start, goal)
+    is_sound(chain, world, CAR, start, goal)
+
+
+def reachable(world, radius, start, goal, step=0.5, side=0.25, sectors=96):
+    """Whether a point goes with sudden turns from near a pose to near a place: all states."""
+    turns = np.array([-1.0, -0.5, 0.0, 0.5, 1.0]) * step / RHO
+    open_, seen = [start], set()
+    while open_:
+        x, y, heading = open_.pop()
+        if math.hypot(x - goal[0], y - goal[1]) < 1.0:
+            return True
+        half = heading + 0.5 * turns
+        places = np.column_stack((x + step * np.cos(half), y + step * np.sin(half)))
+        middles = 0.5 * (places + np.array([x, y]))
+        clear = np.minimum(world.distance(places), world.distance(middles)) > radius
+        for place, turn in zip(places[clear].tolist(), turns[clear].tolist(), strict=True):
+            turned = (heading + turn) % math.tau
+            key = (*(round(v / side) for v in place), round(turned / math.tau * sectors))
+            if key not in seen:
+                seen.add(key)
+                open_.append((*place, turned))
+    return False
+
+
+@pytest.mark.parametrize("width", [5.0, 7.0, 20.0])
+def test_what_is_refused_is_out_of_reach_even_with_sudden_turns(width):
+    # a yard with a gate behind the robot: it has to turn round in the yard
+    far = width + 1
+    yard = [box(-1, -1, far, 0), box(-1, width, far, far), box(width, 0, far, width)]
+    yard += [box(-1, 0, 0, 0.5 * width - 1), box(-1, 0.5 * width + 1, 0, width)]
+    world = World(yard, bounds=(-14, -4, width + 4, width + 4))
+    start, goal = Pose(1.5, 0.5 * width, 0.0), Goal(-8, 0.5 * width)
+    found = find_poses(world, DISC, RHO, 0.4, start, goal)
+    if isinstance(found, NotFound):
+        assert found.reason is Reason.START_SHUT_IN
+        pose = (start.x, start.y, start.heading)
+        assert not reachable(world, DISC.required, pose, (goal.x, goal.y))
+    else:
+        is_sound(found, world, DISC, start, goal)
+    assert isinstance(found, Chain) == (width > 10.0)
