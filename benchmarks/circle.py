@@ -18,8 +18,8 @@ import viaspline as vs
 from viaspline.curve.bending import curvature_bound
 from viaspline.planning.alternatives.lead_round import Task
 from viaspline.planning.alternatives.leg_search import LegSearch
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.via_sequence import course_of
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.planning.routing.router import on_the_line
 
 CIRCLE, ROUNDS = 4.0, 7
@@ -34,7 +34,7 @@ def mission(found: list[vs.Obstacle], circle: float | None) -> vs.Mission:
 
 def corner_length(asked: vs.Mission) -> float:
     """Length of the taut way [m]."""
-    world, brief, course = vs.World.known(asked), Brief.of(asked), course_of(asked)
+    world, brief, course = vs.World.known(asked), Requirements.of(asked), via_sequence_of(asked)
     leg = LegSearch(course, 0, world, brief, Task.of(course, world, brief).router)
     return leg.shortest_allowed(on_the_line(world, *leg.ends, brief.required))[0].length
 

@@ -27,7 +27,7 @@ from shapely import affinity
 import viaspline as vs
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.mission.robot_parts import RobotSpec
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.turning.hybrid_astar.pose_search import Chain, Goal, Pose, find_poses
 
 WORLDS = {
@@ -74,7 +74,9 @@ def least_gap(walls, body, spans) -> float:
 def main(folder: str, pairs: str = str(PAIRS)) -> None:
     steer = json.loads((Path(folder) / "benchmark_template.json").read_text())["settings"]["steer"]
     rho, ramp = steer["car_turning_radius"], steer["hc_cc"]["kappa"] / steer["hc_cc"]["sigma"]
-    find_poses(vs.World([]), Brief(radius=1, clearance=0), rho, ramp, Pose(0, 0, 0), Goal(9, 9))
+    find_poses(
+        vs.World([]), Requirements(radius=1, clearance=0), rho, ramp, Pose(0, 0, 0), Goal(9, 9)
+    )
     print(f"turning circle {rho} m, ramps {ramp} m, clearance {CLEARANCE} m; CPU ms\n")
     names = ("pairs", "solved", "median ms", "most ms", "length m", "gap m")
     print(f"{'world':12s}" + "".join(f"{name:>11s}" for name in names) + "  refused")
@@ -87,7 +89,7 @@ def main(folder: str, pairs: str = str(PAIRS)) -> None:
         world = vs.World(known, bounds=(box + MARGIN * np.array((-1, -1, 1, 1))).tolist())
         footprint = outline(mazes / f"{robot}.svg", rear)
         inner = RobotSpec(footprint=footprint).inner_radius
-        brief = Brief(radius=inner, clearance=CLEARANCE, footprint=footprint)
+        brief = Requirements(radius=inner, clearance=CLEARANCE, footprint=footprint)
         body = shapely.Polygon(footprint)
         ends = poses(walls, body, box, CLEARANCE, 2 * int(pairs), seed=1)
         run = [

@@ -17,7 +17,7 @@ from plan import SAFE, rrt_path
 from worlds import GOAL, RADIUS, START
 
 import viaspline as vs
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.replan import planned, reflex
 
 AHEAD = 20.0  # how far ahead of the obstacle the robot is when it sees it [m]
@@ -57,7 +57,7 @@ def surprise(plan: vs.Plan, random: np.random.Generator) -> tuple[vs.Obstacle, f
 
 def replan(plan: vs.Plan, obstacle: vs.Obstacle, at: float) -> vs.Path:
     world = plan.world.with_obstacles([obstacle])
-    brief = Brief.of(plan.mission)
+    brief = Requirements.of(plan.mission)
     try:
         found = reflex(plan.path, at, world, brief)
     except vs.NoPathError:

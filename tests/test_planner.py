@@ -9,8 +9,8 @@ import pytest
 
 import viaspline as vs
 from viaspline.planning.plan_path import find_path
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.via_sequence import course_of
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import via_sequence_of
 
 Oracle = Callable[..., Any]
 BOUNDS = [0, 0, 100, 100]
@@ -239,8 +239,8 @@ def test_a_via_point_that_is_shut_in_is_named() -> None:
     assert error.obstacles == ("ring",)
 
 
-def loose(**robot: float) -> Brief:
-    return Brief(radius=robot["radius_m"], clearance=robot["clearance_m"])
+def loose(**robot: float) -> Requirements:
+    return Requirements(radius=robot["radius_m"], clearance=robot["clearance_m"])
 
 
 @pytest.mark.parametrize(
@@ -251,7 +251,7 @@ def test_a_via_point_inside_a_clearance_is_refused_with_moves_that_serve(at: Any
     tank = disc(50, 0, 10, name="tank")
     free = mission([0, 0], {"at": [50, 30], "name": "pump"}, [100, 0])
     world = vs.World([vs.Obstacle(**tank)])
-    course = course_of(free)
+    course = via_sequence_of(free)
     start, pump, goal = course.vias
     moved = type(pump)(pump.name, np.array(at), pump.index)
     bad = type(course)((start, moved, goal), course.legs, course.spline)

@@ -11,8 +11,8 @@ import shapely
 
 import viaspline as vs
 from viaspline.planning.plan_path import find_path
-from viaspline.planning.problem.requirements import LEAST, Brief
-from viaspline.planning.problem.via_sequence import course_of
+from viaspline.planning.problem.requirements import LEAST, Requirements
+from viaspline.planning.problem.via_sequence import via_sequence_of
 
 Oracle = Callable[..., Any]
 BOUNDS = [0, 0, 100, 100]
@@ -68,14 +68,14 @@ def test_via_points_a_micrometre_apart_are_served() -> None:
 @pytest.mark.parametrize("gap", [0.0, 1e-9])
 def test_via_points_that_coincide_are_served_where_they_get_through(knots: str, gap: float) -> None:
     wanted = mission([0, 0], [50, 20], [100, 0], spline={"knots": knots})
-    course = course_of(wanted)
+    course = via_sequence_of(wanted)
     first, middle, last = course.vias
     again = type(middle)("again", middle.at + np.array([0.0, gap]), 2)
     twice = type(course)(
         (first, middle, again, last), (course.legs[0], *course.legs), course.spline
     )
     world = vs.World([vs.Obstacle(**disc(25, 8, 4)), vs.Obstacle(**disc(75, 9, 4))])
-    found = find_path(twice, world, Brief(radius=0.5, clearance=0.5, spline=wanted.spline))
+    found = find_path(twice, world, Requirements(radius=0.5, clearance=0.5, spline=wanted.spline))
     assert found.certificate.holds
 
 
@@ -237,7 +237,7 @@ def test_a_point_without_clearance_goes_round_and_not_through() -> None:
     assert found.certificate.holds
     assert found.path.length > 100.2
     assert len(found.ledger) == 2
-    assert Brief.of(found.mission).required == LEAST
+    assert Requirements.of(found.mission).required == LEAST
 
 
 def test_a_via_point_at_just_what_is_required_is_served(shapely_distance: Oracle) -> None:

@@ -4,16 +4,16 @@ from typing import Any
 
 import pytest
 
-from viaspline import warm
+from viaspline import precompile
 
 
 def test_every_job_that_is_done_leaves_a_mark(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(warm, "CACHE_FOLDER", tmp_path)
-    warm.compile_all(["curves"])
+    monkeypatch.setattr(precompile, "CACHE_FOLDER", tmp_path)
+    precompile.compile_all(["curves"])
     assert {file.name for file in tmp_path.iterdir()} == {"curves-compiled"}
-    warm.compile_all(["driving"])
+    precompile.compile_all(["driving"])
     assert (tmp_path / "driving-compiled").exists()
 
 
@@ -27,15 +27,15 @@ def test_the_second_process_is_started_once_and_ends_with_the_block(
         started.append(real(*args, **kwargs))
         return started[-1]
 
-    monkeypatch.setattr(warm, "CACHE_FOLDER", tmp_path)
-    monkeypatch.setattr(warm.os, "cpu_count", lambda: 2)
-    monkeypatch.setattr(warm.subprocess, "Popen", recorded)
-    with warm.second_compiler():
+    monkeypatch.setattr(precompile, "CACHE_FOLDER", tmp_path)
+    monkeypatch.setattr(precompile.os, "cpu_count", lambda: 2)
+    monkeypatch.setattr(precompile.subprocess, "Popen", recorded)
+    with precompile.second_compiler():
         assert len(started) == 1
     assert started[0].returncode is not None
     assert started[0].args[-1:] == ["curves"]  # type: ignore[index]
     (tmp_path / "curves-compiled").touch()
-    with warm.second_compiler():
+    with precompile.second_compiler():
         assert len(started) == 1
 
 
@@ -48,12 +48,12 @@ def test_only_what_is_not_compiled_yet_is_asked_for(
         asked.append(command[command.index("viaspline.precompile") + 1 :])
         raise FileNotFoundError("no interpreter")
 
-    monkeypatch.setattr(warm, "CACHE_FOLDER", tmp_path)
-    monkeypatch.setattr(warm.os, "cpu_count", lambda: 2)
-    monkeypatch.setattr(warm.subprocess, "Popen", refuses)
+    monkeypatch.setattr(precompile, "CACHE_FOLDER", tmp_path)
+    monkeypatch.setattr(precompile.os, "cpu_count", lambda: 2)
+    monkeypatch.setattr(precompile.subprocess, "Popen", refuses)
     for made in ("", "curves-compiled"):
         (tmp_path / (made or "nothing")).touch()
-        with warm.second_compiler(["curves", "driving"]):
+        with precompile.second_compiler(["curves", "driving"]):
             pass
     assert asked == [["curves", "driving"], ["driving"]]
 
@@ -64,8 +64,8 @@ def test_without_an_interpreter_the_run_goes_on_alone(
     def refuses(*args: Any, **kwargs: Any) -> None:
         raise FileNotFoundError("no interpreter")
 
-    monkeypatch.setattr(warm, "CACHE_FOLDER", tmp_path)
-    monkeypatch.setattr(warm.os, "cpu_count", lambda: 2)
-    monkeypatch.setattr(warm.subprocess, "Popen", refuses)
-    with warm.second_compiler():
+    monkeypatch.setattr(precompile, "CACHE_FOLDER", tmp_path)
+    monkeypatch.setattr(precompile.os, "cpu_count", lambda: 2)
+    monkeypatch.setattr(precompile.subprocess, "Popen", refuses)
+    with precompile.second_compiler():
         pass

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 import viaspline as vs
 from viaspline.curve.certificate import SPARE
 from viaspline.planning import replan
-from viaspline.planning.alternatives.solution import Detoured
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.problem.requirements import Requirements
 
 Oracle = Callable[..., Any]
 Floats = NDArray[np.float64]
@@ -283,9 +283,11 @@ def under_way(seed: int) -> tuple[vs.Mission, vs.Plan, float, vs.World] | None:
     return mission, found, at, found.world.with_obstacles([new])
 
 
-def attempt(mode: str, path: vs.Path, at: float, world: vs.World, brief: Brief) -> Detoured | None:
+def attempt(
+    mode: str, path: vs.Path, at: float, world: vs.World, brief: Requirements
+) -> Solution | None:
     try:
-        found: Detoured = getattr(replan, mode)(path, at, world, brief)
+        found: Solution = getattr(replan, mode)(path, at, world, brief)
     except vs.NoPathError as error:
         check_reason(error)
         return None
@@ -301,7 +303,7 @@ def test_a_new_path_under_way_keeps_what_was_driven_and_is_proven_ahead(
     assume(case is not None)
     assert case is not None
     mission, old, at, world = case
-    brief = Brief.of(mission)
+    brief = Requirements.of(mission)
     found = attempt(mode, old.path, at, world, brief)
     if found is None:
         return
@@ -345,7 +347,7 @@ def test_both_joints_of_a_new_path_continue_place_heading_and_curvature(
     assume(case is not None)
     assert case is not None
     mission, old, at, world = case
-    found = attempt(mode, old.path, at, world, Brief.of(mission))
+    found = attempt(mode, old.path, at, world, Requirements.of(mission))
     if found is None or found.path is old.path:
         return
     new, leaves = found.path, found.changed_from

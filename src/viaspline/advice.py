@@ -6,21 +6,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.certificate import SPARE
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import tightest
 from viaspline.kernels.curve.measure import length_and_curvature
 from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.via_sequence import Course, Leg, course_of, lay
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import Leg, ViaSequence, lay, via_sequence_of
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
 
 TENSIONS = (-0.5, -0.3, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)
 WORTH = 0.02  # part of a span's time that may be spent on a rounder curve
@@ -91,38 +89,42 @@ def advise_tension(mission: Mission, tensions: Sequence[float] = TENSIONS) -> Te
     """
     plain = mission.spline.model_copy(update={"tension": 0.0, "slack": None})
     mission = mission.model_copy(update={"spline": plain})
-    course, world, brief = course_of(mission), World.known(mission), Brief.of(mission)
+    sequence, world, requirements = (
+        via_sequence_of(mission),
+        World.known(mission),
+        Requirements.of(mission),
+    )
     limits = limits_of(mission.robot)
     tried = np.array(tensions, np.float64)
-    curves = np.array([_laid(course, np.full(len(course.legs), t)) for t in tried])
-    grouped = curves.reshape(len(tried), len(course.legs), course.pieces, *curves.shape[2:])
-    table = np.array([[_measured(span, world, brief) for span in row] for row in grouped])
+    curves = np.array([_laid(sequence, np.full(len(sequence.legs), t)) for t in tried])
+    grouped = curves.reshape(len(tried), len(sequence.legs), sequence.pieces, *curves.shape[2:])
+    table = np.array([[_measured(span, world, requirements) for span in row] for row in grouped])
     lengths, clearances, curvatures = table.transpose(2, 1, 0)
-    times = np.array([_duration(course, row, limits) for row in grouped])
+    times = np.array([_duration(sequence, row, limits) for row in grouped])
     common = np.vstack((lengths.sum(0), clearances.min(0), curvatures.max(0), times))
-    best = _choice(common, WORTH * times.min(), brief)
+    best = _choice(common, WORTH * times.min(), requirements)
     durations = np.empty_like(lengths)
     for k in range(len(lengths)):
         for j in range(len(tried)):
             changed = grouped[best].copy()
             changed[k] = grouped[j, k]
-            durations[k, j] = times[best] if j == best else _duration(course, changed, limits)
+            durations[k, j] = times[best] if j == best else _duration(sequence, changed, limits)
     shares = lengths[:, best] / lengths[:, best].sum()
     chosen = np.array([
         _choice(
             np.vstack((lengths[k], clearances[k], curvatures[k], durations[k])),
-            WORTH * share * times[best], brief,
+            WORTH * share * times[best], requirements,
         )
         for k, share in enumerate(shares)
     ])  # fmt: skip
-    together = _duration(course, grouped[chosen, np.arange(len(chosen))], limits)
+    together = _duration(sequence, grouped[chosen, np.arange(len(chosen))], limits)
     if together > (1.0 + WORTH) * times[best]:
         chosen, together = np.full(len(chosen), best), float(times[best])
     return TensionAdvice(
-        spans=tuple((a.name, b.name) for a, b in map(course.ends, range(len(course.legs)))),
+        spans=tuple((a.name, b.name) for a, b in map(sequence.ends, range(len(sequence.legs)))),
         tensions=tried, lengths=lengths, clearances=clearances, curvatures=curvatures,
         durations=durations, common=common, best=float(tried[best]), suggested=tried[chosen],
-        duration=together, required=brief.kept, turn_radius=brief.turn_radius,
+        duration=together, required=requirements.kept, turn_radius=requirements.turn_radius,
     )  # fmt: skip
 
 
@@ -139,28 +141,28 @@ def with_advice(mission: Mission) -> Mission:
     return mission.model_copy(update={"spline": spline})
 
 
-def _laid(course: Course, tensions: Floats) -> Floats:
+def _laid(sequence: ViaSequence, tensions: Floats) -> Floats:
     legs = tuple(
         Leg(leg.points, np.full_like(leg.slack, (1.0 - t) / 2.0))
-        for leg, t in zip(course.legs, tensions.tolist(), strict=True)
+        for leg, t in zip(sequence.legs, tensions.tolist(), strict=True)
     )
-    return lay(replace(course, legs=legs))
+    return lay(replace(sequence, legs=legs))
 
 
-def _measured(span: Floats, world: World, brief: Brief) -> tuple[float, float, float]:
+def _measured(span: Floats, world: World, requirements: Requirements) -> tuple[float, float, float]:
     """Length, proven clearance of the body and peak curvature of a span's cubics."""
     span = np.ascontiguousarray(span)
     lower, upper = tightest(world.packed, span, TOLERANCE)[:2]
     length, peak = length_and_curvature(span)
     gap = lower if np.isfinite(lower) else upper
-    return float(length), float(gap) - brief.radius, float(peak)
+    return float(length), float(gap) - requirements.radius, float(peak)
 
 
-def _duration(course: Course, spans: Floats, limits: Limits) -> float:
+def _duration(sequence: ViaSequence, spans: Floats, limits: Limits) -> float:
     """Of the whole drive over the cubics of all spans, (m, pieces, 4, d), with its stations [s]."""
     curve = PiecewiseCubic(spans.reshape(-1, *spans.shape[2:]))
-    ends = course.pieces * np.arange(len(spans) + 1)
-    vias = [*course.vias, course.vias[0]] if course.closed else course.vias
+    ends = sequence.pieces * np.arange(len(spans) + 1)
+    vias = [*sequence.vias, sequence.vias[0]] if sequence.closed else sequence.vias
     stops = [
         Station(float(curve.distance(float(u))), via.dwell, via.name)
         for via, u in zip(vias, ends, strict=True)
@@ -169,14 +171,14 @@ def _duration(course: Course, spans: Floats, limits: Limits) -> float:
     return retime(curve, limits, stops).duration
 
 
-def _choice(rows: Floats, spare: float, brief: Brief) -> int:
+def _choice(rows: Floats, spare: float, requirements: Requirements) -> int:
     """Which tension is suggested: see ``TensionAdvice``."""
     length, clearance, curvature, duration = rows
-    allowed = clearance >= brief.kept - SPARE
+    allowed = clearance >= requirements.kept - SPARE
     if not allowed.any():
         allowed = np.ones(length.size, np.bool_)
-    if brief.turn_radius is not None:
-        round_enough = allowed & (curvature <= 1.0 / brief.turn_radius)
+    if requirements.turn_radius is not None:
+        round_enough = allowed & (curvature <= 1.0 / requirements.turn_radius)
         if not round_enough.any():
             return int(np.where(allowed, curvature, np.inf).argmin())
         allowed = round_enough

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from viaspline.planner import Plan
     from viaspline.report.film_file import FilmFile
     from viaspline.report.progress_bar import Watch
-    from viaspline.report.result_files import Folder
+    from viaspline.report.result_files import ResultFolder
 
 DEFECT, WRONG, NO_PATH, NOT_REACHED, INTERRUPTED, TERMINATED = 1, 2, 3, 4, 130, 143
 
@@ -311,11 +311,11 @@ def _load(path: Path) -> Mission:
 
 
 @contextmanager
-def _folder(path: Path, names: Iterable[str]) -> Iterator[Folder]:
+def _folder(path: Path, names: Iterable[str]) -> Iterator[ResultFolder]:
     """The folder of the results, tried before the work and not left empty by a failure."""
-    from viaspline.report.result_files import Folder
+    from viaspline.report.result_files import ResultFolder
 
-    folder = Folder(path, names)
+    folder = ResultFolder(path, names)
     old = folder.holds_earlier_results()
     try:
         yield folder

@@ -18,7 +18,7 @@ from viaspline.mission.robot_parts import RobotSpec
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.plan_drive import find_drive
 from viaspline.planning.problem.ledger import LedgerEntry
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.visit_order import ordered
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.retime import retime
@@ -86,7 +86,7 @@ def plan(mission: Mission) -> Plan:
     world, robot = World.known(mission), mission.robot
     error = robot.tracking_error_m or 0.0
     if robot.tracking_error_m is None and robot.sensor is not None and is_driven(robot):
-        error = allowance_on_bends(robot, Brief.of(mission).required)
+        error = allowance_on_bends(robot, Requirements.of(mission).required)
     first = _with_error(mission, world, error)
     if robot.tracking_error_m is not None or not is_driven(robot):
         return first
@@ -128,9 +128,9 @@ def _with_reserve(mission: Mission) -> Mission:
 
 def _with_error(mission: Mission, world: World, error: float) -> Plan:
     """The plan that keeps ``error`` [m] more than the clearance."""
-    brief = Brief.of(mission, error)
+    requirements = Requirements.of(mission, error)
     try:
-        found = find_drive(mission, world, brief)
+        found = find_drive(mission, world, requirements)
     except NoPathError as problem:
         if error > 0.0:
             problem.reason += f" ({error:.2f} m of it for how far the robot gets beside its path)"

@@ -2,8 +2,8 @@
 
 Compiling is most of a first run and numba does it on one core. The kernels of curves and of the
 time law need none of those of the world; so while a run begins with the latter, another process
-(``python -m viaspline.precompile``) compiles the former into the same cache. For a robot with a turning
-circle, a body or a drive it goes on with what such a robot needs at the end of its plan.
+(``python -m viaspline.precompile``) compiles the former into the same cache. For a robot with a
+turning circle, a body or a drive it goes on with what such a robot needs at the end of its plan.
 """
 
 from __future__ import annotations
@@ -54,11 +54,11 @@ def compile_driving() -> None:
     from viaspline.machine.allowance import allowance_on_bends
     from viaspline.mission.model import Mission
     from viaspline.planning.checking.conflicts import is_clear, proven
-    from viaspline.planning.problem.requirements import Brief
-    from viaspline.planning.problem.via_sequence import course_of
+    from viaspline.planning.problem.requirements import Requirements
+    from viaspline.planning.problem.via_sequence import via_sequence_of
     from viaspline.planning.turning.bend_row import Bends, bend
-    from viaspline.planning.turning.hybrid_astar.via_route import tight_chains
-    from viaspline.planning.turning.turn_path import RAMP, Swing, swing_round
+    from viaspline.planning.turning.hybrid_astar.via_route import via_route_chains
+    from viaspline.planning.turning.turn_path import RAMP, TurnPath, turn_path_round
     from viaspline.world.world import World
 
     mission = Mission.model_validate(
@@ -72,16 +72,16 @@ def compile_driving() -> None:
             "route": {"start": [0, 0.2], "goal": [12, 3]},
         }
     )
-    world, brief, circle = World.known(mission), Brief.of(mission), 2.0
+    world, requirements, circle = World.known(mission), Requirements.of(mission), 2.0
     allowance_on_bends(mission.robot, circle)
-    tight_chains(course_of(mission), world, brief, circle, RAMP * circle, ())
+    via_route_chains(via_sequence_of(mission), world, requirements, circle, RAMP * circle, ())
     rows = [bend(0, 0), bend(6, 3, 1.0, 1.0), bend(12, 0)]
-    swing = swing_round(Bends(np.array(rows), np.array([0, -1, 1])), circle)
-    assert isinstance(swing, Swing)
-    curve = PiecewiseCubic(swing.spans)
+    turn_path = turn_path_round(Bends(np.array(rows), np.array([0, -1, 1])), circle)
+    assert isinstance(turn_path, TurnPath)
+    curve = PiecewiseCubic(turn_path.spans)
     curvature_bound(curve)
-    is_clear(world, swing.spans, brief)
-    proven(curve, world, brief)
+    is_clear(world, turn_path.spans, requirements)
+    proven(curve, world, requirements)
 
 
 JOBS: Final[Mapping[Job, Callable[[], None]]] = {

@@ -20,8 +20,8 @@ from viaspline.trajectory.retime import retime
 
 
 def driven(path: PiecewiseCubic, robot: RobotSpec, **more: Any) -> Track:
-    law = retime(path, limits_of(robot), with_turns(path, machine_of(robot), []))
-    return follow(path, law, robot, **more)
+    trajectory = retime(path, limits_of(robot), with_turns(path, machine_of(robot), []))
+    return follow(path, trajectory, robot, **more)
 
 
 def test_without_noise_it_stays_on_its_path(kind: str, robot_of: Any, bends: Any) -> None:
@@ -105,10 +105,10 @@ def test_a_time_law_that_is_too_fast_for_the_wheels_makes_it_late_not_lost(
     assert robot.drive is not None
     slow = robot.drive.differential.model_copy(update={"max_wheel_speed_mps": 0.7})
     drive = robot.drive.model_copy(update={"differential": slow})
-    law = retime(bends, limits_of(robot))
-    track = follow(bends, law, robot.model_copy(update={"drive": drive}))
+    trajectory = retime(bends, limits_of(robot))
+    track = follow(bends, trajectory, robot.model_copy(update={"drive": drive}))
     assert track.finished
-    assert track.times[-1] > law.duration + 20.0
+    assert track.times[-1] > trajectory.duration + 20.0
     assert track.tracking.cross.max < 0.05
     wheels = np.abs(track.speeds) + 0.25 * np.abs(track.yaw_rates)
     assert wheels.max() < 0.7 + 1e-6
@@ -132,9 +132,9 @@ def test_turning_and_shifting_the_path_turns_and_shifts_the_drive(robot_of: Any)
 
 @pytest.mark.parametrize("period", [0.0, -1.0, math.inf])
 def test_a_period_is_above_zero(robot_of: Any, bends: Any, period: float) -> None:
-    law = retime(bends, limits_of(robot_of("point")))
+    trajectory = retime(bends, limits_of(robot_of("point")))
     with pytest.raises(GeometryError, match="period is"):
-        follow(bends, law, robot_of("point"), period=period)
+        follow(bends, trajectory, robot_of("point"), period=period)
 
 
 def test_a_route_with_heights_is_refused(robot_of: Any) -> None:

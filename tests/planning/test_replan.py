@@ -8,8 +8,8 @@ import pytest
 import viaspline as vs
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.planning.alternatives.solution import Detoured
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import run_out
 from viaspline.planning.replan import from_rest, planned, reflex
 
@@ -23,13 +23,13 @@ def disc(x: float, y: float, radius: float, name: str | None = None) -> vs.Obsta
     return vs.Obstacle(circle={"center": (x, y), "radius": radius}, name=name)
 
 
-def start(*stops: Any, **more: Any) -> tuple[Path, vs.World, Brief]:
+def start(*stops: Any, **more: Any) -> tuple[Path, vs.World, Requirements]:
     route = {"start": stops[0], "via": list(stops[1:-1]), "goal": stops[-1]}
     if more.pop("closed", False):
         route = {"start": stops[0], "via": list(stops[1:]), "closed": True}
     mission = vs.Mission.model_validate({"route": route, **more})
     plan = vs.plan(mission)
-    return plan.path, plan.world, Brief.of(mission)
+    return plan.path, plan.world, Requirements.of(mission)
 
 
 def served(path: Path) -> list[int | None]:
@@ -37,7 +37,7 @@ def served(path: Path) -> list[int | None]:
 
 
 def check(
-    found: Detoured, old: Path, at: float, world: vs.World, oracle: Oracle, required: float = 1.0
+    found: Solution, old: Path, at: float, world: vs.World, oracle: Oracle, required: float = 1.0
 ) -> None:
     """What was driven stays, what lies ahead is clear, the joints are smooth."""
     new = found.path
@@ -53,9 +53,9 @@ def check(
 def test_a_path_that_is_clear_stays_or_is_laid_anew_and_is_proven(
     mode: Any, shapely_distance: Oracle
 ) -> None:
-    path, world, brief = start([0, 0], [50, 20], [100, 0])
+    path, world, requirements = start([0, 0], [50, 20], [100, 0])
     world = world.with_obstacles([disc(50, 60, 5)])
-    found = mode(path, 10.0, world, brief)
+    found = mode(path, 10.0, world, requirements)
     check(found, path, 10.0, world, shapely_distance)
     if mode is reflex:
         assert found.path is path
@@ -69,10 +69,10 @@ def test_a_path_that_is_clear_stays_or_is_laid_anew_and_is_proven(
 
 def test_a_reflex_changes_only_what_is_near(shapely_distance: Oracle) -> None:
     stops = [[25.0 * k, 12.0 * (k % 2)] for k in range(9)]
-    path, world, brief = start(*stops)
+    path, world, requirements = start(*stops)
     middle = path.evaluate(3.5)
     world = world.with_obstacles([disc(*middle.tolist(), 2)])
-    found = reflex(path, 5.0, world, brief)
+    found = reflex(path, 5.0, world, requirements)
     check(found, path, 5.0, world, shapely_distance)
     assert found.rejoins_at is not None
     before, after = path.distance(3.0), path.distance(4.0)
@@ -88,10 +88,10 @@ def test_a_reflex_changes_only_what_is_near(shapely_distance: Oracle) -> None:
 def test_paths_that_cross_and_repeat_themselves_go_on_in_order(
     mode: Any, lap: int, shapely_distance: Oracle
 ) -> None:
-    path, world, brief = start(*EIGHT)
+    path, world, requirements = start(*EIGHT)
     at = float(path.distance(4.4)) if lap else 5.0
     world = world.with_obstacles([disc(62, 57, 3)])
-    found = mode(path, at, world, brief)
+    found = mode(path, at, world, requirements)
     check(found, path, at, world, shapely_distance)
     assert served(found.path) == list(range(6))
     u = [via.u for via in found.path.vias if via.kind == "user"]
@@ -102,22 +102,22 @@ def test_paths_that_cross_and_repeat_themselves_go_on_in_order(
 def test_points_to_skip_are_left_out_and_the_others_served(
     mode: Any, shapely_distance: Oracle
 ) -> None:
-    path, world, brief = start(*EIGHT)
+    path, world, requirements = start(*EIGHT)
     world = world.with_obstacles([disc(80, 20, 5, "new")])
     with pytest.raises(vs.NoPathError) as caught:
-        mode(path, 5.0, world, brief)
+        mode(path, 5.0, world, requirements)
     assert caught.value.via == "via 2"
     assert caught.value.obstacles == ("new",)
-    found = mode(path, 5.0, world, brief, skip={2})
+    found = mode(path, 5.0, world, requirements, skip={2})
     check(found, path, 5.0, world, shapely_distance)
     assert served(found.path) == [0, 1, 3, 4, 5]
 
 
 @pytest.mark.parametrize("mode", MODES)
 def test_an_obstacle_on_the_goal_is_named(mode: Any) -> None:
-    path, world, brief = start([0, 0], [50, 20], [100, 0])
+    path, world, requirements = start([0, 0], [50, 20], [100, 0])
     with pytest.raises(vs.NoPathError) as caught:
-        mode(path, 10.0, world.with_obstacles([disc(101, 0, 3, "crate")]), brief)
+        mode(path, 10.0, world.with_obstacles([disc(101, 0, 3, "crate")]), requirements)
     assert caught.value.via == "goal"
     assert caught.value.obstacles == ("crate",)
     assert caught.value.remedy
@@ -125,39 +125,39 @@ def test_an_obstacle_on_the_goal_is_named(mode: Any) -> None:
 
 @pytest.mark.parametrize("mode", LEAVING)
 def test_an_obstacle_too_near_to_turn_away_from_is_refused(mode: Any) -> None:
-    path, world, brief = start([0, 0], [100, 0])
+    path, world, requirements = start([0, 0], [100, 0])
     world = world.with_obstacles([disc(25.0, 0, 3.9, "crate")])
     with pytest.raises(vs.NoPathError) as caught:
-        mode(path, 20.0, world, brief)
+        mode(path, 20.0, world, requirements)
     assert "crate" in caught.value.obstacles
     assert caught.value.remedy
 
 
 def test_from_rest_turns_away_on_the_spot(shapely_distance: Oracle) -> None:
-    path, world, brief = start([0, 0], [100, 0])
+    path, world, requirements = start([0, 0], [100, 0])
     world = world.with_obstacles([disc(25.0, 0, 3.9, "crate")])
-    found = from_rest(path, 20.0, world, brief)
+    found = from_rest(path, 20.0, world, requirements)
     check(found, path, 20.0, world, shapely_distance)
 
 
 @pytest.mark.parametrize("mode", MODES)
 def test_standing_inside_the_clearance_is_refused(mode: Any) -> None:
-    path, world, brief = start([0, 0], [100, 0])
+    path, world, requirements = start([0, 0], [100, 0])
     with pytest.raises(vs.NoPathError) as caught:
-        mode(path, 20.0, world.with_obstacles([disc(24, 0, 3.5, "crate")]), brief)
+        mode(path, 20.0, world.with_obstacles([disc(24, 0, 3.5, "crate")]), requirements)
     assert "crate" in str(caught.value)
 
 
 @pytest.mark.parametrize("mode", [planned, from_rest])
 def test_there_is_no_way_on_from_the_goal(mode: Any) -> None:
-    path, world, brief = start([0, 0], [100, 0])
+    path, world, requirements = start([0, 0], [100, 0])
     with pytest.raises(vs.NoPathError, match="left to go to"):
-        mode(path, path.length, world, brief)
+        mode(path, path.length, world, requirements)
 
 
 def test_at_the_goal_there_is_nothing_to_avoid() -> None:
-    path, world, brief = start([0, 0], [100, 0])
-    found = reflex(path, path.length, world.with_obstacles([disc(50, 0, 3)]), brief)
+    path, world, requirements = start([0, 0], [100, 0])
+    found = reflex(path, path.length, world.with_obstacles([disc(50, 0, 3)]), requirements)
     assert found.path is path
     assert found.certificate.holds
 
@@ -168,26 +168,28 @@ def test_at_the_goal_there_is_nothing_to_avoid() -> None:
 def test_corners_and_loose_curves_can_be_left(
     mode: Any, tension: float, at: float, shapely_distance: Oracle
 ) -> None:
-    path, world, brief = start([0, 0], [40, 20], [80, 0], [120, 20], spline={"tension": tension})
+    path, world, requirements = start(
+        [0, 0], [40, 20], [80, 0], [120, 20], spline={"tension": tension}
+    )
     world = world.with_obstacles([disc(*path.evaluate(1.5).tolist(), 3)])
-    found = mode(path, float(path.distance(at)), world, brief)
+    found = mode(path, float(path.distance(at)), world, requirements)
     check(found, path, float(path.distance(at)), world, shapely_distance)
     assert served(found.path) == [0, 1, 2, 3]
 
 
 @pytest.mark.parametrize("mode", MODES)
 def test_the_heading_at_the_goal_is_kept(mode: Any) -> None:
-    path, world, brief = start([0, 0], [50, 20], {"at": [100, 0], "heading_deg": 90})
-    found = mode(path, 10.0, world.with_obstacles([disc(80, 12, 4)]), brief)
+    path, world, requirements = start([0, 0], [50, 20], {"at": [100, 0], "heading_deg": 90})
+    found = mode(path, 10.0, world.with_obstacles([disc(80, 12, 4)]), requirements)
     end = found.path.domain[1]
     assert float(found.path.heading(end)) == pytest.approx(math.pi / 2)
 
 
 @pytest.mark.parametrize("mode", MODES)
 def test_a_closed_route_still_comes_home(mode: Any, shapely_distance: Oracle) -> None:
-    path, world, brief = start([0, 0], [50, 30], [100, 0], [50, -30], closed=True)
+    path, world, requirements = start([0, 0], [50, 30], [100, 0], [50, -30], closed=True)
     world = world.with_obstacles([disc(*path.evaluate(3.5).tolist(), 3)])
-    found = mode(path, 30.0, world, brief)
+    found = mode(path, 30.0, world, requirements)
     check(found, path, 30.0, world, shapely_distance)
     assert served(found.path) == [0, 1, 2, 3, 4]
     np.testing.assert_allclose(found.path.evaluate(found.path.domain[1]), [0, 0], atol=1e-12)
@@ -195,22 +197,22 @@ def test_a_closed_route_still_comes_home(mode: Any, shapely_distance: Oracle) ->
 
 @pytest.mark.parametrize("mode", MODES)
 def test_heights_go_on_under_way(mode: Any, shapely_distance: Oracle) -> None:
-    path, world, brief = start([0, 0, 5], [50, 20, 30], [100, 0, 10])
+    path, world, requirements = start([0, 0, 5], [50, 20, 30], [100, 0, 10])
     world = world.with_obstacles([disc(70, 15, 3)])
-    found = mode(path, 30.0, world, brief)
+    found = mode(path, 30.0, world, requirements)
     check(found, path, 30.0, world, shapely_distance)
     np.testing.assert_allclose(found.path.evaluate(found.path.domain[1]), [100, 0, 10])
 
 
 @pytest.mark.parametrize("mode", MODES)
 def test_replans_can_follow_each_other(mode: Any, shapely_distance: Oracle) -> None:
-    path, world, brief = start([0, 0], [60, 30], [120, 0], [180, 30])
+    path, world, requirements = start([0, 0], [60, 30], [120, 0], [180, 30])
     at = 0.0
     for k in range(6):
         at += 15.0
         ahead = path.at_distance(min(at + 14.0, path.length - 8.0))
         world = world.with_obstacles([disc(float(ahead[0]), float(ahead[1]) + 1.0, 2.0, f"n{k}")])
-        found = mode(path, at, world, brief)
+        found = mode(path, at, world, requirements)
         check(found, path, at, world, shapely_distance)
         path = found.path
         assert served(path) == [0, 1, 2, 3]
@@ -221,10 +223,10 @@ def test_replans_can_follow_each_other(mode: Any, shapely_distance: Oracle) -> N
 def test_a_via_point_just_ahead_is_not_run_past(
     mode: Any, gap: float, shapely_distance: Oracle
 ) -> None:
-    path, world, brief = start([0, 0], [50, 0], [100, 40])
+    path, world, requirements = start([0, 0], [50, 0], [100, 40])
     world = world.with_obstacles([disc(*path.evaluate(1.5).tolist(), 3)])
     at = float(path.distance(1.0)) - gap
-    found = mode(path, at, world, brief)
+    found = mode(path, at, world, requirements)
     check(found, path, at, world, shapely_distance)
     assert served(found.path) == [0, 1, 2]
     u = [via.u for via in found.path.vias if via.kind == "user"]
@@ -269,6 +271,6 @@ def test_a_path_of_one_span_can_be_replanned() -> None:
     ]
     path = Path([[[0, 0], [10, 0], [20, 0], [30, 0]]], vias)
     world = vs.World([disc(15, 0.5, 2)])
-    found = reflex(path, 0.0, world, Brief(radius=0.5, clearance=0.5))
+    found = reflex(path, 0.0, world, Requirements(radius=0.5, clearance=0.5))
     assert found.certificate.holds
     assert served(found.path) == [0, 1]

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from viaspline.errors import OutputError
-from viaspline.report.result_files import Folder, replacing, write
+from viaspline.report.result_files import ResultFolder, replacing, write
 
 
 def test_a_file_is_replaced_whole(tmp_path: Path) -> None:
@@ -37,19 +37,19 @@ def test_a_new_file_may_be_read_by_whom_the_umask_says(tmp_path: Path) -> None:
 
 
 def test_a_folder_is_made_with_its_parents(tmp_path: Path) -> None:
-    folder = Folder(tmp_path / "a" / "b")
+    folder = ResultFolder(tmp_path / "a" / "b")
     folder.write("x.txt", "x")
     assert (tmp_path / "a" / "b" / "x.txt").read_text() == "x"
 
 
 def test_a_folder_that_stayed_empty_is_forgotten_with_the_parents_it_made(tmp_path: Path) -> None:
-    Folder(tmp_path / "a" / "b").forget_if_empty()
+    ResultFolder(tmp_path / "a" / "b").forget_if_empty()
     assert os.listdir(tmp_path) == []
 
 
 def test_a_folder_that_was_there_before_is_not_forgotten(tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
-    Folder(tmp_path / "a").forget_if_empty()
+    ResultFolder(tmp_path / "a").forget_if_empty()
     assert (tmp_path / "a").is_dir()
 
 
@@ -59,20 +59,20 @@ def test_a_file_where_the_folder_should_be_is_named_with_the_remedy(
 ) -> None:
     (tmp_path / "taken").write_text("")
     with pytest.raises(OutputError, match=r"taken: is a file, not a folder; give another"):
-        Folder(tmp_path / "taken" / below)
+        ResultFolder(tmp_path / "taken" / below)
 
 
 def test_a_folder_where_a_file_has_to_go_is_found_before_the_work(tmp_path: Path) -> None:
     (tmp_path / "plan.png").mkdir()
     with pytest.raises(OutputError, match="is a folder where a file has to go"):
-        Folder(tmp_path, ["plan.json", "plan.png"])
+        ResultFolder(tmp_path, ["plan.json", "plan.png"])
 
 
 @pytest.mark.skipif(os.name != "posix" or os.getuid() == 0, reason="root may write anywhere")
 def test_a_read_only_folder_is_found_before_the_work(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
     with pytest.raises(OutputError, match=r"permission denied.*; allow writing there"):
-        Folder(tmp_path)
+        ResultFolder(tmp_path)
 
 
 def test_a_full_disk_is_named_with_the_remedy(
@@ -88,6 +88,6 @@ def test_a_full_disk_is_named_with_the_remedy(
 
 
 def test_earlier_results_are_noticed(tmp_path: Path) -> None:
-    assert not Folder(tmp_path, ["plan.json"]).holds_earlier_results()
+    assert not ResultFolder(tmp_path, ["plan.json"]).holds_earlier_results()
     (tmp_path / "plan.json").write_text("")
-    assert Folder(tmp_path, ["plan.json"]).holds_earlier_results()
+    assert ResultFolder(tmp_path, ["plan.json"]).holds_earlier_results()

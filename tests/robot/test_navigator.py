@@ -13,7 +13,7 @@ from viaspline.errors import NoPathError
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Circle, Obstacle
 from viaspline.planning import replan
-from viaspline.planning.alternatives.solution import Detoured
+from viaspline.planning.alternatives.solution import Solution
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.state import RobotState
 
@@ -147,7 +147,7 @@ def test_progress_on_a_route_that_crosses_itself_is_not_mistaken(mission_of: Mak
     assert nav.distance == pytest.approx(10.0, abs=0.5)
 
 
-def refused(*_: object, **__: object) -> Detoured:
+def refused(*_: object, **__: object) -> Solution:
     raise NoPathError("no", where=(0, 0), remedy="nothing")
 
 
@@ -197,9 +197,9 @@ def test_a_new_path_that_bends_too_sharply_for_the_speed_is_left_later_or_from_r
     _, nav = nav.step(state, [near], 9.0)
     assert nav.trajectory.over_limit_until is None
     assert nav.replans
-    path, law = nav.path, nav.trajectory
+    path, trajectory = nav.path, nav.trajectory
     u = np.linspace(float(path.parameter(nav.distance)), path.domain[1], 5000)
-    speed = law.speed_at(path.distance(u))
+    speed = trajectory.speed_at(path.distance(u))
     assert np.all(speed**2 * np.abs(path.curvature(u)) <= 0.3 * (1 + 1e-6))
 
 

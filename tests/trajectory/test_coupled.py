@@ -15,7 +15,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.mission.parts import SpeedZone
 from viaspline.trajectory.coupled import Stage, System
-from viaspline.trajectory.limited_path import course_of
+from viaspline.trajectory.limited_path import limited_path_of
 from viaspline.trajectory.limits import SETTLE, Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
@@ -229,10 +229,10 @@ def duration(squares: NDArray[np.float64], line: NDArray[np.float64]) -> float:
 def test_it_is_optimal_to_the_discretisation(name: str, seed: int) -> None:
     # the same half-planes for a programme that knows nothing of passes: minimal time is convex
     path, limits = smooth(seed, count=3), LIMITS[name]
-    course = course_of(path, limits)
+    limited_path = limited_path_of(path, limits)
     stage = Stage(start=0.0, end=path.length, first=0.0, last=0.0, top=limits.max_speed)
-    cells, grain = course.cells(stage)
-    system = System.of(cells, limits, stage, grain)
+    cells, cell_size = limited_path.cells(stage)
+    system = System.of(cells, limits, stage, cell_size)
     squares = system.solve(0.0).squares
     n = len(squares)
     rows = np.zeros((n - 1, system.planes.shape[1], n))

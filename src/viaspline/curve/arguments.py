@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from viaspline.errors import GeometryError
-
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
 
 
 def working_copy(values: ArrayLike) -> Floats:

@@ -9,10 +9,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viaspline.curve.arguments import Floats, frozen, working_copy
+from viaspline.curve.arguments import frozen, working_copy
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.curve.tangents import ALPHA, PIECES, RULES
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cardinal_tangents import knot_spacing
 
 Knots = Literal["uniform", "centripetal", "chordal"]

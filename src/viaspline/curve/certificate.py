@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.kernels.clearance.disc import disc as kernels
+from viaspline.kernels.clearance import disc as kernels
 from viaspline.world.outline import outline
 from viaspline.world.world import World
 

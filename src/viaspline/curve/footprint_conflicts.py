@@ -7,10 +7,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.clearance.disc import footprint_walk as kernels
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.clearance import footprint_walk as kernels
 from viaspline.kernels.world.packed import PackedWorld
-
-Floats = NDArray[np.float64]
 
 
 def body_conflicts(

@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viaspline.curve.arguments import Floats, as_point, call, frozen, outside
+from viaspline.curve.arguments import as_point, call, frozen, outside
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve import arclength, cubic, extrema, frenet
 
 MOST_SAMPLES = 50_000_000

@@ -7,9 +7,10 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viaspline.curve.arguments import Floats, call, frozen, outside, working_copy
+from viaspline.curve.arguments import call, frozen, outside, working_copy
 from viaspline.curve.measured import Measured
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve import cubic as kernels
 from viaspline.kernels.curve import frenet
 

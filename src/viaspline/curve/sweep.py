@@ -7,14 +7,13 @@ from typing import Any
 
 import numpy as np
 import shapely
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from viaspline.curve.bending import CORNER, corner_angles
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.world.outline import outline
-
-Floats = NDArray[np.float64]
 
 MOST_POSES = 200_000
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from types import MappingProxyType
 
-from viaspline.curve.arguments import Floats
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve import cardinal_tangents as kernels
 
 Rule = Callable[[Floats, float, Floats, Floats, Floats, bool, bool, bool], Floats]

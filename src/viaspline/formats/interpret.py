@@ -16,7 +16,8 @@ from viaspline.formats.fences import fence_areas
 from viaspline.formats.file_faults import fault_at, refusal
 from viaspline.formats.items import FenceArea, Itinerary, LatLon, Place
 from viaspline.formats.legs import Stop, stops_of
-from viaspline.formats.local_frame import REACH, Floats, LocalFrame
+from viaspline.formats.local_frame import REACH, LocalFrame
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 
 SAME: Final = 0.02

@@ -15,7 +15,7 @@ from viaspline.mission.unplaced_faults import describe
 
 
 @dataclass
-class Faults:
+class JsonFaults:
     """Faults of one file, as they are found."""
 
     source: str
@@ -38,7 +38,7 @@ class Tree:
 
     key: str
     value: Any
-    faults: Faults
+    faults: JsonFaults
 
     def fault(self, problem: str, remedy: str) -> None:
         """Note that something is wrong here."""
@@ -106,7 +106,7 @@ def json_tree(text: str, source: str) -> Tree:
     except (RecursionError, ValueError) as error:
         problem = "is nested too deeply" if isinstance(error, RecursionError) else str(error)
         raise refusal(source, Place("", 1, 1), problem, "save the plan again") from None
-    tree = Tree("", value, Faults(source))
+    tree = Tree("", value, JsonFaults(source))
     if not isinstance(value, dict):
         problem = f"the file holds {describe(value)}"
         raise refusal(source, Place("", 1, 1), problem, "it should be a plan of QGroundControl")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Final, TypeAlias
+from typing import Any, Final
 
 import numpy as np
 
-Floats: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
+from viaspline.kernels.arrays import Floats
 
 REACH: Final = 500e3
 """How far from the origin a place may be [m]; farther off, a flat frame is no map any more."""

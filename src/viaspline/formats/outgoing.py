@@ -10,8 +10,9 @@ import numpy as np
 
 from viaspline.errors import OutputError
 from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
-from viaspline.formats.local_frame import REACH, Floats, LocalFrame
+from viaspline.formats.local_frame import REACH, LocalFrame
 from viaspline.formats.losses import losses
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import ViaPoint
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner
-from viaspline.kernels.world.packed import Floats, Ints
 
 
 @inner

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from viaspline.kernels.jit import within
-from viaspline.kernels.world.packed import Floats, Ints
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.jit import inlined
 
 
 class Heap(NamedTuple):
@@ -22,7 +22,7 @@ class Heap(NamedTuple):
     size: Ints
 
 
-@within
+@inlined
 def push(heap: Heap, key: float, item: int) -> None:
     """Add an item; there has to be room for it."""
     k = heap.size[0]
@@ -38,7 +38,7 @@ def push(heap: Heap, key: float, item: int) -> None:
     heap.size[0] += 1
 
 
-@within
+@inlined
 def pop(heap: Heap) -> int:
     """Take the item with the least key away; there has to be one."""
     top = heap.items[0]

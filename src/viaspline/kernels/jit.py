@@ -120,7 +120,7 @@ def inner(function: _Function) -> _Function:
     return _compile(function, no_cpython_wrapper=True)
 
 
-def within(function: _Function) -> _Function:
+def inlined(function: _Function) -> _Function:
     """Compile a function right into the kernels that call it: for the inside of hot loops.
 
     It must neither make nor return arrays. numba counts references at every call; not here.
@@ -128,7 +128,7 @@ def within(function: _Function) -> _Function:
     return _compile(function, no_cpython_wrapper=True, forceinline=True, _nrt=False)
 
 
-def part(function: _Function) -> _Function:
+def fused(function: _Function) -> _Function:
     """Take a function as a part of the one kernel that calls it.
 
     Every function of its own is linked with all that it reaches and optimised by itself before the

@@ -5,17 +5,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.robot_parts import RobotSpec
-
-Floats = NDArray[np.float64]
 
 WILDEST = 3.0
 """No error of a measured state is greater than so many standard deviations."""
 
 
-class Faults:
+class DriveNoise:
     """Streams of noise; what they give depends on the seed and on how much was drawn, only.
 
     The measured position and heading are off by Gaussian noise, cut off at three standard
@@ -29,8 +27,8 @@ class Faults:
         seed: Of both streams.
 
     Example:
-        >>> faults = Faults(RobotSpec(localization={"position_noise_m": 0.1}), seed=1)
-        >>> faults.measured(2).shape, faults.driven(4).shape
+        >>> noise = DriveNoise(RobotSpec(localization={"position_noise_m": 0.1}), seed=1)
+        >>> noise.measured(2).shape, noise.driven(4).shape
         ((2, 3), (4, 2))
     """
 

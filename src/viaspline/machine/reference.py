@@ -7,9 +7,8 @@ from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.kernels.tracking.reference_path import Rail
-
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.tracking.reference_path import ReferencePath
 
 APART = 0.25  # from one point to the next, at most [m],
 BENT = 0.03  # with so much turning between them [rad]
@@ -18,7 +17,7 @@ INSIDE = 1e-9  # a heading at the end of a span is looked up so far before it
 BEND = 100.0  # curvatures beyond this are those of a cusp [1/m]
 
 
-def rail_of(path: PiecewiseCubic) -> Rail:
+def reference_path_of(path: PiecewiseCubic) -> ReferencePath:
     """The points of a path in the plane.
 
     Between them a place is interpolated by the cubic through both with their headings: within a
@@ -28,7 +27,7 @@ def rail_of(path: PiecewiseCubic) -> Rail:
         GeometryError: When the path is not in the plane.
 
     Example:
-        >>> rail = rail_of(PiecewiseCubic([[[0, 0], [1, 0], [2, 0], [3, 0]]]))
+        >>> rail = reference_path_of(PiecewiseCubic([[[0, 0], [1, 0], [2, 0], [3, 0]]]))
         >>> round(float(rail.distance[-1]), 9), float(rail.heading[-1])
         (3.0, 0.0)
     """
@@ -47,7 +46,7 @@ def rail_of(path: PiecewiseCubic) -> Rail:
     heading = np.asarray(path.heading(inside))
     curvature = np.nan_to_num(np.asarray(path.curvature(inside)), posinf=0.0, neginf=0.0)
     turns = np.remainder(np.diff(heading) + np.pi, 2.0 * np.pi) - np.pi
-    return Rail(
+    return ReferencePath(
         np.maximum.accumulate(np.asarray(path.distance(u))),
         places[:, 0].copy(),
         places[:, 1].copy(),

@@ -6,9 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from viaspline.kernels.arrays import Floats, Ints
 
 TOLERANCE = 1e-3
 """How far a cubic may be from the arcs that it stands for [m]."""

@@ -8,10 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.closed_loop import deviations
-from viaspline.kernels.tracking.reference_path import Rail
-
-Floats = NDArray[np.float64]
+from viaspline.kernels.tracking.reference_path import ReferencePath
 
 
 class Spread(NamedTuple):
@@ -44,15 +43,15 @@ class Tracking:
     moving: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, rail: Rail, notes: Floats, rows: Floats) -> Tracking:
+    def of(cls, reference: ReferencePath, notes: Floats, rows: Floats) -> Tracking:
         """The errors of a drive.
 
         Args:
-            rail: The path.
+            reference: The path.
             notes: Of every period of the controller, shape (m, NOTES), m >= 1.
             rows: Of every step of the motion: time, x, y, heading, …, shape (n, 6).
         """
-        off = deviations(rail, notes, rows)
+        off = deviations(reference, notes, rows)
         return cls(rows[:, 0], off[:, 0], off[:, 1], off[:, 2], off[:, 3], off[:, 4] == 0.0)
 
     @property

@@ -6,21 +6,19 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.closed_loop import drive
 from viaspline.kernels.tracking.drive_motion import HEADING, STATE, SUBSTEP, X, Y
-from viaspline.kernels.tracking.reference_timing import Law
-from viaspline.machine.drive_noise import Faults
+from viaspline.kernels.tracking.reference_timing import SpeedProfile
+from viaspline.machine.drive_noise import DriveNoise
 from viaspline.machine.machine import PERIOD, machine_of
-from viaspline.machine.reference import rail_of
+from viaspline.machine.reference import reference_path_of
 from viaspline.machine.tracking import Tracking
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.trajectory import Trajectory
-
-Floats = NDArray[np.float64]
 
 LONGER = 1.5  # times the planned duration, and
 GRACE = 60.0  # this much longer [s]: then a trial drive is broken off
@@ -87,14 +85,14 @@ def follow(
     """
     if not 0.0 < period < math.inf:
         raise GeometryError(f"period is {period}; give a time above 0 s")
-    machine, rail = machine_of(robot, period), rail_of(path)
-    law = law_of(trajectory.delayed(-trajectory.start_time))
-    state = start_of(rail.x[0], rail.y[0], rail.heading[0], offset)
+    machine, reference = machine_of(robot, period), reference_path_of(path)
+    profile = speed_profile_of(trajectory.delayed(-trajectory.start_time))
+    state = start_of(reference.x[0], reference.y[0], reference.heading[0], offset)
     substeps = max(math.ceil(period / SUBSTEP - 1e-9), 1)
     count = math.ceil((LONGER * trajectory.duration + GRACE + machine.delay) / period)
-    faults = Faults(robot, seed)
+    faults = DriveNoise(robot, seed)
     rows, notes, ticks = drive(
-        machine, rail, law, state.copy(), period, substeps,
+        machine, reference, profile, state.copy(), period, substeps,
         faults.measured(count), faults.driven(count * substeps),
     )  # fmt: skip
     finished = ticks >= 0
@@ -103,13 +101,13 @@ def follow(
     rows = np.concatenate(([[0.0, *state[:3], 0.0, 0.0]], rows))
     return Track(
         rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4], rows[:, 5],
-        Tracking.of(rail, notes, rows), finished,
+        Tracking.of(reference, notes, rows), finished,
     )  # fmt: skip
 
 
-def law_of(trajectory: Trajectory) -> Law:
+def speed_profile_of(trajectory: Trajectory) -> SpeedProfile:
     """A time law for kernels, which want arrays that they may write to."""
-    return Law(
+    return SpeedProfile(
         np.array(trajectory.distances),
         np.array(trajectory.speeds),
         np.array(trajectory.times),

@@ -6,13 +6,11 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.drive_model import ACKERMANN, Machine
 from viaspline.trajectory.limits import Station
-
-Floats = NDArray[np.float64]
 
 CORNER = 0.02
 """Spans whose headings differ by more meet in a corner; less is steered away [rad]."""

@@ -9,14 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.errors import MissionWarning
+from viaspline.kernels.arrays import Floats
 
 if TYPE_CHECKING:
     from shapely import Polygon
 
-Floats: TypeAlias = NDArray[np.float64]
 Ring: TypeAlias = tuple[tuple[float, float], ...]
 Rule: TypeAlias = Literal["nonzero", "evenodd"]
 

@@ -16,10 +16,10 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from viaspline.errors import MissionError
+from viaspline.kernels.arrays import Floats
 from viaspline.maps.area import (
     FARTHEST,
     Area,
-    Floats,
     areas_of,
     distinct,
     filled,

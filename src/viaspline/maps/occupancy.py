@@ -22,10 +22,10 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Flags
 from viaspline.maps.picture import Picture
 from viaspline.maps.reading import Unknown
 
-Flags: TypeAlias = NDArray[np.bool_]
 Mode: TypeAlias = Literal["trinary", "scale", "raw"]
 MODES: tuple[Mode, ...] = get_args(Mode)
 

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Final, TypeAlias
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Flags
 from viaspline.maps.grid import Grid
-
-Flags: TypeAlias = NDArray[np.bool_]
 
 FINE: Final = 256
 """Squares aside from which on the ground of a window is drawn coarser than it is."""

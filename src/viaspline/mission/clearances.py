@@ -10,16 +10,16 @@ from viaspline.errors import Change
 from viaspline.maps.squares import is_unknown
 from viaspline.mission.corridors import CORRIDOR, corridor_of
 from viaspline.mission.freespace import FreeSpace
-from viaspline.mission.partial_mission import Corners, Draft, obstacle_label
+from viaspline.mission.partial_mission import Corners, PartialMission, obstacle_label
 from viaspline.mission.parts import Obstacle, ViaPoint
 from viaspline.mission.robot_parts import RobotSpec
-from viaspline.mission.unplaced_faults import Flaw, Path, number, spell
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
 
 TOLERANCE = 1e-9
 """A point may be this much too near [m]: round-off, not a fault."""
 
 
-def clearance_flaws(draft: Draft, misshapen: Collection[Path]) -> list[Flaw]:
+def clearance_flaws(draft: PartialMission, misshapen: Collection[Path]) -> list[UnplacedFault]:
     """Points of the route too near to an obstacle, to the bounds or to a fence.
 
     Args:
@@ -41,7 +41,9 @@ def clearance_flaws(draft: Draft, misshapen: Collection[Path]) -> list[Flaw]:
     margin = robot.inner_radius + robot.clearance_m
     space = FreeSpace(bounds, [area for _, area in rings], [item for _, item in known], margin)
     return [
-        Flaw((*points[i][0], "at"), _problem(points[i], near, margin), remedy, changes=changes)
+        UnplacedFault(
+            (*points[i][0], "at"), _problem(points[i], near, margin), remedy, changes=changes
+        )
         for i, nears in _too_near(
             space, points, known, [path for path, _ in rings], draft.edge
         ).items()

@@ -7,16 +7,16 @@ from typing import Final
 
 import numpy as np
 
-from viaspline.mission.partial_mission import Corners, Draft
+from viaspline.mission.partial_mission import Corners, PartialMission
 from viaspline.mission.parts import Corridor
-from viaspline.mission.unplaced_faults import Flaw, Path, number
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
 CORRIDOR: Final[Path] = ("route", "corridor")
 SAME_PLACE = 1e-6  # rows nearer to each other than this are one place [m]
 MOST_FLAWS = 5  # of one line that are told
 
 
-def corridor_flaws(draft: Draft) -> list[Flaw]:
+def corridor_flaws(draft: PartialMission) -> list[UnplacedFault]:
     """A corridor without widths or with two, and lines that make no strip."""
     corridor = draft.corridor
     if corridor is None:
@@ -25,14 +25,14 @@ def corridor_flaws(draft: Draft) -> list[Flaw]:
     line = next((key for key in ("csv", "line") if getattr(corridor, key) is not None), None)
     if line is not None and widths:
         problem = f"the corridor has {line} and {widths[0]}, which exclude each other"
-        return [Flaw((*CORRIDOR, widths[0]), problem, "keep one of the two", at_key=True)]
+        return [UnplacedFault((*CORRIDOR, widths[0]), problem, "keep one of the two", at_key=True)]
     if line is None and len(widths) < 2:
         problem = f"the corridor has {widths[0]} only" if widths else "the corridor has no width"
-        return [Flaw(CORRIDOR, problem, "give left_m and right_m, or line, or csv")]
+        return [UnplacedFault(CORRIDOR, problem, "give left_m and right_m, or line, or csv")]
     return _line_flaws(corridor, closed=bool(draft.closed)) if corridor.line is not None else []
 
 
-def _line_flaws(corridor: Corridor, *, closed: bool) -> list[Flaw]:
+def _line_flaws(corridor: Corridor, *, closed: bool) -> list[UnplacedFault]:
     from viaspline.mission.strip import Strip
 
     rows = np.array(corridor.line)
@@ -43,13 +43,13 @@ def _line_flaws(corridor: Corridor, *, closed: bool) -> list[Flaw]:
     for row in repeated.tolist():
         then = (row + 1) % len(rows)
         problem = f"row {then + 1} is the same place as row {row + 1}"
-        flaws.append(Flaw(_at(corridor, then), problem, "leave out one of the two"))
+        flaws.append(UnplacedFault(_at(corridor, then), problem, "leave out one of the two"))
     if closed and len(rows) < 3:
         problem = f"a closed line has {len(rows)} rows only"
-        flaws.append(Flaw(_at(corridor, 0), problem, "give three at least"))
+        flaws.append(UnplacedFault(_at(corridor, 0), problem, "give three at least"))
     if not flaws:
         flaws = [
-            Flaw(
+            UnplacedFault(
                 _at(corridor, row),
                 f"the edge on the {side} folds over itself between rows {row + 1} and "
                 f"{(row + 1) % len(rows) + 1}: {number(rows[row, 2 if side == 'right' else 3])} m "
@@ -65,7 +65,7 @@ def _at(corridor: Corridor, row: int) -> Path:
     return (*CORRIDOR, "line", row) if corridor.csv is None else (*CORRIDOR, "csv")
 
 
-def corridor_of(draft: Draft) -> list[tuple[Path, tuple[Corners, ...]]]:
+def corridor_of(draft: PartialMission) -> list[tuple[Path, tuple[Corners, ...]]]:
     """The area of a draft's corridor, if it has one that makes sense: outer ring and holes."""
     from viaspline.mission.strip import Strip, around, rings_of
 

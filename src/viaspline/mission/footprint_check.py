@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from viaspline.mission.partial_mission import Corners
 from viaspline.mission.polygon_checks import polygon_flaws
-from viaspline.mission.unplaced_faults import Flaw, Path, number
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
 PATH: Path = ("robot", "footprint")
 
 
-def footprint_flaw(corners: Corners) -> Flaw | None:
+def footprint_flaw(corners: Corners) -> UnplacedFault | None:
     """Why corners [m] are no body about the reference point (0, 0), or None.
 
     >>> footprint_flaw([(-1, -1), (1, -1), (1, 1), (-1, 1)])
@@ -18,7 +18,7 @@ def footprint_flaw(corners: Corners) -> Flaw | None:
     """
     if len(corners) < 3:
         problem = f"the body has {len(corners)} corners, which enclose nothing"
-        return Flaw(PATH, problem, "give three or more, [[x, y], [x, y], [x, y]]")
+        return UnplacedFault(PATH, problem, "give three or more, [[x, y], [x, y], [x, y]]")
     unsound = polygon_flaws([PATH], [(corners, ())])
     if unsound:
         return unsound[0]
@@ -32,7 +32,7 @@ def footprint_flaw(corners: Corners) -> Flaw | None:
     centre = body.centroid if body.contains(body.centroid) else body.representative_point()
     dx, dy = -round(centre.x, 3), -round(centre.y, 3)
     shifted = ", ".join(f"[{number(x + dx)}, {number(y + dy)}]" for x, y in corners)
-    return Flaw(
+    return UnplacedFault(
         PATH,
         f"the body does not contain its reference point (0, 0), which {where}",
         "the point that follows the path is the origin of the corners, x forward and y left: "

@@ -14,13 +14,13 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.maps.squares import blocked_ground, signed_distance
 from viaspline.mission.partial_mission import Corners
 from viaspline.mission.parts import Obstacle
 from viaspline.mission.polygon_checks import Geometries, polygons_of
 
-Floats: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
 Indices: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
 
 _CROWD = 2000  # Obstacles round a point beyond which no nearest free place is looked for.

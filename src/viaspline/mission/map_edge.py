@@ -12,7 +12,7 @@ Bounds: TypeAlias = tuple[float, float, float, float]
 Fence: TypeAlias = tuple[tuple[float, float], ...]
 
 
-class Edge(NamedTuple):
+class MapEdge(NamedTuple):
     """What keeps the robot on the map: an upright box, or a fence where that says it better.
 
     Attributes:
@@ -24,17 +24,17 @@ class Edge(NamedTuple):
     fence: Fence | None = None
 
 
-def edge_of(grids: Sequence[Grid]) -> Edge:
+def edge_of(grids: Sequence[Grid]) -> MapEdge:
     """The box round all of some maps, or their corners if they all lie in one turned place.
 
     >>> import numpy as np
     >>> edge_of([Grid(np.zeros((2, 3)), 1.0), Grid(np.zeros((1, 1)), 0.5, (-1, 0, 0))])
-    Edge(bounds=(-1.0, 0.0, 3.0, 2.0), fence=None)
+    MapEdge(bounds=(-1.0, 0.0, 3.0, 2.0), fence=None)
     """
     if not grids:
-        return Edge()
+        return MapEdge()
     places = {tuple((x, y) for x, y in grid.corners.tolist()) for grid in grids}
     if len(places) == 1 and abs(math.sin(2 * grids[0].origin[2])) > 1e-9:
-        return Edge(fence=places.pop())
+        return MapEdge(fence=places.pop())
     x_min, y_min, x_max, y_max = zip(*(grid.extent for grid in grids), strict=True)
-    return Edge(bounds=(min(x_min), min(y_min), max(x_max), max(y_max)))
+    return MapEdge(bounds=(min(x_min), min(y_min), max(x_max), max(y_max)))

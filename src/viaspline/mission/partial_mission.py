@@ -22,7 +22,7 @@ from viaspline.mission.parts import (
     ViaPoint,
     WorldSpec,
 )
-from viaspline.mission.resolve_files import Unfolded
+from viaspline.mission.resolve_files import ResolvedFiles
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.schema_errors import parts
 from viaspline.mission.unplaced_faults import Path, children, spell
@@ -31,7 +31,7 @@ Corners: TypeAlias = tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True)
-class Draft:
+class PartialMission:
     """What could be read of a mission.
 
     Attributes:
@@ -70,7 +70,7 @@ class Draft:
         return bool(self.closed and self.corridor is not None and self.corridor.line is not None)
 
     @classmethod
-    def of(cls, mission: MissionParts, unfolded: Unfolded) -> Draft:
+    def of(cls, mission: MissionParts, unfolded: ResolvedFiles) -> PartialMission:
         """A whole mission as a draft; obstacles of maps have the path of their map."""
         world, route = mission.world, mission.route
         points: list[tuple[Path, ViaPoint | None]] = [(("route", "start"), route.start)]
@@ -93,7 +93,7 @@ class Draft:
         )
 
     @classmethod
-    def salvage(cls, unfolded: Unfolded) -> Draft:
+    def salvage(cls, unfolded: ResolvedFiles) -> PartialMission:
         """What is sound in data that is not."""
         top = children(unfolded.data) or {}
         world = children(top.get("world")) or {}
@@ -168,7 +168,7 @@ def _sound(adapter: TypeAdapter[Any], world: Any, key: str) -> Iterator[tuple[in
     return ((i, value) for i, value in tried if value is not None)
 
 
-def _placed(items: Iterable[tuple[int, Any]], key: str, unfolded: Unfolded) -> list[Any]:
+def _placed(items: Iterable[tuple[int, Any]], key: str, unfolded: ResolvedFiles) -> list[Any]:
     """Items of a list under ``world``, each with its path in the mission as it was given."""
     return [(unfolded.original(("world", key, i)), value) for i, value in items]
 

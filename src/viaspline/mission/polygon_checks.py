@@ -8,9 +8,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from viaspline.mission.partial_mission import Corners, Draft
+from viaspline.mission.partial_mission import Corners, PartialMission
 from viaspline.mission.parts import Obstacle
-from viaspline.mission.unplaced_faults import Flaw, Path, number
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
 Geometries: TypeAlias = np.ndarray[Any, np.dtype[np.object_]]
 
@@ -64,7 +64,7 @@ def _rings(rings: Sequence[Corners]) -> Geometries:
     return np.asarray(shapely.linearrings(corners, indices=owners), dtype=object)
 
 
-def shape_flaws(draft: Draft) -> list[Flaw]:
+def shape_flaws(draft: PartialMission) -> list[UnplacedFault]:
     """Obstacles without a shape or with two, polygons that cross themselves or have no area."""
     obstacles = draft.known + draft.unseen
     flaws = [flaw for path, obstacle in obstacles for flaw in _one_shape(path, obstacle)]
@@ -77,13 +77,13 @@ def shape_flaws(draft: Draft) -> list[Flaw]:
     return flaws + polygon_flaws(paths, shapes)
 
 
-def _one_shape(path: Path, obstacle: Obstacle) -> list[Flaw]:
+def _one_shape(path: Path, obstacle: Obstacle) -> list[UnplacedFault]:
     flaws = []
     shapes = {"circle": obstacle.circle, "polygon": obstacle.polygon, "grid": obstacle.grid}
     given = [name for name, shape in shapes.items() if shape is not None]
     if not given:
         flaws.append(
-            Flaw(
+            UnplacedFault(
                 path,
                 "the obstacle has no shape",
                 "give circle: {center: [x, y], radius: 5}, polygon: [[x, y], [x, y], [x, y]] or "
@@ -92,16 +92,16 @@ def _one_shape(path: Path, obstacle: Obstacle) -> list[Flaw]:
         )
     if len(given) > 1:
         problem = f"the obstacle has two shapes, a {given[0]} and a {given[1]}"
-        flaws.append(Flaw(path, problem, "keep one, or make it two obstacles"))
+        flaws.append(UnplacedFault(path, problem, "keep one, or make it two obstacles"))
     if obstacle.holes and obstacle.polygon is None:
         problem = "there are holes, but no polygon that has them"
-        flaws.append(Flaw((*path, "holes"), problem, "give polygon, or leave out holes"))
+        flaws.append(UnplacedFault((*path, "holes"), problem, "give polygon, or leave out holes"))
     return flaws
 
 
 def polygon_flaws(
     paths: Sequence[Path], shapes: Sequence[tuple[Corners, Sequence[Corners]]]
-) -> list[Flaw]:
+) -> list[UnplacedFault]:
     """Polygons that cross themselves or have no area, each at its path."""
     if not shapes:
         return []
@@ -115,13 +115,15 @@ def polygon_flaws(
         hull = shapely.convex_hull(polygons[i])
         if hull.area <= 1e-12 * hull.length**2:
             problem = "the polygon has no area: its corners lie on one line"
-            flaws.append(Flaw(paths[i], problem, "move a corner off the line, or leave it out"))
+            flaws.append(
+                UnplacedFault(paths[i], problem, "move a corner off the line, or leave it out")
+            )
         else:
             flaws.append(_crossing(paths[i], shapely.is_valid_reason(polygons[i])))
     return flaws
 
 
-def _crossing(path: Path, reason: str) -> Flaw:
+def _crossing(path: Path, reason: str) -> UnplacedFault:
     found = _REASON.match(reason)
     what = found["what"].strip() if found else reason
     place = ""
@@ -129,4 +131,4 @@ def _crossing(path: Path, reason: str) -> Flaw:
         place = f" at ({number(float(found['x']))}, {number(float(found['y']))})"
     words = _WORDS.get(what, "is not a polygon: " + what.lower())
     remedy = "list the corners in order along the outline, each once"
-    return Flaw(path, f"the polygon {words}{place}", remedy)
+    return UnplacedFault(path, f"the polygon {words}{place}", remedy)

@@ -19,11 +19,11 @@ from viaspline.maps.kinds import is_of_squares, read_areas, read_grid
 from viaspline.mission.map_edge import edge_of
 from viaspline.mission.parts import MapSpec, Obstacle
 from viaspline.mission.schema_errors import structural_flaws
-from viaspline.mission.unplaced_faults import Flaw, Path, children
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, children
 
 
 @dataclass(frozen=True)
-class Unfolded:
+class ResolvedFiles:
     """A mission's data without maps.
 
     Attributes:
@@ -35,7 +35,7 @@ class Unfolded:
     """
 
     data: Any
-    flaws: tuple[Flaw, ...] = ()
+    flaws: tuple[UnplacedFault, ...] = ()
     places: Mapping[str, Sequence[int]] = field(default_factory=dict)
     edge: frozenset[Path] = frozenset()
 
@@ -50,7 +50,7 @@ class Unfolded:
         return (*path[:2], places[i], *path[3:])
 
 
-def unfold_maps(data: Any, folder: FilePath) -> Unfolded:
+def unfold_maps(data: Any, folder: FilePath) -> ResolvedFiles:
     """Read the maps of a mission.
 
     Args:
@@ -64,9 +64,9 @@ def unfold_maps(data: Any, folder: FilePath) -> Unfolded:
     world = children(top.get("world")) or {}
     lists = {key: world[key] for key in ("known", "unseen") if _is_list(world.get(key))}
     if not any(_is_map(item) or _grid_of(item) for items in lists.values() for item in items):
-        return Unfolded(data)
+        return ResolvedFiles(data)
     taken = {_name_of(item) for items in lists.values() for item in items}
-    flaws: list[Flaw] = []
+    flaws: list[UnplacedFault] = []
     places: dict[str, list[int]] = {}
     unfolded = dict(world)
     for key, items in lists.items():
@@ -77,7 +77,7 @@ def unfold_maps(data: Any, folder: FilePath) -> Unfolded:
             unfolded[key] += obstacles
             flaws += faulty
     edge = frozenset[Path]() if flaws else _bring_edge(unfolded)
-    return Unfolded({**top, "world": unfolded}, tuple(flaws), places, edge)
+    return ResolvedFiles({**top, "world": unfolded}, tuple(flaws), places, edge)
 
 
 def _is_list(value: Any) -> bool:
@@ -100,7 +100,7 @@ def _name_of(item: Any) -> Any:
 
 def _of_item(
     item: Any, path: Path, folder: FilePath, taken: set[Any]
-) -> tuple[Sequence[Any], Sequence[Flaw]]:
+) -> tuple[Sequence[Any], Sequence[UnplacedFault]]:
     """The obstacles of an item that may be a map, or what is wrong with it."""
     if not _is_map(item):
         return [item], ()
@@ -112,13 +112,15 @@ def _of_item(
         return (), [_flaw(path, fault) for fault in error.faults]
 
 
-def _flaw(path: Path, fault: Fault) -> Flaw:
+def _flaw(path: Path, fault: Fault) -> UnplacedFault:
     """A fault of a map as a flaw of the key that asks for it."""
     if fault.line is None and fault.key in ("unknown", "resolution_m"):
-        return Flaw((*path, fault.key), fault.problem, fault.remedy, at_key=True)
+        return UnplacedFault((*path, fault.key), fault.problem, fault.remedy, at_key=True)
     place = fault.source if fault.line is None else f"{fault.source}:{fault.line}:{fault.column}"
     key = f"{fault.key}: " if fault.key else ""
-    return Flaw((*path, "map"), f"{place}: {key}{fault.problem}", fault.remedy, at_key=True)
+    return UnplacedFault(
+        (*path, "map"), f"{place}: {key}{fault.problem}", fault.remedy, at_key=True
+    )
 
 
 def obstacles_of(spec: MapSpec, folder: FilePath, taken: set[Any]) -> list[Obstacle]:

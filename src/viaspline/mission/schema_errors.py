@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from viaspline.mission.key_words import expectation, field_of, suggestion
 from viaspline.mission.parts import MapSpec, Obstacle
-from viaspline.mission.unplaced_faults import Flaw, Path, describe, number
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, describe, number
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
@@ -22,7 +22,7 @@ _LIMITS = {
 }
 
 
-def structural_flaws(error: ValidationError, at: Path = ()) -> list[Flaw]:
+def structural_flaws(error: ValidationError, at: Path = ()) -> list[UnplacedFault]:
     """Every error of pydantic's as a flaw; one for each place and mistake.
 
     Args:
@@ -33,7 +33,7 @@ def structural_flaws(error: ValidationError, at: Path = ()) -> list[Flaw]:
     for detail in details:
         detail["loc"] = (*at, *detail["loc"])
     meant = {key for detail in details if (key := _meant(detail)) is not None}
-    flaws: dict[Path, Flaw] = {}
+    flaws: dict[Path, UnplacedFault] = {}
     short: set[Path] = set()
     for detail in details:
         path = _path(detail["loc"])
@@ -78,41 +78,43 @@ def _meant(detail: ErrorDetails) -> Path | None:
     return None if meant is None else (*parent, meant)
 
 
-def _flaw(detail: ErrorDetails, path: Path) -> Flaw:
+def _flaw(detail: ErrorDetails, path: Path) -> UnplacedFault:
     kind, found = detail["type"], detail["input"]
     if kind == "extra_forbidden" or path[-1:] == ("grid",):
         return _unknown_key(path)
     if kind == "invalid_key":
         key = path[-1] if path else ""
         problem = f"the key {describe(key)} is not a text"
-        return Flaw((*path[:-1], str(key)), problem, "keys are words such as route", at_key=True)
+        return UnplacedFault(
+            (*path[:-1], str(key)), problem, "keys are words such as route", at_key=True
+        )
     if kind == "missing":
         return _missing(path, found)
     if kind in ("none_of", "two_of"):
         return _one_of(path, kind, detail["ctx"]["keys"])
     if kind == "finite_number":
         problem = f"{describe(found)} is not a place or a size"
-        return Flaw(path, problem, f"it should be {expectation(path)}")
+        return UnplacedFault(path, problem, f"it should be {expectation(path)}")
     if kind in _LIMITS:
         name, words = _LIMITS[kind]
         limit = number(float(detail["ctx"][name]))
         problem = f"{describe(found)} is out of range"
         if kind.startswith("greater") and found < 0:
             problem = f"{describe(found)} is negative"
-        return Flaw(path, problem, f"it should be a number {words} {limit}")
+        return UnplacedFault(path, problem, f"it should be a number {words} {limit}")
     if kind in ("too_short", "too_long"):
         return _wrong_length(path, found)
-    return Flaw(path, f"found {describe(found)}", _remedy(path, found))
+    return UnplacedFault(path, f"found {describe(found)}", _remedy(path, found))
 
 
-def _one_of(path: Path, kind: str, keys: Sequence[str]) -> Flaw:
+def _one_of(path: Path, kind: str, keys: Sequence[str]) -> UnplacedFault:
     """None or several of keys of which one is to be given."""
     both = ", ".join(keys[:-1]) + " and " + keys[-1]
     if kind == "two_of":
         name = field_of(path)
         problem = f"{name} has {both}, which exclude each other"
-        return Flaw((*path, keys[0]), problem, f"keep one of {both}", at_key=True)
-    return Flaw(path, f"has none of {both}", f"it should be {expectation(path)}")
+        return UnplacedFault((*path, keys[0]), problem, f"keep one of {both}", at_key=True)
+    return UnplacedFault(path, f"has none of {both}", f"it should be {expectation(path)}")
 
 
 def _remedy(path: Path, found: Any) -> str:
@@ -127,32 +129,34 @@ def _remedy(path: Path, found: Any) -> str:
     return f"it should be {expected}"
 
 
-def _unknown_key(path: Path) -> Flaw:
+def _unknown_key(path: Path) -> UnplacedFault:
     parent, key = path[:-1], str(path[-1])
     if field_of(parent) in ("known", "unseen"):
         if key in MapSpec.model_fields:
             remedy = "give map, or leave it out"
-            return Flaw(path, "goes with a map only", remedy, at_key=True)
+            return UnplacedFault(path, "goes with a map only", remedy, at_key=True)
         if key in Obstacle.model_fields and key != "grid":
             remedy = "keep one of the two, or make it two obstacles"
-            return Flaw(path, "doesn't go with a map", remedy, at_key=True)
-    return Flaw(path, "unknown key", suggestion(key, parent)[0], at_key=True)
+            return UnplacedFault(path, "doesn't go with a map", remedy, at_key=True)
+    return UnplacedFault(path, "unknown key", suggestion(key, parent)[0], at_key=True)
 
 
-def _missing(path: Path, found: Any) -> Flaw:
+def _missing(path: Path, found: Any) -> UnplacedFault:
     if isinstance(path[-1], int):
         parent = path[:-1]
-        return Flaw(parent, f"found {describe(found)}", f"it should be {expectation(parent)}")
-    return Flaw(path, "is missing", f"give {path[-1]}: {expectation(path)}")
+        return UnplacedFault(
+            parent, f"found {describe(found)}", f"it should be {expectation(parent)}"
+        )
+    return UnplacedFault(path, "is missing", f"give {path[-1]}: {expectation(path)}")
 
 
-def _wrong_length(path: Path, found: Any) -> Flaw:
+def _wrong_length(path: Path, found: Any) -> UnplacedFault:
     if found == "":
-        return Flaw(path, "is empty", f"it should be {expectation(path)}")
+        return UnplacedFault(path, "is empty", f"it should be {expectation(path)}")
     remedy = f"it should be {expectation(path)}"
     if field_of(path) == "center" and isinstance(found, list | tuple) and len(found) == 3:
         remedy += "; obstacles are flat in this version"
-    return Flaw(path, f"found {describe(found)}", remedy)
+    return UnplacedFault(path, f"found {describe(found)}", remedy)
 
 
 def parts(value: Any) -> Iterator[tuple[int, Any]]:

@@ -7,15 +7,15 @@ from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
 
-from viaspline.mission.partial_mission import Draft
+from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.parts import SplineSpec, ViaPoint
-from viaspline.mission.unplaced_faults import Flaw, Path, number, spell
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
 
 SAME_PLACE = 1e-6
 """Points nearer to each other than this are one point [m]."""
 
 
-def semantic_flaws(draft: Draft) -> list[Flaw]:
+def semantic_flaws(draft: PartialMission) -> list[UnplacedFault]:
     """Everything that is wrong with the meaning of a mission."""
     from viaspline.mission.clearances import clearance_flaws
     from viaspline.mission.corridors import corridor_flaws
@@ -41,13 +41,13 @@ def semantic_flaws(draft: Draft) -> list[Flaw]:
     return flaws
 
 
-def _bounds(draft: Draft) -> list[Flaw]:
+def _bounds(draft: PartialMission) -> list[UnplacedFault]:
     if draft.bounds is None:
         return []
     x_min, y_min, x_max, y_max = draft.bounds
     path: Path = ("world", "bounds")
     return [
-        Flaw(
+        UnplacedFault(
             path,
             f"{axis}_min {number(low, 6)} is not less than {axis}_max {number(high, 6)}",
             "bounds are [x_min, y_min, x_max, y_max]",
@@ -57,15 +57,15 @@ def _bounds(draft: Draft) -> list[Flaw]:
     ]
 
 
-def _sides(draft: Draft) -> list[Flaw]:
+def _sides(draft: PartialMission) -> list[UnplacedFault]:
     flaws = [
-        Flaw((*path, key), "a map of squares has no sides", "leave it out", at_key=True)
+        UnplacedFault((*path, key), "a map of squares has no sides", "leave it out", at_key=True)
         for path, obstacle in draft.known + draft.unseen
         for key in ("pass_on", "never_pass_on")
         if obstacle.grid is not None and getattr(obstacle, key) is not None
     ]
     return flaws + [
-        Flaw(
+        UnplacedFault(
             (*path, "never_pass_on"),
             f"contradicts pass_on: {obstacle.pass_on}",
             "give one of pass_on and never_pass_on",
@@ -75,13 +75,13 @@ def _sides(draft: Draft) -> list[Flaw]:
     ]
 
 
-def _names(draft: Draft) -> list[Flaw]:
+def _names(draft: PartialMission) -> list[UnplacedFault]:
     points = [(path, point.name) for path, point in draft.points if point is not None]
     obstacles = [(path, obstacle.name) for path, obstacle in draft.known + draft.unseen]
     return _repeated(points, "point") + _repeated(obstacles, "obstacle")
 
 
-def _repeated(named: list[tuple[Path, str | None]], kind: str) -> list[Flaw]:
+def _repeated(named: list[tuple[Path, str | None]], kind: str) -> list[UnplacedFault]:
     flaws = []
     seen: dict[str, Path] = {}
     taken = Counter(name for _, name in named if name is not None)
@@ -96,19 +96,21 @@ def _repeated(named: list[tuple[Path, str | None]], kind: str) -> list[Flaw]:
         )
         taken[free] += 1
         problem = f"the name '{name}' is taken by {spell(seen[name])}"
-        flaws.append(Flaw((*path, "name"), problem, f"give each {kind} its own, e.g. '{free}'"))
+        flaws.append(
+            UnplacedFault((*path, "name"), problem, f"give each {kind} its own, e.g. '{free}'")
+        )
     return flaws
 
 
-def _sensor(draft: Draft) -> list[Flaw]:
+def _sensor(draft: PartialMission) -> list[UnplacedFault]:
     if not draft.unseen or draft.robot is None or draft.robot.sensor is not None:
         return []
     problem = "there are unseen obstacles, but the robot has no sensor to find them"
     remedy = "give robot.sensor: {range_m: 40}, or put them under world.known"
-    return [Flaw(("world", "unseen"), problem, remedy, at_key=True)]
+    return [UnplacedFault(("world", "unseen"), problem, remedy, at_key=True)]
 
 
-def _footprint(draft: Draft) -> list[Flaw]:
+def _footprint(draft: PartialMission) -> list[UnplacedFault]:
     if draft.robot is None or draft.robot.footprint is None:
         return []
     from viaspline.mission.footprint_check import footprint_flaw
@@ -117,13 +119,13 @@ def _footprint(draft: Draft) -> list[Flaw]:
     return [] if flaw is None else [flaw]
 
 
-def _route(draft: Draft) -> list[Flaw]:
+def _route(draft: PartialMission) -> list[UnplacedFault]:
     flaws = []
     if draft.closed and draft.has_goal:
         ends_at_start = _distance(draft.points[0][1], draft.points[-1][1]) < SAME_PLACE
         what = "which is its start again" if ends_at_start else "but a closed route ends at start"
         flaws.append(
-            Flaw(
+            UnplacedFault(
                 ("route", "goal"),
                 f"a closed route has a goal, {what}",
                 "leave out goal" if ends_at_start else "leave out goal, or set closed: false",
@@ -133,7 +135,7 @@ def _route(draft: Draft) -> list[Flaw]:
     if draft.laps > 1 and draft.closed is False:
         problem = f"an open route can't be driven {draft.laps} times over"
         remedy = "set closed: true, or leave out laps"
-        flaws.append(Flaw(("route", "laps"), problem, remedy, at_key=True))
+        flaws.append(UnplacedFault(("route", "laps"), problem, remedy, at_key=True))
     if (
         draft.has_route
         and len(draft.points) < 2
@@ -141,11 +143,11 @@ def _route(draft: Draft) -> list[Flaw]:
         and draft.points[0][1] is not None
     ):
         problem = "a route needs at least two distinct points; this one has only its start"
-        flaws.append(Flaw(("route",), problem, "give goal: [x, y] or via: [[x, y], ...]"))
+        flaws.append(UnplacedFault(("route",), problem, "give goal: [x, y] or via: [[x, y], ...]"))
     return flaws
 
 
-def _same_places(draft: Draft) -> list[Flaw]:
+def _same_places(draft: PartialMission) -> list[UnplacedFault]:
     flaws = []
     for (before, a), (path, b) in pairwise(draft.points):
         if (gap := _distance(a, b)) < SAME_PLACE:
@@ -154,13 +156,13 @@ def _same_places(draft: Draft) -> list[Flaw]:
         (start, a), (path, b) = draft.points[0], draft.points[-1]
         if (gap := _distance(a, b)) < SAME_PLACE and len(draft.points) > 2:
             problem = f"is the same place as {spell(start)}, to which a closed route returns anyway"
-            flaws.append(Flaw((*path, "at"), problem, "leave it out"))
+            flaws.append(UnplacedFault((*path, "at"), problem, "leave it out"))
     return flaws
 
 
-def _same_place(path: Path, before: Path, gap: float) -> Flaw:
+def _same_place(path: Path, before: Path, gap: float) -> UnplacedFault:
     apart = "exactly" if gap == 0 else f"to within {gap:.1g} m"
-    return Flaw(
+    return UnplacedFault(
         (*path, "at"),
         f"is {apart} the same place as {spell(before)}, just before it: the route needs distinct "
         "points",
@@ -175,7 +177,7 @@ def _distance(a: ViaPoint | None, b: ViaPoint | None) -> float:
     return math.dist(a.at, b.at)
 
 
-def _dimensions(draft: Draft) -> list[Flaw]:
+def _dimensions(draft: PartialMission) -> list[UnplacedFault]:
     sound = [(path, point) for path, point in draft.points if point is not None]
     if not sound:
         return []
@@ -185,7 +187,7 @@ def _dimensions(draft: Draft) -> list[Flaw]:
     usual = 3 if counts[3] > counts[2] else 2
     model = next(path for path, point in sound if len(point.at) == usual)
     return [
-        Flaw(
+        UnplacedFault(
             (*path, "at"),
             f"has {len(point.at)} coordinates, but {spell(model)} has {usual}",
             "give all points of the route 2 coordinates, or all of them 3",
@@ -195,11 +197,11 @@ def _dimensions(draft: Draft) -> list[Flaw]:
     ]
 
 
-def _spline(draft: Draft, spline: SplineSpec) -> list[Flaw]:
+def _spline(draft: PartialMission, spline: SplineSpec) -> list[UnplacedFault]:
     flaws = []
     if spline.tension is not None and spline.slack is not None:
         flaws.append(
-            Flaw(
+            UnplacedFault(
                 ("spline", "slack"),
                 "tension and slack are two names of one thing (slack = (1 - tension) / 2)",
                 "give one of the two",
@@ -212,7 +214,9 @@ def _spline(draft: Draft, spline: SplineSpec) -> list[Flaw]:
     return flaws
 
 
-def _tensions(draft: Draft, key: str, values: float | tuple[float, ...]) -> list[Flaw]:
+def _tensions(
+    draft: PartialMission, key: str, values: float | tuple[float, ...]
+) -> list[UnplacedFault]:
     flaws = []
     path: Path = ("spline", key)
     is_contradictory = draft.closed is None or (draft.closed and draft.has_goal)
@@ -221,13 +225,15 @@ def _tensions(draft: Draft, key: str, values: float | tuple[float, ...]) -> list
         if len(values) != spans and spans > 0:
             problem = f"has {len(values)} values for {spans} {'span' if spans == 1 else 'spans'}"
             remedy = "give one number for all, or one for each span between points of the route"
-            flaws.append(Flaw(path, problem, remedy))
+            flaws.append(UnplacedFault(path, problem, remedy))
     for i, value in enumerate(values if isinstance(values, tuple) else (values,)):
         where = (*path, i) if isinstance(values, tuple) else path
         if key == "tension" and value > 1:
             problem = f"{number(value, 6)} is more than 1, which is already the polyline"
-            flaws.append(Flaw(where, problem, "it should be at most 1; 0 is Catmull-Rom"))
+            flaws.append(UnplacedFault(where, problem, "it should be at most 1; 0 is Catmull-Rom"))
         if key == "slack" and value < 0:
             problem = f"{number(value, 6)} is less than 0, which is already the polyline"
-            flaws.append(Flaw(where, problem, "it should be 0 or more; 0.5 is Catmull-Rom"))
+            flaws.append(
+                UnplacedFault(where, problem, "it should be 0 or more; 0.5 is Catmull-Rom")
+            )
     return flaws

@@ -8,16 +8,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.parts import Route
 
 if TYPE_CHECKING:
     import shapely
 
-Floats = NDArray[np.float64]
 Ring = tuple[tuple[float, float], ...]
-Rows = NDArray[np.int64]
 
 SLIVER = 1e-9  # holes of such an area are rounding [m²]
 FAN = 0.1  # from chord to chord round a corner [rad]
@@ -136,7 +134,7 @@ class Strip:
         after = np.searchsorted(along, along + distance, side="right") - np.arange(along.size)
         return int(min(after.max() + 1, MOST_ROWS))
 
-    def follow(self, places: Floats, rows: Rows, window: int) -> Rows:
+    def follow(self, places: Floats, rows: Ints, window: int) -> Ints:
         """The row that is nearest to each place, not far from the row that was.
 
         Args:
@@ -150,7 +148,7 @@ class Strip:
         gap = ((self.middle[near] - places[:, None, :]) ** 2).sum(axis=2)
         return np.asarray(near[np.arange(len(rows)), gap.argmin(axis=1)])
 
-    def track(self, places: Floats, first: int, window: int) -> Rows:
+    def track(self, places: Floats, first: int, window: int) -> Ints:
         """The row that is nearest to each place of a line, from row ``first`` on, (k,)."""
         rows = np.empty(len(places), np.int64)
         row = np.array([first], np.int64)
@@ -159,7 +157,7 @@ class Strip:
             rows[k] = row[0]
         return rows
 
-    def piece(self, rows: Rows) -> Strip:
+    def piece(self, rows: Ints) -> Strip:
         """The open strip of some of the rows."""
         return Strip(self.middle[rows], self.right[rows], self.left[rows], closed=False)
 

@@ -7,14 +7,14 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from viaspline.mission.fields import FAR
-from viaspline.mission.unplaced_faults import Flaw, Path, children
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, children
 
 COLUMNS = "x, y, right, left"
 AT: Path = ("route", "corridor", "csv")
 MOST_FLAWS = 5  # of one file that are told
 
 
-def unfold_corridor(data: Any, folder: FilePath) -> tuple[Any, list[Flaw]]:
+def unfold_corridor(data: Any, folder: FilePath) -> tuple[Any, list[UnplacedFault]]:
     """Read the corridor's file of a mission.
 
     Args:
@@ -39,7 +39,7 @@ def unfold_corridor(data: Any, folder: FilePath) -> tuple[Any, list[Flaw]]:
     return {**top, "route": {**route, "corridor": unfolded}}, flaws
 
 
-def read_track(path: FilePath) -> tuple[list[list[float]], list[Flaw]]:
+def read_track(path: FilePath) -> tuple[list[list[float]], list[UnplacedFault]]:
     """The rows of a corridor's file, and what is wrong with it.
 
     Rows are numbers separated by commas, semicolons or blanks. Lines that start with ``#`` are
@@ -53,7 +53,7 @@ def read_track(path: FilePath) -> tuple[list[list[float]], list[Flaw]]:
         problem = f"{path}: {(error.strerror or str(error)).lower()}"
         return [], [_flaw(problem, f"give the path of a file with rows {COLUMNS}")]
     rows: list[list[float]] = []
-    flaws: list[Flaw] = []
+    flaws: list[UnplacedFault] = []
     for number, line in enumerate(text.splitlines(), start=1):
         if not line.strip() or line.lstrip().startswith("#"):
             continue
@@ -98,15 +98,15 @@ def _is_number(cell: str) -> bool:
     return True
 
 
-def _flaw(problem: str, remedy: str) -> Flaw:
-    return Flaw(AT, problem, remedy, at_key=True)
+def _flaw(problem: str, remedy: str) -> UnplacedFault:
+    return UnplacedFault(AT, problem, remedy, at_key=True)
 
 
-def given_twice(data: Any) -> list[Flaw]:
+def given_twice(data: Any) -> list[UnplacedFault]:
     """What is wrong with a corridor that has both a line and a file of its own."""
     route = children((children(data) or {}).get("route")) or {}
     corridor = children(route.get("corridor")) or {}
     if corridor.get("line") is None or corridor.get("csv") is None:
         return []
     problem = "corridor has line and csv, which exclude each other"
-    return [Flaw(AT, problem, "keep one of line and csv", at_key=True)]
+    return [UnplacedFault(AT, problem, "keep one of line and csv", at_key=True)]

@@ -19,7 +19,7 @@ class Mark(NamedTuple):
     column: int
 
 
-class Flaw(NamedTuple):
+class UnplacedFault(NamedTuple):
     """Something wrong.
 
     Attributes:
@@ -48,7 +48,7 @@ class Origin(Protocol):
         ...
 
     @property
-    def flaws(self) -> tuple[Flaw, ...]:
+    def flaws(self) -> tuple[UnplacedFault, ...]:
         """What was found wrong before there was data."""
         ...
 
@@ -72,7 +72,7 @@ def spell(path: Path) -> str:
     return text
 
 
-def located(flaws: list[Flaw], data: Any, origin: Origin | None) -> list[Fault]:
+def located(flaws: list[UnplacedFault], data: Any, origin: Origin | None) -> list[Fault]:
     """The flaws as faults, in the order of the file (or of the data, where there is no file)."""
     if origin is None:
         ordered = sorted(flaws, key=lambda flaw: _rank(data, flaw.path))

@@ -8,13 +8,13 @@ from typing import Any, TypeVar, cast
 from pydantic import ModelWrapValidatorHandler, ValidationError
 
 from viaspline.errors import MissionError
-from viaspline.mission.partial_mission import Draft
+from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.parts import MissionParts
 from viaspline.mission.resolve_files import unfold_maps
 from viaspline.mission.schema_errors import structural_flaws
 from viaspline.mission.semantic_checks import semantic_flaws
 from viaspline.mission.track_file import given_twice, unfold_corridor
-from viaspline.mission.unplaced_faults import Flaw, Origin, located
+from viaspline.mission.unplaced_faults import Origin, UnplacedFault, located
 
 Sound = TypeVar("Sound", bound=MissionParts)
 
@@ -43,7 +43,7 @@ def sound_mission(
     if isinstance(data, MissionParts):
         return cast(Sound, data)
     origin = context.origin if isinstance(context, Context) else None
-    flaws: list[Flaw] = list(origin.flaws) if origin is not None else []
+    flaws: list[UnplacedFault] = list(origin.flaws) if origin is not None else []
     folder = Path(origin.source).parent if origin is not None else Path()
     if origin is not None:
         flaws += given_twice(data)
@@ -54,11 +54,11 @@ def sound_mission(
     mission: Sound | None = None
     try:
         mission = _validated(unfolded.data, handler)
-        draft = Draft.of(mission, unfolded)
+        draft = PartialMission.of(mission, unfolded)
     except ValidationError as error:
         found = structural_flaws(error)
         flaws += (flaw._replace(path=unfolded.original(flaw.path)) for flaw in found)
-        draft = Draft.salvage(unfolded)
+        draft = PartialMission.salvage(unfolded)
     flaws += semantic_flaws(draft)
     if flaws or mission is None:
         raise MissionError(located(flaws, data, origin)) from None

@@ -16,7 +16,7 @@ from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from ruamel.yaml.reader import ReaderError
 
 from viaspline.errors import Fault, MissionError
-from viaspline.mission.unplaced_faults import Flaw, Mark, Path, describe
+from viaspline.mission.unplaced_faults import Mark, Path, UnplacedFault, describe
 
 _TAG: Final = "tag:yaml.org,2002:"
 _YAML = "it should be a YAML mapping with the keys world, robot, route and spline"
@@ -35,12 +35,12 @@ class Document:
         self.source = source
         self._root = root
         self._keys: dict[tuple[int, str], Node] = {}
-        self._flaws: list[Flaw] = []
+        self._flaws: list[UnplacedFault] = []
         self._made: dict[int, Any] = {}
         self.data = self._value(root, ())
 
     @property
-    def flaws(self) -> tuple[Flaw, ...]:
+    def flaws(self) -> tuple[UnplacedFault, ...]:
         """What was found wrong before there was data."""
         return tuple(self._flaws)
 
@@ -92,7 +92,9 @@ class Document:
             else:
                 problem = f"duplicate key; it stands in line {_mark(first).line} already"
                 remedy = "keep one of the two"
-                self._flaws.append(Flaw((*path, key), problem, remedy, mark=_mark(key_node)))
+                self._flaws.append(
+                    UnplacedFault((*path, key), problem, remedy, mark=_mark(key_node))
+                )
         return data
 
     def _key(self, node: Node, path: Path) -> str | None:
@@ -103,7 +105,7 @@ class Document:
         remedy = "keys are words such as route"
         if str(node.tag) == _TAG + "merge":
             problem, remedy = "merge keys (<<) aren't supported", "write the keys out"
-        self._flaws.append(Flaw(path, problem, remedy, mark=_mark(node)))
+        self._flaws.append(UnplacedFault(path, problem, remedy, mark=_mark(node)))
         return None
 
     def _scalar(self, node: ScalarNode, path: Path) -> Any:
@@ -139,8 +141,10 @@ def _mark(node: Node) -> Mark:
     return Mark(node.start_mark.line + 1, node.start_mark.column + 1)
 
 
-def _tagged(node: Node, path: Path) -> Flaw:
-    return Flaw(path, f"the tag {node.tag} means nothing here", "leave it out", mark=_mark(node))
+def _tagged(node: Node, path: Path) -> UnplacedFault:
+    return UnplacedFault(
+        path, f"the tag {node.tag} means nothing here", "leave it out", mark=_mark(node)
+    )
 
 
 def read_document(path: str | FilePath) -> Document:

@@ -9,14 +9,14 @@ import numpy as np
 from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.mission.strip import has_line
-from viaspline.planning.alternatives.solution import Detoured
+from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.plan_path import find_path
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.via_sequence import course_of
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.world.world import World
 
 
-def find_drive(mission: Mission, world: World, brief: Brief) -> Detoured:
+def find_drive(mission: Mission, world: World, requirements: Requirements) -> Solution:
     """A proven path for all that a mission asks for.
 
     Raises:
@@ -27,9 +27,9 @@ def find_drive(mission: Mission, world: World, brief: Brief) -> Detoured:
             find_line,  # scipy's splines take their time
         )
 
-        found = find_line(mission, world, brief)
+        found = find_line(mission, world, requirements)
     else:
-        found = find_path(course_of(mission), world, brief)
+        found = find_path(via_sequence_of(mission), world, requirements)
     return replace(found, path=repeated(found.path, mission.route.laps))
 
 
@@ -44,12 +44,12 @@ def repeated(path: Path, laps: int) -> Path:
         laps: How often it is driven.
 
     Example:
-        >>> from viaspline.planning.problem.via_sequence import course_of
+        >>> from viaspline.planning.problem.via_sequence import via_sequence_of
         >>> from viaspline.mission.model import Mission
         >>> mission = Mission.model_validate({
         ...     "route": {"start": [0, 0], "via": [[9, 0], [9, 9]], "closed": True},
         ... })
-        >>> lap = find_path(course_of(mission), World(), Brief.of(mission)).path
+        >>> lap = find_path(via_sequence_of(mission), World(), Requirements.of(mission)).path
         >>> [(via.name, via.index) for via in repeated(lap, 2).vias if via.index]
         [('via 1', 1), ('via 2', 2), ('start', 3), ('via 1', 4), ('via 2', 5), ('start', 6)]
     """

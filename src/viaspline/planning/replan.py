@@ -17,17 +17,23 @@ from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import GUIDE, Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import NoPathError
+from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.fit import CLEAR
 from viaspline.planning.alternatives.record import Account
-from viaspline.planning.alternatives.solution import Detoured
+from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import body_conflicts, proven
 from viaspline.planning.plan_path import lay_course
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
-from viaspline.planning.problem.via_sequence import Course, Leg, RouteVia, direction, span_slack
+from viaspline.planning.problem.via_sequence import (
+    Leg,
+    RouteVia,
+    ViaSequence,
+    direction,
+    span_slack,
+)
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
 NEAR = 1e-6  # via points nearer along the path than this have been passed [m]
 ROOM = 0.4  # of the way to the next via point that a run-out may take
 REACHES = (2.0, 1.0, 0.3)  # lengths of a run-out, in required distances
@@ -48,7 +54,7 @@ class _Stretch:
     tail: PathVia | None
 
 
-def reflex(path: Path, at: float, world: World, brief: Brief) -> Detoured:
+def reflex(path: Path, at: float, world: World, requirements: Requirements) -> Solution:
     """Lead only the blocked spans ahead round what stands in their way.
 
     The stretch from the last via point before them to the first one after them is laid anew,
@@ -59,25 +65,25 @@ def reflex(path: Path, at: float, world: World, brief: Brief) -> Detoured:
         path: What is being driven.
         at: Distance along it from which it may differ [m].
         world: What is known now.
-        brief: What to keep.
+        requirements: What to keep.
 
     Raises:
         NoPathError: When the legs can't be led round so.
     """
     u = float(path.parameter(at))
-    blocked = _blocked_spans(path, u, world, brief)
+    blocked = _blocked_spans(path, u, world, requirements)
     if not blocked.size:
-        certificate = proven(_ahead(path, u), world, brief)
+        certificate = proven(_ahead(path, u), world, requirements)
         return replace(_result(path, at, certificate, None), rejoins_at=at)
-    users = _to_serve(path, world, brief)
+    users = _to_serve(path, world, requirements)
     narrow = _stretch(path.vias, users, u, blocked)
     wide = _stretch(users, users, u, blocked)
     try:
-        return _joined(path, narrow, world, brief)
+        return _joined(path, narrow, world, requirements)
     except NoPathError:
         if wide == narrow:
             raise
-    return _joined(path, wide, world, brief)
+    return _joined(path, wide, world, requirements)
 
 
 def _stretch(
@@ -93,20 +99,33 @@ def _stretch(
 
 
 def planned(
-    path: Path, at: float, world: World, brief: Brief, skip: Collection[int] = frozenset()
-) -> Detoured:
+    path: Path,
+    at: float,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int] = frozenset(),
+) -> Solution:
     """Lay everything ahead anew, leaving out the route's points in ``skip``.
 
     Raises:
         NoPathError: When there is no way.
     """
     u = float(path.parameter(at))
-    return _joined(path, _Stretch(u, _remaining(path, at, world, brief, skip), None), world, brief)
+    return _joined(
+        path,
+        _Stretch(u, _remaining(path, at, world, requirements, skip), None),
+        world,
+        requirements,
+    )
 
 
 def from_rest(
-    path: Path, at: float, world: World, brief: Brief, skip: Collection[int] = frozenset()
-) -> Detoured:
+    path: Path,
+    at: float,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int] = frozenset(),
+) -> Solution:
     """Lay everything ahead anew from a standstill at ``at``.
 
     The robot may turn on the spot, unless it never does: then it goes on as it stands.
@@ -115,53 +134,57 @@ def from_rest(
         NoPathError: When there is no way.
     """
     u = float(path.parameter(at))
-    stretch = _Stretch(u, _remaining(path, at, world, brief, skip), None)
+    stretch = _Stretch(u, _remaining(path, at, world, requirements, skip), None)
     _refuse_the_end(path, stretch)
     start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
-    course = _course(path, start, stretch, brief)
-    if brief.turn_radius is not None and brief.turns_on_spot == "never":
-        course = replace(course, start_tangent=np.asarray(path.tangent(u)))
-    laid, account = lay_course(course, world, brief)
+    sequence = _course(path, start, stretch, requirements)
+    if requirements.turn_radius is not None and requirements.turns_on_spot == "never":
+        sequence = replace(sequence, start_tangent=np.asarray(path.tangent(u)))
+    spline_path, account = lay_course(sequence, world, requirements)
     head = _head(path, u)
-    vias = (*_vias_until(path, u, len(head)), *laid.vias_from(len(head)))
-    new = Path(np.concatenate((head, laid.spans)), vias)
-    certificate = proven(PiecewiseCubic(laid.spans), world, brief)
+    vias = (*_vias_until(path, u, len(head)), *spline_path.vias_from(len(head)))
+    new = Path(np.concatenate((head, spline_path.spans)), vias)
+    certificate = proven(PiecewiseCubic(spline_path.spans), world, requirements)
     return _result(new, at, certificate, account)
 
 
-def _joined(path: Path, stretch: _Stretch, world: World, brief: Brief) -> Detoured:
+def _joined(path: Path, stretch: _Stretch, world: World, requirements: Requirements) -> Solution:
     """The new path with the first run-out, from long to short, that lets it be clear."""
     _refuse_the_end(path, stretch)
     problem: NoPathError | None = None
     for reach in REACHES:
         try:
-            return _join(path, stretch, world, brief, reach * max(brief.required, 0.1))
+            return _join(
+                path, stretch, world, requirements, reach * max(requirements.required, 0.1)
+            )
         except NoPathError as error:
             problem = error
     assert problem is not None  # REACHES is not empty
     raise problem
 
 
-def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: float) -> Detoured:
+def _join(
+    path: Path, stretch: _Stretch, world: World, requirements: Requirements, reach: float
+) -> Solution:
     tail = stretch.tail
     first_room, last_room = _room(path, stretch)
     out = run_out(path, stretch.u, min(reach, first_room))
-    _refuse_blocked(out, world, brief)
+    _refuse_blocked(out, world, requirements)
     back = None
     if tail is not None:
         back = run_out(path, tail.u, min(reach, last_room), sense=-1).reversed()
-        _refuse_blocked(back, world, brief)
+        _refuse_blocked(back, world, requirements)
     start = RouteVia("the robot", out.end, None)
     meet = None if back is None else RouteVia("the old path", back.span[0], None)
-    course = replace(_course(path, start, stretch, brief, meet), start_tangent=out.tangent)
+    sequence = replace(_course(path, start, stretch, requirements, meet), start_tangent=out.tangent)
     if back is not None:
-        course = replace(course, end_tangent=back.tangent)
-    laid, account = lay_course(course, world, brief)
-    spans = laid.spans
+        sequence = replace(sequence, end_tangent=back.tangent)
+    spline_path, account = lay_course(sequence, world, requirements)
+    spans = spline_path.spans
     head = _head(path, stretch.u)
     first = len(head) + 1
     pieces = [head, out.span[None], spans]
-    vias = [*_vias_until(path, stretch.u, len(head)), *laid.vias_from(first)]
+    vias = [*_vias_until(path, stretch.u, len(head)), *spline_path.vias_from(first)]
     ahead = first + len(spans)
     rejoin = None
     if tail is not None and back is not None:
@@ -170,7 +193,7 @@ def _join(path: Path, stretch: _Stretch, world: World, brief: Brief, reach: floa
         vias += [replace(via, u=via.u - tail.u + rejoin) for via in path.vias if via.u >= tail.u]
     new = Path(np.concatenate(pieces), vias)
     leaving = float(new.distance(float(len(head))))
-    certificate = proven(PiecewiseCubic(new.spans[len(head) :]), world, brief)
+    certificate = proven(PiecewiseCubic(new.spans[len(head) :]), world, requirements)
     back_at = None if rejoin is None else float(new.distance(float(rejoin)))
     return _result(new, leaving, certificate, account, back_at)
 
@@ -189,13 +212,13 @@ def _result(
     certificate: Certificate,
     account: Account | None,
     rejoins_at: float | None = None,
-) -> Detoured:
+) -> Solution:
     """A path whose certificate speaks of what lies ahead of ``certificate_from`` [m]."""
     distance = min(certificate.tightest_distance + certificate_from, new.length)
     moved = replace(
         certificate, tightest_distance=distance, tightest_u=float(new.parameter(distance))
     )
-    return Detoured(new, moved, account, certificate_from, rejoins_at)
+    return Solution(new, moved, account, certificate_from, rejoins_at)
 
 
 def _refuse_the_end(path: Path, stretch: _Stretch) -> None:
@@ -204,8 +227,8 @@ def _refuse_the_end(path: Path, stretch: _Stretch) -> None:
         raise NoPathError("nothing is left to go to", where=where, remedy="the route ends here")
 
 
-def _refuse_blocked(piece: RunOut, world: World, brief: Brief) -> None:
-    index = int(body_conflicts(world, piece.span[None], brief)[0])
+def _refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> None:
+    index = int(body_conflicts(world, piece.span[None], requirements)[0])
     if index != CLEAR:
         name = world.name(index)
         raise NoPathError(
@@ -216,10 +239,12 @@ def _refuse_blocked(piece: RunOut, world: World, brief: Brief) -> None:
         )
 
 
-def _blocked_spans(path: Path, u: float, world: World, brief: Brief) -> NDArray[np.intp]:
+def _blocked_spans(
+    path: Path, u: float, world: World, requirements: Requirements
+) -> NDArray[np.intp]:
     """Indices of the path's spans from u on that come too close."""
     first = min(int(u), len(path.spans) - 1)
-    close = body_conflicts(world, _ahead(path, u).spans, brief)
+    close = body_conflicts(world, _ahead(path, u).spans, requirements)
     return first + np.flatnonzero(close != CLEAR)
 
 
@@ -239,13 +264,13 @@ def _vias_until(path: Path, u: float, spans: int) -> Sequence[PathVia]:
     return [via for via in path.vias if via.u <= min(u + NEAR, spans)]
 
 
-def _to_serve(path: Path, world: World, brief: Brief) -> list[PathVia]:
+def _to_serve(path: Path, world: World, requirements: Requirements) -> list[PathVia]:
     """The user's via points, and a corridor's guides where there is room: no way leaves them out.
 
     Without them the way to the next via point might go round the other way.
     """
     places = [via.at[:2] for via in path.vias]
-    free = world.distance(places) > brief.required + NEAR
+    free = world.distance(places) > requirements.required + NEAR
     return [
         via
         for via, is_free in zip(path.vias, free.tolist(), strict=True)
@@ -254,9 +279,9 @@ def _to_serve(path: Path, world: World, brief: Brief) -> list[PathVia]:
 
 
 def _remaining(
-    path: Path, at: float, world: World, brief: Brief, skip: Collection[int]
+    path: Path, at: float, world: World, requirements: Requirements, skip: Collection[int]
 ) -> tuple[PathVia, ...]:
-    serve = _to_serve(path, world, brief)
+    serve = _to_serve(path, world, requirements)
     u = float(path.parameter(min(at + NEAR, path.length)))
     remaining = tuple(via for via in serve if via.u > u and via.index not in skip)
     if not any(via.kind == "user" for via in remaining):
@@ -269,8 +294,12 @@ def _remaining(
 
 
 def _course(
-    path: Path, start: RouteVia, stretch: _Stretch, brief: Brief, meet: RouteVia | None = None
-) -> Course:
+    path: Path,
+    start: RouteVia,
+    stretch: _Stretch,
+    requirements: Requirements,
+    meet: RouteVia | None = None,
+) -> ViaSequence:
     """A course without detours through the via points of a stretch, to ``meet`` if it is given."""
     targets = [RouteVia(v.name, np.array(v.at), v.index, v.dwell) for v in stretch.ahead]
     legs = [via.index or 1 for via in stretch.ahead]
@@ -278,18 +307,24 @@ def _course(
         tail = stretch.tail.u
         targets.append(meet)
         legs.append(next(v.index or 1 for v in path.vias if v.index is not None and v.u >= tail))
-    slack = _slack_by_leg(path, brief)
-    return Course(
+    slack = _slack_by_leg(path, requirements)
+    return ViaSequence(
         vias=(start, *targets),
         legs=tuple(Leg.straight(slack[leg - 1], len(start.at)) for leg in legs),
-        spline=brief.spline,
-        tangents=brief.tangents,
-        end_tangent=direction(brief.goal_heading_deg, len(start.at)) if meet is None else None,
+        spline=requirements.spline,
+        tangents=requirements.tangents,
+        end_tangent=direction(requirements.goal_heading_deg, len(start.at))
+        if meet is None
+        else None,
     )
 
 
-def _slack_by_leg(path: Path, brief: Brief) -> tuple[float, ...]:
+def _slack_by_leg(path: Path, requirements: Requirements) -> tuple[float, ...]:
     count = max(via.index for via in path.vias if via.index is not None)
-    given = brief.spline.slack if brief.spline.slack is not None else brief.spline.tension
+    given = (
+        requirements.spline.slack
+        if requirements.spline.slack is not None
+        else requirements.spline.tension
+    )
     lap = len(given) if isinstance(given, tuple) else count  # laps share what each span has
-    return span_slack(brief.spline, lap) * (count // lap)
+    return span_slack(requirements.spline, lap) * (count // lap)

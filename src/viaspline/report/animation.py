@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 from matplotlib.text import Text
 
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.report import style
 from viaspline.report.column import Column
 from viaspline.report.drawing import any_name, polyline
@@ -58,7 +58,7 @@ class _Stage:
         mission = run.plan.mission
         scene = Scene.of(
             run.plan.world,
-            Brief.of(mission, run.plan.tracking_error).required,
+            Requirements.of(mission, run.plan.tracking_error).required,
             mission.world.unseen,
         )
         planned = polyline(run.plan.path.spans)

@@ -8,11 +8,11 @@ from matplotlib.lines import Line2D
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.report import style
 from viaspline.report.bodies import draw_body
 from viaspline.report.column import Column
-from viaspline.report.drawing import Floats
 from viaspline.report.marks import draw_echoes, draw_path
 from viaspline.report.scene import Scene
 from viaspline.report.units import down

@@ -15,10 +15,9 @@ from matplotlib.figure import Figure
 from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import Obstacle
 from viaspline.report.style import DPI, MUTED, SMALL, TEXT
-
-Floats = NDArray[np.float64]
 
 
 def new_figure(width: float, height: float, dpi: int = DPI) -> Figure:

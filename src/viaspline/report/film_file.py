@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 from viaspline.errors import OutputError
-from viaspline.report.result_files import Folder
+from viaspline.report.result_files import ResultFolder
 
 KINDS = (".gif", ".mp4")
 
@@ -31,4 +31,4 @@ class FilmFile:
             raise OutputError(
                 path, "an .mp4 needs the program ffmpeg; install it, or write a .gif instead"
             )
-        self.folder = Folder(path.parent, (path.name,))
+        self.folder = ResultFolder(path.parent, (path.name,))

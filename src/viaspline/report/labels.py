@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
-from viaspline.report.drawing import Floats
+from viaspline.kernels.arrays import Floats
 from viaspline.report.style import INK, SMALL
 
 _ANGLES = np.radians([35, -35, 145, -145, 0, 180, 90, -90])

@@ -15,9 +15,9 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from viaspline.kernels.arrays import Bytes, Floats
 from viaspline.maps.grid import Grid
 from viaspline.report import style
-from viaspline.report.drawing import Floats
 from viaspline.report.sheet import Box
 
 FREE, UNKNOWN, BLOCKED = 0, 1, 2
@@ -25,8 +25,6 @@ FINER = 2  # dots to a pixel, each way
 MOST = 2400  # dots aside
 UNKNOWN_LABEL = "unknown, kept clear of"
 STRIPES = 12  # from one stripe of unknown ground to the next [dots]
-
-Codes = NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
@@ -38,7 +36,7 @@ class Tone:
 
 
 @dataclass(frozen=True)
-class Ground:
+class MapGround:
     """An occupancy grid, ready to be drawn.
 
     Attributes:
@@ -98,7 +96,7 @@ def dots_of(axes: Axes) -> tuple[int, int]:
     return max(round(up * few), 1), max(round(across * few), 1)
 
 
-def codes_in(grid: Grid, view: Box, dots: tuple[int, int]) -> Codes:
+def codes_in(grid: Grid, view: Box, dots: tuple[int, int]) -> Bytes:
     """What is at the middles of equally many dots of a view.
 
     Where a dot covers several squares it shows the worst of them: blocked, then unknown.
@@ -147,7 +145,7 @@ def _index(cells: Floats, first: int, size: int) -> NDArray[np.int32]:
     return np.floor((cells - first) / size).astype(np.int32)
 
 
-def _coarser(grid: Grid, rows: slice, columns: slice, size: int) -> Codes:
+def _coarser(grid: Grid, rows: slice, columns: slice, size: int) -> Bytes:
     """A window of a grid in larger squares, each the worst of those that it is made of."""
     blocked = grid.blocked[rows, columns]
     height, width = blocked.shape
@@ -159,11 +157,11 @@ def _coarser(grid: Grid, rows: slice, columns: slice, size: int) -> Codes:
     if size == 1:
         return codes
     tall = codes.reshape(-1, size, codes.shape[1]).max(axis=1)
-    coarse: Codes = tall.reshape(len(tall), -1, size).max(axis=2)
+    coarse: Bytes = tall.reshape(len(tall), -1, size).max(axis=2)
     return coarse
 
 
-def _painted(codes: Codes, tone: Tone) -> NDArray[np.float32]:
+def _painted(codes: Bytes, tone: Tone) -> NDArray[np.float32]:
     """The colours of the dots; free ones are transparent."""
     blocked = codes == BLOCKED
     inner = ndimage.binary_erosion(blocked, np.ones((3, 3), bool), FINER, border_value=1)

@@ -13,9 +13,9 @@ from matplotlib.patheffects import Normal, Stroke
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import GUIDE, PathVia
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.report import style
-from viaspline.report.drawing import Floats
 from viaspline.report.labels import Labels
 from viaspline.report.units import down
 

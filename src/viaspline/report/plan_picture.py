@@ -7,14 +7,15 @@ from matplotlib.artist import Artist
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.report import strips, style
 from viaspline.report.bodies import draw_swept, draw_zones
 from viaspline.report.close_up import close_up
 from viaspline.report.column import Column
-from viaspline.report.drawing import Floats, any_name, png, polyline
+from viaspline.report.drawing import any_name, png, polyline
 from viaspline.report.labels import Labels
 from viaspline.report.marks import draw_arrows, draw_path, draw_tightest, draw_vias
 from viaspline.report.scene import Scene
@@ -33,14 +34,16 @@ def plan_picture(plan: Plan, name: str) -> bytes:
         plan: What was planned.
         name: The mission's name.
     """
-    required = Brief.of(plan.mission, plan.tracking_error).required
+    required = Requirements.of(plan.mission, plan.tracking_error).required
     scene = Scene.of(plan.world, required)
     points = polyline(plan.path.spans)
     losers = losing(plan)
     seen = np.vstack([points, *losers])
     view = view_of(seen, scene.corners, scene.box, required)
-    law = plan.trajectory
-    title = f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in {seconds(law.duration)}"
+    trajectory = plan.trajectory
+    title = (
+        f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in {seconds(trajectory.duration)}"
+    )
     lines = (proof(plan.certificate, plan.tracking_error), subtitle(plan.mission))
     sheet = new_sheet(view, strips.names(plan.path.spans[:, 0]), title, lines)
     labels = Labels(sheet.map)
@@ -143,13 +146,15 @@ def _far_from(spans: Floats, others: Floats) -> tuple[float, float]:
 
 
 def _fill_strips(sheet: Sheet, plan: Plan) -> None:
-    path, law = plan.path, plan.trajectory
+    path, trajectory = plan.path, plan.trajectory
     joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
     even = np.linspace(0, path.length, 1500)
-    near = np.concatenate([law.distances, joints, np.maximum(joints - 1e-7 * path.length, 0)])
+    near = np.concatenate(
+        [trajectory.distances, joints, np.maximum(joints - 1e-7 * path.length, 0)]
+    )
     distances = np.unique(np.concatenate([even, near[:20_000]]))
     u = np.asarray(path.parameter(distances))
-    values = [np.asarray(law.speed_at(distances)), np.asarray(path.curvature(u))]
+    values = [np.asarray(trajectory.speed_at(distances)), np.asarray(path.curvature(u))]
     if len(sheet.strips) == 3:
         values.append(np.asarray(path.evaluate(u))[:, 2])
     strips.fill(sheet.strips, distances, values, via_ticks(path, plan.mission), style.PATH)

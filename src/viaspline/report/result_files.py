@@ -39,7 +39,7 @@ def write(path: Path, content: bytes | str) -> None:
         temporary.write_bytes(data)
 
 
-class Folder:
+class ResultFolder:
     """A folder for results that was tried before the work began.
 
     Args:

@@ -8,7 +8,7 @@ from pathlib import Path
 from viaspline.planner import Plan
 from viaspline.report.plan_json import plan_json
 from viaspline.report.plan_picture import plan_picture
-from viaspline.report.result_files import Folder
+from viaspline.report.result_files import ResultFolder
 from viaspline.report.run_json import run_json, timing_json
 from viaspline.report.run_picture import run_picture
 from viaspline.report.tables import path_csv, run_csv, spacing
@@ -38,7 +38,7 @@ def run_contents(run: Run, name: str, *, seed: int = 0) -> Contents:
 
 
 def write_all(
-    folder: Folder, contents: Contents, stages: Mapping[str, float], run: Run | None = None
+    folder: ResultFolder, contents: Contents, stages: Mapping[str, float], run: Run | None = None
 ) -> list[Path]:
     """Write every file when all are there, so that old and new ones are not mixed.
 

@@ -9,12 +9,13 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import Colormap, ListedColormap, Normalize
 
 from viaspline.curve.path import PathVia
-from viaspline.planning.problem.requirements import Brief
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.report import strips, style
 from viaspline.report.bodies import draw_swept, draw_zones
 from viaspline.report.close_up import ROOM, close_up
 from viaspline.report.column import Column
-from viaspline.report.drawing import Floats, any_name, png, polyline
+from viaspline.report.drawing import any_name, png, polyline
 from viaspline.report.labels import Labels
 from viaspline.report.marks import draw_arrows, draw_echoes, draw_tightest, draw_vias
 from viaspline.report.plan_picture import proof, subtitle, via_ticks
@@ -39,7 +40,7 @@ def run_picture(run: Run, name: str) -> bytes:
         name: The mission's name.
     """
     mission = run.plan.mission
-    required = Brief.of(mission, run.plan.tracking_error).required
+    required = Requirements.of(mission, run.plan.tracking_error).required
     scene = Scene.of(run.plan.world, required, mission.world.unseen)
     planned = polyline(run.plan.path.spans)
     driven = run.positions[:, :2]

@@ -16,15 +16,16 @@ from matplotlib.patches import PathPatch, Rectangle
 from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
+from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.mission.map_edge import edge_of
 from viaspline.mission.parts import Obstacle
 from viaspline.report import style
-from viaspline.report.drawing import Floats, outline, shape_of, shapes_of
+from viaspline.report.drawing import outline, shape_of, shapes_of
 from viaspline.report.labels import Labels
 from viaspline.report.map_ground import (
     UNKNOWN_LABEL,
-    Ground,
+    MapGround,
     Tone,
     nearest_point,
     too_near,
@@ -53,8 +54,8 @@ class Scene:
 
     known: NDArray[np.object_]
     unseen: NDArray[np.object_]
-    grids: tuple[Ground, ...]
-    unseen_grids: tuple[Ground, ...]
+    grids: tuple[MapGround, ...]
+    unseen_grids: tuple[MapGround, ...]
     names: tuple[str | None, ...]
     free: BaseGeometry | None
     required: float
@@ -135,7 +136,7 @@ class Scene:
         return artists
 
     def _ring(
-        self, shapes: NDArray[np.object_], grids: Sequence[Ground], view: Box, scale: float
+        self, shapes: NDArray[np.object_], grids: Sequence[MapGround], view: Box, scale: float
     ) -> BaseGeometry:
         """Where the path may not be, as far as its edge can be seen."""
         if self.required <= 0:
@@ -208,14 +209,14 @@ def _frame_of(world: World) -> str:
     return "fence" if world.bounds is None else "bounds and fences"
 
 
-def _grounds(obstacles: Sequence[Obstacle]) -> tuple[Ground, ...]:
+def _grounds(obstacles: Sequence[Obstacle]) -> tuple[MapGround, ...]:
     """The grids on the map: one is just what is blocked, several have their names and colours."""
     grids = [obstacle for obstacle in obstacles if obstacle.grid is not None]
     if len(grids) == 1:
-        return tuple(Ground(o.grid, o.name or "blocked on the map") for o in grids if o.grid)
+        return tuple(MapGround(o.grid, o.name or "blocked on the map") for o in grids if o.grid)
     tones = [Tone(*colours) for colours in style.OBSTACLES]
     return tuple(
-        Ground(o.grid, style.short(o.name or _file_of(o.grid)), tones[i % len(tones)])
+        MapGround(o.grid, style.short(o.name or _file_of(o.grid)), tones[i % len(tones)])
         for i, o in enumerate(grids)
         if o.grid is not None
     )
@@ -225,10 +226,10 @@ def _file_of(grid: Grid) -> str:
     return "occupancy grid" if grid.source is None else PurePath(grid.source).name
 
 
-def _hidden(obstacles: Sequence[Obstacle]) -> tuple[Ground, ...]:
+def _hidden(obstacles: Sequence[Obstacle]) -> tuple[MapGround, ...]:
     tone = Tone(style.UNSEEN_FILL, style.UNSEEN)
     label = "blocked, but not on the map"
-    return tuple(Ground(o.grid, label, tone) for o in obstacles if o.grid is not None)
+    return tuple(MapGround(o.grid, label, tone) for o in obstacles if o.grid is not None)
 
 
 def _centred(shape: BaseGeometry) -> bool:
@@ -257,7 +258,7 @@ def _draw_outside(axes: Axes, view: Box, free: BaseGeometry, name: str) -> list[
     return [edge]
 
 
-def _draw_grids(axes: Axes, grids: Sequence[Ground]) -> list[Artist]:
+def _draw_grids(axes: Axes, grids: Sequence[MapGround]) -> list[Artist]:
     """The first on top; each kind has one entry in the legend."""
     handles: dict[str, Artist] = {}
     for i, ground in enumerate(grids):

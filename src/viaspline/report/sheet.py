@@ -11,7 +11,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from viaspline.report.drawing import Floats, new_figure, tidy
+from viaspline.kernels.arrays import Floats
+from viaspline.report.drawing import new_figure, tidy
 from viaspline.report.style import DPI, INK, MUTED, SMALL, TEXT, TITLE
 from viaspline.report.units import nice
 

@@ -10,11 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch, PathPatch, Polygon, Rectangle
 
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import Obstacle
 from viaspline.mission.robot_parts import Lidar
 from viaspline.report import style
-from viaspline.report.drawing import Floats, outline, shape_of
-from viaspline.report.map_ground import Ground, Tone
+from viaspline.report.drawing import outline, shape_of
+from viaspline.report.map_ground import MapGround, Tone
 from viaspline.report.sheet import Sheet
 from viaspline.robot.perception.belief import ON_MAP
 from viaspline.robot.perception.lidar import LidarSensor
@@ -76,7 +77,7 @@ class _Range(Sight):
 def _found(axes: Axes, obstacle: Obstacle) -> Artist:
     """An obstacle that can be shown when it is found."""
     if obstacle.grid is not None:
-        Ground(obstacle.grid, "", Tone(style.UNSEEN_FILL, style.UNSEEN)).draw(axes, zorder=5)
+        MapGround(obstacle.grid, "", Tone(style.UNSEEN_FILL, style.UNSEEN)).draw(axes, zorder=5)
         return axes.images[-1]
     return axes.add_artist(_in_colours(PathPatch(outline(shape_of(obstacle)), zorder=5)))
 

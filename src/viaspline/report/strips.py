@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from viaspline.report.drawing import Floats
+from viaspline.kernels.arrays import Floats
 from viaspline.report.style import INK, MUTED, OBSTACLE, SMALL, TEXT, TIGHTEST
 
 Ticks = Sequence[tuple[float, str]]  # distance [m] and the number of a via point

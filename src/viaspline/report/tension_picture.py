@@ -6,8 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from viaspline.advice import TensionAdvice
+from viaspline.kernels.arrays import Floats
 from viaspline.report import style
-from viaspline.report.drawing import Floats, any_name, new_figure, png, tidy
+from viaspline.report.drawing import any_name, new_figure, png, tidy
 
 MOST_NAMED = 10  # spans in the legend
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8c6d31", "#6f7985")

@@ -8,8 +8,8 @@ import numpy as np
 
 from viaspline.curve.path import PathVia
 from viaspline.kernels.tracking.control_law import ASIDE
-from viaspline.robot.controller import Pilot
-from viaspline.robot.journey import SLIP, Dwell, Journey, law_on
+from viaspline.robot.controller import Controller
+from viaspline.robot.journey import SAME_PLACE_M, Dwell, NavigationState, trajectory_on
 from viaspline.robot.run import Event, Visit
 from viaspline.robot.state import RobotState
 
@@ -17,15 +17,15 @@ ON_PATH = 1e-6  # nearer than this the measured state is the planned one [m]
 DRIFT = 0.05  # farther than this from where it should be along the path, a new time law [m]
 
 
-def advance(journey: Journey, state: RobotState, time: float) -> Journey:
+def advance(journey: NavigationState, state: RobotState, time: float) -> NavigationState:
     """The journey at a later time, with the robot as measured.
 
     Progress is a distance along the path. It is looked for near the place where the time law has
     the robot, and never goes back, so a path that crosses or repeats itself makes no difference.
     """
-    if journey.pilot is not None:
-        return _piloted(journey, journey.pilot, state, time)
-    should, speed, _ = (float(x) for x in journey.law.state_at(time))
+    if journey.controller is not None:
+        return _piloted(journey, journey.controller, state, time)
+    should, speed, _ = (float(x) for x in journey.trajectory.state_at(time))
     here = np.asarray(journey.path.at_distance(should))
     off = float(np.linalg.norm(np.asarray(state.position) - here))
     if off <= ON_PATH:
@@ -33,42 +33,59 @@ def advance(journey: Journey, state: RobotState, time: float) -> Journey:
             replace(journey, time=time, distance=max(should, journey.distance), off=0.0)
         )
     low = journey.distance
-    high = min(should + max(1.0, 2.0 * off), journey.law.next_rest(max(should, low)))
+    high = min(should + max(1.0, 2.0 * off), journey.trajectory.next_rest(max(should, low)))
     distance, off = project(journey, state.position, low, max(high, low))
     journey = replace(journey, time=time, distance=distance, off=off)
     if abs(distance - should) > DRIFT and journey.giving_up is None:
         journey = happened(journey)
-        speed = min(state.speed, float(journey.law.speed_at(distance)))
-        law = law_on(journey, speed=speed, time=time)
-        return replace(journey, law=law)
+        speed = min(state.speed, float(journey.trajectory.speed_at(distance)))
+        trajectory = trajectory_on(journey, speed=speed, time=time)
+        return replace(journey, trajectory=trajectory)
     return happened(replace(journey, distance=max(should, low)))
 
 
-def _piloted(journey: Journey, pilot: Pilot, state: RobotState, time: float) -> Journey:
+def _piloted(
+    journey: NavigationState, controller: Controller, state: RobotState, time: float
+) -> NavigationState:
     """The journey of a robot with a drive: its law waits for it where it is too far behind."""
-    pilot = pilot.on(journey.path, journey.law).step(state, time)
-    law = journey.law if pilot.late <= 0.0 else journey.law.delayed(pilot.late)
-    now = time + pilot.ahead
-    distance = max(float(law.distance_at(now)), journey.distance)
-    off = abs(float(pilot.note[ASIDE]))
-    return happened(replace(journey, pilot=pilot, law=law, time=now, distance=distance, off=off))
+    controller = controller.on(journey.path, journey.trajectory).step(state, time)
+    trajectory = (
+        journey.trajectory
+        if controller.late <= 0.0
+        else journey.trajectory.delayed(controller.late)
+    )
+    now = time + controller.ahead
+    distance = max(float(trajectory.distance_at(now)), journey.distance)
+    off = abs(float(controller.note[ASIDE]))
+    return happened(
+        replace(
+            journey,
+            controller=controller,
+            trajectory=trajectory,
+            time=now,
+            distance=distance,
+            off=off,
+        )
+    )
 
 
-def commanded(before: Journey, journey: Journey, state: RobotState, time: float) -> Journey:
+def commanded(
+    before: NavigationState, journey: NavigationState, state: RobotState, time: float
+) -> NavigationState:
     """The journey when its pilot has decided, by the path and the law that there are now."""
-    if journey.pilot is None or before.pilot is None:
+    if journey.controller is None or before.controller is None:
         return journey
-    pilot = journey.pilot
-    if journey.path is not pilot.path or journey.law is not pilot.trajectory:
-        waited = pilot.late > 0.0
-        pilot = before.pilot.on(journey.path, journey.law).step(state, time)
-        if pilot.late > 0.0 and not waited:
-            journey = replace(journey, law=journey.law.delayed(pilot.late))
-    return replace(journey, pilot=pilot.gave(time))
+    controller = journey.controller
+    if journey.path is not controller.path or journey.trajectory is not controller.trajectory:
+        waited = controller.late > 0.0
+        controller = before.controller.on(journey.path, journey.trajectory).step(state, time)
+        if controller.late > 0.0 and not waited:
+            journey = replace(journey, trajectory=journey.trajectory.delayed(controller.late))
+    return replace(journey, controller=controller.gave(time))
 
 
 def project(
-    journey: Journey, position: tuple[float, ...], low: float, high: float
+    journey: NavigationState, position: tuple[float, ...], low: float, high: float
 ) -> tuple[float, float]:
     """The nearest place of the path between two distances, and how far it is away [m]."""
     point = np.asarray(position)
@@ -76,23 +93,23 @@ def project(
         places = np.linspace(low, high, 33)
         gaps = np.linalg.norm(np.asarray(journey.path.at_distance(places)) - point, axis=1)
         k = int(gaps.argmin())
-        if high - low <= SLIP:
+        if high - low <= SAME_PLACE_M:
             return float(places[k]), float(gaps[k])
         low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, 32)])
 
 
-def happened(journey: Journey) -> Journey:
+def happened(journey: NavigationState) -> NavigationState:
     """Note every via point that was passed, every stay that is over, and the end of the drive."""
     journey = _stay(journey)
     while journey.ahead and journey.dwell is None:
         via, distance = journey.ahead[0]
-        if journey.distance < distance - SLIP:
+        if journey.distance < distance - SAME_PLACE_M:
             break
         journey = _stay(_pass(journey, via, distance))
     return _end(journey)
 
 
-def _stay(journey: Journey) -> Journey:
+def _stay(journey: NavigationState) -> NavigationState:
     stay = journey.dwell
     if stay is None or journey.time < stay.until:
         return journey
@@ -100,10 +117,10 @@ def _stay(journey: Journey) -> Journey:
     return replace(journey.noted(leaves), dwell=None)
 
 
-def _pass(journey: Journey, via: PathVia, distance: float) -> Journey:
+def _pass(journey: NavigationState, via: PathVia, distance: float) -> NavigationState:
     assert via.index is not None
-    if journey.law.distances[0] <= distance:
-        time = min(float(journey.law.time_at(distance)), journey.time)
+    if journey.trajectory.distances[0] <= distance:
+        time = min(float(journey.trajectory.time_at(distance)), journey.time)
     else:
         time = journey.time
     on_curve = np.asarray(journey.path.evaluate(via.u))
@@ -120,13 +137,13 @@ def _pass(journey: Journey, via: PathVia, distance: float) -> Journey:
     return journey
 
 
-def _end(journey: Journey) -> Journey:
-    end = float(journey.law.distances[-1])
-    over = journey.time >= journey.law.end_time and journey.distance >= end - SLIP
-    waits = journey.giving_up is None and end < journey.path.length - SLIP
+def _end(journey: NavigationState) -> NavigationState:
+    end = float(journey.trajectory.distances[-1])
+    over = journey.time >= journey.trajectory.end_time and journey.distance >= end - SAME_PLACE_M
+    waits = journey.giving_up is None and end < journey.path.length - SAME_PLACE_M
     if journey.finished or journey.dwell is not None or waits or not over:
         return journey
-    time, where = journey.law.end_time, journey.place(end)
+    time, where = journey.trajectory.end_time, journey.place(end)
     if journey.giving_up is not None:
         journey = journey.noted(Event("stopped", time, where, f"stands: {journey.giving_up}"))
     else:
@@ -134,7 +151,7 @@ def _end(journey: Journey) -> Journey:
     return replace(journey, finished=True)
 
 
-def _goal(journey: Journey) -> str:
+def _goal(journey: NavigationState) -> str:
     if journey.mission.route.closed:
         return "its start again"
     return f"'{journey.path.vias[-1].name}'" if journey.path.vias else "its goal"

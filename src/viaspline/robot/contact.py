@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Event
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
 
 DEPTH = 1e-9  # what touches by less doesn't [m]
 

@@ -6,24 +6,22 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking import control_law
 from viaspline.kernels.tracking.drive_model import Machine
 from viaspline.kernels.tracking.drive_motion import STATE, V
-from viaspline.kernels.tracking.reference_path import Rail
-from viaspline.kernels.tracking.reference_timing import Law
-from viaspline.machine.reference import rail_of
-from viaspline.machine.trial_drive import law_of
+from viaspline.kernels.tracking.reference_path import ReferencePath
+from viaspline.kernels.tracking.reference_timing import SpeedProfile
+from viaspline.machine.reference import reference_path_of
+from viaspline.machine.trial_drive import speed_profile_of
 from viaspline.robot.state import RobotState
 from viaspline.trajectory.trajectory import Trajectory
 
-Floats = NDArray[np.float64]
-
 
 @dataclass(frozen=True, eq=False)
-class Pilot:
+class Controller:
     """The controller at one moment; a new one for every step.
 
     It lives ahead of the clock by the delay of the drive: what is decided now happens then.
@@ -32,9 +30,9 @@ class Pilot:
         machine: What it drives.
         period: From one step to the next, as planned [s].
         path: What is followed.
-        rail: The same, as points.
+        reference: The same, as points.
         trajectory: When.
-        law: The same, for kernels.
+        profile: The same, for kernels.
         memory: Of the control kernel, shape (MEMORY,).
         given: The commands of the last steps, as far back as some are still on their way: time,
             speed and turn of each, shape (k, 3).
@@ -44,36 +42,40 @@ class Pilot:
     machine: Machine
     period: float
     path: Path
-    rail: Rail
+    reference: ReferencePath
     trajectory: Trajectory
-    law: Law
+    profile: SpeedProfile
     memory: Floats
     given: Floats
     note: Floats
 
     @classmethod
-    def of(cls, machine: Machine, period: float, path: Path, trajectory: Trajectory) -> Pilot:
+    def of(cls, machine: Machine, period: float, path: Path, trajectory: Trajectory) -> Controller:
         """A pilot that has not given any command yet."""
         memory, note = np.zeros(control_law.MEMORY), np.zeros(control_law.NOTES)
         memory[control_law.THEN] = -math.inf
-        rail, law = rail_of(path), law_of(trajectory)
-        return cls(machine, period, path, rail, trajectory, law, memory, np.empty((0, 3)), note)
+        reference, profile = reference_path_of(path), speed_profile_of(trajectory)
+        return cls(
+            machine, period, path, reference, trajectory, profile, memory, np.empty((0, 3)), note
+        )
 
     @property
     def ahead(self) -> float:
         """So much later than now a command takes effect [s]."""
         return self.machine.delay
 
-    def on(self, path: Path, trajectory: Trajectory) -> Pilot:
+    def on(self, path: Path, trajectory: Trajectory) -> Controller:
         """The same on this path, by this time law."""
-        pilot = self
-        if path is not pilot.path:
-            pilot = replace(pilot, path=path, rail=rail_of(path))
-        if trajectory is not pilot.trajectory:
-            pilot = replace(pilot, trajectory=trajectory, law=law_of(trajectory))
-        return pilot
+        controller = self
+        if path is not controller.path:
+            controller = replace(controller, path=path, reference=reference_path_of(path))
+        if trajectory is not controller.trajectory:
+            controller = replace(
+                controller, trajectory=trajectory, profile=speed_profile_of(trajectory)
+            )
+        return controller
 
-    def step(self, state: RobotState, time: float) -> Pilot:
+    def step(self, state: RobotState, time: float) -> Controller:
         """The pilot after it has decided what to do, by what was measured at a time [s].
 
         Where it is too far behind, ``late`` says for how long its clock has to wait.
@@ -84,7 +86,7 @@ class Pilot:
         period = time - memory[control_law.THEN] if len(self.given) else self.period
         pose[: V + 1] = (*state.position[:2], state.heading, state.speed)
         note = control_law.decide(
-            self.machine, self.rail, self.law, memory, pose, time, max(period, 0.0),
+            self.machine, self.reference, self.profile, memory, pose, time, max(period, 0.0),
             self.given[:, 0].copy(), self.given[:, 1].copy(), self.given[:, 2].copy(),
         )  # fmt: skip
         return replace(self, memory=memory, note=note)
@@ -99,7 +101,7 @@ class Pilot:
         """Speed [m/s] and turn of the last step, as its machine's."""
         return float(self.note[control_law.TO_SPEED]), float(self.note[control_law.TO_TURN])
 
-    def gave(self, time: float) -> Pilot:
+    def gave(self, time: float) -> Controller:
         """The same when its command has been given at a time [s]; its clock has waited."""
         memory = self.memory.copy()
         memory[control_law.LATE] = 0.0

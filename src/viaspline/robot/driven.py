@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.control_law import NOTES
 from viaspline.kernels.tracking.drive_motion import SUBSTEP, move
-from viaspline.machine.drive_noise import Faults
+from viaspline.machine.drive_noise import DriveNoise
 from viaspline.machine.tracking import Tracking
 from viaspline.machine.trial_drive import start_of
 from viaspline.mission.parts import Obstacle
@@ -22,7 +22,6 @@ from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
 Sensed = tuple[Obstacle, ...] | Scan
 Sense = Callable[[tuple[float, float], float, int], Sensed]
 Told = Callable[[float, Navigator], None]
@@ -65,11 +64,13 @@ def drive_machine(
         tell: Told the time and the navigator at every step.
         limit: The drive is broken off at this time [s].
     """
-    pilot = nav.pilot
-    assert pilot is not None
-    machine, faults = pilot.machine, Faults(nav.mission.robot, seed)
+    controller = nav.controller
+    assert controller is not None
+    machine, faults = controller.machine, DriveNoise(nav.mission.robot, seed)
     substeps = max(math.ceil(step / SUBSTEP - 1e-9), 1)
-    state = start_of(pilot.rail.x[0], pilot.rail.y[0], pilot.rail.heading[0])
+    state = start_of(
+        controller.reference.x[0], controller.reference.y[0], controller.reference.heading[0]
+    )
     rows, notes = [np.array([[0.0, *state[:3], 0.0, 0.0]])], []
     contact = touched(nav.mission.robot, world, rows[0])
     overdue, tick = None, 0
@@ -79,9 +80,9 @@ def drive_machine(
         believed = RobotState((float(pose[0]), float(pose[1])), float(pose[2]), float(state[3]))
         place = float(state[0]), float(state[1])
         _, nav = nav.step(believed, sense(place, float(state[2]), tick), time)
-        pilot = nav.pilot
-        assert pilot is not None
-        notes.append(pilot.note)
+        controller = nav.controller
+        assert controller is not None
+        notes.append(controller.note)
         tell(time, nav)
         if _is_over(nav, time, float(state[3])):
             break
@@ -89,8 +90,8 @@ def drive_machine(
             overdue = f"the drive was broken off after {time:.0f} s, its limit"
             break
         moved = move(
-            machine, state, time, step / substeps, pilot.given[:, 0].copy(),
-            pilot.given[:, 1].copy(), pilot.given[:, 2].copy(), faults.driven(substeps),
+            machine, state, time, step / substeps, controller.given[:, 0].copy(),
+            controller.given[:, 1].copy(), controller.given[:, 2].copy(), faults.driven(substeps),
         )  # fmt: skip
         contact = touched(nav.mission.robot, world, np.vstack((rows[-1][-1:], moved)))
         rows.append(moved)
@@ -99,7 +100,7 @@ def drive_machine(
     if contact is not None:
         track = track[track[:, 0] <= contact.time + 1e-9]
     noted = np.array(notes) if notes else np.zeros((1, NOTES))
-    return Driven(nav, track, Tracking.of(pilot.rail, noted, track), contact, overdue)
+    return Driven(nav, track, Tracking.of(controller.reference, noted, track), contact, overdue)
 
 
 def _is_over(nav: Navigator, time: float, speed: float) -> bool:

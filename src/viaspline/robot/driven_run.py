@@ -6,19 +6,17 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
 from viaspline.machine.trace import trace
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.driven import Driven
 from viaspline.robot.outcome import outcome
 from viaspline.robot.run import Run, Visit
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
 
 NEAR = 1.0  # a via point is passed within so much of its place along the path [m]
 CREEPS = 0.1  # a robot that is slower has no curvature to speak of [m/s]

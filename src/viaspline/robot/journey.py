@@ -14,8 +14,8 @@ from viaspline.errors import GeometryError
 from viaspline.machine.turns_on_spot import with_turns
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
-from viaspline.planning.problem.requirements import Brief
-from viaspline.robot.controller import Pilot
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.robot.controller import Controller
 from viaspline.robot.perception.belief import LEAST_ROOM, Belief
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.trajectory.limits import Limits, Station
@@ -23,7 +23,7 @@ from viaspline.trajectory.retime import braking, retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
-SLIP = 1e-6
+SAME_PLACE_M = 1e-6
 """Distances nearer than this are the same place [m]."""
 
 
@@ -52,7 +52,7 @@ class Wait:
 
 
 @dataclass(frozen=True)
-class Close:
+class ReducedClearance:
     """A robot that has come closer to something than it should, and is on its way out.
 
     Attributes:
@@ -65,7 +65,7 @@ class Close:
 
 
 @dataclass(frozen=True)
-class Journey:
+class NavigationState:
     """A robot's way so far and the way it means to go on; a new one for every step.
 
     Attributes:
@@ -77,15 +77,16 @@ class Journey:
         plan_path: The path before the robot set off.
         path: The path; all that was driven is its beginning.
         laid: What was known when the path was laid.
-        law: The time law along it.
+        trajectory: The time law along it.
         turns: Distances along the path where it has a corner to turn on the spot [m].
         time: Of the last step [s]; with a drive, when what is decided in it happens.
         tracking_error: How far beside its path the robot may get [m].
-        pilot: The controller of a robot with a drive; None if it follows exactly.
+        controller: The controller of a robot with a drive; None if it follows exactly.
         belief: What a lidar has shown; None without one.
         close: Where the path keeps less than it should, if it does.
         sighted: Up to this distance along the path the robot has seen where its body will be [m].
-        dared: Up to this distance along the path the robot goes though it sees too little [m].
+        probed_until: Up to this distance along the path the robot goes though it sees too little
+            [m].
         reviewed: When it was last asked whether there is a better path [s].
         wait: Since when and why the robot waits, if it does.
         distance: Progress along the path at that time [m].
@@ -109,14 +110,14 @@ class Journey:
     plan_path: Path
     path: Path
     laid: World
-    law: Trajectory
+    trajectory: Trajectory
     time: float
     tracking_error: float = 0.0
-    pilot: Pilot | None = None
+    controller: Controller | None = None
     belief: Belief | None = None
-    close: Close | None = None
+    close: ReducedClearance | None = None
     sighted: float = 0.0
-    dared: float = 0.0
+    probed_until: float = 0.0
     reviewed: float = -math.inf
     wait: Wait | None = None
     distance: float = 0.0
@@ -133,18 +134,20 @@ class Journey:
     finished: bool = False
 
     @cached_property
-    def brief(self) -> Brief:
+    def requirements(self) -> Requirements:
         """What every path has to keep; with a lidar it is never nothing."""
-        brief = Brief.of(self.mission, self.tracking_error)
+        requirements = Requirements.of(self.mission, self.tracking_error)
         if self.belief is None:
-            return brief
-        return replace(brief, clearance=max(brief.clearance, LEAST_ROOM - brief.radius))
+            return requirements
+        return replace(
+            requirements, clearance=max(requirements.clearance, LEAST_ROOM - requirements.radius)
+        )
 
     @property
-    def grain(self) -> float:
+    def cell_size(self) -> float:
         """Size of the smallest thing that counts for a robot with a lidar [m]."""
         assert self.belief is not None
-        return self.belief.echoes.grain
+        return self.belief.echoes.cell_size
 
     @cached_property
     def ahead(self) -> tuple[tuple[PathVia, float], ...]:
@@ -153,7 +156,7 @@ class Journey:
 
     def stretches(self, end: float) -> tuple[tuple[float, float, float], ...]:
         """From here on to ``end`` [m]: from where to where the path keeps which distance [m]."""
-        here, required = self.distance, self.brief.required
+        here, required = self.distance, self.requirements.required
         if self.close is None or self.close.until <= here:
             return ((here, end, required),)
         until = min(self.close.until, end)
@@ -168,7 +171,7 @@ class Journey:
         """The path's point at a distance along it [m]."""
         return tuple(np.asarray(self.path.at_distance(distance)).tolist())
 
-    def noted(self, *events: Event) -> Journey:
+    def noted(self, *events: Event) -> NavigationState:
         """The same with these events at its end."""
         return replace(self, events=self.events + events)
 
@@ -183,7 +186,7 @@ def points_after(path: Path, last: int) -> tuple[tuple[PathVia, float], ...]:
     )
 
 
-def certain_until(journey: Journey, path: Path, same: float = math.inf) -> float:
+def certain_until(journey: NavigationState, path: Path, same: float = math.inf) -> float:
     """How far along a path the robot can go for certain [m].
 
     Without a lidar it trusts what it knows, and that is to the end.
@@ -203,12 +206,12 @@ def certain_until(journey: Journey, path: Path, same: float = math.inf) -> float
     return seen
 
 
-def sighted(journey: Journey) -> Journey:
+def sighted(journey: NavigationState) -> NavigationState:
     """The same, knowing how far along its path it has seen."""
     return replace(journey, sighted=_seen_until(journey, journey.path, math.inf))
 
 
-def _seen_until(journey: Journey, path: Path, same: float) -> float:
+def _seen_until(journey: NavigationState, path: Path, same: float) -> float:
     assert journey.belief is not None
     here = journey.distance
     end = min(here + journey.belief.ahead, path.length)
@@ -216,8 +219,8 @@ def _seen_until(journey: Journey, path: Path, same: float) -> float:
     return journey.belief.seen_until(path, max(here, min(journey.sighted, same)), end, floor)
 
 
-def time_law(
-    journey: Journey,
+def trajectory_along(
+    journey: NavigationState,
     path: Path,
     turns: tuple[float, ...],
     *,
@@ -242,7 +245,7 @@ def time_law(
     Raises:
         GeometryError: When the robot is too fast to stop where it has to.
     """
-    stops = [Station(turn) for turn in turns if turn > distance + SLIP]
+    stops = [Station(turn) for turn in turns if turn > distance + SAME_PLACE_M]
     stops += [
         Station(max(at, distance), via.dwell, via.name)
         for via, at in points_after(path, journey.last)
@@ -253,32 +256,32 @@ def time_law(
         speed = 0.0
     if end < path.length:
         stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
-    if journey.pilot is not None:
-        stops = with_turns(path, journey.pilot.machine, stops, distance)
-    law = retime(
+    if journey.controller is not None:
+        stops = with_turns(path, journey.controller.machine, stops, distance)
+    trajectory = retime(
         path,
         journey.limits,
         stops,
         zones=journey.mission.world.speed_zones,
         start=min(distance, path.length),
         start_speed=speed,
-        start_accel=float(journey.law.state_at(time)[2]),
+        start_accel=float(journey.trajectory.state_at(time)[2]),
         start_time=time,
-        replaces=journey.law,
+        replaces=journey.trajectory,
     )
-    return law if end >= path.length else law.until(end)
+    return trajectory if end >= path.length else trajectory.until(end)
 
 
-def law_on(journey: Journey, *, speed: float, time: float) -> Trajectory:
+def trajectory_on(journey: NavigationState, *, speed: float, time: float) -> Trajectory:
     """The time law from here on along the journey's own path, at this speed [m/s] and time [s].
 
     Where the robot can't stop in time any more, because what was certain is not so now, it brakes
     as hard as it can.
     """
     here, path = journey.distance, journey.path
-    end = max(certain_until(journey, path), journey.dared)
+    end = max(certain_until(journey, path), journey.probed_until)
     try:
-        return time_law(
+        return trajectory_along(
             journey, path, journey.turns, distance=here, speed=speed, time=time, end=end
         )
     except GeometryError:

@@ -15,8 +15,8 @@ from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan, plan
 from viaspline.robot.advance import advance, commanded, happened
-from viaspline.robot.controller import Pilot
-from viaspline.robot.journey import Journey, law_on
+from viaspline.robot.controller import Controller
+from viaspline.robot.journey import NavigationState, trajectory_on
 from viaspline.robot.perception.belief import Belief
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.perceive import look
@@ -98,7 +98,7 @@ class Navigator:
             raise GeometryError(f"reaction is {reaction}; give a time above 0")
         limits = limits_of(mission.robot, reaction)
         self._plan = _planned(mission) if plan is None else plan
-        journey = Journey(
+        journey = NavigationState(
             # with the tension that was advised
             mission=mission.model_copy(update={"spline": self._plan.mission.spline}),
             limits=limits,
@@ -108,12 +108,12 @@ class Navigator:
             plan_path=self._plan.path,
             path=self._plan.path,
             laid=self._plan.world,
-            law=self._plan.trajectory,
+            trajectory=self._plan.trajectory,
             time=0.0,
             tracking_error=self._plan.tracking_error,
         )
-        journey = replace(journey, belief=_belief(journey), pilot=_pilot(journey, period))
-        self._journey = replace(journey, law=law_on(journey, speed=0.0, time=0.0))
+        journey = replace(journey, belief=_belief(journey), controller=_controller(journey, period))
+        self._journey = replace(journey, trajectory=trajectory_on(journey, speed=0.0, time=0.0))
 
     def step(
         self, state: RobotState, sensed: Iterable[Obstacle] | Scan, time: float
@@ -138,7 +138,7 @@ class Navigator:
         if not journey.events:
             journey = _started(journey, time)
         before = journey
-        if not journey.finished or journey.pilot is not None:
+        if not journey.finished or journey.controller is not None:
             journey = advance(journey, state, time)
         if isinstance(sensed, Scan):
             if journey.belief is None:
@@ -154,22 +154,22 @@ class Navigator:
         journey = commanded(before, journey, state, time)
         return steer(journey, state), self._with(journey)
 
-    def _with(self, journey: Journey) -> Navigator:
+    def _with(self, journey: NavigationState) -> Navigator:
         navigator = object.__new__(Navigator)
         navigator._plan, navigator._journey = self._plan, journey
         return navigator
 
     def reference(self, time: float) -> RobotState:
         """Where a robot that follows exactly will be at a time, if nothing new is seen [s]."""
-        distance, speed, _ = self._journey.law.state_at(time)
+        distance, speed, _ = self._journey.trajectory.state_at(time)
         u = self.path.parameter(float(distance))
         place = np.asarray(self.path.evaluate(u))
         return RobotState(tuple(place.tolist()), float(self.path.heading(u)), float(speed))
 
     @property
-    def pilot(self) -> Pilot | None:
+    def controller(self) -> Controller | None:
         """The controller of a robot with a drive; None if it follows exactly."""
-        return self._journey.pilot
+        return self._journey.controller
 
     @property
     def mission(self) -> Mission:
@@ -194,7 +194,7 @@ class Navigator:
     @property
     def trajectory(self) -> Trajectory:
         """The time law along the path, from the last change on."""
-        return self._journey.law
+        return self._journey.trajectory
 
     @property
     def distance(self) -> float:
@@ -240,30 +240,30 @@ class Navigator:
 _planned = plan
 
 
-def _belief(journey: Journey) -> Belief | None:
+def _belief(journey: NavigationState) -> Belief | None:
     robot = journey.mission.robot
     if robot.sensor is None or robot.sensor.lidar is None:
         return None
     return Belief.at_start(journey.world, robot)
 
 
-def _pilot(journey: Journey, period: float) -> Pilot | None:
+def _controller(journey: NavigationState, period: float) -> Controller | None:
     robot = journey.mission.robot
     if not is_driven(robot):
         return None
-    return Pilot.of(machine_of(robot, period), period, journey.path, journey.law)
+    return Controller.of(machine_of(robot, period), period, journey.path, journey.trajectory)
 
 
-def _started(journey: Journey, time: float) -> Journey:
-    if journey.pilot is not None:
-        time += journey.pilot.ahead
-    journey = replace(journey, time=time, law=journey.law.delayed(time))
+def _started(journey: NavigationState, time: float) -> NavigationState:
+    if journey.controller is not None:
+        time += journey.controller.ahead
+    journey = replace(journey, time=time, trajectory=journey.trajectory.delayed(time))
     length = f"sets off on a path of {journey.path.length:.1f} m"
     return journey.noted(Event("started", time, journey.place(0.0), length))
 
 
-def _check(state: RobotState, time: float, journey: Journey) -> None:
-    last = journey.time - (0.0 if journey.pilot is None else journey.pilot.ahead)
+def _check(state: RobotState, time: float, journey: NavigationState) -> None:
+    last = journey.time - (0.0 if journey.controller is None else journey.controller.ahead)
     if journey.events and time < last - ROUNDING * (1.0 + abs(last)):
         raise GeometryError(f"time {time} s is before the last step's, {last} s")
     numbers = (*state.position, state.heading, state.speed, time)

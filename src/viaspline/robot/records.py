@@ -9,16 +9,16 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import Path
-from viaspline.robot.journey import Journey
-from viaspline.robot.replanning.replan_context import Scene
+from viaspline.robot.journey import NavigationState
+from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.ways_on import Choice
 from viaspline.robot.run import Event, Replan
 from viaspline.trajectory.retime import braking
 
 
-def take(scene: Scene, choice: Choice, skip: Mapping[int, str]) -> Journey:
+def take(context: ReplanContext, choice: Choice, skip: Mapping[int, str]) -> NavigationState:
     """Go over to a new path, without the points of the route in ``skip``."""
-    journey, path = scene.journey, choice.found.path
+    journey, path = context.journey, choice.found.path
     if path is journey.path:
         return journey
     now = journey.place(journey.distance)
@@ -27,9 +27,9 @@ def take(scene: Scene, choice: Choice, skip: Mapping[int, str]) -> Journey:
         Event("skipped", journey.time, now, f"gives up '{names[index]}': {why}")
         for index, why in sorted(skip.items())
     ]
-    if choice.mode == "from_rest" and scene.speed > 0.0:
+    if choice.mode == "from_rest" and context.speed > 0.0:
         events.append(Event("braked", journey.time, now, "brakes, to leave from rest"))
-    why = f"goes round {_list(scene.names)}" if scene.names else "takes a better way"
+    why = f"goes round {_list(context.names)}" if context.names else "takes a better way"
     message = f"{why} on a {choice.mode.replace('_', ' ')} path"
     events.append(Event("replanned", journey.time, now, message, {"mode": choice.mode}))
     return replace(
@@ -37,25 +37,25 @@ def take(scene: Scene, choice: Choice, skip: Mapping[int, str]) -> Journey:
         path=path,
         laid=journey.world,
         sighted=min(journey.sighted, choice.found.changed_from),
-        dared=0.0,
-        law=choice.law,
+        probed_until=0.0,
+        trajectory=choice.trajectory,
         turns=choice.turns,
         skipped=journey.skipped + tuple(sorted(skip.items())),
-        replans=(*journey.replans, _record(scene, choice)),
+        replans=(*journey.replans, _record(context, choice)),
     )
 
 
-def give_up(journey: Journey, speed: float, reason: str) -> Journey:
+def give_up(journey: NavigationState, speed: float, reason: str) -> NavigationState:
     """Brake as hard as possible from a speed [m/s], and stand."""
-    law = braking(journey.distance, speed, journey.limits.brake, journey.time)
+    trajectory = braking(journey.distance, speed, journey.limits.brake, journey.time)
     if speed > 0.0:
         here = journey.place(journey.distance)
         journey = journey.noted(Event("braked", journey.time, here, f"brakes: {reason}"))
-    return replace(journey, law=law, dwell=None, giving_up=reason)
+    return replace(journey, trajectory=trajectory, dwell=None, giving_up=reason)
 
 
-def _record(scene: Scene, choice: Choice) -> Replan:
-    journey, found = scene.journey, choice.found
+def _record(context: ReplanContext, choice: Choice) -> Replan:
+    journey, found = context.journey, choice.found
     at = found.changed_from
     position, heading, curvature = jumps(journey.path, found.path, at)
     return Replan(
@@ -65,7 +65,7 @@ def _record(scene: Scene, choice: Choice) -> Replan:
         mode=choice.mode,
         changed_from=at,
         rejoins_at=found.rejoins_at,
-        obstacles=scene.names,
+        obstacles=context.names,
         position_jump=position,
         heading_jump=heading,
         curvature_jump=curvature,

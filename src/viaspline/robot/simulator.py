@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.certificate import certify
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import Obstacle
 from viaspline.planner import Plan
@@ -25,7 +25,6 @@ from viaspline.trajectory.limits import REACTION
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
 Progress = Callable[[float, float, float], None]
 
 PATIENCE = 10.0  # times the planned duration, and
@@ -38,7 +37,7 @@ class _Drive:
     """A drive that is over: its navigator, its time laws with their beginnings, and its end."""
 
     nav: Navigator
-    laws: tuple[tuple[float, Trajectory], ...]
+    trajectories: tuple[tuple[float, Trajectory], ...]
     ticks: int
     end: float
     touched: Event | None
@@ -91,7 +90,7 @@ def simulate(
         raise GeometryError(f"step is {step}; give a time above 0 s")
     world = World.everything(mission)
     nav = Navigator(mission, plan, reaction=max(step, REACTION), period=step)
-    if nav.pilot is not None:
+    if nav.controller is not None:
         return _run_of_machine(nav, world, step, progress, seed)
     drive = _drive(nav, world, step, progress, seed)
     return _run(drive, world, step)
@@ -123,7 +122,7 @@ def _drive(
 ) -> _Drive:
     lidar, sensor = _sensors(nav.mission, world, seed)
     limit = PATIENCE * nav.plan.trajectory.duration + GRACE
-    laws: list[tuple[float, Trajectory]] = []
+    trajectories: list[tuple[float, Trajectory]] = []
     known: frozenset[Obstacle] = frozenset()
     tick = 0
     touched = _contact(nav, world, np.zeros(1))
@@ -136,19 +135,19 @@ def _drive(
             sensed = () if sensor is None else sensor.seen(state.position)
             known = known.union(sensed)
             _, nav = nav.step(state, sensed, time)
-        if not laws or nav.trajectory is not laws[-1][1]:
-            laws.append((time, nav.trajectory))
+        if not trajectories or nav.trajectory is not trajectories[-1][1]:
+            trajectories.append((time, nav.trajectory))
         if progress is not None:
             progress(time, nav.distance, nav.path.length)
         if nav.finished:
-            return _Drive(nav, tuple(laws), tick, nav.trajectory.end_time, None, None)
+            return _Drive(nav, tuple(trajectories), tick, nav.trajectory.end_time, None, None)
         if time > limit:
             reason = f"the drive was broken off after {time:.0f} s, its limit"
-            return _Drive(nav, tuple(laws), tick, time, None, reason)
+            return _Drive(nav, tuple(trajectories), tick, time, None, reason)
         skipped = 1 if lidar is not None else _quiet(nav, sensor, known, tick, step)
         touched = _contact(nav, world, step * np.arange(tick, tick + skipped + 1, dtype=float))
         tick += skipped
-    return _Drive(nav, tuple(laws), tick, touched.time, touched, None)
+    return _Drive(nav, tuple(trajectories), tick, touched.time, touched, None)
 
 
 def _quiet(
@@ -211,7 +210,7 @@ def _run(drive: _Drive, world: World, step: float) -> Run:
     nav = drive.nav
     reason, events, visits = outcome(nav, drive.end, drive.touched, drive.overdue)
     times = _sample_times(drive, step, events)
-    distances, speeds = _along(drive.laws, times)
+    distances, speeds = _along(drive.trajectories, times)
     path = driven(nav.path, float(distances[-1]))
     u = np.asarray(path.parameter(np.minimum(distances, path.length)))
     robot = nav.mission.robot
@@ -243,12 +242,14 @@ def _sample_times(drive: _Drive, step: float, events: tuple[Event, ...]) -> Floa
     return np.unique(times[times <= drive.end])
 
 
-def _along(laws: tuple[tuple[float, Trajectory], ...], times: Floats) -> tuple[Floats, Floats]:
+def _along(
+    trajectories: tuple[tuple[float, Trajectory], ...], times: Floats
+) -> tuple[Floats, Floats]:
     """Distances [m] and speeds [m/s] at times; each law holds from its beginning to the next."""
     distances, speeds = np.zeros(times.shape), np.zeros(times.shape)
-    for begin, law in laws:
+    for begin, trajectory in trajectories:
         later = times >= begin
-        distances[later], speeds[later], _ = law.state_at(times[later])
+        distances[later], speeds[later], _ = trajectory.state_at(times[later])
     return distances, speeds
 
 

@@ -5,31 +5,29 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.control_law import turn_law
 from viaspline.kernels.tracking.drive_model import ACKERMANN, DIFFERENTIAL, SKID_STEER, turning
 from viaspline.robot.advance import ON_PATH
-from viaspline.robot.controller import Pilot
-from viaspline.robot.journey import Journey
+from viaspline.robot.controller import Controller
+from viaspline.robot.journey import NavigationState
 from viaspline.robot.state import Command, RobotState
-
-Floats = NDArray[np.float64]
 
 NEAREST_AIM = 1.0  # a robot beside its path comes back to it over at least this distance [m]
 AIM_TIME = 1.0  # and over what it drives in this time [s]
 
 
-def steer(journey: Journey, state: RobotState) -> Command:
+def steer(journey: NavigationState, state: RobotState) -> Command:
     """The command for a robot at this point of its journey.
 
     On the path it is the path's own curvature; beside it the control law leads back. The same
     law drives robots with a drive, whose pilot has decided already.
     """
-    distance, speed, acceleration = (float(x) for x in journey.law.state_at(journey.time))
-    if journey.off > ON_PATH and journey.pilot is None:
+    distance, speed, acceleration = (float(x) for x in journey.trajectory.state_at(journey.time))
+    if journey.off > ON_PATH and journey.controller is None:
         distance = journey.distance
-        speed = float(journey.law.speed_at(distance))
+        speed = float(journey.trajectory.speed_at(distance))
     path = journey.path
     u = float(path.parameter(distance))
     position = np.asarray(path.evaluate(u))
@@ -40,8 +38,8 @@ def steer(journey: Journey, state: RobotState) -> Command:
         curvature = _ground_curvature(journey, u)
     stopped = speed == 0.0 and acceleration == 0.0
     steered, wheels, rate = None, None, None
-    if journey.pilot is not None:
-        speed, rate, steered, wheels = _driven(journey.pilot)
+    if journey.controller is not None:
+        speed, rate, steered, wheels = _driven(journey.controller)
         curvature = rate / speed if speed > 0.0 else curvature
     elif journey.off > ON_PATH:
         curvature = _led_back(curvature, state, position, heading)
@@ -60,9 +58,11 @@ def steer(journey: Journey, state: RobotState) -> Command:
     )
 
 
-def _driven(pilot: Pilot) -> tuple[float, float, float | None, tuple[float, float] | None]:
+def _driven(
+    controller: Controller,
+) -> tuple[float, float, float | None, tuple[float, float] | None]:
     """Speed, yaw rate, angle of the front wheels, speeds of the left and right wheels."""
-    machine, (speed, turn) = pilot.machine, pilot.command
+    machine, (speed, turn) = controller.machine, controller.command
     rate = float(turning(machine, speed, turn))
     if machine.kind == ACKERMANN:
         return speed, rate, turn, None
@@ -79,7 +79,7 @@ def _led_back(curvature: float, state: RobotState, position: Floats, heading: fl
     return turn_law(curvature, offset, error, max(NEAREST_AIM, AIM_TIME * state.speed))
 
 
-def _ground_curvature(journey: Journey, u: float) -> float:
+def _ground_curvature(journey: NavigationState, u: float) -> float:
     """Curvature of the ground track of a curve in space, left is positive [1/m]."""
     first = np.asarray(journey.path.evaluate(u, 1))[:2]
     second = np.asarray(journey.path.evaluate(u, 2))[:2]

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from viaspline.robot.journey import Journey, points_after
+from viaspline.robot.journey import NavigationState, points_after
 from viaspline.robot.run import Visit
 
 
-def visits_of(journey: Journey) -> tuple[Visit, ...]:
+def visits_of(journey: NavigationState) -> tuple[Visit, ...]:
     """One visit for each point of the route, in order; a closed route's start comes twice.
 
     A point that has not been passed yet counts as failed, with the reason.

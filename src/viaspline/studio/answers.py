@@ -6,15 +6,13 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate
 from viaspline.studio.maps import grid_name
-from viaspline.studio.planning import Planned, Problem
-
-Floats = NDArray[np.float64]
+from viaspline.studio.planning import PlanFault, Planned
 
 
 def answer(planned: Planned, revision: int) -> dict[str, Any]:
@@ -27,7 +25,7 @@ def answer(planned: Planned, revision: int) -> dict[str, Any]:
     return {**head, "ok": True, **_plan(planned.plan), "grids": maps}
 
 
-def _problem(problem: Problem) -> dict[str, Any]:
+def _problem(problem: PlanFault) -> dict[str, Any]:
     return {
         "text": problem.text,
         "remedy": problem.remedy,
@@ -38,7 +36,7 @@ def _problem(problem: Problem) -> dict[str, Any]:
 
 
 def _plan(plan: Plan) -> dict[str, Any]:
-    path, law, proof = plan.path, plan.trajectory, plan.certificate
+    path, trajectory, proof = plan.path, plan.trajectory, plan.certificate
     joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
     return {
         "spans": flat(path.spans),
@@ -58,11 +56,11 @@ def _plan(plan: Plan) -> dict[str, Any]:
             "nearest": proof.obstacle,
         },
         "law": {
-            "distances": rounded(law.distances),
-            "speeds": rounded(law.speeds),
-            "times": rounded(law.times),
+            "distances": rounded(trajectory.distances),
+            "speeds": rounded(trajectory.speeds),
+            "times": rounded(trajectory.times),
         },
-        "duration": law.duration,
+        "duration": trajectory.duration,
         "order": _order(plan),
         "corridor": [[rounded(point, 3) for point in ring] for ring in plan.world.corridor],
     }

@@ -8,7 +8,6 @@ from threading import Event as Flag
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.mission.robot_parts import Lidar
 from viaspline.planner import Plan
@@ -18,8 +17,6 @@ from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 from viaspline.studio.answers import finite, flat, rounded
-
-Floats = NDArray[np.float64]
 
 MOST_SAMPLES = 6000
 FRAMES = 400  # looks of a lidar that are shown

@@ -28,7 +28,7 @@ MOST_KEPT = 32
 
 
 @dataclass(frozen=True)
-class Unfolded:
+class ExpandedDocument:
     """A document with obstacles in place of maps.
 
     Attributes:
@@ -58,7 +58,7 @@ class Maps:
         self._folder = folder
         self._kept: dict[Any, Sequence[Obstacle]] = {}
 
-    def unfold(self, document: Document, base: Path) -> Unfolded:
+    def unfold(self, document: Document, base: Path) -> ExpandedDocument:
         """The document with its maps read.
 
         Args:
@@ -71,7 +71,7 @@ class Maps:
         document = self._with_corridor(document, base)
         world = document.get("world")
         if not isinstance(world, Mapping):
-            return Unfolded(document, {})
+            return ExpandedDocument(document, {})
         unfolded: dict[str, Any] = dict(world)
         places: dict[str, list[int]] = {}
         for key in LISTS:
@@ -86,7 +86,7 @@ class Maps:
                     found = self._read(item, f"world.{key}[{i}]", base, taken)
                 unfolded[key] += found
                 places[key] += [i] * len(found)
-        return Unfolded({**document, "world": unfolded} if places else document, places)
+        return ExpandedDocument({**document, "world": unfolded} if places else document, places)
 
     def _with_corridor(self, document: Document, base: Path) -> Document:
         """The document with the file of its corridor named from anywhere."""

@@ -12,11 +12,11 @@ from viaspline.planner import Plan, plan
 from viaspline.studio.document import Document
 from viaspline.studio.keys import Path as Keys
 from viaspline.studio.keys import path_of
-from viaspline.studio.maps import Maps, Unfolded
+from viaspline.studio.maps import ExpandedDocument, Maps
 
 
 @dataclass(frozen=True)
-class Problem:
+class PlanFault:
     """One reason why there is no plan.
 
     Attributes:
@@ -48,10 +48,10 @@ class Planned:
     """
 
     document: Document
-    unfolded: Unfolded | None
+    unfolded: ExpandedDocument | None
     mission: Mission | None
     plan: Plan | None
-    problems: tuple[Problem, ...]
+    problems: tuple[PlanFault, ...]
     seconds: float
 
 
@@ -64,10 +64,10 @@ def planned(document: Document, maps: Maps, base: Path) -> Planned:
         base: The folder of the mission's file.
     """
     start = time.perf_counter()
-    unfolded: Unfolded | None = None
+    unfolded: ExpandedDocument | None = None
     mission: Mission | None = None
     found: Plan | None = None
-    problems: tuple[Problem, ...] = ()
+    problems: tuple[PlanFault, ...] = ()
     try:
         unfolded = maps.unfold(document, base)
         mission = Mission.model_validate(unfolded.data)
@@ -77,14 +77,14 @@ def planned(document: Document, maps: Maps, base: Path) -> Planned:
     except NoPathError as error:
         problems = (_blocked(error, unfolded, mission),)
     except ViasplineError as error:
-        problems = (Problem(str(error)),)
+        problems = (PlanFault(str(error)),)
     seconds = time.perf_counter() - start
     return Planned(document, unfolded, mission, found, problems, seconds)
 
 
-def _faults(error: MissionError, unfolded: Unfolded | None) -> tuple[Problem, ...]:
+def _faults(error: MissionError, unfolded: ExpandedDocument | None) -> tuple[PlanFault, ...]:
     return tuple(
-        Problem(
+        PlanFault(
             text=fault.problem,
             remedy=fault.remedy,
             path=_original(fault.key, unfolded),
@@ -94,9 +94,11 @@ def _faults(error: MissionError, unfolded: Unfolded | None) -> tuple[Problem, ..
     )
 
 
-def _blocked(error: NoPathError, unfolded: Unfolded | None, mission: Mission | None) -> Problem:
+def _blocked(
+    error: NoPathError, unfolded: ExpandedDocument | None, mission: Mission | None
+) -> PlanFault:
     changes = tuple(_as_given(change, error, mission) for change in error.changes)
-    return Problem(
+    return PlanFault(
         text=error.reason,
         remedy=error.remedy,
         where=error.where,
@@ -117,11 +119,11 @@ def _as_given(change: Change, error: NoPathError, mission: Mission | None) -> Ch
 
 
 def _changes(
-    changes: tuple[Change, ...], unfolded: Unfolded | None
+    changes: tuple[Change, ...], unfolded: ExpandedDocument | None
 ) -> tuple[tuple[Keys, object], ...]:
     return tuple((_original(change.key, unfolded), change.value) for change in changes)
 
 
-def _original(key: str, unfolded: Unfolded | None) -> Keys:
+def _original(key: str, unfolded: ExpandedDocument | None) -> Keys:
     path = path_of(key)
     return path if unfolded is None else unfolded.original(path)

@@ -8,11 +8,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.timing import cut_cells as kernels
 from viaspline.kernels.timing.cell_frames import fill_cells
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 SAMPLED = 1000
 """Number of cells of a curve that is only known by its values."""
@@ -39,7 +37,7 @@ class Evaluable(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Grain:
+class CellSize:
     """How fine the cells have to be.
 
     Attributes:
@@ -90,26 +88,32 @@ class Cells:
         return np.asarray(np.abs(self.yaws[1:, 0, 0] - self.yaws[:-1, 0, 2]))
 
 
-def cubic_cells(spans: Floats, start: float, end: float, grain: Grain) -> Cells:
+def cubic_cells(spans: Floats, start: float, end: float, cell_size: CellSize) -> Cells:
     """The cells of a piecewise cubic.
 
     Args:
         spans: Bézier control polygons [m], shape (m, 4, d).
         start: Distance along the curve at which they begin [m].
         end: And end; their length is known better than it is measured here.
-        grain: How fine.
+        cell_size: How fine.
     """
     rows, cusps = kernels.cut_cells(
-        spans, grain.longest, grain.least, grain.accel, grain.square, grain.axis, grain.yaw_accel
+        spans,
+        cell_size.longest,
+        cell_size.least,
+        cell_size.accel,
+        cell_size.square,
+        cell_size.axis,
+        cell_size.yaw_accel,
     )
-    if grain.heading and spans.shape[2] > 2:
+    if cell_size.heading and spans.shape[2] > 2:
         rows, cusps = _cut_by_heading(spans, rows, cusps)
     along, shares, tangents, bends, rests = fill_cells(spans, rows, cusps)
     along = start + along * ((end - start) / along[-1])
     along[-1] = end
     misses = np.ascontiguousarray(rows[:, kernels.MISS_T : kernels.MISS_CHANGE + 1])
     yaws = np.empty((0, 2, 3))
-    if grain.heading and spans.shape[2] > 1:
+    if cell_size.heading and spans.shape[2] > 1:
         turns = _turns_of_spans(spans, rows)
         yaws, measured = _fitted(np.moveaxis(turns, -1, 1), shares)
         if spans.shape[2] == 2:
@@ -153,12 +157,14 @@ def _blossom(c: Floats, u: Floats, w: Floats) -> Floats:
     )
 
 
-def sampled_cells(curve: Evaluable, grain: Grain, count: int = SAMPLED) -> tuple[Cells, Floats]:
+def sampled_cells(
+    curve: Evaluable, cell_size: CellSize, count: int = SAMPLED
+) -> tuple[Cells, Floats]:
     """The cells of any curve, from five samples in each; they are shorter where it bends.
 
     Args:
         curve: With ``domain`` and ``evaluate``.
-        grain: How fine.
+        cell_size: How fine.
         count: Number of cells.
 
     Returns:
@@ -171,7 +177,7 @@ def sampled_cells(curve: Evaluable, grain: Grain, count: int = SAMPLED) -> tuple
     d = first.shape[-1]
     first, second = first.reshape(count, 5, d), second.reshape(count, 5, d)
     third = np.zeros_like(first)
-    if grain.heading and grain.yaw_accel < np.inf:
+    if cell_size.heading and cell_size.yaw_accel < np.inf:
         third = np.asarray(curve.evaluate(at.ravel(), 3)).reshape(count, 5, d)
     speed = np.linalg.norm(first, axis=2)
     lengths = widths * (speed @ _BOOLE)
@@ -188,7 +194,7 @@ def sampled_cells(curve: Evaluable, grain: Grain, count: int = SAMPLED) -> tuple
     misses = np.zeros((count, 4))
     misses[:, 0], misses[:, 1] = miss_t.max(axis=1), miss_k.max(axis=1)
     yaws = np.empty((0, 2, 3))
-    if grain.heading and d > 1:
+    if cell_size.heading and d > 1:
         yaws, misses[:, 2:] = _fitted(np.moveaxis(turns, 1, 2), shares)
     return Cells(along, tangents, bends, yaws, misses, rests), u
 

@@ -6,15 +6,13 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing import cell_caps, halfplanes, reachability, time_grid
-from viaspline.trajectory.cells import Cells, Grain
+from viaspline.trajectory.cells import Cells, CellSize
 from viaspline.trajectory.limits import SETTLE, Limits
 from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.steering_rate import jump_speeds, steered_caps
-
-Floats = NDArray[np.float64]
 
 RAMP = 8
 """Stretches that the shortest way to full speed is divided into, at least."""
@@ -73,7 +71,9 @@ def is_coupled(limits: Limits, dimension: int) -> bool:
     return over_ground or any(limit is not None for limit in several)
 
 
-def grain_for(limits: Limits, dimension: int, stage: Stage, grid: int | None = None) -> Grain:
+def cell_size_for(
+    limits: Limits, dimension: int, stage: Stage, grid: int | None = None
+) -> CellSize:
     """How fine the cells of a path have to be for these limits; ``grid``: at least so many."""
     speeds = limits.of_axes("axis_speed", dimension)
     axes = limits.of_axes("axis_accel", dimension)
@@ -89,7 +89,7 @@ def grain_for(limits: Limits, dimension: int, stage: Stage, grid: int | None = N
     steered = np.inf
     if limits.max_steer_rate is not None and limits.wheelbase is not None:
         steered = limits.max_steer_rate / limits.wheelbase * max(stage.top, stage.first)
-    return Grain(
+    return CellSize(
         longest=longest if grid is None else min(longest, length / grid),
         least=length / MOST,
         accel=accel,
@@ -100,7 +100,7 @@ def grain_for(limits: Limits, dimension: int, stage: Stage, grid: int | None = N
     )
 
 
-def coupled_profile(cells: Cells, limits: Limits, stage: Stage, grain: Grain) -> Profile:
+def coupled_profile(cells: Cells, limits: Limits, stage: Stage, cell_size: CellSize) -> Profile:
     """The fastest v² that keeps every limit everywhere, on a grid of distances.
 
     Where the acceleration changes much from one stretch to the next the grid is made finer, and
@@ -110,15 +110,15 @@ def coupled_profile(cells: Cells, limits: Limits, stage: Stage, grain: Grain) ->
         cells: Of the path, at least from start to end.
         limits: Those of the Limits, jerk left out.
         stage: What is asked.
-        grain: What the cells were made for.
+        cell_size: What the cells were made for.
     """
-    system = System.of(cells, limits, stage, grain)
+    system = System.of(cells, limits, stage, cell_size)
     first = system.solve(stage.first**2)
-    scale = min(grain.axis, grain.accel)
+    scale = min(cell_size.axis, cell_size.accel)
     finer = time_grid.refined(first.points, first.squares, first.over, scale, GATE, SHARE, PIECES)
     if finer.size == first.points.size:
         return first
-    return system.on(finer, limits, stage, grain).solve(stage.first**2)
+    return system.on(finer, limits, stage, cell_size).solve(stage.first**2)
 
 
 class System(NamedTuple):
@@ -143,28 +143,28 @@ class System(NamedTuple):
     brake: float
 
     @classmethod
-    def of(cls, cells: Cells, limits: Limits, stage: Stage, grain: Grain) -> System:
+    def of(cls, cells: Cells, limits: Limits, stage: Stage, cell_size: CellSize) -> System:
         """The limits on the grid of all ends of cells, and more where they are long."""
-        rests, speeds = rests_of(cells, limits, stage), caps_of_cells(cells, limits, grain)
+        rests, speeds = rests_of(cells, limits, stage), caps_of_cells(cells, limits, cell_size)
         none = np.empty(0)
         bare = cls(cells, rests, speeds, none, np.empty((0, 0, 3)), none, limits.brake)
-        return bare.on(_marks(cells.along, rests, stage, grain), limits, stage, grain)
+        return bare.on(_marks(cells.along, rests, stage, cell_size), limits, stage, cell_size)
 
-    def on(self, marks: Floats, limits: Limits, stage: Stage, grain: Grain) -> System:
+    def on(self, marks: Floats, limits: Limits, stage: Stage, cell_size: CellSize) -> System:
         """The same on the grid of some marks and all ends of cells."""
         cells, slip = self.cells, 1e-9 * (1.0 + stage.end)
         line, cell, ends = time_grid.divide(cells.along, marks, slip)
-        tops = np.full(cell.size, grain.square)
+        tops = np.full(cell.size, cell_size.square)
         for part in stage.slow:
             middles = 0.5 * (line[1:] + line[:-1])
             within = (middles > part.start) & (middles < part.end)
             tops[within] = np.minimum(tops[within], part.speed**2)
-        caps = jump_caps(cells, limits, line, grain)
+        caps = jump_caps(cells, limits, line, cell_size)
         caps[np.searchsorted(line, self.rests)] = 0.0
         caps[-1] = min(caps[-1], stage.last**2)
         half_planes = halfplanes.stretch_planes(
             line, cell, ends, tops, caps, cells.tangents, cells.bends, cells.yaws, cells.misses,
-            self.speeds, limits.max_accel, limits.brake, grain.accel,
+            self.speeds, limits.max_accel, limits.brake, cell_size.accel,
             limits.of_axes("axis_accel", cells.tangents.shape[1]), _or_inf(limits.max_yaw_accel),
         )  # fmt: skip
         return self._replace(line=line, planes=half_planes, caps=caps)
@@ -177,9 +177,9 @@ class System(NamedTuple):
         return Profile(self.line, squares, float(over), float(missed))
 
 
-def jump_caps(cells: Cells, limits: Limits, line: Floats, grain: Grain) -> Floats:
+def jump_caps(cells: Cells, limits: Limits, line: Floats, cell_size: CellSize) -> Floats:
     """The largest v² at nodes, for jumps of the curvature [m²/s²], shape (n + 1,)."""
-    caps = np.full(line.size, grain.square)
+    caps = np.full(line.size, cell_size.square)
     if not cells.yaws.size or (limits.max_yaw_accel is None and limits.max_steer_rate is None):
         return caps
     at = np.searchsorted(line, cells.along[1:-1] - 1e-9 * (1.0 + line[-1]))
@@ -192,11 +192,11 @@ def jump_caps(cells: Cells, limits: Limits, line: Floats, grain: Grain) -> Float
     return caps
 
 
-def caps_of_cells(cells: Cells, limits: Limits, grain: Grain) -> Floats:
+def caps_of_cells(cells: Cells, limits: Limits, cell_size: CellSize) -> Floats:
     """The line below which v² keeps every limit of a speed, at both ends of each cell, (n, 2)."""
     caps = cell_caps.cell_caps(
-        cells.along, cells.tangents, cells.bends, cells.yaws, cells.misses, grain.square,
-        grain.accel, limits.of_axes("axis_speed", cells.tangents.shape[1]),
+        cells.along, cells.tangents, cells.bends, cells.yaws, cells.misses, cell_size.square,
+        cell_size.accel, limits.of_axes("axis_speed", cells.tangents.shape[1]),
         _or_inf(limits.max_lateral_accel), _or_inf(limits.max_yaw_rate),
     )  # fmt: skip
     return np.asarray(np.minimum(caps, steered_caps(cells, limits)[:, None]))
@@ -221,12 +221,12 @@ def rests_of(cells: Cells, limits: Limits, stage: Stage) -> Floats:
     return np.unique(rests)
 
 
-def _marks(along: Floats, rests: Floats, stage: Stage, grain: Grain) -> Floats:
+def _marks(along: Floats, rests: Floats, stage: Stage, cell_size: CellSize) -> Floats:
     """Places that have to be nodes [m], and nodes for where the cells are too long."""
     start, end = stage.start, stage.end
     stops = np.array(sorted({start, end, *rests.tolist()}))
     places = {place for part in stage.slow for place in (part.start, part.end)}
     edges = np.array(sorted(place for place in places if start < place < end), dtype=np.float64)
     graded = stage.first <= 0.0 or (rests.size > 0 and bool(rests[0] <= start))
-    ramp = grain.square / (2.0 * grain.accel)
+    ramp = cell_size.square / (2.0 * cell_size.accel)
     return time_grid.marks(along, stops, edges, graded, ramp, 1e-9 * (1.0 + end))

@@ -7,12 +7,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.arc_caps import bend_caps
-from viaspline.kernels.timing.two_pass import speed_profile
+from viaspline.kernels.timing.two_pass import two_pass_profile
 from viaspline.trajectory.coupled import Profile, Stage
 from viaspline.trajectory.limits import Limits
-
-Floats = NDArray[np.float64]
 
 TOLERANCE = 1.1
 """Largest ratio of what two places within one arc of the profile allow for v²."""
@@ -53,7 +52,7 @@ def bend_profile(path: Cubic, limits: Limits, stage: Stage) -> Profile:
         stage: What is asked.
     """
     line, caps, rests = _stretches(path, limits, stage)
-    points, squares, over, missed = speed_profile(
+    points, squares, over, missed = two_pass_profile(
         line, caps, rests, limits.max_accel, limits.brake, stage.first**2, stage.last**2
     )
     return Profile(points, squares, float(over), float(missed))

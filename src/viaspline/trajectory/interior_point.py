@@ -10,10 +10,8 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from viaspline.kernels.arrays import Floats, Ints
 
 GAP = 2e-4
 """What the barrier keeps of the time, at most, as a part of it."""
@@ -72,7 +70,7 @@ class Rows:
 
 
 @dataclass(frozen=True)
-class Problem:
+class SpeedProblem:
     """All in terms of the coefficients of a stretch, the one before and the one after it.
 
     Attributes:
@@ -92,7 +90,7 @@ class Problem:
     """
 
     widths: Floats
-    near: Indices
+    near: Ints
     before: float
     jerk: Floats
     ends: Floats
@@ -101,15 +99,15 @@ class Problem:
     change: Floats
     gauss: Floats
     rests: tuple[tuple[int, int, float], ...]
-    order: Indices
-    places: Indices
+    order: Ints
+    places: Ints
     bands: int
 
     @classmethod
     def of(
         cls, widths: Floats, rows: Rows, jerk: float, start: Rest | Moving | Seam,
         end: Rest | Even | Seam,
-    ) -> Problem:  # fmt: skip
+    ) -> SpeedProblem:  # fmt: skip
         """The problem of a motion with this start and this end."""
         inner = slice(
             0 if isinstance(start, Seam) else 1, widths.size - (1 if isinstance(end, Rest) else 0)
@@ -169,7 +167,7 @@ class Problem:
             m *= 0.25
         return 0.25 * m
 
-    def settled(self, m: Floats) -> tuple[Problem, Floats]:
+    def settled(self, m: Floats) -> tuple[SpeedProblem, Floats]:
         """From any m above 0 one that keeps every limit strictly, or as nearly as is found.
 
         Limits that are not kept are widened so that they are; from the middle of what that allows
@@ -196,8 +194,8 @@ class Problem:
         return best
 
     def narrowed(
-        self, true: Problem, m: Floats, scale: Floats, share: float, least: float
-    ) -> Problem:
+        self, true: SpeedProblem, m: Floats, scale: Floats, share: float, least: float
+    ) -> SpeedProblem:
         """The same with limits nearer to the true ones, that are still kept."""
         linear, jerk, _ = self.slacks(m)
         finite = np.isfinite(self.limits)
@@ -208,7 +206,7 @@ class Problem:
         limits = np.where(finite, np.maximum(true.limits, used + room), np.inf)
         return replace(self, limits=limits, jerk=np.maximum(true.jerk, spent + rate))
 
-    def excess(self, m: Floats, true: Problem) -> tuple[Floats, Floats]:
+    def excess(self, m: Floats, true: SpeedProblem) -> tuple[Floats, Floats]:
         """By what parts linear limits and the jerk of every stretch are beyond true ones, (n,)."""
         linear, jerk, _ = true.slacks(m)
         return (-linear / _sizes(true.limits)).max(axis=1), -jerk.min(axis=1) / true.jerk
@@ -351,7 +349,7 @@ def _outer_rows(
     return more, bound
 
 
-def _places(near: Indices, order: Indices) -> tuple[Indices, int]:
+def _places(near: Ints, order: Ints) -> tuple[Ints, int]:
     """Where the products of two coefficients go in the lower bands; the last place is for none."""
     n = order.size
     place = np.append(order, (-1, -1))[near]

@@ -9,17 +9,16 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing import time_grid
-from viaspline.trajectory.cells import Cells, Grain
+from viaspline.trajectory.cells import Cells, CellSize
 from viaspline.trajectory.coupled import Profile, Stage, caps_of_cells, jump_caps
 from viaspline.trajectory.interior_point import Even, Moving, Rest, Rows, Seam
 from viaspline.trajectory.jerk_limited import Motion, smoothest, smoothest_from
-from viaspline.trajectory.limited_path import Course, CubicCourse
+from viaspline.trajectory.limited_path import LimitedCubicPath, LimitedPath
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.motion_pieces import time_into
 from viaspline.trajectory.trajectory import Trajectory
-
-Floats = NDArray[np.float64]
 
 QUICKEST = 0.02
 """Time in which the acceleration rises from nothing at the soonest [s]: no motor answers sooner,
@@ -39,7 +38,7 @@ WIDEST = 0.01
 
 
 def smooth_law(
-    course: Course,
+    limited_path: LimitedPath,
     limits: Limits,
     stage: Stage,
     plain: Profile,
@@ -55,7 +54,7 @@ def smooth_law(
     and the time law says up to where. One that ends at a speed does so without acceleration.
 
     Args:
-        course: What is driven.
+        limited_path: What is driven.
         limits: With ``max_jerk``.
         stage: What is asked.
         plain: The fastest v² without a limit of the jerk.
@@ -68,15 +67,15 @@ def smooth_law(
     still = plain.points[plain.squares <= 0.0]
     ends = np.array([stage.start, stage.end])
     places = np.unique(np.concatenate((still[still > stage.start], ends)))
-    fine = fine_course(course, limits, stage)
-    cells, grain = fine.cells(stage)
+    fine = fine_path(limited_path, limits, stage)
+    cells, cell_size = fine.cells(stage)
     lines, motions, over, harsh = [places[:1]], [], stage.start, stage.start
     for low, high in pairwise(places.tolist()):
         begin: Rest | Moving = Rest()
         if low == stage.start and stage.first > 0.0:
             begin = Moving(stage.first**2, start_accel)
         end = Rest() if high < stage.end or plain.squares[-1] <= 0.0 else Even()
-        section = Section.of(cells, limits, stage, grain, low, high)
+        section = Section.of(cells, limits, stage, cell_size, low, high)
         hint = None if replaces is None else _hint(replaces, section.line, start_time)
         line, motion, beyond, sudden = _under_way(section, limits, plain, begin, end, hint)
         over, harsh = max(over, beyond), max(harsh, sudden)
@@ -97,15 +96,17 @@ def reachable(limits: Limits) -> Limits:
     return replace(limits, max_jerk=min(limits.max_jerk, jerk))
 
 
-def fine_course(course: Course, limits: Limits, stage: Stage) -> Course:
+def fine_path(limited_path: LimitedPath, limits: Limits, stage: Stage) -> LimitedPath:
     """A course whose cells are short enough for the jerk, if it is a piecewise cubic."""
     assert limits.max_jerk is not None
     accel, length = max(limits.max_accel, limits.brake), stage.end - stage.start
-    if not isinstance(course, CubicCourse):
-        return course
+    if not isinstance(limited_path, LimitedCubicPath):
+        return limited_path
     fast = min(stage.top, (length * length * limits.max_jerk) ** (1.0 / 3.0) + stage.first)
-    longest = max(fast * accel / limits.max_jerk / 6.0, course.length / FINEST)
-    return replace(course, grid=max(course.grid or 1, int(np.ceil(course.length / longest))))
+    longest = max(fast * accel / limits.max_jerk / 6.0, limited_path.length / FINEST)
+    return replace(
+        limited_path, grid=max(limited_path.grid or 1, int(np.ceil(limited_path.length / longest)))
+    )
 
 
 def _between(plain: Profile, first: int, last: int) -> tuple[Floats, Motion]:
@@ -154,7 +155,7 @@ class Section:
     Attributes:
         cells: Of the path.
         limits: With ``max_jerk``.
-        grain: What the cells were made for.
+        cell_size: What the cells were made for.
         line: Ends of the stretches as distances [m], shape (n + 1,).
         cell: Of each stretch, shape (n,).
         parts: Which part of it, in [0, 1], shape (n, 2).
@@ -164,7 +165,7 @@ class Section:
 
     cells: Cells
     limits: Limits
-    grain: Grain
+    cell_size: CellSize
     line: Floats
     cell: NDArray[np.int64]
     parts: Floats
@@ -173,12 +174,12 @@ class Section:
 
     @classmethod
     def of(
-        cls, cells: Cells, limits: Limits, stage: Stage, grain: Grain, low: float, high: float,
-        also: Sequence[float] = (),
+        cls, cells: Cells, limits: Limits, stage: Stage, cell_size: CellSize,
+        low: float, high: float, also: Sequence[float] = (),
     ) -> Section:  # fmt: skip
         """The part between two distances [m], with other ends of stretches where they are asked."""
         assert limits.max_jerk is not None
-        weakest, short = min(limits.max_accel, limits.brake, grain.axis), (high - low) / 40.0
+        weakest, short = min(limits.max_accel, limits.brake, cell_size.axis), (high - low) / 40.0
         rest = min(0.05 * weakest**3 / limits.max_jerk**2, short)
         moving = min(stage.first * weakest / limits.max_jerk / 20.0, short)
         moving = min(moving, 0.01 * stage.first**2 / weakest)
@@ -186,19 +187,19 @@ class Section:
         slip = 1e-12 * (1.0 + high)
         marks = np.union1d(_marks(cells.along, low, high, begin, rest), also)
         line, cell, parts = time_grid.divide(cells.along, marks, slip)
-        tops = np.full(cell.size, grain.square)
+        tops = np.full(cell.size, cell_size.square)
         middles = 0.5 * (line[1:] + line[:-1])
         for slow in stage.slow:
             within = (middles > slow.start) & (middles < slow.end)
             tops[within] = np.minimum(tops[within], slow.speed**2)
-        caps = jump_caps(cells, limits, line, grain)
+        caps = jump_caps(cells, limits, line, cell_size)
         if high >= stage.end and stage.last > 0.0:
             caps[-1] = min(caps[-1], stage.last**2)
-        return cls(cells, limits, grain, line, cell, parts, tops, caps)
+        return cls(cells, limits, cell_size, line, cell, parts, tops, caps)
 
     def rows(self, start: Rest | Moving | Seam, end: Rest | Even | Seam) -> Rows:
         """The limits of every stretch."""
-        rows = _rows(self.cells, self.limits, self.grain, self.cell, self.parts, self.tops)
+        rows = _rows(self.cells, self.limits, self.cell_size, self.cell, self.parts, self.tops)
         rows.limits[:, 0] = np.minimum(rows.limits[:, 0], self.caps[:-1])
         rows.limits[:, 2] = np.minimum(rows.limits[:, 2], self.caps[1:])
         beside = [(0, 1, 4)] if isinstance(start, Rest) else []
@@ -227,15 +228,20 @@ def _steps(room: float, first: float) -> Floats:
 
 
 def _rows(
-    cells: Cells, limits: Limits, grain: Grain, cell: NDArray[np.int64], parts: Floats, tops: Floats
+    cells: Cells,
+    limits: Limits,
+    cell_size: CellSize,
+    cell: NDArray[np.int64],
+    parts: Floats,
+    tops: Floats,
 ) -> Rows:
     """The limits of every stretch as rows over a0, a1, w0, m and w1."""
     n = cell.size
-    lines = caps_of_cells(cells, limits, grain)[cell]
+    lines = caps_of_cells(cells, limits, cell_size)[cell]
     caps = lines[:, :1] + parts * (lines[:, 1:] - lines[:, :1])
     caps = np.minimum(caps, tops[:, None])
     misses, pairs = cells.misses[cell], _pairs(cells, limits, cell)
-    most = np.full(n, grain.accel)
+    most = np.full(n, cell_size.accel)
     for _, _, miss, _, limit in pairs:
         most = np.minimum(most, 0.25 * limit / np.maximum(misses[:, miss], 1e-300))
     weights, bounds = [np.zeros((n, 5)) for _ in range(7)], [np.zeros(n) for _ in range(7)]

@@ -21,11 +21,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from viaspline.trajectory.interior_point import Even, Moving, Problem, Rest, Rows, Seam
-
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
+from viaspline.trajectory.interior_point import Even, Moving, Rest, Rows, Seam, SpeedProblem
 
 STEPS = 400  # of the guess
 GUESSES = ((0.5, 0.6), (0.95, 0.95))
@@ -67,7 +65,7 @@ def smoothest(widths: Floats, rows: Rows, jerk: float, end: Rest | Even) -> Moti
         jerk: [m/s³].
         end: How it ends.
     """
-    problem = Problem.of(widths, rows.spared(), SPARE * jerk, Rest(), end)
+    problem = SpeedProblem.of(widths, rows.spared(), SPARE * jerk, Rest(), end)
     return _motion(problem, problem.fastest(problem.crawl()), widths, Rest(), end)
 
 
@@ -79,7 +77,7 @@ def smoothest_lap(widths: Floats, rows: Rows, jerk: float) -> Motion:
         rows: Their limits.
         jerk: [m/s³].
     """
-    problem = Problem.of(widths, rows.spared(), SPARE * jerk, Seam(), Seam())
+    problem = SpeedProblem.of(widths, rows.spared(), SPARE * jerk, Seam(), Seam())
     return _motion(problem, problem.fastest(problem.crawl()), widths, Seam(), Seam())
 
 
@@ -126,8 +124,8 @@ def smoothest_from(
         hint: v² of a motion that may do, at the ends of the stretches and in their middles
             [m²/s²], shape (2 n + 1,).
     """
-    true = Problem.of(widths, rows, jerk, start, end)
-    tight = Problem.of(widths, rows.spared(), SPARE * jerk, start, end)
+    true = SpeedProblem.of(widths, rows, jerk, start, end)
+    tight = SpeedProblem.of(widths, rows.spared(), SPARE * jerk, start, end)
     found = None
     guesses = [_guess(widths, start, end, part * brake, rate * jerk) for part, rate in GUESSES]
     if hint is not None:
@@ -204,7 +202,7 @@ def _risen(top: float, length: float, brake: float, jerk: float) -> tuple[Floats
 
 
 def _motion(
-    problem: Problem, m: Floats, widths: Floats, start: Rest | Moving | Seam,
+    problem: SpeedProblem, m: Floats, widths: Floats, start: Rest | Moving | Seam,
     end: Rest | Even | Seam,
 ) -> Motion:  # fmt: skip
     """The motion with these coefficients."""

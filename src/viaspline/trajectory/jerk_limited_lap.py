@@ -7,23 +7,21 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.trajectory.cells import Cells
 from viaspline.trajectory.coupled import Profile, Stage
 from viaspline.trajectory.interior_point import Rest, Seam
-from viaspline.trajectory.jerk import Section, fine_course, joined, reachable, smooth_law
+from viaspline.trajectory.jerk import Section, fine_path, joined, reachable, smooth_law
 from viaspline.trajectory.jerk_limited import Motion, smoothest, smoothest_lap
-from viaspline.trajectory.limited_path import Course
+from viaspline.trajectory.limited_path import LimitedPath
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory
 
-Floats = NDArray[np.float64]
-
 
 def smooth_lap(
-    course: Course,
+    limited_path: LimitedPath,
     limits: Limits,
     stage: Stage,
     plain: Profile,
@@ -37,7 +35,7 @@ def smooth_lap(
     motion, from the last rest to the first one.
 
     Args:
-        course: What is driven.
+        limited_path: What is driven.
         limits: With ``max_jerk``.
         stage: The lap.
         plain: The fastest v² of a lap without a limit of the jerk.
@@ -48,13 +46,13 @@ def smooth_lap(
     still, length = plain.points[plain.squares <= 0.0], stage.end
     if plain.squares[0] <= 0.0 or plain.squares[-1] <= 0.0:
         stage = replace(stage, first=0.0, last=0.0)
-        return smooth_law(course, limits, stage, plain, stops, start_time)
+        return smooth_law(limited_path, limits, stage, plain, stops, start_time)
     limits, stage = reachable(limits), replace(stage, first=0.0, last=0.0)
     assert limits.max_jerk is not None
-    cells, grain = fine_course(course, limits, stage).cells(stage)
+    cells, cell_size = fine_path(limited_path, limits, stage).cells(stage)
     top = seam_speed * seam_speed
     if not still.size:
-        section = Section.of(cells, limits, stage, grain, 0.0, length)
+        section = Section.of(cells, limits, stage, cell_size, 0.0, length)
         section.caps[[0, -1]] = np.minimum(section.caps[[0, -1]], top)
         rows = section.rows(Seam(), Seam())
         motion = smoothest_lap(np.diff(section.line), rows, limits.max_jerk)
@@ -66,7 +64,7 @@ def smooth_lap(
     motions: list[Motion] = []
     for low, high in pairwise(places):
         seam = [length] if high > length else []
-        section = Section.of(cells, limits, stage, grain, low, high, seam)
+        section = Section.of(cells, limits, stage, cell_size, low, high, seam)
         line = section.line
         if seam:
             at = int(np.searchsorted(line, length))

@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import SpeedZone
 from viaspline.trajectory.coupled import Profile, Stage
 from viaspline.trajectory.curvature_limited import Cubic
 from viaspline.trajectory.jerk_limited_lap import smooth_lap
-from viaspline.trajectory.limited_path import CubicCourse, crawl
+from viaspline.trajectory.limited_path import LimitedCubicPath, crawl
 from viaspline.trajectory.limits import SETTLE, Limits, Station
 from viaspline.trajectory.retime import stops_from
 from viaspline.trajectory.steering_rate import jump_speeds
 from viaspline.trajectory.trajectory import Trajectory
-
-Floats = NDArray[np.float64]
 
 CLOSE = 1e-6
 """A lap ends where it starts, this near [m]."""
@@ -65,11 +63,11 @@ def retime_lap(
         >>> law.speeds.tolist(), round(law.duration, 2)
         ([2.0, 2.0], 31.41)
     """
-    course = CubicCourse(path, limits, grid)
+    limited_path = LimitedCubicPath(path, limits, grid)
     gap = float(np.linalg.norm(path.spans[0, 0] - path.spans[-1, 3]))
     if gap > CLOSE:
         raise GeometryError(f"the path ends {gap:.3g} m from where it starts: that is no lap")
-    length = course.length
+    length = limited_path.length
     top = limits.max_speed if speed_cap is None else min(limits.max_speed, float(speed_cap))
     if not top > 0.0:
         raise GeometryError(f"speed_cap is {speed_cap}; give a speed above 0")
@@ -79,14 +77,14 @@ def retime_lap(
         0.0,
         length,
     )
-    slow = course.slow(zones, 0.0)
+    slow = limited_path.slow(zones, 0.0)
 
     def lap(speed: float) -> tuple[Profile, bool]:
         stage = Stage(
             start=0.0, end=length, first=speed, last=speed, top=top,
             stops=tuple(stop.distance for stop in stops), slow=slow,
         )  # fmt: skip
-        profile = course.profile(stage)
+        profile = limited_path.profile(stage)
         ends = profile.squares[[0, -1]]
         kept = not profile.over > 0.0 and profile.missed != profile.missed
         return profile, kept and bool(np.all(ends >= speed * speed * (1.0 - 1e-12)))
@@ -94,7 +92,7 @@ def retime_lap(
     if any(stop.distance >= length - slip for stop in stops):
         top_at_seam = 0.0
     else:
-        top_at_seam = min(top, _seam_speed(course))
+        top_at_seam = min(top, _seam_speed(limited_path))
     profile, kept = lap(top_at_seam)
     if not kept:
         low, high = 0.0, top_at_seam**2
@@ -107,7 +105,7 @@ def retime_lap(
             start=0.0, end=length, first=0.0, last=0.0, top=top,
             stops=tuple(stop.distance for stop in stops), slow=slow,
         )  # fmt: skip
-        return smooth_lap(course, limits, stage, profile, stops, start_time, top_at_seam)
+        return smooth_lap(limited_path, limits, stage, profile, stops, start_time, top_at_seam)
     profile.squares[-1] = profile.squares[0]
     return Trajectory.through(
         profile.points,
@@ -118,9 +116,9 @@ def retime_lap(
     )
 
 
-def _seam_speed(course: CubicCourse) -> float:
+def _seam_speed(limited_path: LimitedCubicPath) -> float:
     """The largest speed that a turn or a jump of the curvature at the seam allows [m/s]."""
-    limits, spans = course.limits, course.path.spans
+    limits, spans = limited_path.limits, limited_path.path.spans
     across = (
         limits.max_lateral_accel, limits.max_yaw_rate, limits.max_yaw_accel, limits.axis_accel,
         limits.max_steer_rate,
@@ -132,8 +130,8 @@ def _seam_speed(course: CubicCourse) -> float:
         return 0.0
     if limits.max_yaw_accel is None and limits.max_steer_rate is None:
         return np.inf
-    stage = Stage(start=0.0, end=course.length, first=0.0, last=0.0, top=limits.max_speed)
-    cells, _ = course.cells(stage)
+    stage = Stage(start=0.0, end=limited_path.length, first=0.0, last=0.0, top=limits.max_speed)
+    cells, _ = limited_path.cells(stage)
     if not cells.yaws.size:
         return np.inf
     before, after = cells.yaws[-1:, 0, 2], cells.yaws[:1, 0, 0]

@@ -7,20 +7,25 @@ from dataclasses import dataclass
 from typing import Protocol, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import SpeedZone
-from viaspline.trajectory.cells import SAMPLED, Cells, Evaluable, Grain, cubic_cells, sampled_cells
-from viaspline.trajectory.coupled import Profile, Stage, coupled_profile, grain_for, is_coupled
+from viaspline.trajectory.cells import (
+    SAMPLED,
+    Cells,
+    CellSize,
+    Evaluable,
+    cubic_cells,
+    sampled_cells,
+)
+from viaspline.trajectory.coupled import Profile, Stage, cell_size_for, coupled_profile, is_coupled
 from viaspline.trajectory.curvature_limited import Cubic, bend_profile
 from viaspline.trajectory.limits import Limits
 from viaspline.trajectory.slow_zones import Slow, slow_parts
 
-Floats = NDArray[np.float64]
 
-
-class Course(Protocol):
+class LimitedPath(Protocol):
     """A path under limits."""
 
     @property
@@ -30,22 +35,24 @@ class Course(Protocol):
     def slow(self, zones: Sequence[SpeedZone], start: float) -> tuple[Slow, ...]:
         """Where zones make it slow, from a distance on [m]."""
 
-    def cells(self, stage: Stage) -> tuple[Cells, Grain]:
+    def cells(self, stage: Stage) -> tuple[Cells, CellSize]:
         """The path in cells that are fine enough for the limits."""
 
     def profile(self, stage: Stage) -> Profile:
         """The fastest v² on a stage, jerk left out."""
 
 
-def course_of(path: Cubic | Evaluable, limits: Limits, grid: int | None = None) -> Course:
+def limited_path_of(
+    path: Cubic | Evaluable, limits: Limits, grid: int | None = None
+) -> LimitedPath:
     """A path under limits, proven if it is a piecewise cubic and sampled if not."""
     if grid is not None and not 1 <= grid <= 1_000_000:
         raise GeometryError(f"grid is {grid}; give a number of cells from 1 to 1000000")
     if hasattr(path, "spans"):
-        return CubicCourse(cast(Cubic, path), limits, grid)
-    rough = grain_for(limits, 1, Stage(start=0.0, end=1.0, first=0.0, last=0.0, top=1.0))
+        return LimitedCubicPath(cast(Cubic, path), limits, grid)
+    rough = cell_size_for(limits, 1, Stage(start=0.0, end=1.0, first=0.0, last=0.0, top=1.0))
     cells, u = sampled_cells(path, rough, SAMPLED if grid is None else grid)
-    return SampledCourse(path, limits, cells, u)
+    return LimitedSampledPath(path, limits, cells, u)
 
 
 def crawl(limits: Limits) -> float:
@@ -54,7 +61,7 @@ def crawl(limits: Limits) -> float:
 
 
 @dataclass(frozen=True)
-class CubicCourse:
+class LimitedCubicPath:
     """A piecewise cubic under limits."""
 
     path: Cubic
@@ -91,19 +98,19 @@ class CubicCourse:
                 found.append(Slow(max(float(places[0]), start), float(places[1]), speed))
         return tuple(found)
 
-    def cells(self, stage: Stage) -> tuple[Cells, Grain]:
+    def cells(self, stage: Stage) -> tuple[Cells, CellSize]:
         """The path in cells that are fine enough for the limits."""
-        grain = grain_for(self.limits, self.path.spans.shape[2], stage, self.grid)
+        cell_size = cell_size_for(self.limits, self.path.spans.shape[2], stage, self.grid)
         first, begin = self._ahead(stage.start)
         spans = np.ascontiguousarray(self.path.spans[first:])
-        return cubic_cells(spans, begin, self.length, grain), grain
+        return cubic_cells(spans, begin, self.length, cell_size), cell_size
 
     def profile(self, stage: Stage) -> Profile:
         """The fastest v² on a stage, jerk left out."""
         if not is_coupled(self.limits, _dimension(self.path, self.limits)):
             return bend_profile(self.path, self.limits, stage)
-        cells, grain = self.cells(stage)
-        return coupled_profile(cells, self.limits, stage, grain)
+        cells, cell_size = self.cells(stage)
+        return coupled_profile(cells, self.limits, stage, cell_size)
 
 
 def _dimension(path: Cubic, limits: Limits) -> int:
@@ -112,7 +119,7 @@ def _dimension(path: Cubic, limits: Limits) -> int:
 
 
 @dataclass(frozen=True)
-class SampledCourse:
+class LimitedSampledPath:
     """Any other curve under limits.
 
     Attributes:
@@ -148,10 +155,10 @@ class SampledCourse:
                 found.append(Slow(max(float(ends[0]), start), float(ends[1]), speed))
         return tuple(found)
 
-    def cells(self, stage: Stage) -> tuple[Cells, Grain]:
+    def cells(self, stage: Stage) -> tuple[Cells, CellSize]:
         """The path in cells that are fine enough for the limits."""
         dimension = self.along_cells.tangents.shape[1]
-        return self.along_cells, grain_for(self.limits, dimension, stage)
+        return self.along_cells, cell_size_for(self.limits, dimension, stage)
 
     def profile(self, stage: Stage) -> Profile:
         """The fastest v² on a stage, jerk left out."""

@@ -8,9 +8,8 @@ with time, a + j t, at the very start and end of a motion that is limited in jer
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
 
 _TINY = 1e-4  # below this a series of two terms is exact to rounding
 

@@ -12,7 +12,7 @@ from viaspline.trajectory.cells import Evaluable
 from viaspline.trajectory.coupled import Stage
 from viaspline.trajectory.curvature_limited import Cubic
 from viaspline.trajectory.jerk import smooth_law
-from viaspline.trajectory.limited_path import course_of, crawl
+from viaspline.trajectory.limited_path import crawl, limited_path_of
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.trajectory import Trajectory
 
@@ -92,8 +92,8 @@ def retime(
         >>> round(retime(line, Limits(max_speed=2, max_accel=1), zones=[slow]).duration, 3)
         20.0
     """
-    course = course_of(path, limits, grid)
-    length = course.length
+    limited_path = limited_path_of(path, limits, grid)
+    length = limited_path.length
     _check(length, start, start_speed, start_accel, end_speed, speed_cap)
     stops = stops_from(stations, start, length)
     accel = crawl(limits)
@@ -108,9 +108,9 @@ def retime(
         last=float(end_speed),
         top=limits.max_speed if speed_cap is None else min(limits.max_speed, float(speed_cap)),
         stops=tuple(stop.distance for stop in stops),
-        slow=course.slow(zones, start),
+        slow=limited_path.slow(zones, start),
     )
-    profile = course.profile(stage)
+    profile = limited_path.profile(stage)
     if profile.missed == profile.missed:
         raise GeometryError(
             f"the robot can't stop at {profile.missed:g} m: from {start_speed:g} m/s at "
@@ -119,7 +119,7 @@ def retime(
         )
     if limits.max_jerk is not None:
         return smooth_law(
-            course, limits, stage, profile, stops, start_time, float(start_accel), replaces
+            limited_path, limits, stage, profile, stops, start_time, float(start_accel), replaces
         )
     return Trajectory.through(
         profile.points,

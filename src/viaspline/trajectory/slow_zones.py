@@ -10,9 +10,8 @@ import shapely
 from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import SpeedZone
-
-Floats = NDArray[np.float64]
 
 NEAR = 1e-6
 """What is nearer to a zone than this counts as inside [m]."""

@@ -8,12 +8,10 @@ the largest change is proven.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.trajectory.cells import Cells
 from viaspline.trajectory.limits import SETTLE, Limits
-
-Floats = NDArray[np.float64]
 
 _LEAST = 1e-12
 

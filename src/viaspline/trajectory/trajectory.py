@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.integrate import ride
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.motion_pieces import after, speed_into, time_into
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,9 +10,10 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Columns, Floats, Ints
 from viaspline.kernels.world.box_tree import box_tree, hilbert_keys, ring_boxes
 from viaspline.kernels.world.grid_rows import row_tables
-from viaspline.kernels.world.packed import Columns, Floats, Ints, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.rings import pack_polygons
 from viaspline.maps.grid import Grid
 from viaspline.mission.parts import Obstacle

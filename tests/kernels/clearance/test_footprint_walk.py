@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import shapely
 
-from viaspline.kernels.clearance.disc import footprint_motion as pieces
-from viaspline.kernels.clearance.disc import footprint_walk as kernels
+from viaspline.kernels.clearance import footprint_motion as pieces
+from viaspline.kernels.clearance import footprint_walk as kernels
 from viaspline.kernels.clearance.footprint_pose import body_distances
 from viaspline.kernels.curve.curvature_bound import corners, curvature_bounds
 from viaspline.kernels.curve.self_intersection import self_loops

@@ -5,13 +5,13 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
-from viaspline.kernels.routing.distance_field import OVER, spread
+from viaspline.kernels.routing.distance_field import OVER, distance_field
 
 
 def test_lengths_spread_as_dijkstra_finds_them_on_the_graph_of_neighbours():
     cells = (np.random.default_rng(2).random((12, 17)) < 0.35).astype(np.uint8)
     cells[3, 4] = 0
-    lengths = spread(cells, np.array([[3, 4]]))
+    lengths = distance_field(cells, np.array([[3, 4]]))
     rows, columns, weights = [], [], []
     for r, c in np.argwhere(cells == 0):
         for dr in (-1, 0, 1):

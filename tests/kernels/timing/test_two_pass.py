@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
-from viaspline.kernels.timing.two_pass import speed_profile
+from viaspline.kernels.timing.two_pass import two_pass_profile
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -27,7 +27,7 @@ def random_line(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def test_no_feasible_profile_is_faster_than_the_kernels(seed: int) -> None:
     distances, caps, rests = random_line(seed)
     accel = 0.7
-    points, squares, _, missed = speed_profile(distances, caps, rests, accel, accel, 0.0, 0.0)
+    points, squares, _, missed = two_pass_profile(distances, caps, rests, accel, accel, 0.0, 0.0)
     assert np.isnan(missed)
     # the pointwise largest v² as a linear programme over all the break points
     n = len(points)
@@ -48,7 +48,7 @@ def test_no_feasible_profile_is_faster_than_the_kernels(seed: int) -> None:
 @settings(deadline=None, max_examples=40)
 def test_between_the_break_points_every_limit_is_kept(seed: int) -> None:
     distances, caps, rests = random_line(seed)
-    points, squares, over, _ = speed_profile(distances, caps, rests, 0.7, 0.7, 0.0, 0.0)
+    points, squares, over, _ = two_pass_profile(distances, caps, rests, 0.7, 0.7, 0.0, 0.0)
     assert over == distances[0]
     assert np.all(np.diff(points) > 0)
     slopes = np.diff(squares) / np.diff(points)
@@ -59,7 +59,7 @@ def test_between_the_break_points_every_limit_is_kept(seed: int) -> None:
 
 
 def test_a_start_above_the_caps_brakes_until_it_is_below_them() -> None:
-    points, squares, over, missed = speed_profile(
+    points, squares, over, missed = two_pass_profile(
         np.array([0.0, 10.0]), np.array([1.0]), np.array([False, False]), 1.0, 1.0, 9.0, 0.0
     )
     assert over == pytest.approx(4.0)
@@ -69,7 +69,7 @@ def test_a_start_above_the_caps_brakes_until_it_is_below_them() -> None:
 
 
 def test_a_start_too_fast_to_come_to_rest_names_the_place() -> None:
-    *_, missed = speed_profile(
+    *_, missed = two_pass_profile(
         np.array([0.0, 4.0, 9.0]), np.array([4.0, 4.0]), np.array([False, True, False]),
         1.0, 1.0, 9.0, 0.0,
     )  # fmt: skip

@@ -1,18 +1,18 @@
 import numpy as np
 
-from viaspline.kernels.turning.collision_cache import Ground, is_clear
+from viaspline.kernels.turning.collision_cache import CollisionCache, is_clear
 from viaspline.mission.parts import Obstacle
 from viaspline.world.world import World
 
 RHO = 4.0
 
 
-def ground(world, discs, pace=0.02):
+def cache(world, discs, pace=0.02):
     rows = np.array(discs, float)
     frame = np.array([-20.0, -20.0, 0.1, pace])
     speeds = np.hypot(1.0 + np.abs(rows[:, 1]) / RHO, rows[:, 0] / RHO)
     rows = np.ascontiguousarray(np.column_stack((rows, speeds)))
-    return Ground(world.packed, frame, np.full((400, 400), np.nan), rows)
+    return CollisionCache(world.packed, frame, np.full((400, 400), np.nan), rows)
 
 
 def test_a_clear_chain_is_clear_by_brute_force_and_a_chain_with_room_to_spare_is_clear(chained):
@@ -34,7 +34,7 @@ def test_a_clear_chain_is_clear_by_brute_force_and_a_chain_with_room_to_spare_is
             (world.distance(np.column_stack((x + c * a - s * b, y + s * a + c * b))) - r).min()
             for a, b, r in discs
         )
-        found = is_clear(ground(world, held), 0.0, 0.0, 0.0, segments, len(segments))
+        found = is_clear(cache(world, held), 0.0, 0.0, 0.0, segments, len(segments))
         assert not found or slack > 0.0
         assert found or slack < 0.02
         outcomes.add(found)

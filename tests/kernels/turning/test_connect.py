@@ -9,7 +9,13 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import connect, curvature_ramp
 from viaspline.kernels.turning.segment_chain import chain_spans, merged
-from viaspline.kernels.turning.turn_sequence import FINE, HEADING, SIDE, swing, swung_length
+from viaspline.kernels.turning.turn_sequence import (
+    FINE,
+    HEADING,
+    SIDE,
+    turn_sequence,
+    turn_sequence_length,
+)
 
 RHO, RAMP = 4.0, 1.5
 angles = st.floats(-math.pi, math.pi)
@@ -66,9 +72,9 @@ def test_far_apart_the_best_is_no_longer_than_the_best_swing_of_two_bends(way, g
         bends = np.zeros((2, 5))
         bends[1, :2] = x, y
         bends[:, HEADING], bends[:, SIDE] = (start, goal), (s1, s2)
-        *found, state, _ = swing(bends, False, RHO, RAMP)
+        *found, state, _ = turn_sequence(bends, False, RHO, RAMP)
         if state == FINE:
-            swings.append(swung_length(bends, False, RHO, *found))
+            swings.append(turn_sequence_length(bends, False, RHO, *found))
     assert min(lengths) <= min(swings, default=math.inf) + 1e-6
     assert min(lengths) < math.inf
 

@@ -15,9 +15,9 @@ from viaspline.kernels.turning.turn_sequence import (
     SIDE,
     X,
     Y,
-    swing,
-    swung_length,
-    swung_spans,
+    turn_sequence,
+    turn_sequence_length,
+    turn_sequence_spans,
 )
 
 RHO = 4.0
@@ -38,12 +38,12 @@ def bends_through(points, kept=0.0, side=0.0, ends=(math.nan, math.nan), sides=(
 
 
 def swung(bends, closed=False, rho=RHO, ramp=RHO):
-    *found, state, _ = swing(bends, closed, rho, ramp)
+    *found, state, _ = turn_sequence(bends, closed, rho, ramp)
     if state != FINE:
         return None
     lines, turns, apexes, ramps = found
-    spans, begins = swung_spans(bends, closed, rho, lines, turns, apexes, ramps)
-    length = swung_length(bends, closed, rho, lines, turns, apexes, ramps)
+    spans, begins = turn_sequence_spans(bends, closed, rho, lines, turns, apexes, ramps)
+    length = turn_sequence_length(bends, closed, rho, lines, turns, apexes, ramps)
     return PiecewiseCubic(spans, closed=closed), begins, length
 
 
@@ -132,5 +132,5 @@ def test_a_bend_that_the_others_make_needless_is_left_out():
     rows = bends_through(
         [(0, 0), (20, 10), (30, 30), (60, 0)], kept=[0, 3, 3, 0], side=[0.0, -1.0, 1.0, 0.0]
     )
-    *_, state, where = swing(rows, False, RHO, RHO)
+    *_, state, where = turn_sequence(rows, False, RHO, RHO)
     assert (state, where) == (LEFT_OUT, 2)

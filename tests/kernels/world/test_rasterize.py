@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from viaspline.kernels.routing.navmesh.rectangles import Cells
+from viaspline.kernels.arrays import Bytes
 from viaspline.kernels.world.distance import distances
 from viaspline.kernels.world.rasterize import mark_segments, rasterized
 from viaspline.maps.grid import Grid
@@ -17,7 +17,7 @@ from viaspline.mission.parts import Obstacle
 from viaspline.world.pack import pack
 
 Floats = NDArray[np.float64]
-NOTHING: Cells = np.empty((0, 0), np.uint8)
+NOTHING: Bytes = np.empty((0, 0), np.uint8)
 seeds = st.integers(0, 2**32)
 
 
@@ -90,7 +90,7 @@ def test_segments_block_the_cells_that_they_pass_through(seed: int) -> None:
     "segment", [(1.0, 0.5, 1.0, 3.5), (0.5, 2.0, 3.5, 2.0), (1.0, 1.0, 3.0, 3.0), (2, 0, 2, 4)]
 )
 def test_segments_along_the_lines_of_a_lattice_close_it(segment: Any) -> None:
-    """Cells to both sides of the segment are no longer joined across it."""
+    """Bytes to both sides of the segment are no longer joined across it."""
     cells = np.zeros((4, 4), np.uint8)
     mark_segments(np.array([segment], float), 0.0, 0.0, 1.0, cells)
     a, b = np.array(segment[:2], float), np.array(segment[2:], float)

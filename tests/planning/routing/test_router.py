@@ -12,7 +12,7 @@ from scipy import ndimage
 
 from viaspline.kernels.routing.corners import X, Y
 from viaspline.mission.parts import Obstacle
-from viaspline.planning.routing.router import NO_BARRIERS, Router, Way
+from viaspline.planning.routing.router import NO_BARRIERS, Router, TautPath
 from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.world.world import World
 
@@ -29,7 +29,7 @@ def polygon(*ring: tuple[float, float]) -> Obstacle:
     return Obstacle(polygon=ring)
 
 
-def way(world: World, start: Any, goal: Any, required: float = 1.0) -> Way | None:
+def taut_path(world: World, start: Any, goal: Any, required: float = 1.0) -> TautPath | None:
     places = np.array([start, goal], float)
     active = np.zeros(len(world), np.bool_)
     return Router(world, required, places).find(*places, NO_BARRIERS, active)
@@ -92,7 +92,7 @@ def visibility_length(
     return np.inf
 
 
-def corner_length(found: Way) -> float:
+def corner_length(found: TautPath) -> float:
     places = found.corners[:, X : Y + 1]
     return float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
 
@@ -113,7 +113,7 @@ def test_the_way_is_as_short_as_the_visibility_graph_says(
     ends = clear_places(rng, lambda xy: shapely_distance(xy, obstacles), 50.0)
     if ends is None:
         return
-    found = way(World(obstacles), *ends)
+    found = taut_path(World(obstacles), *ends)
     # corners on the arcs cut them short, corners outside of them lead a little far round
     shortest = visibility_length(obstacles, 1.0, *ends, 8)
     if found is None:
@@ -146,7 +146,7 @@ def test_a_way_is_found_where_there_is_one_and_only_there(
     grid = np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1)
     room = distance(grid.reshape(-1, 2)).reshape(axis.size, axis.size)
     cells = [tuple(np.round((end + 2.0) / step).astype(int)) for end in ends]
-    found = way(World(obstacles, bounds=bounds, fences=fences), *ends)
+    found = taut_path(World(obstacles, bounds=bounds, fences=fences), *ends)
     slip = step * np.sqrt(0.5)
     wide, _ = ndimage.label(room >= 1.0 + 2 * slip + 0.01, np.ones((3, 3)))
     narrow, _ = ndimage.label(room >= 1.0 - slip, np.ones((3, 3)))
@@ -162,14 +162,14 @@ def test_a_way_is_found_where_there_is_one_and_only_there(
 
 
 def test_nothing_in_the_way_leaves_the_straight_line() -> None:
-    found = way(World([disc(5, 10, 2)]), (0, 0), (10, 0))
+    found = taut_path(World([disc(5, 10, 2)]), (0, 0), (10, 0))
     assert found is not None
     assert found.is_direct
     assert found.length == 10.0
 
 
 def test_the_way_round_a_circle_is_two_tangents_and_an_arc() -> None:
-    found = way(World([disc(0, 0, 4)]), (-13, 0), (13, 0), 1.0)
+    found = taut_path(World([disc(0, 0, 4)]), (-13, 0), (13, 0), 1.0)
     assert found is not None
     angle = 2 * np.arcsin(5 / 13)
     assert found.length == pytest.approx(2 * 12 + 5 * angle, abs=2e-3)
@@ -177,10 +177,10 @@ def test_the_way_round_a_circle_is_two_tangents_and_an_arc() -> None:
 
 def test_the_way_into_a_pocket_goes_in_at_its_mouth() -> None:
     pocket = polygon((0, 0), (20, 0), (20, 20), (15, 20), (15, 5), (5, 5), (5, 20), (0, 20))
-    found = way(World([pocket]), (10, -10), (10, 8))
+    found = taut_path(World([pocket]), (10, -10), (10, 8))
     assert found is not None
     assert found.length > 40
-    assert way(World([pocket]), (10, -10), (10, 8), 5.1) is None
+    assert taut_path(World([pocket]), (10, -10), (10, 8), 5.1) is None
 
 
 def test_a_gap_a_tenth_of_a_millimetre_wider_than_the_body_is_passed() -> None:
@@ -189,17 +189,17 @@ def test_a_gap_a_tenth_of_a_millimetre_wider_than_the_body_is_passed() -> None:
         world = World(
             [disc(0, reach, radius), disc(0, -reach, radius)], bounds=(-900, -reach, 900, reach)
         )
-        found = way(world, (-600, 0), (600, 0))
+        found = taut_path(world, (-600, 0), (600, 0))
         assert found is not None
         assert found.length == pytest.approx(1200.0)
-        off_line = way(world, (-600, 30) if radius > 100 else (-600, 0.4), (600, -0.3))
+        off_line = taut_path(world, (-600, 30) if radius > 100 else (-600, 0.4), (600, -0.3))
         assert off_line is not None
 
 
 def test_a_gap_a_tenth_of_a_millimetre_too_narrow_is_not() -> None:
     reach = 11.0 - 0.5e-4
     world = World([disc(0, reach, 10), disc(0, -reach, 10)], bounds=(-50, -reach, 50, reach))
-    assert way(world, (-30, 0), (30, 0)) is None
+    assert taut_path(world, (-30, 0), (30, 0)) is None
 
 
 def test_a_gap_between_walls_may_be_as_narrow() -> None:
@@ -207,13 +207,13 @@ def test_a_gap_between_walls_may_be_as_narrow() -> None:
         polygon((0, 1 + 5e-5), (5, 1 + 5e-5), (5, 60), (0, 60)),
         polygon((0, -1 - 5e-5), (5, -1 - 5e-5), (5, -60), (0, -60)),
     ]
-    found = way(World(walls, bounds=(-60, -60, 60, 60)), (-30, 25), (30, -25))
+    found = taut_path(World(walls, bounds=(-60, -60, 60, 60)), (-30, 25), (30, -25))
     assert found is not None
 
 
 @pytest.mark.parametrize("ring", [L_SHAPE, L_SHAPE[::-1], [*L_SHAPE, L_SHAPE[0]]])
 def test_the_inner_corner_of_a_fence_is_turned_at(ring: list[tuple[float, float]]) -> None:
-    found = way(World(fences=[ring]), (10, 55), (55, 10))
+    found = taut_path(World(fences=[ring]), (10, 55), (55, 10))
     assert found is not None
     away = np.hypot(10, 35)  # of both ends from the inner corner (20, 20)
     between = 2 * np.pi - 2 * (np.arctan2(35, -10) - np.pi / 4)
@@ -223,23 +223,23 @@ def test_the_inner_corner_of_a_fence_is_turned_at(ring: list[tuple[float, float]
 
 def test_nothing_leads_over_bounds_that_cut_the_only_way() -> None:
     wall = polygon((40, -10), (50, -10), (50, 110), (40, 110))
-    assert way(World([wall]), (10, 50), (90, 50)) is not None
-    assert way(World([wall], bounds=(0, 0, 100, 100)), (10, 50), (90, 50)) is None
+    assert taut_path(World([wall]), (10, 50), (90, 50)) is not None
+    assert taut_path(World([wall], bounds=(0, 0, 100, 100)), (10, 50), (90, 50)) is None
 
 
 def test_places_at_just_the_distance_that_is_required_can_be_left() -> None:
-    found = way(World([disc(0, 0, 4), disc(8, 8, 2)]), (-5, 0), (5, 0))
+    found = taut_path(World([disc(0, 0, 4), disc(8, 8, 2)]), (-5, 0), (5, 0))
     assert found is not None
     assert found.length == pytest.approx(5 * np.pi, abs=1e-3)
     wall = polygon((-10, -5), (10, -5), (10, 0), (-10, 0))
-    found = way(World([wall]), (0, 1), (0, -6))
+    found = taut_path(World([wall]), (0, 1), (0, -6))
     assert found is not None
     assert found.length == pytest.approx(10 * 2 + np.pi + 5, abs=5e-3)
 
 
 def test_overlapping_obstacles_are_gone_round_as_one() -> None:
     chain = [disc(0, y, 3) for y in range(-12, 13, 4)]
-    found = way(World(chain), (-20, 1), (20, 1))
+    found = taut_path(World(chain), (-20, 1), (20, 1))
     assert found is not None
     assert visibility_length(chain, 1.0, (-20, 1), (20, 1), 16) <= found.length + 1e-6
     assert found.length <= 1.002 * visibility_length(chain, 1.002, (-20, 1), (20, 1), 16) + 0.01

@@ -16,7 +16,7 @@ from viaspline.mission.parts import Circle, Obstacle
 from viaspline.mission.robot_parts import Lidar, RobotSpec, Sensor
 from viaspline.robot.perception.belief import Belief
 from viaspline.robot.perception.lidar import LidarSensor, Scan
-from viaspline.robot.perception.scan_history import Views
+from viaspline.robot.perception.scan_history import ScanHistory
 from viaspline.world.world import World
 
 LIDAR = Lidar(range_m=6.0, fov_deg=270, beams=541)
@@ -66,7 +66,7 @@ def test_every_hit_lies_in_a_disc_whose_middle_is_a_hit(
     places = belief.echoes.places
     assert max(np.hypot(*(seen - place).T).min() for place in places) <= 1e-9
     gaps = shapely.distance(shapely.points(places)[:, None], shapely.points(places)[None, :])
-    assert gaps[~np.eye(len(places), dtype=bool)].min(initial=9.0) > belief.echoes.grain
+    assert gaps[~np.eye(len(places), dtype=bool)].min(initial=9.0) > belief.echoes.cell_size
 
 
 def test_a_scan_of_what_was_seen_already_is_no_news() -> None:
@@ -129,7 +129,7 @@ def test_with_noise_the_places_come_to_lie_on_the_surface() -> None:
     assert np.sqrt(np.mean(errors[0] ** 2)) == pytest.approx(0.02, rel=0.3)
     assert np.sqrt(np.mean(errors[-1] ** 2)) < 0.012
     assert np.max(errors[-1]) < 0.05
-    assert belief.echoes.grain > 0.02 + nothing().echoes.grain - 1e-12
+    assert belief.echoes.cell_size > 0.02 + nothing().echoes.cell_size - 1e-12
 
 
 def test_a_body_can_go_where_beams_have_been_on_all_of_its_front() -> None:
@@ -155,7 +155,7 @@ def test_a_shadow_is_not_entered_until_it_has_been_looked_into() -> None:
 
 
 def test_what_was_seen_before_counts_and_what_is_far_behind_is_forgotten() -> None:
-    views = Views(near=2.0, apart=0.1)
+    views = ScanHistory(near=2.0, apart=0.1)
     ahead, aside = np.array([[1.0, 0.0]]), np.array([[0.0, 0.9]])
     look = Scan((0.0, 0.0), 0.0, -2.2, 0.01, 5.0, np.full(441, 5.0))
     blind = Scan((0.5, 0.0), 0.0, -2.2, 0.01, 5.0, np.full(441, np.nan))

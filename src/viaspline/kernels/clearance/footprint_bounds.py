@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.footprint_motion import (
     COS0,
     COS1,
@@ -26,7 +27,7 @@ from viaspline.kernels.clearance.footprint_motion import (
 )
 from viaspline.kernels.jit import inner
 from viaspline.kernels.world.distance import nearest, squared_point_segment
-from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import nearest_to_segment
 
 POINT = 1e-9  # what is smaller is a point [m]

@@ -19,8 +19,8 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
-from viaspline.kernels.world.packed import Floats
 
 PATH = 0  # 8 numbers: control points
 SPEED = 8  # 6 numbers: control vectors of the derivative, to a factor

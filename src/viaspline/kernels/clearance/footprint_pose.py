@@ -10,10 +10,11 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.distance import box_signed, nearest, point_segment
 from viaspline.kernels.world.grid_rows import is_blocked, to_cells, to_world
-from viaspline.kernels.world.packed import Floats, Ints, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import nearest_to_segment
 
 

@@ -14,6 +14,7 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.clearance.footprint_bounds import (
     AT,
     CELLS,
@@ -47,7 +48,7 @@ from viaspline.kernels.clearance.footprint_motion import (
 from viaspline.kernels.clearance.footprint_pose import enclosed, outer_radius, outline_gap
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.distance import nearest
-from viaspline.kernels.world.packed import Floats, Ints, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import nearest_to_segment
 
 DEPTH = 200

@@ -11,12 +11,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cubic import wrapped
 from viaspline.kernels.jit import inner, kernel
-
-Floats = NDArray[np.float64]
 
 _NODES, _WEIGHTS = (half[4:] for half in np.polynomial.legendre.leggauss(8))
 TOLERANCE = 1e-10  # of a span's longest possible length

@@ -12,9 +12,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
-
-Floats = NDArray[np.float64]
 
 
 @kernel

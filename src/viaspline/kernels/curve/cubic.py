@@ -10,11 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
-
-Floats = NDArray[np.float64]
 
 FINE, NOT_FINITE, APART = range(3)
 LARGEST = 1e100  # coordinates beyond this would overflow where they are squared [m]

@@ -16,8 +16,8 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.packed import Floats
 
 FINE = 1e-6  # what the bound may exceed an attained value by, relative
 DEPTH = 64

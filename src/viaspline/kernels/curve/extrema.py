@@ -12,13 +12,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cubic import speed_bound
 from viaspline.kernels.curve.frenet import curvature_at
 from viaspline.kernels.jit import inner, kernel
-
-Floats = NDArray[np.float64]
 
 NARROW = 2.0**-26
 DEPTH = 32

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cubic import (
     first_derivative,
     second_derivative,
@@ -19,8 +19,6 @@ from viaspline.kernels.curve.cubic import (
     wrapped,
 )
 from viaspline.kernels.jit import inner, kernel
-
-Floats = NDArray[np.float64]
 
 ROUNDING = 2e-15
 

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.packed import Floats
 
 SAMPLES = 32  # of curvature on a span
 PARTS = 4  # Gauss-Legendre rules of five points on a span

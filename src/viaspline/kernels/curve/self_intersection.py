@@ -13,9 +13,9 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.curve.curvature_bound import is_straight, turning_point
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.packed import Flags, Floats
 
 SMALL = 1e-12  # beside the span's size, what is only rounding
 

@@ -12,8 +12,9 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
-from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 
 # columns of a corner
 X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, SLOPE = range(8)

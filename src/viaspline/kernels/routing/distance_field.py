@@ -6,10 +6,9 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.heap import Heap, pop, push
 from viaspline.kernels.jit import kernel
-from viaspline.kernels.routing.navmesh.rectangles import Cells
-from viaspline.kernels.world.packed import Floats, Ints
 
 OVER = (
     1.0824  # by how much a way of steps to eight neighbours is longer than a straight one at most
@@ -17,7 +16,7 @@ OVER = (
 
 
 @kernel
-def spread(cells: Cells, sources: Ints) -> Floats:
+def distance_field(cells: Bytes, sources: Ints) -> Floats:
     """Lengths of the shortest ways through free cells, never too long by the steps' directions.
 
     Args:

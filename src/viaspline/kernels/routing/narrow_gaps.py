@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.growable import new_floats, sized_floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.distance import nearest
-from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 
 TOUCHING = 1e-3  # distance from an obstacle at which a chord ends, in radii
 MOST_CHORDS, MOST_PLACES = 1000, 20_000  # along a guide beside its corners, all of which is near

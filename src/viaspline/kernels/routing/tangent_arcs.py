@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.routing.corners import (
     CENTER_X,
@@ -18,7 +19,6 @@ from viaspline.kernels.routing.corners import (
     X,
     Y,
 )
-from viaspline.kernels.world.packed import Floats
 
 # columns of a bend: the arc's centre, radius and side (+1: it turns left), the headings with which
 # the route comes to it and leaves it

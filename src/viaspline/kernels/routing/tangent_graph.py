@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.routing.corners import (
     COLUMNS,
@@ -21,7 +22,7 @@ from viaspline.kernels.routing.corners import (
     supports,
 )
 from viaspline.kernels.world.clusters import obstacle_gap
-from viaspline.kernels.world.packed import Flags, Floats, Ints, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import inner_segment, mark_near_segment, obstacle_segment
 
 

@@ -11,12 +11,13 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.distance import box_signed
 from viaspline.kernels.world.grid_rows import is_blocked, to_cells
-from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 
-SLIP = 1e-9  # beams are tried a little beyond the angle that an obstacle covers [rad]
+SAME_PLACE_M = 1e-9  # beams are tried a little beyond the angle that an obstacle covers [rad]
 
 
 @inner
@@ -30,13 +31,13 @@ def _turned(angle: float) -> float:
 @inner
 def _first_beam(low: float, step: float) -> int:
     """The first beam at an angle of ``low`` or more from beam 0."""
-    return max(0, math.ceil((low - SLIP) / step))
+    return max(0, math.ceil((low - SAME_PLACE_M) / step))
 
 
 @inner
 def _last_beam(high: float, step: float, beams: int) -> int:
     """The last beam at an angle of ``high`` or less from beam 0."""
-    return min(beams - 1, math.floor((high + SLIP) / step))
+    return min(beams - 1, math.floor((high + SAME_PLACE_M) / step))
 
 
 @inner

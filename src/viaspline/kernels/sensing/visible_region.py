@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.packed import Flags, Floats, Ints
 
 
 @inner
@@ -111,7 +111,7 @@ def seen_through(
 
 
 @kernel
-def spread(points: Floats, gap: float) -> Ints:
+def beam_spread(points: Floats, gap: float) -> Ints:
     """Indices of points (n, 2), taken in order, that are farther than ``gap`` from those taken."""
     taken = np.empty(points.shape[0], np.int64)
     count = 0

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.jit import inner, kernel
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 _GAUSS_AT = np.array([-0.906179845938664, -0.5384693101056831, 0.0,
                       0.5384693101056831, 0.906179845938664])  # fmt: skip

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from viaspline.kernels.jit import kernel, within
-
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inlined, kernel
 
 
-@within
+@inlined
 def _squared_peak(a: Floats, i: int, miss: float, c0: float, c1: float) -> float:
     """A bound of A² w on a stretch on which w is linear from c0 to c1."""
     p1, p3 = a[i, 0] * a[i, 1], a[i, 1] * a[i, 2]
@@ -23,7 +21,7 @@ def _squared_peak(a: Floats, i: int, miss: float, c0: float, c1: float) -> float
     return peak + miss * (2.0 * most + miss) * max(c0, c1)
 
 
-@within
+@inlined
 def _bend_peak(b: Floats, miss: float, c0: float, c1: float) -> float:
     """A bound of |K| w on a stretch on which w is linear from c0 to c1."""
     peak = 0.0
@@ -43,7 +41,7 @@ def _bend_peak(b: Floats, miss: float, c0: float, c1: float) -> float:
     return np.sqrt(peak) + miss * np.sqrt(float(b.shape[0])) * max(c0, c1)
 
 
-@within
+@inlined
 def _speed_caps(
     t: Floats,
     b: Floats,

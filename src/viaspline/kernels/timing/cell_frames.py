@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from viaspline.kernels.jit import kernel, within
+from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.jit import inlined, kernel
 from viaspline.kernels.timing.cut_cells import FIRST, LAST, NOISE, SPAN, STRAIGHT, velocity
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 _GAUSS = np.array([[0.05635083268962915, 5 / 36], [0.25, 8 / 36], [0.44364916731037085, 5 / 36]])
 """Places and weights for the first half of [0, 1]; the second one mirrors them."""
 
 
-@within
+@inlined
 def _frame(r: Floats, u: float, width: float, frame: Floats) -> float:
     """T and K at a place in [0, 1] of a cell, into rows 0 and 1; returns |q'|."""
     square, dot, v = 0.0, 0.0, 1.0 - u
@@ -33,7 +30,7 @@ def _frame(r: Floats, u: float, width: float, frame: Floats) -> float:
     return speed
 
 
-@within
+@inlined
 def _half_lengths(r: Floats) -> tuple[float, float]:
     """Lengths of both halves of a piece on which |q'| hardly changes, by Gauss' rule.
 
@@ -56,7 +53,7 @@ def _half_lengths(r: Floats) -> tuple[float, float]:
     return first, second
 
 
-@within
+@inlined
 def _straight_length(r: Floats) -> float:
     """Length of a piece that runs straight ahead, per width of its parameter."""
     square = 0.0
@@ -66,14 +63,14 @@ def _straight_length(r: Floats) -> float:
     return np.sqrt(square)
 
 
-@within
+@inlined
 def _middle(first: float, middle: float, last: float, x: float) -> float:
     """The middle Bernstein coefficient of the quadratic with three values at 0, x and 1."""
     y = 1.0 - x
     return (middle - y * y * first - x * x * last) / (2.0 * x * y)
 
 
-@within
+@inlined
 def _straight_frame(spans: Floats, i: int, frame: Floats) -> float:
     """T and K of a straight span, and its length."""
     square = 0.0

@@ -9,12 +9,9 @@ distance s, with proven bounds of what they miss. With the derivatives p_k = q^(
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from viaspline.kernels.jit import kernel, within
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.jit import inlined, kernel
 
 _QUADRATIC = 0.00802
 """Largest |x (x - 1/2) (x - 1)| / 6 on [0, 1]: what a quadratic through three points misses."""
@@ -23,7 +20,7 @@ SPAN, FIRST, LAST, MISS_T, MISS_K, MISS_TURN, MISS_CHANGE, NOISE, STRAIGHT = ran
 """Columns of the rows of ``cut_cells``."""
 
 
-@within
+@inlined
 def _bounds(k: float, t: float, c: float) -> tuple[float, float]:
     """Bounds of |K''| and |K'''| where κ <= k, |τ| <= t and |p_3| <= c."""
     k1 = c + 3.0 * t * k + k * k
@@ -40,7 +37,7 @@ def _bounds(k: float, t: float, c: float) -> tuple[float, float]:
     return k2, k3
 
 
-@within
+@inlined
 def _shape_bounds(r: Floats, width: float) -> tuple[float, float, float, float, float]:
     """Least and largest |q'| where q' has the control vectors r; bounds of κ, |τ| and |p_3|.
 
@@ -72,7 +69,7 @@ def _shape_bounds(r: Floats, width: float) -> tuple[float, float, float, float, 
     return np.sqrt(low), np.sqrt(high), k, t, c
 
 
-@within
+@inlined
 def velocity(spans: Floats, i: int, a: float, b: float, r: Floats) -> None:
     """Control vectors of the derivative of span i on [a, b] of its parameter."""
     for j in range(spans.shape[2]):
@@ -85,7 +82,7 @@ def velocity(spans: Floats, i: int, a: float, b: float, r: Floats) -> None:
         r[2, j] = p + b * (q - p)
 
 
-@within
+@inlined
 def _size(spans: Floats, i: int) -> tuple[float, bool]:
     """What rounding does to the derivative of a span, and whether it runs straight ahead."""
     largest, longest, chord = 0.0, 0.0, 0.0

@@ -11,12 +11,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.jit import kernel, within
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inlined, kernel
 
-Floats = NDArray[np.float64]
 
-
-@within
+@inlined
 def _couple(
     a: Floats,
     b: Floats,
@@ -53,7 +52,7 @@ def _couple(
     return m
 
 
-@within
+@inlined
 def _part(c: Floats, k: int, i: int, x: float, y: float, out: Floats, o: int) -> None:
     """Bernstein coefficients of a quadratic on [x, y]."""
     p, q = c[k, i, 0] + x * (c[k, i, 1] - c[k, i, 0]), c[k, i, 1] + x * (c[k, i, 2] - c[k, i, 1])

@@ -7,14 +7,12 @@ reachability analysis", IEEE Transactions on Robotics 34 (2018).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from viaspline.kernels.jit import kernel, within
-
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inlined, kernel
 
 
-@within
+@inlined
 def _lowest(planes: Floats, n: int, m: int, w0: float) -> tuple[float, int]:
     """The least w1 >= 0 that goes with w0, and the half-plane that says so, or m."""
     low, lower = 0.0, m
@@ -27,7 +25,7 @@ def _lowest(planes: Floats, n: int, m: int, w0: float) -> tuple[float, int]:
     return low, lower
 
 
-@within
+@inlined
 def _highest(planes: Floats, n: int, m: int, w0: float, top: float) -> tuple[float, int]:
     """The largest w1 <= top that goes with w0, and the half-plane that says so, or m."""
     high, upper = top, m
@@ -40,7 +38,7 @@ def _highest(planes: Floats, n: int, m: int, w0: float, top: float) -> tuple[flo
     return high, upper
 
 
-@within
+@inlined
 def _meeting(planes: Floats, n: int, m: int, upper: int, lower: int, top: float) -> float:
     """The largest w0 that two half-planes allow, one that bounds w1 above and one below."""
     p, q, g, a, b, c = 0.0, 1.0, top, 0.0, -1.0, 0.0
@@ -54,7 +52,7 @@ def _meeting(planes: Floats, n: int, m: int, upper: int, lower: int, top: float)
     return max((c * q - g * b) / across, 0.0)
 
 
-@within
+@inlined
 def _largest_first(
     planes: Floats, n: int, m: int, top0: float, top1: float, upper: int, lower: int
 ) -> tuple[float, int, int]:

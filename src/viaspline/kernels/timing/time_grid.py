@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import kernel
-
-Floats = NDArray[np.float64]
 
 _GRADED = 1e-3 * 1.5 ** np.arange(12)
 """Nodes beside a rest, as parts of the shortest way to full speed."""

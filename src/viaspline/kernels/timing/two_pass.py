@@ -7,12 +7,9 @@ profile given at its break points is exact between them.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.jit import inner, kernel
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 
 @inner
@@ -63,7 +60,7 @@ def _peak(
 
 
 @kernel
-def speed_profile(
+def two_pass_profile(
     distances: Floats,
     caps: Floats,
     rests: Flags,

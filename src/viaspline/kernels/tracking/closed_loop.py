@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.tracking.control_law import (
     HIGH,
@@ -25,17 +25,20 @@ from viaspline.kernels.tracking.control_law import (
 )
 from viaspline.kernels.tracking.drive_model import Machine, clip
 from viaspline.kernels.tracking.drive_motion import STATE, V, W, move_into
-from viaspline.kernels.tracking.reference_path import Rail, beside, nearest_on, on_rail
-from viaspline.kernels.tracking.reference_timing import Law
-
-Floats = NDArray[np.float64]
+from viaspline.kernels.tracking.reference_path import (
+    ReferencePath,
+    beside,
+    nearest_on,
+    on_reference,
+)
+from viaspline.kernels.tracking.reference_timing import SpeedProfile
 
 
 @kernel
 def drive(
     machine: Machine,
-    rail: Rail,
-    law: Law,
+    reference: ReferencePath,
+    profile: SpeedProfile,
     state: Floats,
     period: float,
     substeps: int,
@@ -46,8 +49,8 @@ def drive(
 
     Args:
         machine: The drive, with its noise.
-        rail: The path.
-        law: The time law; it begins at time 0.
+        reference: The path.
+        profile: The time law; it begins at time 0.
         state: At the start, shape (STATE,), changed in place.
         period: Of the controller [s].
         substeps: Of the motion in a period.
@@ -63,7 +66,7 @@ def drive(
     times, speeds, turns = np.empty(n), np.empty(n), np.empty(n)
     memory, pose, note = np.zeros(MEMORY), np.zeros(STATE), np.zeros(NOTES)
     memory[LATE], memory[TURN] = machine.delay, state[W]
-    end = law.time[law.time.shape[0] - 1]
+    end = profile.time[profile.time.shape[0] - 1]
     for tick in range(n):
         time = tick * period
         if time - memory[LATE] >= end:
@@ -72,7 +75,18 @@ def drive(
             pose[k] = state[k] + measured[tick, k]
         pose[V] = state[V]
         decide_into(
-            machine, rail, law, memory, pose, time, period, times, speeds, turns, tick, note
+            machine,
+            reference,
+            profile,
+            memory,
+            pose,
+            time,
+            period,
+            times,
+            speeds,
+            turns,
+            tick,
+            note,
         )
         for k in range(NOTES):
             notes[tick, k] = note[k]
@@ -85,11 +99,11 @@ def drive(
 
 
 @kernel
-def deviations(rail: Rail, notes: Floats, track: Floats) -> Floats:
+def deviations(reference: ReferencePath, notes: Floats, track: Floats) -> Floats:
     """How far beside, turned from and behind its path a machine really was.
 
     Args:
-        rail: The path.
+        reference: The path.
         notes: Of every period, shape (m, NOTES).
         track: Of every step, shape (n, 6).
 
@@ -112,9 +126,9 @@ def deviations(rail: Rail, notes: Floats, track: Floats) -> Floats:
         if not rests:
             low, high = notes[k, LOW], max(notes[k, HIGH] - 1e-9, notes[k, LOW])
             should = min(should, high)
-        s = nearest_on(rail, clip(should, s - 0.5, s + 0.5), x, y, low, high)
-        px, py, _, _ = on_rail(rail, s)
-        aside, error = beside(rail, s, x, y, track[i, 3])
+        s = nearest_on(reference, clip(should, s - 0.5, s + 0.5), x, y, low, high)
+        px, py, _, _ = on_reference(reference, s)
+        aside, error = beside(reference, s, x, y, track[i, 3])
         out[i, 0], out[i, 2] = s, error
         out[i, 1] = math.copysign(math.hypot(x - px, y - py), aside)
         out[i, 3], out[i, 4] = should - s, 1.0 if rests else 0.0

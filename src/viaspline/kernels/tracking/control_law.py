@@ -10,15 +10,18 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from viaspline.kernels.jit import inner, kernel, within
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inlined, inner, kernel
 from viaspline.kernels.tracking.drive_model import ACKERMANN, Machine, clip, limited
 from viaspline.kernels.tracking.drive_motion import HEADING, V, W, X, Y, carried
-from viaspline.kernels.tracking.reference_path import Rail, beside, nearest_on, on_rail
-from viaspline.kernels.tracking.reference_timing import Law, ends_at, law_at
-
-Floats = NDArray[np.float64]
+from viaspline.kernels.tracking.reference_path import (
+    ReferencePath,
+    beside,
+    nearest_on,
+    on_reference,
+)
+from viaspline.kernels.tracking.reference_timing import SpeedProfile, ends_at, profile_at
 
 STEEPEST = 1.0  # a robot beside its path comes back to it at this angle at most [rad]
 ASTRAY = 0.7  # a robot that can turn on the spot does, if its heading is off by more [rad]
@@ -52,13 +55,13 @@ def turn_law(curvature: float, aside: float, error: float, aim: float) -> float:
     return curvature * math.cos(error) / nearer - 2.0 * (error - ahead) / aim
 
 
-_turn_law = within(turn_law)
+_turn_law = inlined(turn_law)
 
 
 @inner
 def _aimed(
     machine: Machine,
-    rail: Rail,
+    reference: ReferencePath,
     note: Floats,
     pose: Floats,
     speed: float,
@@ -76,7 +79,7 @@ def _aimed(
             return
         v *= math.cos(error)
     ahead = min(s + pose[V] * (machine.lag + 0.5 * hold), note[HIGH] - 1e-9)
-    curvature = on_rail(rail, max(ahead, s))[3]
+    curvature = on_reference(reference, max(ahead, s))[3]
     aim = max(machine.aim, machine.aim_time * pose[V])
     bend = _turn_law(curvature, aside, error, aim)
     note[TO_SPEED] = v
@@ -85,11 +88,11 @@ def _aimed(
 
 
 @inner
-def _resting(machine: Machine, rail: Rail, note: Floats) -> None:
+def _resting(machine: Machine, reference: ReferencePath, note: Floats) -> None:
     """The command for a robot that should stand: it turns to where it goes on."""
     note[TO_SPEED] = 0.0
     if machine.kind == ACKERMANN:
-        note[TO_TURN] = math.atan(machine.length * on_rail(rail, note[PROGRESS])[3])
+        note[TO_TURN] = math.atan(machine.length * on_reference(reference, note[PROGRESS])[3])
         return
     error = note[ERROR]
     note[TO_TURN] = 0.0
@@ -100,8 +103,8 @@ def _resting(machine: Machine, rail: Rail, note: Floats) -> None:
 @inner
 def decide_into(
     machine: Machine,
-    rail: Rail,
-    law: Law,
+    reference: ReferencePath,
+    profile: SpeedProfile,
     memory: Floats,
     pose: Floats,
     time: float,
@@ -120,8 +123,8 @@ def decide_into(
     pose[X], pose[Y], pose[HEADING], pose[V] = x, y, heading, v
     carried(machine, pose, time, time + machine.delay, times, speeds, turns, count)
     now = time + machine.delay
-    should, speed, accel = law_at(law, now - memory[LATE])
-    low, high, stood = ends_at(law, now - memory[LATE])
+    should, speed, accel = profile_at(profile, now - memory[LATE])
+    low, high, stood = ends_at(profile, now - memory[LATE])
     if stood:
         memory[FLOOR] = low
     low = min(low, memory[FLOOR])
@@ -129,29 +132,29 @@ def decide_into(
     s = should
     if not rests:
         least, most = low, max(high - 1e-9, low)
-        s = nearest_on(rail, clip(should, memory[AT] - 0.5, memory[AT] + 1.0), pose[X],
+        s = nearest_on(reference, clip(should, memory[AT] - 0.5, memory[AT] + 1.0), pose[X],
                      pose[Y], least, most)  # fmt: skip
         if should - s > machine.room + machine.room_time * speed:
             memory[LATE] += period
-            should, speed, accel = law_at(law, now - memory[LATE])
+            should, speed, accel = profile_at(profile, now - memory[LATE])
     memory[AT] = s
     note[TIME], note[PLACE], note[SPEED], note[LOW], note[HIGH] = now, should, speed, low, high
     note[REST] = 1.0 if rests else 0.0
     note[PROGRESS], note[BEHIND] = s, should - s
-    note[ASIDE], note[ERROR] = beside(rail, s, pose[X], pose[Y], pose[HEADING])
+    note[ASIDE], note[ERROR] = beside(reference, s, pose[X], pose[Y], pose[HEADING])
     if rests:
-        _resting(machine, rail, note)
+        _resting(machine, reference, note)
     else:
-        _, soon, push = law_at(law, now + 0.5 * period - memory[LATE])
-        _aimed(machine, rail, note, pose, soon, push, period)
+        _, soon, push = profile_at(profile, now + 0.5 * period - memory[LATE])
+        _aimed(machine, reference, note, pose, soon, push, period)
     note[TO_SPEED], note[TO_TURN] = limited(machine, note[TO_SPEED], note[TO_TURN])
 
 
 @kernel
 def decide(
     machine: Machine,
-    rail: Rail,
-    law: Law,
+    reference: ReferencePath,
+    profile: SpeedProfile,
     memory: Floats,
     pose: Floats,
     time: float,
@@ -164,8 +167,8 @@ def decide(
 
     Args:
         machine: Its drive; the noise is not looked at.
-        rail: Its path.
-        law: Its time law.
+        reference: Its path.
+        profile: Its time law.
         memory: What the controller remembers, shape (MEMORY,), changed in place.
         pose: As measured: X, Y, HEADING, V and W, shape (STATE,); afterwards as predicted for
             when the command takes effect.
@@ -180,6 +183,17 @@ def decide(
     """
     note = np.zeros(NOTES)
     decide_into(
-        machine, rail, law, memory, pose, time, period, times, speeds, turns, times.shape[0], note
+        machine,
+        reference,
+        profile,
+        memory,
+        pose,
+        time,
+        period,
+        times,
+        speeds,
+        turns,
+        times.shape[0],
+        note,
     )
     return note

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from viaspline.kernels.jit import kernel, within
+from viaspline.kernels.jit import inlined, kernel
 
 POINT, DIFFERENTIAL, ACKERMANN, SKID_STEER = 0, 1, 2, 3
 
@@ -62,7 +62,7 @@ class Machine(NamedTuple):
     yaw_noise: float
 
 
-@within
+@inlined
 def clip(value: float, least: float, most: float) -> float:
     """A value between two limits."""
     return min(max(value, least), most)
@@ -122,7 +122,7 @@ def moved(
     return x + chord * math.cos(along), y + chord * math.sin(along), heading + 2.0 * half
 
 
-@within
+@inlined
 def awake(machine: Machine, speed: float, rate: float) -> float:
     """How much of the noise acts, 0 to 1: a robot that stands is not shaken."""
     wheel = abs(speed)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.tracking.drive_model import (
     ACKERMANN,
@@ -18,8 +18,6 @@ from viaspline.kernels.tracking.drive_model import (
     respond,
     turning,
 )
-
-Floats = NDArray[np.float64]
 
 SUBSTEP = 0.01
 """Longest step of the motion [s]."""

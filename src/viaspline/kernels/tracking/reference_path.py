@@ -5,17 +5,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.arclength import panel_of
 from viaspline.kernels.jit import inner
 from viaspline.kernels.tracking.drive_model import clip
 
-Floats = NDArray[np.float64]
 
-
-class Rail(NamedTuple):
+class ReferencePath(NamedTuple):
     """A path as points close together; a corner has two at the same distance.
 
     Attributes:
@@ -34,28 +30,45 @@ class Rail(NamedTuple):
 
 
 @inner
-def on_rail(rail: Rail, s: float) -> tuple[float, float, float, float]:
+def on_reference(reference: ReferencePath, s: float) -> tuple[float, float, float, float]:
     """Place, heading and curvature at a distance along a path; at a corner those after it."""
-    i = panel_of(rail.distance, s)
-    width = rail.distance[i + 1] - rail.distance[i]
+    i = panel_of(reference.distance, s)
+    width = reference.distance[i + 1] - reference.distance[i]
     if width <= 0.0:
-        return rail.x[i + 1], rail.y[i + 1], rail.heading[i + 1], rail.curvature[i + 1]
-    w = clip((s - rail.distance[i]) / width, 0.0, 1.0)
-    first, last = rail.heading[i], rail.heading[i + 1]
+        return (
+            reference.x[i + 1],
+            reference.y[i + 1],
+            reference.heading[i + 1],
+            reference.curvature[i + 1],
+        )
+    w = clip((s - reference.distance[i]) / width, 0.0, 1.0)
+    first, last = reference.heading[i], reference.heading[i + 1]
     a, b = w * (1.0 - w) * (1.0 - w) * width, -w * w * (1.0 - w) * width
     c = w * w * (3.0 - 2.0 * w)
-    x = rail.x[i] + c * (rail.x[i + 1] - rail.x[i]) + a * math.cos(first) + b * math.cos(last)
-    y = rail.y[i] + c * (rail.y[i + 1] - rail.y[i]) + a * math.sin(first) + b * math.sin(last)
-    bend = rail.curvature[i] + w * (rail.curvature[i + 1] - rail.curvature[i])
+    x = (
+        reference.x[i]
+        + c * (reference.x[i + 1] - reference.x[i])
+        + a * math.cos(first)
+        + b * math.cos(last)
+    )
+    y = (
+        reference.y[i]
+        + c * (reference.y[i + 1] - reference.y[i])
+        + a * math.sin(first)
+        + b * math.sin(last)
+    )
+    bend = reference.curvature[i] + w * (reference.curvature[i + 1] - reference.curvature[i])
     return x, y, first + w * (last - first), bend
 
 
 @inner
-def nearest_on(rail: Rail, s: float, x: float, y: float, low: float, high: float) -> float:
+def nearest_on(
+    reference: ReferencePath, s: float, x: float, y: float, low: float, high: float
+) -> float:
     """The distance along a path of the place nearest to a point, sought from ``s`` on."""
     s = clip(s, low, high)
     for _ in range(12):
-        px, py, heading, curvature = on_rail(rail, s)
+        px, py, heading, curvature = on_reference(reference, s)
         cosine, sine = math.cos(heading), math.sin(heading)
         along = (x - px) * cosine + (y - py) * sine
         aside = (y - py) * cosine - (x - px) * sine
@@ -68,9 +81,11 @@ def nearest_on(rail: Rail, s: float, x: float, y: float, low: float, high: float
 
 
 @inner
-def beside(rail: Rail, s: float, x: float, y: float, heading: float) -> tuple[float, float]:
+def beside(
+    reference: ReferencePath, s: float, x: float, y: float, heading: float
+) -> tuple[float, float]:
     """How far to the left of its place on a path a robot is, and its heading error."""
-    px, py, ahead, _ = on_rail(rail, s)
+    px, py, ahead, _ = on_reference(reference, s)
     aside = (y - py) * math.cos(ahead) - (x - px) * math.sin(ahead)
     error = heading - ahead
     return aside, error - 2.0 * math.pi * math.floor(error / (2.0 * math.pi) + 0.5)

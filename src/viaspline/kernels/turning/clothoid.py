@@ -12,12 +12,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cardinal_tangents import three_cubics
 from viaspline.kernels.jit import inner
-
-Floats = NDArray[np.float64]
 
 STRAIGHT = 1e-9  # less than this is no turn [rad]
 SLIVER = 0.95  # of the length that a turn without an arc needs for its ramps

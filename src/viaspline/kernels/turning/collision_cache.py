@@ -13,10 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.curvature_ramp import along_bend
 from viaspline.kernels.world.distance import nearest
-from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 
 HALF_DIAGONAL = math.sqrt(0.5)
 # columns of a disc: where it is in the robot's frame, the distance that it keeps, and by how much
@@ -26,7 +27,7 @@ AHEAD, LEFT, KEPT, SPEED = range(4)
 FROM, TO, LENGTH = range(3)
 
 
-class Ground(NamedTuple):
+class CollisionCache(NamedTuple):
     """A world and a body in it.
 
     Attributes:
@@ -45,45 +46,45 @@ class Ground(NamedTuple):
 
 
 @inner
-def about(ground: Ground, x: float, y: float) -> float:
+def about(cache: CollisionCache, x: float, y: float) -> float:
     """Distance to the world of the middle of the cell in which a point lies; none off the table."""
-    side = ground.frame[2]
-    column = math.floor((x - ground.frame[0]) / side)
-    row = math.floor((y - ground.frame[1]) / side)
-    if not (0 <= row < ground.known.shape[0] and 0 <= column < ground.known.shape[1]):
+    side = cache.frame[2]
+    column = math.floor((x - cache.frame[0]) / side)
+    row = math.floor((y - cache.frame[1]) / side)
+    if not (0 <= row < cache.known.shape[0] and 0 <= column < cache.known.shape[1]):
         return 0.0
-    value = ground.known[row, column]
+    value = cache.known[row, column]
     if math.isnan(value):
-        middle_x = ground.frame[0] + (column + 0.5) * side
-        middle_y = ground.frame[1] + (row + 0.5) * side
-        value, _ = nearest(ground.world, middle_x, middle_y, np.inf)
-        ground.known[row, column] = value
+        middle_x = cache.frame[0] + (column + 0.5) * side
+        middle_y = cache.frame[1] + (row + 0.5) * side
+        value, _ = nearest(cache.world, middle_x, middle_y, np.inf)
+        cache.known[row, column] = value
     return value
 
 
 @inner
-def _distance(ground: Ground, x: float, y: float, need: float) -> float:
+def _distance(cache: CollisionCache, x: float, y: float, need: float) -> float:
     """Distance of a point to the world: exact or more than ``need``, or a bound, less than it."""
-    side = ground.frame[2]
-    column = math.floor((x - ground.frame[0]) / side)
-    row = math.floor((y - ground.frame[1]) / side)
-    if 0 <= row < ground.known.shape[0] and 0 <= column < ground.known.shape[1]:
-        middle_x = ground.frame[0] + (column + 0.5) * side
-        middle_y = ground.frame[1] + (row + 0.5) * side
-        value = about(ground, x, y)
+    side = cache.frame[2]
+    column = math.floor((x - cache.frame[0]) / side)
+    row = math.floor((y - cache.frame[1]) / side)
+    if 0 <= row < cache.known.shape[0] and 0 <= column < cache.known.shape[1]:
+        middle_x = cache.frame[0] + (column + 0.5) * side
+        middle_y = cache.frame[1] + (row + 0.5) * side
+        value = about(cache, x, y)
         gap = math.hypot(x - middle_x, y - middle_y)
         if value - gap >= need or value + gap < need:
             return value - gap
-    value, _ = nearest(ground.world, x, y, need + 4.0 * side)
+    value, _ = nearest(cache.world, x, y, need + 4.0 * side)
     return value
 
 
 @inner
-def reach(ground: Ground, x: float, y: float, c: float, s: float) -> float:
+def reach(cache: CollisionCache, x: float, y: float, c: float, s: float) -> float:
     """How far the body can surely move on from a pose, whichever way it turns [m].
 
     Args:
-        ground: Ground.
+        cache: Ground.
         x: The reference point [m].
         y: The same.
         c: Cosine of the heading.
@@ -92,16 +93,16 @@ def reach(ground: Ground, x: float, y: float, c: float, s: float) -> float:
     Returns:
         Less than half the distance between two places that are looked at: it is too close.
     """
-    half = 0.5 * ground.frame[3]
+    half = 0.5 * cache.frame[3]
     least = np.inf
-    for i in range(ground.discs.shape[0]):
-        disc = ground.discs[i]
+    for i in range(cache.discs.shape[0]):
+        disc = cache.discs[i]
         px = x + c * disc[AHEAD] - s * disc[LEFT]
         py = y + s * disc[AHEAD] + c * disc[LEFT]
         need = disc[KEPT] + half * disc[SPEED]
-        room = (_distance(ground, px, py, need) - disc[KEPT]) / disc[SPEED]
+        room = (_distance(cache, px, py, need) - disc[KEPT]) / disc[SPEED]
         if i == 0:
-            if room >= half or ground.discs.shape[0] == 1:
+            if room >= half or cache.discs.shape[0] == 1:
                 return room
         else:
             least = min(least, room)
@@ -112,19 +113,19 @@ def reach(ground: Ground, x: float, y: float, c: float, s: float) -> float:
 
 @kernel
 def is_clear(
-    ground: Ground, x: float, y: float, heading: float, segments: Floats, count: int
+    cache: CollisionCache, x: float, y: float, heading: float, segments: Floats, count: int
 ) -> bool:
     """Whether the body surely gets along a chain of segments.
 
     Args:
-        ground: Ground.
+        cache: Ground.
         x: Where the chain starts [m].
         y: The same.
         heading: The same [rad].
         segments: See the columns above, (n, 3).
         count: How many of them count.
     """
-    half = 0.5 * ground.frame[3]
+    half = 0.5 * cache.frame[3]
     ahead = 0.0
     for k in range(count):
         segment = segments[k]
@@ -132,7 +133,7 @@ def is_clear(
             dx, dy, turn = along_bend(segment[FROM], segment[TO], segment[LENGTH], ahead)
             c, s = math.cos(heading), math.sin(heading)
             room = reach(
-                ground, x + c * dx - s * dy, y + s * dx + c * dy,
+                cache, x + c * dx - s * dy, y + s * dx + c * dy,
                 math.cos(heading + turn), math.sin(heading + turn),
             )  # fmt: skip
             if room < half:
@@ -142,4 +143,4 @@ def is_clear(
         dx, dy, turn = along_bend(segment[FROM], segment[TO], segment[LENGTH], segment[LENGTH])
         c, s = math.cos(heading), math.sin(heading)
         x, y, heading = x + c * dx - s * dy, y + s * dx + c * dy, heading + turn
-    return reach(ground, x, y, math.cos(heading), math.sin(heading)) >= half
+    return reach(cache, x, y, math.cos(heading), math.sin(heading)) >= half

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
 from viaspline.kernels.turning.clothoid import arc_and_ramp, shape_of
 from viaspline.kernels.turning.collision_cache import FROM, LENGTH, TO
-from viaspline.kernels.world.packed import Floats
 
 ROUNDS = 12
 BACK = 0.5  # a turn may go to the other side by as much [rad]
@@ -114,7 +114,7 @@ def connection(
         s2: The same of the second turn.
         rho: The least radius [m].
         ramp: Length of the ramps [m].
-        segments: Room for ``MOST`` rows, see ``ground``; filled.
+        segments: Room for ``MOST`` rows, see ``cache``; filled.
 
     Returns:
         How many segments there are, 0 if there is no such way, and their length [m].

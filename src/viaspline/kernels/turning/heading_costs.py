@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import kernel
-from viaspline.kernels.turning.turn_sequence import FINE, HEADING, SIDE, swing, swung_length
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from viaspline.kernels.turning.turn_sequence import (
+    FINE,
+    HEADING,
+    SIDE,
+    turn_sequence,
+    turn_sequence_length,
+)
 
 
 @kernel
@@ -27,7 +30,7 @@ def leg_lengths(bends: Floats, starts: Floats, goals: Floats, rho: float, ramp: 
 
     Returns:
         (k, l, 2, 2) [m]: leaving to the left or to the right, arriving in a left or in a right
-        turn; infinite where there is no such swing.
+        turn; infinite where there is no such turn_sequence.
     """
     row = bends.copy()
     last = bends.shape[0] - 1
@@ -43,16 +46,16 @@ def leg_lengths(bends: Floats, starts: Floats, goals: Floats, rho: float, ramp: 
                         continue
                     row[0, SIDE] = 0.0 if math.isnan(starts[i]) else 1.0 - 2.0 * a
                     row[last, SIDE] = 0.0 if math.isnan(goals[j]) else 1.0 - 2.0 * b
-                    lines, turns, apexes, ramps, state, _ = swing(row, False, rho, ramp)
+                    lines, turns, apexes, ramps, state, _ = turn_sequence(row, False, rho, ramp)
                     if state == FINE:
-                        lengths[i, j, a, b] = swung_length(
+                        lengths[i, j, a, b] = turn_sequence_length(
                             row, False, rho, lines, turns, apexes, ramps
                         )
     return lengths
 
 
 @kernel
-def cheapest(costs: Floats, counts: Indices, closed: bool) -> tuple[Indices, float]:
+def cheapest(costs: Floats, counts: Ints, closed: bool) -> tuple[Ints, float]:
     """The cheapest row of headings.
 
     Args:

@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.clothoid import STEP, spans_between
-from viaspline.kernels.turning.collision_cache import FROM, LENGTH, TO, Ground, is_clear
+from viaspline.kernels.turning.collision_cache import FROM, LENGTH, TO, CollisionCache, is_clear
 from viaspline.kernels.turning.connect import MOST, connection
 from viaspline.kernels.turning.curvature_ramp import along_bend
-from viaspline.kernels.world.packed import Floats, Ints
 
 SAME = 1e-9  # relative to the curvature, or its change, of the turning circle
 SHORTEST = 1e-3  # line that is laid by itself [m]
@@ -23,7 +23,7 @@ def merged(segments: Floats, rho: float) -> Floats:
     """The same chain with as few segments as it has.
 
     Args:
-        segments: See ``ground``, (n, 3).
+        segments: See ``cache``, (n, 3).
         rho: The least radius [m].
     """
     found = np.zeros((segments.shape[0], 3))
@@ -90,7 +90,7 @@ def _stations(start: Floats, goal: Floats, parts: Floats, poses: Floats, begins:
 
 @kernel
 def shortened(
-    ground: Ground, start: Floats, goal: Floats, segments: Floats, rho: float, ramp: float,
+    cache: CollisionCache, start: Floats, goal: Floats, segments: Floats, rho: float, ramp: float,
     spacing: float,
 ) -> Floats:  # fmt: skip
     """Replace parts of a chain by turn, line, turn where that is shorter and clear.
@@ -98,10 +98,10 @@ def shortened(
     The best row of such shortcuts between states without curvature: dynamic programming.
 
     Args:
-        ground: Ground.
+        cache: Ground.
         start: x, y, heading, (3,).
         goal: The same; a heading of NaN is free, (3,).
-        segments: See ``ground``, (n, 3).
+        segments: See ``cache``, (n, 3).
         rho: The least radius [m].
         ramp: Length of the ramps [m].
         spacing: Between the states on a line, at most [m].
@@ -131,7 +131,7 @@ def shortened(
                         dx, dy, poses[i, 2], heading, s1, s2, rho, ramp, trial
                     )
                     if costs[i] + length < costs[j] - GAIN and is_clear(
-                        ground, poses[i, 0], poses[i, 1], poses[i, 2], trial, size
+                        cache, poses[i, 0], poses[i, 1], poses[i, 2], trial, size
                     ):
                         costs[j], before[j] = costs[i] + length, i
                         sides[j, 0], sides[j, 1] = s1, s2
@@ -212,7 +212,7 @@ def chain_spans(start: Floats, goal: Floats, segments: Floats) -> Floats:
     Args:
         start: x, y, heading, (3,).
         goal: Where the chain ends but for rounding; a heading of NaN is free, (3,).
-        segments: See ``ground``, (n, 3).
+        segments: See ``cache``, (n, 3).
 
     Returns:
         Bézier control polygons (m, 4, 2) [m].

@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.clothoid import (
     STEP,
@@ -22,9 +22,6 @@ from viaspline.kernels.turning.clothoid import (
     turn_length,
     turn_nodes,
 )
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 # Columns of a bend: its middle, the radius that is kept from it, the side to which it turns (1
 # left, -1 right, 0 whichever comes), and the heading that is given at an end (NaN: it is free).
@@ -234,7 +231,7 @@ def _crowded(
 
 
 @kernel
-def swing(
+def turn_sequence(
     bends: Floats, closed: bool, rho: float, ramp: float
 ) -> tuple[Floats, Floats, Floats, Floats, int, int]:
     """Lay lines and turns round a row of bends.
@@ -281,17 +278,17 @@ def _straight(nodes: Floats, a: int, b: int, polygons: Floats) -> None:
 
 
 @kernel
-def swung_spans(
+def turn_sequence_spans(
     bends: Floats, closed: bool, rho: float, lines: Floats, turns: Floats, apexes: Floats,
     ramps: Floats,
-) -> tuple[Floats, Indices]:  # fmt: skip
+) -> tuple[Floats, Ints]:  # fmt: skip
     """The spans of a swing.
 
     Args:
         bends: (n, 5).
-        closed: As in ``swing``.
+        closed: As in ``turn_sequence``.
         rho: The same.
-        lines: What ``swing`` found.
+        lines: What ``turn_sequence`` found.
         turns: The same.
         apexes: The same.
         ramps: The same.
@@ -356,7 +353,7 @@ def _lengths(theta: float, rho: float, ramp: float, number: int, lengths: Floats
 
 
 @kernel
-def swung_length(
+def turn_sequence_length(
     bends: Floats, closed: bool, rho: float, lines: Floats, turns: Floats, apexes: Floats,
     ramps: Floats,
 ) -> float:  # fmt: skip

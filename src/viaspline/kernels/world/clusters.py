@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from viaspline.kernels.arrays import Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.distance import polygon_signed
 from viaspline.kernels.world.grid_gap import grid_gap, grids_gap
-from viaspline.kernels.world.packed import Ints, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import box_gap, obstacle_segment
 
 

@@ -12,9 +12,10 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.grid_rows import grid_signed
-from viaspline.kernels.world.packed import Floats, Ints, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 
 
 @inner

@@ -12,8 +12,9 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Columns, Flags, Floats
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.packed import Columns, Flags, Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 
 NONE = 32767  # columns to where there is nothing: more than a grid may have
 

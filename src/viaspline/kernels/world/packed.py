@@ -8,13 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Columns = NDArray[np.int16]
-Flags = NDArray[np.bool_]
+from viaspline.kernels.arrays import Columns, Floats, Ints
 
 
 class PackedWorld(NamedTuple):

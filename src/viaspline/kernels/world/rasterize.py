@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from viaspline.kernels.arrays import Bytes, Floats
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.routing.navmesh.rectangles import Cells
 from viaspline.kernels.world.distance import inner_signed, obstacle_signed
-from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 
 
 @inner
 def _mark_circle(
-    circle: Floats, x: float, y: float, side: float, reach: float, cells: Cells
+    circle: Floats, x: float, y: float, side: float, reach: float, cells: Bytes
 ) -> None:
     """Block the cells whose middle is nearer than ``reach`` to a circle."""
     height, width = cells.shape
@@ -32,7 +32,7 @@ def _mark_circle(
 
 @inner
 def _mark_obstacle(
-    world: PackedWorld, node: int, x: float, y: float, side: float, reach: float, cells: Cells
+    world: PackedWorld, node: int, x: float, y: float, side: float, reach: float, cells: Bytes
 ) -> None:
     """Block the cells whose middle is nearer than ``reach`` to the obstacle in a leaf."""
     height, width = cells.shape
@@ -65,8 +65,8 @@ def rasterized(
     height: int,
     width: int,
     reach: float,
-    blocked: Cells,
-) -> Cells:
+    blocked: Bytes,
+) -> Bytes:
     """Block the cells of a lattice whose middle is nearer than ``reach`` to the world.
 
     Args:
@@ -77,7 +77,7 @@ def rasterized(
         height: Rows.
         width: Columns.
         reach: [m].
-        blocked: Cells that are blocked anyway, (height, width) of uint8; none if it is empty.
+        blocked: Bytes that are blocked anyway, (height, width) of uint8; none if it is empty.
 
     Returns:
         (height, width) of uint8.
@@ -112,7 +112,7 @@ def rasterized(
 
 
 @kernel
-def mark_segments(segments: Floats, x: float, y: float, side: float, cells: Cells) -> None:
+def mark_segments(segments: Floats, x: float, y: float, side: float, cells: Bytes) -> None:
     """Block every cell that one of some segments x0, y0, x1, y1 [m] (n, 4) passes through."""
     height, width = cells.shape
     for s in range(segments.shape[0]):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.packed import Floats, Ints
 
 BLOCK = 16  # consecutive edges that share a box
 

@@ -10,10 +10,11 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.distance import box_signed, fence_signed, point_segment, polygon_signed
 from viaspline.kernels.world.grid_segment import grid_segment
-from viaspline.kernels.world.packed import Flags, Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 
 
 @inner

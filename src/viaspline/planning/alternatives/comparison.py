@@ -9,7 +9,7 @@ import numpy as np
 from viaspline.mission.parts import Side
 from viaspline.planning.alternatives.leg_search import Curve, LegSearch
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
-from viaspline.planning.routing.router import Way
+from viaspline.planning.routing.router import TautPath
 from viaspline.planning.routing.side_barrier import Barriers
 
 SIDES: tuple[Side, Side] = ("left", "right")
@@ -27,13 +27,13 @@ class Met:
     members: tuple[str, ...]
     barriers: Barriers
 
-    def side_of(self, way: Way) -> Side:
+    def side_of(self, taut_path: TautPath) -> Side:
         """The side on which a way passes it."""
-        return "right" if way.crosses(self.barriers.right) else "left"
+        return "right" if taut_path.crosses(self.barriers.right) else "left"
 
 
 @dataclass(frozen=True)
-class Weighed:
+class Comparison:
     """A leg, what it met and the curves past that.
 
     Attributes:
@@ -53,7 +53,7 @@ class Weighed:
     @property
     def entries(self) -> tuple[LedgerEntry, ...]:
         """For each group the shortest curve on either side."""
-        start, goal = self.leg.course.ends(self.leg.index)
+        start, goal = self.leg.sequence.ends(self.leg.index)
         return tuple(
             LedgerEntry(
                 group.members,
@@ -63,13 +63,13 @@ class Weighed:
             for group, reason in zip(self.met, self.reasons, strict=True)
         )
 
-    def taking(self, curve: Curve) -> Weighed:
+    def taking(self, curve: Curve) -> Comparison:
         """The same with another curve in the place of the winner."""
         curves = tuple(curve if one is self.winner else one for one in self.curves)
         return replace(self, curves=curves, winner=curve)
 
     def _candidate(self, group: Met, side: Side, reason: str) -> Candidate:
-        passing = [curve for curve in self.curves if group.side_of(curve.way) == side]
+        passing = [curve for curve in self.curves if group.side_of(curve.taut_path) == side]
         if not passing:
             dimension = len(self.leg.ends[0])
             none = np.empty((0, dimension))

@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 
 from viaspline.curve.bending import self_loops
 from viaspline.curve.certificate import SPARE
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import conflicts
-from viaspline.planning.problem.via_sequence import Course, Leg, lay
-from viaspline.planning.routing.router import Way
+from viaspline.planning.problem.via_sequence import Leg, ViaSequence, lay
+from viaspline.planning.routing.router import TautPath
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
 
 # Largest turn from via point to via point [rad], how far out they stand, how far off the helpers,
 # and what part of the length may be spent on roundness. Rounder first, closer where it is tight.
@@ -42,11 +41,11 @@ class Fitted:
     """A course in which one leg is clear, and that leg's curve.
 
     Attributes:
-        course: With the leg in it.
+        sequence: With the leg in it.
         spans: The leg's curve [m], shape (m, 4, d).
     """
 
-    course: Course
+    sequence: ViaSequence
     spans: Floats
 
 
@@ -60,40 +59,42 @@ def too_close(world: World, spans: Floats, required: float) -> NDArray[np.int64]
     return found
 
 
-def fit(course: Course, index: int, way: Way, world: World, required: float) -> Fitted | None:
+def fit(
+    sequence: ViaSequence, index: int, taut_path: TautPath, world: World, required: float
+) -> Fitted | None:
     """Lay the leg's spline along a way.
 
     Returns:
         The fitted leg, or None if no slack makes it clear (the two via points themselves have
         then less room than the proof needs).
     """
-    base = _base_slack(course, index)
-    for leg in _attempts(course, index, way, base):
-        candidate = course.with_leg(index, leg)
+    base = _base_slack(sequence, index)
+    for leg in _attempts(sequence, index, taut_path, base):
+        candidate = sequence.with_leg(index, leg)
         spans = leg_spans(candidate, index)
         if (too_close(world, spans, required) == CLEAR).all():
             return Fitted(candidate, spans)
     tightened = tighten(candidate, index, world, required)
-    if tightened is not None or way.is_direct:
+    if tightened is not None or taut_path.is_direct:
         return tightened
     # Arcs that run into each other leave no clear polyline along them; the corners always have one.
-    points = lifted(way.turns, *(via.at for via in course.ends(index)))
+    points = lifted(taut_path.turns, *(via.at for via in sequence.ends(index)))
     leg = Leg(points, np.full(len(points) + 1, base))
-    return tighten(course.with_leg(index, leg), index, world, required)
+    return tighten(sequence.with_leg(index, leg), index, world, required)
 
 
-def tighten(course: Course, index: int, world: World, required: float) -> Fitted | None:
+def tighten(sequence: ViaSequence, index: int, world: World, required: float) -> Fitted | None:
     """Halve the slack of a leg's spans that come too close, until none does."""
     for _ in range(HALVINGS):
-        spans = leg_spans(course, index)
+        spans = leg_spans(sequence, index)
         close = too_close(world, spans, required) != CLEAR
         if not close.any():
-            return Fitted(course, spans)
-        course = _halved(course, index, close)
+            return Fitted(sequence, spans)
+        sequence = _halved(sequence, index, close)
     return None
 
 
-def untied(course: Course, spans: Floats) -> Course:
+def untied(sequence: ViaSequence, spans: Floats) -> ViaSequence:
     """The course with less slack where a span loops back on itself; itself if none does.
 
     Where a heading is given the curve may have to come round.
@@ -103,49 +104,51 @@ def untied(course: Course, spans: Floats) -> Course:
     cross = ahead[..., 0] * after[..., 1] - ahead[..., 1] * after[..., 0]
     turns = np.abs(np.arctan2(cross, (ahead * after).sum(axis=2))).sum(axis=1)
     if turns.max() <= np.pi:  # a curve turns no more than its control polygon
-        return course
+        return sequence
     loops = self_loops(spans)
-    if course.start_tangent is not None:
-        loops[: course.pieces] = False
-    if course.end_tangent is not None:
-        loops[-course.pieces :] = False
-    first = course.first_spans()
-    for index, leg in enumerate(course.legs):
+    if sequence.start_tangent is not None:
+        loops[: sequence.pieces] = False
+    if sequence.end_tangent is not None:
+        loops[-sequence.pieces :] = False
+    first = sequence.first_spans()
+    for index, leg in enumerate(sequence.legs):
         tied = loops[first[index] : first[index + 1]]
-        tied &= np.repeat(leg.slack > TAUT, course.pieces)
+        tied &= np.repeat(leg.slack > TAUT, sequence.pieces)
         if tied.any():
-            course = _halved(course, index, tied)
-    return course
+            sequence = _halved(sequence, index, tied)
+    return sequence
 
 
-def _halved(course: Course, index: int, close: NDArray[np.bool_]) -> Course:
+def _halved(sequence: ViaSequence, index: int, close: NDArray[np.bool_]) -> ViaSequence:
     """Half the slack between those via points of a leg between which a span is too close."""
-    leg = course.legs[index]
-    near = close.reshape(-1, course.pieces).any(axis=1)
-    return course.with_leg(index, Leg(leg.points, np.where(near, leg.slack / 2, leg.slack)))
+    leg = sequence.legs[index]
+    near = close.reshape(-1, sequence.pieces).any(axis=1)
+    return sequence.with_leg(index, Leg(leg.points, np.where(near, leg.slack / 2, leg.slack)))
 
 
-def leg_spans(course: Course, index: int) -> Floats:
+def leg_spans(sequence: ViaSequence, index: int) -> Floats:
     """The curve of one leg, laid with all others around it."""
-    first = course.first_spans()
-    return lay(course)[first[index] : first[index + 1]]
+    first = sequence.first_spans()
+    return lay(sequence)[first[index] : first[index + 1]]
 
 
-def _base_slack(course: Course, index: int) -> float:
-    return float(course.legs[index].slack.max())
+def _base_slack(sequence: ViaSequence, index: int) -> float:
+    return float(sequence.legs[index].slack.max())
 
 
-def _attempts(course: Course, index: int, way: Way, slack: float) -> Iterator[Leg]:
+def _attempts(
+    sequence: ViaSequence, index: int, taut_path: TautPath, slack: float
+) -> Iterator[Leg]:
     """Legs along a way, the roundest first."""
-    start, goal = (via.at for via in course.ends(index))
-    if way.is_direct:
+    start, goal = (via.at for via in sequence.ends(index))
+    if taut_path.is_direct:
         helpers = np.array([start + w * (goal - start) for w in (HELPER, 1 - HELPER)])
         for factor in LOWER:
             yield Leg(np.empty((0, len(start))), np.array([slack * factor]))
         yield Leg(helpers, np.full(3, slack))
         return
     for effort in EFFORTS:
-        points = lifted(way.points(*effort), start, goal)
+        points = lifted(taut_path.points(*effort), start, goal)
         yield Leg(points, np.full(len(points) + 1, slack))
 
 

@@ -14,12 +14,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.routing.corners import X, Y
 from viaspline.mission.parts import Side
-from viaspline.planning.alternatives.comparison import Met, Weighed
+from viaspline.planning.alternatives.comparison import Comparison, Met
 from viaspline.planning.alternatives.fit import Fitted
 from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite
-from viaspline.planning.routing.router import Flags, Floats, Way, on_the_line
+from viaspline.planning.routing.router import TautPath, on_the_line
 from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.world.world import World
 
@@ -43,12 +44,12 @@ class PassedGroups:
     """A leg that was led round the groups in its way.
 
     Attributes:
-        weighed: The curves on either side of each.
+        comparison: The curves on either side of each.
         winner: The shortest of them.
         best: The one along the shortest way.
     """
 
-    weighed: Weighed
+    comparison: Comparison
     winner: Spline
     best: Spline
 
@@ -81,7 +82,7 @@ def groups_met(leg: LegSearch, labels: NDArray[np.int64], active: Flags) -> tupl
 
 
 @dataclass(frozen=True)
-class WeighedLater:
+class DeferredComparison:
     """A leg past so many groups that their other sides are looked at when the ledger is read.
 
     The way that was taken is the shortest of all, whatever the other sides cost.
@@ -104,10 +105,10 @@ class WeighedLater:
         return self.best.fitted
 
     @cached_property
-    def weighed(self) -> Weighed:
+    def comparison(self) -> Comparison:
         """The curves on either side of every group."""
         curves, reasons = _curves(self.leg, self.met, self.best, self.active.copy())
-        return Weighed(self.leg, self.met, tuple(curves), self.best, tuple(reasons))
+        return Comparison(self.leg, self.met, tuple(curves), self.best, tuple(reasons))
 
 
 def pass_groups(leg: LegSearch, met: Sequence[Group], best: Spline, active: Flags) -> PassedGroups:
@@ -121,8 +122,8 @@ def pass_groups(leg: LegSearch, met: Sequence[Group], best: Spline, active: Flag
     """
     curves, reasons = _curves(leg, met, best, active)
     winner = min(curves, key=lambda curve: curve.measured.length)
-    weighed = Weighed(leg, tuple(met), tuple(curves), winner, tuple(reasons))
-    return PassedGroups(weighed, winner, best)
+    comparison = Comparison(leg, tuple(met), tuple(curves), winner, tuple(reasons))
+    return PassedGroups(comparison, winner, best)
 
 
 def _curves(
@@ -132,15 +133,15 @@ def _curves(
     curves = [best]
     reasons: list[str] = []
     for group in met:
-        side = opposite(group.side_of(best.way))
-        other, reason = _other_side(leg, met, group, side, best.way, active)
+        side = opposite(group.side_of(best.taut_path))
+        other, reason = _other_side(leg, met, group, side, best.taut_path, active)
         curves += [other] if other else []
         reasons.append(reason)
     return curves, reasons
 
 
 def _other_side(
-    leg: LegSearch, met: Sequence[Group], group: Group, side: Side, best: Way, active: Flags
+    leg: LegSearch, met: Sequence[Group], group: Group, side: Side, best: TautPath, active: Flags
 ) -> tuple[Spline | None, str]:
     """The shortest curve on the given side of a group, or why there is none.
 
@@ -153,17 +154,17 @@ def _other_side(
             return None, f"the mission has {leg.world.name(i)!r} passed on the {forced}"
     closed = group.barriers.closing(opposite(side))
     if len(met) <= FEW:
-        way, _ = leg.shortest_allowed(active, closed)
+        taut_path, _ = leg.shortest_allowed(active, closed)
     else:
-        way = _nearby(leg, group, closed, best)
-    return leg.curve(way), f"no way is wide enough on the {side}"
+        taut_path = _nearby(leg, group, closed, best)
+    return leg.curve(taut_path), f"no way is wide enough on the {side}"
 
 
-def _nearby(leg: LegSearch, group: Group, closed: Floats, best: Way) -> Way | None:
+def _nearby(leg: LegSearch, group: Group, closed: Floats, best: TautPath) -> TautPath | None:
     """The best way, led past the other side of one group between corners near to it."""
     first, last = best.window(closed, NEAR)
     start, goal = (best.corners[k, X : Y + 1] for k in (first, last))
-    active = on_the_line(leg.world, start, goal, leg.brief.required)
+    active = on_the_line(leg.world, start, goal, leg.requirements.required)
     active[list(group.indices)] = True  # a way can only turn at what is active
     barriers = np.vstack((closed, leg.forced_barriers(active)))
     part = leg.router.find(start, goal, barriers, active)

@@ -14,11 +14,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import Side
-from viaspline.planning.alternatives.comparison import Met, Weighed
+from viaspline.planning.alternatives.comparison import Comparison, Met
 from viaspline.planning.alternatives.fit import Fitted
 from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite
-from viaspline.planning.routing.router import Floats, on_the_line
+from viaspline.planning.routing.router import on_the_line
 from viaspline.planning.routing.side_barrier import barriers_at
 from viaspline.world.world import World
 
@@ -44,20 +45,20 @@ class PassedIslands:
         return self.best.fitted
 
     @cached_property
-    def weighed(self) -> Weighed:
+    def comparison(self) -> Comparison:
         """The curves on either side of every island that the straight line meets."""
         met = tuple(islands_met(self.leg))
-        sides = [opposite(island.side_of(self.best.way)) for island in met]
+        sides = [opposite(island.side_of(self.best.taut_path)) for island in met]
         found = [self._passing(island, side) for island, side in zip(met, sides, strict=True)]
         others = [curve for curve in found if curve is not None]
         reasons = tuple(f"no way is wide enough on the {side}" for side in sides)
-        return Weighed(self.leg, met, (self.best, *others), self.best, reasons)
+        return Comparison(self.leg, met, (self.best, *others), self.best, reasons)
 
     def _passing(self, island: Met, side: Side) -> Spline | None:
         closed = island.barriers.closing(opposite(side))
-        active = on_the_line(self.leg.world, *self.leg.ends, self.leg.brief.required)
-        way, _ = self.leg.shortest_allowed(active, closed)
-        return self.leg.curve(way)
+        active = on_the_line(self.leg.world, *self.leg.ends, self.leg.requirements.required)
+        taut_path, _ = self.leg.shortest_allowed(active, closed)
+        return self.leg.curve(taut_path)
 
 
 def islands_met(leg: LegSearch) -> Iterator[Met]:
@@ -91,7 +92,7 @@ def _names(leg: LegSearch, island: NDArray[np.bool_], middle: Floats) -> tuple[s
     for i in np.flatnonzero(within | (world.packed.kind == MAP)).tolist():
         if world.packed.kind[i] != MAP:
             names.append(world.name(i))
-        elif world.distances_to(i, middle[None, :])[0] < leg.brief.required:
+        elif world.distances_to(i, middle[None, :])[0] < leg.requirements.required:
             names.append(f"{world.name(i)} at ({middle[0]:.2f}, {middle[1]:.2f})")
     if len(names) > MEMBERS:
         return (*names[:MEMBERS], f"{len(names) - MEMBERS} more")

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.mission.parts import Side
 from viaspline.planning.alternatives.fit import Fitted, fit
-from viaspline.planning.checking.cost import Measured, measure
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.via_sequence import Course
-from viaspline.planning.routing.router import NO_BARRIERS, Flags, Floats, Router, Way
+from viaspline.planning.checking.cost import CandidateCost, measure
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.routing.router import NO_BARRIERS, Router, TautPath
 from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.world.world import World
 
@@ -21,16 +22,16 @@ class Curve:
     """A curve along a way, and what it costs.
 
     Attributes:
-        way: What it follows.
+        taut_path: What it follows.
         vias: Its detour via points [m], shape (k, d).
         spans: Bézier control polygons of the whole leg [m], shape (m, 4, d).
         measured: Its price.
     """
 
-    way: Way
+    taut_path: TautPath
     vias: Floats
     spans: Floats
-    measured: Measured
+    measured: CandidateCost
 
 
 @dataclass(frozen=True)
@@ -49,28 +50,28 @@ class LegSearch:
     """A leg in its course and world.
 
     Attributes:
-        course: What there is so far.
+        sequence: What there is so far.
         index: The leg.
         world: The known world.
-        brief: What to keep.
+        requirements: What to keep.
         router: Of this world and brief.
     """
 
-    course: Course
+    sequence: ViaSequence
     index: int
     world: World
-    brief: Brief
+    requirements: Requirements
     router: Router
 
     @property
     def ends(self) -> tuple[Floats, Floats]:
         """The places of the via points before and after [m], shape (d,)."""
-        start, goal = self.course.ends(self.index)
+        start, goal = self.sequence.ends(self.index)
         return start.at, goal.at
 
     def shortest_allowed(
         self, active: Flags, closed: Floats = NO_BARRIERS
-    ) -> tuple[Way | None, Floats]:
+    ) -> tuple[TautPath | None, Floats]:
         """The shortest way that passes what it meets on the sides that the mission allows.
 
         A way can meet obstacles with a side of their own that were not met before; each such
@@ -85,10 +86,10 @@ class LegSearch:
         """
         barriers = self.forced_barriers(active)
         while True:
-            way = self.router.find(*self.ends, np.vstack((closed, barriers)), active)
+            taut_path = self.router.find(*self.ends, np.vstack((closed, barriers)), active)
             needed = self.forced_barriers(active)
             if len(needed) == len(barriers):
-                return way, barriers
+                return taut_path, barriers
             barriers = needed
 
     def forced_barriers(self, active: Flags) -> Floats:
@@ -100,16 +101,16 @@ class LegSearch:
         ]
         return np.vstack(rows) if rows else NO_BARRIERS
 
-    def curve(self, way: Way | None) -> Spline | None:
+    def curve(self, taut_path: TautPath | None) -> Spline | None:
         """The spline along a way, or None where no slack makes it clear."""
-        if way is None:
+        if taut_path is None:
             return None
-        fitted = fit(self.course, self.index, way, self.world, self.brief.required)
+        fitted = fit(self.sequence, self.index, taut_path, self.world, self.requirements.required)
         if fitted is None:
             return None
-        vias = fitted.course.legs[self.index].points
-        price = measure(fitted.spans, self.world, self.brief)
-        return Spline(way, vias, fitted.spans, price, fitted)
+        vias = fitted.sequence.legs[self.index].points
+        price = measure(fitted.spans, self.world, self.requirements)
+        return Spline(taut_path, vias, fitted.spans, price, fitted)
 
 
 def opposite(side: Side) -> Side:

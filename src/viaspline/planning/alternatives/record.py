@@ -8,13 +8,13 @@ from functools import cached_property
 
 import numpy as np
 
-from viaspline.planning.alternatives.comparison import Weighed
+from viaspline.planning.alternatives.comparison import Comparison
 from viaspline.planning.alternatives.lead_round import Passed
 from viaspline.planning.alternatives.leg_search import Curve
 from viaspline.planning.checking.cost import measure
 from viaspline.planning.problem.ledger import LedgerEntry
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.spline_path import Laid
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_alternatives import DrivenSides
 from viaspline.world.world import World
 
@@ -27,17 +27,17 @@ class Account:
     of the groups have been looked at; they are looked at when the ledger is read.
 
     Attributes:
-        laid: The course as it was laid in the end.
+        spline_path: The course as it was laid in the end.
         world: The known world.
-        brief: What the path keeps.
+        requirements: What the path keeps.
         passed: The legs that were led round something.
         driven: The other sides as a robot with a body or a turning circle drives them; None for
             others.
     """
 
-    laid: Laid
+    spline_path: SplinePath
     world: World
-    brief: Brief
+    requirements: Requirements
     passed: Mapping[int, Passed] = field(default_factory=dict)
     driven: DrivenSides | None = None
 
@@ -48,15 +48,17 @@ class Account:
         A leg that was led round after its neighbour has turned the tangents at the via point
         between them; what was not chosen stays as it was weighed.
         """
-        weighed = (self._weighed(leg) for leg in sorted(self.passed))
-        return tuple(entry for leg in weighed for entry in leg.entries)
+        comparison = (self._weighed(leg) for leg in sorted(self.passed))
+        return tuple(entry for leg in comparison for entry in leg.entries)
 
-    def _weighed(self, leg: int) -> Weighed:
-        weighed = self.passed[leg].weighed
+    def _weighed(self, leg: int) -> Comparison:
+        comparison = self.passed[leg].comparison
         if self.driven is not None:
-            return self.driven.weighed(weighed, self.laid)
-        winner, spans = weighed.winner, self.laid.leg(leg)
+            return self.driven.comparison(comparison, self.spline_path)
+        winner, spans = comparison.winner, self.spline_path.leg(leg)
         if np.array_equal(winner.spans, spans):
-            return weighed
-        price = measure(spans, self.world, self.brief)
-        return weighed.taking(Curve(winner.way, self.laid.detours(leg), spans, price))
+            return comparison
+        price = measure(spans, self.world, self.requirements)
+        return comparison.taking(
+            Curve(winner.taut_path, self.spline_path.detours(leg), spans, price)
+        )

@@ -11,7 +11,7 @@ from viaspline.planning.problem.ledger import LedgerEntry
 
 
 @dataclass(frozen=True)
-class Detoured:
+class Solution:
     """A path that was proven clear.
 
     Attributes:

@@ -8,36 +8,37 @@ from numpy.typing import NDArray
 from viaspline.curve import footprint_conflicts
 from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.fit import CLEAR, too_close
-from viaspline.planning.problem.requirements import LEAST, Brief
+from viaspline.planning.problem.requirements import LEAST, Requirements
 from viaspline.world.outline import outline
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
 
-
-def body_conflicts(world: World, spans: Floats, brief: Brief) -> NDArray[np.int64]:
+def body_conflicts(world: World, spans: Floats, requirements: Requirements) -> NDArray[np.int64]:
     """What the body comes nearer to than it may on each span: as ``fit.too_close``, (m,)."""
-    return conflicts_within(brief.required, world, spans, brief)
+    return conflicts_within(requirements.required, world, spans, requirements)
 
 
-def is_clear(world: World, spans: Floats, brief: Brief) -> bool:
+def is_clear(world: World, spans: Floats, requirements: Requirements) -> bool:
     """Whether the body keeps clear on planar spans (m, 4, 2) [m]."""
-    return bool((body_conflicts(world, spans, brief) == CLEAR).all())
+    return bool((body_conflicts(world, spans, requirements) == CLEAR).all())
 
 
 def conflicts_within(
-    required: float, world: World, spans: Floats, brief: Brief
+    required: float, world: World, spans: Floats, requirements: Requirements
 ) -> NDArray[np.int64]:
     """The same for another distance that the path itself is to keep [m]."""
-    if brief.footprint is None:
+    if requirements.footprint is None:
         return too_close(world, spans, required)
-    least = max(required - brief.radius, LEAST)
-    return footprint_conflicts.body_conflicts(world.packed, spans, outline(brief.footprint), least)
+    least = max(required - requirements.radius, LEAST)
+    return footprint_conflicts.body_conflicts(
+        world.packed, spans, outline(requirements.footprint), least
+    )
 
 
-def proven(curve: PiecewiseCubic, world: World, brief: Brief) -> Certificate:
+def proven(curve: PiecewiseCubic, world: World, requirements: Requirements) -> Certificate:
     """The certificate of a curve that the body drives."""
-    if brief.footprint is None:
-        return certify(curve, world, brief.kept, radius=brief.radius)
-    return certify(curve, world, brief.kept, footprint=brief.footprint)
+    if requirements.footprint is None:
+        return certify(curve, world, requirements.kept, radius=requirements.radius)
+    return certify(curve, world, requirements.kept, footprint=requirements.footprint)

@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import tightest
 from viaspline.kernels.curve.measure import length_and_curvature
 from viaspline.planning.checking.conflicts import proven
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.routing.router import Floats
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.world.world import World
 
 TOLERANCE = 1e-2  # of a candidate's clearance [m]; the path's own certificate is proven anew
 
 
 @dataclass(frozen=True)
-class Measured:
+class CandidateCost:
     """What a curve costs: length [m], proven clearance of the body [m], sharpest bend [1/m]."""
 
     length: float
@@ -24,21 +24,23 @@ class Measured:
     max_curvature: float
 
 
-def measure(spans: Floats, world: World, brief: Brief) -> Measured:
+def measure(spans: Floats, world: World, requirements: Requirements) -> CandidateCost:
     """What a curve costs.
 
     Args:
         spans: A curve that is known to keep what the brief requires, shape (m, 4, d).
         world: The known world.
-        brief: What it keeps.
+        requirements: What it keeps.
     """
     lower = float(tightest(world.packed, spans, TOLERANCE)[0])
     length, sharpest = length_and_curvature(spans)
-    return Measured(float(length), max(lower - brief.radius, brief.kept), float(sharpest))
+    return CandidateCost(
+        float(length), max(lower - requirements.radius, requirements.kept), float(sharpest)
+    )
 
 
-def measure_body(spans: Floats, world: World, brief: Brief) -> Measured:
+def measure_body(spans: Floats, world: World, requirements: Requirements) -> CandidateCost:
     """What a curve costs that a body drives, whether it keeps what the brief requires or not."""
     length, sharpest = length_and_curvature(spans)
-    clearance = proven(PiecewiseCubic(spans), world, brief).clearance
-    return Measured(float(length), clearance, float(sharpest))
+    clearance = proven(PiecewiseCubic(spans), world, requirements).clearance
+    return CandidateCost(float(length), clearance, float(sharpest))

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 from scipy.sparse import csr_array
 
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
+
 CLAMPED = np.r_[0.0, 0.0, 0.0]
 
 

@@ -7,17 +7,17 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.certificate import certify
 from viaspline.curve.path import GUIDE, Path, PathVia, ViaKind
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import tightest
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import SplineSpec
 from viaspline.mission.strip import Strip, rings_of, strip_of
 from viaspline.planning.alternatives.fit import CLEAR, too_close
-from viaspline.planning.alternatives.solution import Detoured
+from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven as prove_body
 from viaspline.planning.corridor.corridor_refusals import (
     no_room,
@@ -31,17 +31,15 @@ from viaspline.planning.corridor.minimum_curvature import (
     SHARE,
     Gate,
     Line,
-    Task,
+    StripProblem,
     fixed,
     improved,
     settled,
 )
 from viaspline.planning.corridor.strip_line import StripLine, split
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.via_sequence import Course, course_of
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import ViaSequence, via_sequence_of
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
 
 PROOFS = 25  # times that a line is moved away from where the proof fails
 FINER = 1e-4  # to which it is known by how much it fails [m]
@@ -95,15 +93,15 @@ def line_through(
     if world.obstacles or world.bounds is not None or world.fences:
         others = World(world.obstacles, bounds=world.bounds, fences=world.fences)
     limit = None if max_curvature is None else ROUNDER * max_curvature
-    task = Task(strip, margin, others, gates, limit)
+    task = StripProblem(strip, margin, others, gates, limit)
     line = proven(settled(seed(task, world), task), task, world)
-    laid = split(line, task)
+    spline_path = split(line, task)
     if max_curvature is not None:
-        refuse_sharp(laid, max_curvature)
-    return laid
+        refuse_sharp(spline_path, max_curvature)
+    return spline_path
 
 
-def find_line(mission: Mission, world: World, brief: Brief) -> Detoured:
+def find_line(mission: Mission, world: World, requirements: Requirements) -> Solution:
     """A proven path along a mission's corridor.
 
     Raises:
@@ -112,36 +110,37 @@ def find_line(mission: Mission, world: World, brief: Brief) -> Detoured:
     """
     strip = strip_of(mission.route)
     assert strip is not None
-    course = course_of(mission.model_copy(update={"spline": SplineSpec()}))
-    refuse_disorder(course, strip)
-    aims: list[Floats | None] = [None] * len(course.vias)
-    aims[0] = course.start_tangent
-    if not course.closed:
-        aims[-1] = course.end_tangent
-    for margin in _margins(brief):
-        laid = line_through(
-            strip, margin, places=[(via.at[0], via.at[1]) for via in course.vias],
+    sequence = via_sequence_of(mission.model_copy(update={"spline": SplineSpec()}))
+    refuse_disorder(sequence, strip)
+    aims: list[Floats | None] = [None] * len(sequence.vias)
+    aims[0] = sequence.start_tangent
+    if not sequence.closed:
+        aims[-1] = sequence.end_tangent
+    radius = requirements.turn_radius
+    for margin in _margins(requirements):
+        spline_path = line_through(
+            strip, margin, places=[(via.at[0], via.at[1]) for via in sequence.vias],
             directions=aims, world=world,
-            max_curvature=None if brief.turn_radius is None else 1.0 / brief.turn_radius,
+            max_curvature=None if radius is None else 1.0 / radius,
         )  # fmt: skip
-        path = Path(laid.spans, _path_vias(course, laid))
-        certificate = prove_body(path, world, brief)
+        path = Path(spline_path.spans, _path_vias(sequence, spline_path))
+        certificate = prove_body(path, world, requirements)
         if certificate.holds:
             break
     else:
-        raise no_room(certificate.tightest_at, certificate.clearance, brief.kept, strip)
-    return Detoured(path, certificate, None)
+        raise no_room(certificate.tightest_at, certificate.clearance, requirements.kept, strip)
+    return Solution(path, certificate, None)
 
 
-def _margins(brief: Brief) -> Floats:
+def _margins(requirements: Requirements) -> Floats:
     """What the reference point may have to keep: more for a body that is no disc."""
-    if brief.footprint is None:
-        return np.array([brief.required])
-    outer = max(math.hypot(x, y) for x, y in brief.footprint)
-    return brief.required + np.array([0.0, 0.25, 0.5, 1.0]) * (outer - brief.radius)
+    if requirements.footprint is None:
+        return np.array([requirements.required])
+    outer = max(math.hypot(x, y) for x, y in requirements.footprint)
+    return requirements.required + np.array([0.0, 0.25, 0.5, 1.0]) * (outer - requirements.radius)
 
 
-def proven(line: Line, task: Task, world: World) -> Line:
+def proven(line: Line, task: StripProblem, world: World) -> Line:
     """The line moved away from where it comes too close, until none of its spans does.
 
     Raises:
@@ -165,21 +164,21 @@ def proven(line: Line, task: Task, world: World) -> Line:
     raise no_room(certificate.tightest_at, certificate.clearance, task.margin, task.strip)
 
 
-def _path_vias(course: Course, laid: StripLine) -> tuple[PathVia, ...]:
+def _path_vias(sequence: ViaSequence, spline_path: StripLine) -> tuple[PathVia, ...]:
     """The points of the route on the line, and guides between them."""
     kind: ViaKind = "user"
     vias = [
         PathVia(
             via.name, (float(via.at[0]), float(via.at[1])), kind, float(u), via.dwell, via.index
         )
-        for via, u in zip(course.vias, laid.at.tolist(), strict=True)
+        for via, u in zip(sequence.vias, spline_path.at.tolist(), strict=True)
     ]
-    if course.closed:
-        vias.append(replace(vias[0], u=float(len(laid.spans)), index=len(course.vias)))
+    if sequence.closed:
+        vias.append(replace(vias[0], u=float(len(spline_path.spans)), index=len(sequence.vias)))
     taken = {via.u for via in vias}
     vias += [
-        PathVia(GUIDE, tuple(laid.spans[u, 0].tolist()), "detour", float(u))
-        for u in range(GUIDED, len(laid.spans), GUIDED)
+        PathVia(GUIDE, tuple(spline_path.spans[u, 0].tolist()), "detour", float(u))
+        for u in range(GUIDED, len(spline_path.spans), GUIDED)
         if float(u) not in taken
     ]
     return tuple(sorted(vias, key=lambda via: via.u))

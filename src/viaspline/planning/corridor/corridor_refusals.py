@@ -5,29 +5,27 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.certificate import SPARE
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import NoPathError
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.strip import Strip
 from viaspline.planning.corridor.strip_line import StripLine
-from viaspline.planning.problem.via_sequence import Course
-
-Floats = NDArray[np.float64]
+from viaspline.planning.problem.via_sequence import ViaSequence
 
 
-def refuse_disorder(course: Course, strip: Strip) -> None:
+def refuse_disorder(sequence: ViaSequence, strip: Strip) -> None:
     """Refuse points of a route that don't follow each other along the strip.
 
     Raises:
         NoPathError: Naming the first that lies before the one it comes after.
     """
-    rows = np.array([strip.nearest_row(via.at[:2]) for via in course.vias])
+    rows = np.array([strip.nearest_row(via.at[:2]) for via in sequence.vias])
     if strip.closed:
         rows = (rows - rows[0]) % len(strip.middle)
     for k in np.flatnonzero(np.diff(strip.along[rows]) < 0.0).tolist():
-        before, via = course.vias[k], course.vias[k + 1]
+        before, via = sequence.vias[k], sequence.vias[k + 1]
         raise NoPathError(
             f"{via.name!r} lies before {before.name!r} along the corridor", where=via.at[:2],
             remedy="give the points of the route in the direction of the corridor's line",
@@ -63,13 +61,13 @@ def no_room(
     return NoPathError(reason, where=where, remedy=remedy, obstacles=("corridor",))
 
 
-def refuse_sharp(laid: StripLine, max_curvature: float) -> None:
+def refuse_sharp(spline_path: StripLine, max_curvature: float) -> None:
     """Refuse a line that bends more sharply than allowed [1/m].
 
     Raises:
         NoPathError: Naming the sharpest place.
     """
-    curve = PiecewiseCubic(laid.spans)
+    curve = PiecewiseCubic(spline_path.spans)
     sharpest, u = curve.max_curvature()
     if sharpest > max_curvature * (1.0 + 1e-9):
         raise NoPathError(

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import NoPathError
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.parts import SplineSpec
 from viaspline.mission.strip import Strip, rings_of
 from viaspline.planning.alternatives.fit import CLEAR, too_close
 from viaspline.planning.alternatives.lay_clear import lay_clear
-from viaspline.planning.corridor.minimum_curvature import SHARE, Line, Task
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.via_sequence import Course, Leg, RouteVia
+from viaspline.planning.corridor.minimum_curvature import SHARE, Line, StripProblem
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import Leg, RouteVia, ViaSequence
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
-Rows = NDArray[np.int64]
 
-
-def seed(task: Task, world: World) -> Line:
+def seed(task: StripProblem, world: World) -> Line:
     """The line along the middle of a strip, led round what stands there.
 
     Raises:
@@ -50,7 +47,7 @@ def seed(task: Task, world: World) -> Line:
     return Line.through(points, strip.track(points, int(rows[0]), task.window), task)
 
 
-def _led_round(points: Floats, rows: Rows, close: Rows, task: Task, world: World) -> Floats:
+def _led_round(points: Floats, rows: Ints, close: Ints, task: StripProblem, world: World) -> Floats:
     """The points of a way through a strip that is free of what stands in it.
 
     Only pieces of the strip are searched, so that no way goes the wrong way round.
@@ -73,14 +70,14 @@ def _led_round(points: Floats, rows: Rows, close: Rows, task: Task, world: World
     pieces: list[Floats] = []
     done = 0
     for first, end in edges.tolist():
-        way = _way(points[first:end], task.strip.piece(rows[first:end]), task, world)
-        pieces += [points[done:first], way]
+        taut_path = _way(points[first:end], task.strip.piece(rows[first:end]), task, world)
+        pieces += [points[done:first], taut_path]
         done = end
     found = np.vstack([*pieces, points[done:]])
     return found[:-1] if closed else found
 
 
-def _way(points: Floats, piece: Strip, task: Task, world: World) -> Floats:
+def _way(points: Floats, piece: Strip, task: StripProblem, world: World) -> Floats:
     """The points of a way along a piece of the strip, from the first of some points to the last."""
     local = World(
         world.obstacles, bounds=world.bounds, fences=world.fences, corridor=rings_of(piece.area)
@@ -89,9 +86,9 @@ def _way(points: Floats, piece: Strip, task: Task, world: World) -> Floats:
     free[[0, -1]] = True
     vias = tuple(RouteVia("the corridor", place, None) for place in points[free])
     legs = tuple(Leg.straight(0.5, 2) for _ in vias[1:])
-    brief = Brief(radius=0.0, clearance=task.margin)
+    requirements = Requirements(radius=0.0, clearance=task.margin)
     try:
-        spans = lay_clear(Course(vias, legs, SplineSpec()), local, brief)[0].spans
+        spans = lay_clear(ViaSequence(vias, legs, SplineSpec()), local, requirements)[0].spans
     except NoPathError as error:
         raise NoPathError(
             f"the corridor is blocked: {error.reason}", where=error.where, remedy=error.remedy,

@@ -21,18 +21,15 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.sparse import csr_array, diags_array, eye_array, vstack
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.strip import Strip
 from viaspline.planning.corridor.bspline import Knots
 from viaspline.planning.corridor.quadratic_program import Programme, solve
-from viaspline.planning.corridor.strip_edges import Edge
+from viaspline.planning.corridor.strip_edges import StripEdge
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
-Rows = NDArray[np.int64]
 
 PER_SPAN = 3  # samples
 FINE = 8  # samples a span where the line is laid through anew
@@ -66,7 +63,7 @@ class Gate:
 
 
 @dataclass(frozen=True, eq=False)
-class Task:
+class StripProblem:
     """What a line has to keep.
 
     Attributes:
@@ -94,12 +91,12 @@ class Task:
         return self.strip.rows_within(1.5 * float(self.strip.widths.max()))
 
     @cached_property
-    def edges(self) -> tuple[Edge, Edge]:
+    def edges(self) -> tuple[StripEdge, StripEdge]:
         """On the right and on the left."""
         strip = self.strip
         return (
-            Edge(strip.right, 1.0, strip.closed, self.window),
-            Edge(strip.left, -1.0, strip.closed, self.window),
+            StripEdge(strip.right, 1.0, strip.closed, self.window),
+            StripEdge(strip.left, -1.0, strip.closed, self.window),
         )
 
 
@@ -117,12 +114,12 @@ class Line:
 
     knots: Knots
     controls: Floats
-    rows: Rows
+    rows: Ints
     at: Floats
     extra: Floats
 
     @classmethod
-    def through(cls, points: Floats, rows: Rows, task: Task) -> Line:
+    def through(cls, points: Floats, rows: Ints, task: StripProblem) -> Line:
         """The line through points at equal distances.
 
         Args:
@@ -149,7 +146,7 @@ class Line:
         line = cls(knots, controls, found, np.zeros(0), np.zeros(at.size))
         return replace(line, at=line.passing(task, places, at))
 
-    def passing(self, task: Task, places: Floats, at: Floats) -> Floats:
+    def passing(self, task: StripProblem, places: Floats, at: Floats) -> Floats:
         """Parameters at which the line is nearest to the gates."""
         if not task.gates:
             return np.zeros(0)
@@ -185,7 +182,7 @@ def samples(knots: Knots, each: int) -> Floats:
     return np.arange(each * knots.count + (not knots.closed)) / each
 
 
-def settled(line: Line, task: Task) -> Line:
+def settled(line: Line, task: StripProblem) -> Line:
     """The line of least curvature that is reached from a line."""
     for _ in range(ROUNDS):
         line, moved = improved(line, task)
@@ -198,7 +195,7 @@ def settled(line: Line, task: Task) -> Line:
     return line
 
 
-def improved(line: Line, task: Task) -> tuple[Line, float]:
+def improved(line: Line, task: StripProblem) -> tuple[Line, float]:
     """One quadratic programme farther.
 
     Returns:
@@ -227,7 +224,7 @@ def improved(line: Line, task: Task) -> tuple[Line, float]:
     return moved, float(np.abs(answer).max())
 
 
-def fixed(line: Line, task: Task) -> Line:
+def fixed(line: Line, task: StripProblem) -> Line:
     """The line moved as little as possible so that it runs through its gates to the last digit."""
     if not task.gates:
         return line
@@ -273,7 +270,9 @@ def left_of(vectors: Floats) -> Floats:
     return np.column_stack((-vectors[:, 1], vectors[:, 0]))
 
 
-def _bending(moves: Sequence[_Moves], task: Task) -> tuple[Any, Floats, list[Any], list[Floats]]:
+def _bending(
+    moves: Sequence[_Moves], task: StripProblem
+) -> tuple[Any, Floats, list[Any], list[Floats]]:
     """The objective, and what keeps the curvature below its limit."""
     slope, bend = moves[1].values, moves[2].values
     speed = np.linalg.norm(slope, axis=1)
@@ -302,7 +301,7 @@ def _bending(moves: Sequence[_Moves], task: Task) -> tuple[Any, Floats, list[Any
     return hessian, gradient, rows, floors
 
 
-def _rooms(line: Line, places: _Moves, task: Task) -> tuple[list[Any], list[Floats]]:
+def _rooms(line: Line, places: _Moves, task: StripProblem) -> tuple[list[Any], list[Floats]]:
     """What keeps samples away from the edges and from what stands in the strip."""
     reach = task.margin + line.extra + 1.5 * STRIDE * task.width
     found = [edge.room(places.values, line.rows) for edge in task.edges]
@@ -327,7 +326,7 @@ def _free(world: World, places: Floats) -> tuple[Floats, Floats]:
     return distance, slope / np.where(size > 0.0, size, 1.0)[:, None]
 
 
-def _gate_rows(line: Line, normals: Floats, task: Task) -> tuple[Any, Floats]:
+def _gate_rows(line: Line, normals: Floats, task: StripProblem) -> tuple[Any, Floats]:
     """What leads the line through its gates."""
     if not task.gates:
         return csr_array((0, line.knots.controls)), np.zeros(0)

@@ -7,11 +7,10 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import block_array, csc_array, diags_array, eye_array
 from scipy.sparse.linalg import splu
 
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
 
 STEPS = 60
 GAP = 1e-9  # complementarity that is left of a constraint, as a part of the price

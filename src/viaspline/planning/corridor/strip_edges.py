@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Rows = NDArray[np.int64]
+from viaspline.kernels.arrays import Floats, Ints
 
 TOUCHING = 1e-6  # from where on the direction to the edge is the edge's own [m]
 
 
 @dataclass(frozen=True, eq=False)
-class Edge:
+class StripEdge:
     """One edge of a strip, in the direction of driving.
 
     Attributes:
@@ -30,7 +28,7 @@ class Edge:
     closed: bool
     window: int
 
-    def room(self, places: Floats, rows: Rows) -> tuple[Floats, Floats]:
+    def room(self, places: Floats, rows: Ints) -> tuple[Floats, Floats]:
         """How far inside of the edge places are, and in which direction they get farther inside.
 
         Args:
@@ -60,7 +58,7 @@ class Edge:
         along = np.where((distance > TOUCHING)[:, None], along, across[every, best])
         return side * distance, along
 
-    def _segments(self, rows: Rows) -> tuple[Floats, Floats]:
+    def _segments(self, rows: Ints) -> tuple[Floats, Floats]:
         """Starts and steps of the segments round some rows, both (k, 2 window, 2)."""
         at = rows[:, None] + np.arange(-self.window, self.window)
         count = len(self.points)

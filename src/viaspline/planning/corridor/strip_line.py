@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.errors import NoPathError
-from viaspline.planning.corridor.minimum_curvature import Line, Task
-
-Floats = NDArray[np.float64]
-Rows = NDArray[np.int64]
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.planning.corridor.minimum_curvature import Line, StripProblem
 
 AT_JOINT = 1e-9  # a gate so near to a joint lies on it, as a parameter
 
@@ -27,10 +24,10 @@ class StripLine:
     """
 
     spans: Floats
-    at: Rows
+    at: Ints
 
 
-def split(line: Line, task: Task) -> StripLine:
+def split(line: Line, task: StripProblem) -> StripLine:
     """The spans of a line with joints at its gates, from the first gate on.
 
     Raises:

@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
-
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
 
 
 def with_heights(spans: Floats, joints: NDArray[np.int64], heights: Floats) -> Floats:

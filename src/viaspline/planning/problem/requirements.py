@@ -12,7 +12,7 @@ LEAST = 1e-5  # what even a point without clearance keeps, so that touching is n
 
 
 @dataclass(frozen=True, kw_only=True)
-class Brief:
+class Requirements:
     """The robot's needs and the curve's shape.
 
     Attributes:
@@ -55,7 +55,7 @@ class Brief:
         return max(self.radius + self.kept, LEAST)
 
     @classmethod
-    def of(cls, mission: Mission, tracking_error: float = 0.0) -> Brief:
+    def of(cls, mission: Mission, tracking_error: float = 0.0) -> Requirements:
         """The brief of a mission.
 
         Args:

@@ -11,11 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
 
-Floats = NDArray[np.float64]
 RESTING = 1e-9  # derivative below which a curve has no curvature there [m]
 SHARPEST = 0.5  # largest turn of the heading while running out [rad]
 

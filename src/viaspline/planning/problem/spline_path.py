@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 
 from viaspline.curve.path import PathVia, ViaKind
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.planning.problem.via_sequence import Course
-
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.problem.via_sequence import ViaSequence
 
 
 @dataclass(frozen=True)
-class Laid:
+class SplinePath:
     """The curve of a course.
 
     Attributes:
@@ -32,10 +31,10 @@ class Laid:
 
     @classmethod
     def through(
-        cls, course: Course, spans: Floats, joints: NDArray[np.int64], detours: Sequence[int]
-    ) -> Laid:
+        cls, sequence: ViaSequence, spans: Floats, joints: NDArray[np.int64], detours: Sequence[int]
+    ) -> SplinePath:
         """The curve of a course with a detour via point where each of some spans begins."""
-        vias = [_user_via(course, k, int(u)) for k, u in enumerate(joints)]
+        vias = [_user_via(sequence, k, int(u)) for k, u in enumerate(joints)]
         taken = set(joints.tolist())
         vias += [
             PathVia("detour", tuple(spans[k, 0].tolist()), "detour", float(k))
@@ -64,8 +63,8 @@ class Laid:
         return tuple(replace(via, u=via.u + first) for via in self.vias)
 
 
-def _user_via(course: Course, k: int, u: int) -> PathVia:
-    via = course.vias[k % len(course.vias)]
+def _user_via(sequence: ViaSequence, k: int, u: int) -> PathVia:
+    via = sequence.vias[k % len(sequence.vias)]
     kind: ViaKind = "detour" if via.index is None else "user"
-    index = len(course.vias) if k == len(course.vias) else via.index
+    index = len(sequence.vias) if k == len(sequence.vias) else via.index
     return PathVia(via.name, tuple(via.at.tolist()), kind, float(u), via.dwell, index)

@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 from viaspline.curve.tangents import ALPHA, PIECES, RULES
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import SplineSpec, Tangents
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -54,7 +53,7 @@ class Leg:
 
 
 @dataclass(frozen=True)
-class Course:
+class ViaSequence:
     """User via points and the legs between them.
 
     Attributes:
@@ -79,7 +78,7 @@ class Course:
         """The via points before and after a leg."""
         return self.vias[leg], self.vias[(leg + 1) % len(self.vias)]
 
-    def with_leg(self, index: int, leg: Leg) -> Course:
+    def with_leg(self, index: int, leg: Leg) -> ViaSequence:
         """The same with another leg."""
         return replace(self, legs=(*self.legs[:index], leg, *self.legs[index + 1 :]))
 
@@ -93,32 +92,32 @@ class Course:
         return np.cumsum([0, *(self.pieces * len(leg.slack) for leg in self.legs)])
 
 
-def lay(course: Course) -> Floats:
+def lay(sequence: ViaSequence) -> Floats:
     """The cardinal spline through a course: Bézier control polygons [m], shape (m, 4, d)."""
     rows: list[Floats] = []
-    for k, leg in enumerate(course.legs):
-        rows.append(course.vias[k].at[None, :])
+    for k, leg in enumerate(sequence.legs):
+        rows.append(sequence.vias[k].at[None, :])
         if len(leg.points):
             rows.append(leg.points)
-    if not course.closed:
-        rows.append(course.vias[-1].at[None, :])
+    if not sequence.closed:
+        rows.append(sequence.vias[-1].at[None, :])
     points = np.concatenate(rows)
-    slack = np.concatenate([leg.slack for leg in course.legs])
-    return spline_spans(points, slack, course)
+    slack = np.concatenate([leg.slack for leg in sequence.legs])
+    return spline_spans(points, slack, sequence)
 
 
-def spline_spans(points: Floats, slack: Floats, course: Course) -> Floats:
+def spline_spans(points: Floats, slack: Floats, sequence: ViaSequence) -> Floats:
     """Spans through points with the course's knots, tangents and end directions."""
-    start, end = course.start_tangent, course.end_tangent
+    start, end = sequence.start_tangent, sequence.end_tangent
     none = np.zeros(points.shape[1])
-    return RULES[course.tangents](
-        points, ALPHA[course.spline.knots], slack,
+    return RULES[sequence.tangents](
+        points, ALPHA[sequence.spline.knots], slack,
         none if start is None else start, none if end is None else end,
-        start is not None, end is not None, course.closed,
+        start is not None, end is not None, sequence.closed,
     )  # fmt: skip
 
 
-def course_of(mission: Mission) -> Course:
+def via_sequence_of(mission: Mission) -> ViaSequence:
     """The course of a mission before any detour."""
     route = mission.route
     named = list(route.points())
@@ -130,7 +129,7 @@ def course_of(mission: Mission) -> Course:
     count = len(vias) if route.closed else len(vias) - 1
     slack = span_slack(mission.spline, count)
     goal = route.goal
-    return Course(
+    return ViaSequence(
         vias=vias,
         legs=tuple(Leg.straight(value, dimension) for value in slack),
         spline=mission.spline,

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Bytes, Floats
 from viaspline.kernels.routing.navmesh.dilate import grow_into
 from viaspline.kernels.routing.navmesh.polyanya import shortest_path
 from viaspline.kernels.routing.navmesh.rectangles import Mesh, mesh_of
@@ -18,15 +19,13 @@ from viaspline.kernels.world.rasterize import mark_segments, rasterized
 from viaspline.maps.grid import Grid
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
-Cells = NDArray[np.uint8]
 Box = tuple[float, float, float, float]
 
 HALF_DIAGONAL = math.sqrt(0.5)  # of a cell of side 1
 FINE, COARSE = 2**16, 2**20  # cells that a lattice of obstacles without maps should have, may have
 MOST = 2**27
 ALIGNED = 1e-9  # of a cell: what a map may lie off the lattice
-NOTHING: Cells = np.empty((0, 0), np.uint8)
+NOTHING: Bytes = np.empty((0, 0), np.uint8)
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ class Lattice:
     x: float
     y: float
     side: float
-    cells: Cells
+    cells: Bytes
     is_open: bool
 
     @cached_property
@@ -128,7 +127,7 @@ def _rasterized(world: World, required: float, box: Box, side: float) -> Lattice
 
 def _grown_maps(
     world: World, reach: float, low: tuple[float, float], side: float, shape: tuple[int, int]
-) -> Cells:
+) -> Bytes:
     """The maps' cells grown by ``reach``; nothing unless all of them lie on the lattice."""
     grids = [obstacle.grid for obstacle in world.obstacles if obstacle.grid is not None]
     places = [_place_on(grid, low, side) for grid in grids]

@@ -11,36 +11,39 @@ from numpy.typing import NDArray
 
 from viaspline.curve.certificate import SPARE
 from viaspline.errors import Change, NoPathError
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.routing.corners import X, Y
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.via_sequence import Course, RouteVia
-from viaspline.planning.routing.router import NO_BARRIERS, Floats, Router, Way, on_the_line
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
+from viaspline.planning.routing.router import NO_BARRIERS, Router, TautPath, on_the_line
 from viaspline.world.world import World
 
 BISECTIONS = 30
 TRIALS = 8  # places that are tried as a better goal
 
 
-def refuse_blocked_vias(course: Course, world: World, brief: Brief) -> None:
+def refuse_blocked_vias(sequence: ViaSequence, world: World, requirements: Requirements) -> None:
     """Raise NoPathError for the first via point that has not the room that is required."""
-    at = np.array([via.at[:2] for via in course.vias])
+    at = np.array([via.at[:2] for via in sequence.vias])
     distance, index = world.nearest(at)
-    for via, room, nearest in zip(course.vias, distance, index, strict=True):
-        if room < brief.required - SPARE:
-            raise _no_room(via, float(room), int(nearest), world, brief)
+    for via, room, nearest in zip(sequence.vias, distance, index, strict=True):
+        if room < requirements.required - SPARE:
+            raise _no_room(via, float(room), int(nearest), world, requirements)
 
 
-def _no_room(via: RouteVia, room: float, index: int, world: World, brief: Brief) -> NoPathError:
+def _no_room(
+    via: RouteVia, room: float, index: int, world: World, requirements: Requirements
+) -> NoPathError:
     name = world.name(index)
-    free = room - brief.radius
-    place = _nearest_free(via.at, world, brief.required)
+    free = room - requirements.radius
+    place = _nearest_free(via.at, world, requirements.required)
     moves = [] if place is None else [f"move it to ({place[0]:.3f}, {place[1]:.3f})"]
     changes = _moved(via, place)
-    if 0 <= free < brief.clearance:
+    if 0 <= free < requirements.clearance:
         most = float(np.floor(free * 1000) / 1000)
         moves.append(f"set robot.clearance_m to at most {most:.3f}")
         changes += (Change("robot.clearance_m", most),)
-    missing = brief.required - room
+    missing = requirements.required - room
     what = "outside" if index < -1 and room < 0 else f"{missing:.3f} m inside the clearance of"
     return NoPathError(
         f"via point {via.name!r} lies {what} {name!r}",
@@ -115,19 +118,19 @@ class BlockedLegError(NoPathError):
 
 
 def explain_blocked_leg(
-    course: Course, leg: int, world: World, brief: Brief, barriers: Floats
+    sequence: ViaSequence, leg: int, world: World, requirements: Requirements, barriers: Floats
 ) -> NoPathError:
     """Why there is no way between two via points."""
-    start, goal = course.ends(leg)
-    if len(barriers) and _way(start, goal, world, brief.required, NO_BARRIERS) is not None:
+    start, goal = sequence.ends(leg)
+    if len(barriers) and _way(start, goal, world, requirements.required, NO_BARRIERS) is not None:
         return _forced(start, goal, world)
-    opened = _widest(start, goal, world, brief.required)
-    moved = reachable_near(start.at, goal.at, world, brief.required)
+    opened = _widest(start, goal, world, requirements.required)
+    moved = reachable_near(start.at, goal.at, world, requirements.required)
     moves = [] if moved is None else [f"move {goal.name!r} to ({moved[0]:.3f}, {moved[1]:.3f})"]
     changes = _moved(goal, moved)
     if opened is None:
         walls = _walls(start, goal, world)
-        moves.append(f"open a gap of {2 * brief.required:.3f} m")
+        moves.append(f"open a gap of {2 * requirements.required:.3f} m")
         return NoPathError(
             f"nothing leads from {start.name!r} to {goal.name!r}: {_listed(walls)} shuts it off",
             where=goal.at,
@@ -136,16 +139,16 @@ def explain_blocked_leg(
             obstacles=walls,
             changes=changes,
         )
-    required, way = opened
-    gap = _narrowest(way, world)
-    clearance = np.floor((required - brief.radius) * 1000) / 1000
+    required, taut_path = opened
+    gap = _narrowest(taut_path, world)
+    clearance = np.floor((required - requirements.radius) * 1000) / 1000
     if clearance >= 0:
         moves.insert(0, f"set robot.clearance_m to at most {clearance:.3f}")
         changes = (Change("robot.clearance_m", float(clearance)), *changes)
     else:
         most = np.floor(required * 1000) / 1000
         moves.insert(0, f"the body's radius may be at most {most:.3f} m there")
-    room, needed = _told_apart(gap.width, 2 * brief.required)
+    room, needed = _told_apart(gap.width, 2 * requirements.required)
     return NoPathError(
         f"no way from {start.name!r} to {goal.name!r} is wide enough: the best one goes through "
         f"a gap {gap.between} at ({gap.at[0]:.2f}, {gap.at[1]:.2f}) with {room} m of "
@@ -206,9 +209,11 @@ def _nearest_in_room(router: Router, start: Floats, goal: Floats, closed: Floats
     return None
 
 
-def explain_tight_leg(course: Course, leg: int, world: World, brief: Brief) -> NoPathError:
+def explain_tight_leg(
+    sequence: ViaSequence, leg: int, world: World, requirements: Requirements
+) -> NoPathError:
     """Why no spline along a leg is clear: one of its via points has no room for the curve."""
-    start, goal = course.ends(leg)
+    start, goal = sequence.ends(leg)
     room, index = world.nearest(np.array([start.at[:2], goal.at[:2]]))
     worse = int(np.argmin(room))
     via = (start, goal)[worse]
@@ -244,7 +249,7 @@ def _forced(start: RouteVia, goal: RouteVia, world: World) -> NoPathError:
 
 def _way(
     start: RouteVia, goal: RouteVia, world: World, required: float, barriers: Floats
-) -> Way | None:
+) -> TautPath | None:
     router = Router(world, required, np.array([start.at[:2], goal.at[:2]]))
     active = on_the_line(world, start.at, goal.at, required)
     return router.find(start.at, goal.at, barriers, active)
@@ -252,7 +257,7 @@ def _way(
 
 def _widest(
     start: RouteVia, goal: RouteVia, world: World, required: float
-) -> tuple[float, Way] | None:
+) -> tuple[float, TautPath] | None:
     """The largest distance that a way can keep, and that way; None if there is no way at all."""
     low, high = 1e-6, required
     best = _way(start, goal, world, low, NO_BARRIERS)
@@ -260,11 +265,11 @@ def _widest(
         return None
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
-        way = _way(start, goal, world, middle, NO_BARRIERS)
-        if way is None:
+        taut_path = _way(start, goal, world, middle, NO_BARRIERS)
+        if taut_path is None:
             high = middle
         else:
-            low, best = middle, way
+            low, best = middle, taut_path
         if high - low < 1e-4 * required:
             break
     return low, best
@@ -287,10 +292,10 @@ def _pair(names: tuple[str, ...]) -> str:
     return f"between {names[0]!r} and {names[1]!r}"
 
 
-def _narrowest(way: Way, world: World) -> _Gap:
+def _narrowest(taut_path: TautPath, world: World) -> _Gap:
     """Where a way is tightest."""
     w = np.linspace(0.0, 1.0, 201)[:, None]
-    corners = way.corners[:, X : Y + 1]
+    corners = taut_path.corners[:, X : Y + 1]
     places = np.vstack([a + w * (b - a) for a, b in pairwise(corners)])
     inner = places[2:-2] if len(places) > 4 else places
     distance, index = world.nearest(inner)

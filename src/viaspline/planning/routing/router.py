@@ -8,9 +8,9 @@ from functools import cached_property
 from itertools import chain, islice, pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.certificate import SPARE
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.routing.corners import X, Y
 from viaspline.kernels.routing.narrow_gaps import narrow_places, narrowest
 from viaspline.kernels.routing.string_pulling.pull import pulled_taut
@@ -24,9 +24,6 @@ from viaspline.kernels.world.segment import mark_near_segment
 from viaspline.planning.routing.lattice import Lattice, lattices
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-
 # How far off an obstacle a route turns beyond what is required, for gaps that are ever less wider
 # than the robot. Below nothing at last: a via point may stand at just what is required, and a route
 # turns only round what it is outside of.
@@ -38,13 +35,14 @@ NO_BARRIERS = np.empty((0, 4))
 
 
 @dataclass(frozen=True)
-class Way:
+class TautPath:
     """A route between two places.
 
     Attributes:
-        corners: Corner rows, see ``kernels.routing.corners``, shape (k, 8), start and goal among them.
-        bends: The same pulled taut, see ``kernels.routing.tangent_arcs``, shape (m, 6); empty where the arcs have
-            no common tangents.
+        corners: Corner rows, see ``kernels.routing.corners``, shape (k, 8), start and goal
+            among them.
+        bends: Pulled taut, see ``kernels.routing.tangent_arcs``, shape (m, 6); empty where the arcs
+            have no common tangents.
         length: [m].
     """
 
@@ -63,14 +61,14 @@ class Way:
         return np.ascontiguousarray(self.corners[1:-1, X : Y + 1])
 
     def points(self, step: float, excess: float, stretch: float, ease: float) -> Floats:
-        """Detour via points along it [m], shape (n, 2); see ``kernels.routing.tangent_arcs.detour_points``."""
+        """Detour via points along it [m], shape (n, 2); see ``tangent_arcs.detour_points``."""
         if len(self.bends) == 0:
             return self.turns
         points: Floats = detour_points(self.bends, step, excess, stretch, ease)
         return points
 
     @classmethod
-    def through(cls, corners: Floats) -> Way:
+    def through(cls, corners: Floats) -> TautPath:
         """The way along given corners."""
         bends = bends_of(corners)
         return cls(corners, bends, float(taut_length(corners, bends)))
@@ -84,11 +82,11 @@ class Way:
         crossing = barrier_crossings(self.corners, barrier)[1]
         return max(0, crossing - reach), min(len(self.corners) - 1, crossing + 1 + reach)
 
-    def spliced(self, first: int, last: int, part: Way) -> Way:
+    def spliced(self, first: int, last: int, part: TautPath) -> TautPath:
         """The same with ``part`` between two of its corners."""
         inner = part.corners[1:-1]
         rows = (self.corners[: first + 1], inner, self.corners[last:])
-        return Way.through(np.concatenate(rows))
+        return TautPath.through(np.concatenate(rows))
 
 
 @dataclass(frozen=True)
@@ -96,13 +94,13 @@ class _Tried:
     """What came of one lattice.
 
     Attributes:
-        way: The way, if there is one.
+        taut_path: The way, if there is one.
         closed: Segments that no way crosses, (n, 4).
         is_proof: Whether nothing else was closed in the lattice. Closing a segment blocks whole
             cells, so a finer lattice may still show a way beside it.
     """
 
-    way: Way | None
+    taut_path: TautPath | None
     closed: Floats
     is_proof: bool
 
@@ -134,7 +132,7 @@ class Router:
         """The coarsest lattice."""
         return next(lattices(self.world, self.required, self.places))
 
-    def find(self, start: Floats, goal: Floats, barriers: Floats, active: Flags) -> Way | None:
+    def find(self, start: Floats, goal: Floats, barriers: Floats, active: Flags) -> TautPath | None:
         """The shortest way that keeps the distance from everything and crosses no barrier.
 
         Args:
@@ -146,14 +144,14 @@ class Router:
         Returns:
             The way, or None where there is none.
         """
-        way = None
+        taut_path = None
         if not self.is_dense(active):
-            way = self._exact(start, goal, barriers, active)
-        if way is not None and self._is_surely_shortest(active):
-            return way
+            taut_path = self._exact(start, goal, barriers, active)
+        if taut_path is not None and self._is_surely_shortest(active):
+            return taut_path
         guided = self._guided(start, goal, barriers)
-        if guided is None or (way is not None and way.length <= guided.length):
-            return way
+        if guided is None or (taut_path is not None and taut_path.length <= guided.length):
+            return taut_path
         self._mark(guided, active)
         return guided
 
@@ -171,29 +169,31 @@ class Router:
         """Whether ways are sought on a lattice: on maps, and among many obstacles."""
         return self.has_maps or bool(np.count_nonzero(active) > MANY)
 
-    def _mark(self, way: Way, active: Flags) -> None:
+    def _mark(self, taut_path: TautPath, active: Flags) -> None:
         """Mark what a way goes round in ``active``."""
         width = self.required + 2 * MARGINS[0]
-        for (ax, ay), (bx, by) in pairwise(way.corners[:, X : Y + 1].tolist()):
+        for (ax, ay), (bx, by) in pairwise(taut_path.corners[:, X : Y + 1].tolist()):
             mark_near_segment(self.world.packed, ax, ay, bx, by, width, active)
 
-    def _exact(self, start: Floats, goal: Floats, barriers: Floats, active: Flags) -> Way | None:
+    def _exact(
+        self, start: Floats, goal: Floats, barriers: Floats, active: Flags
+    ) -> TautPath | None:
         """The shortest among few obstacles; None too where they prove to be many."""
         a, b = np.ascontiguousarray(start[:2]), np.ascontiguousarray(goal[:2])
         corners = shortest_route(
             self.world.packed, a, b, self.required + MARGINS[0], self._floor, STEPS[0], barriers,
             active, MANY,
         )  # fmt: skip
-        return Way.through(corners) if len(corners) else None
+        return TautPath.through(corners) if len(corners) else None
 
-    def _guided(self, start: Floats, goal: Floats, barriers: Floats) -> Way | None:
+    def _guided(self, start: Floats, goal: Floats, barriers: Floats) -> TautPath | None:
         """The first of ever finer lattices that leads to a way."""
         closed = barriers
         for lattice in chain((self.lattice,), self._finer):
             tried = self._along(lattice, start, goal, closed)
             shut = lattice.is_open and len(tried.closed) == len(barriers) and tried.is_proof
-            if tried.way is not None or shut:
-                return tried.way
+            if tried.taut_path is not None or shut:
+                return tried.taut_path
             closed = tried.closed
         return None
 
@@ -215,8 +215,8 @@ class Router:
                 lattice.side, np.array(STEPS),
             )  # fmt: skip
             if len(bends):
-                way = Way(corners, bends, float(taut_length(corners, bends)))
-                return _Tried(way, closed, is_proof)
+                taut_path = TautPath(corners, bends, float(taut_length(corners, bends)))
+                return _Tried(taut_path, closed, is_proof)
             gap = self._gap(guide, stuck, lattice.side)
             lattice = lattice.without(gap)
             proven = narrow_places(self.world.packed, guide, self._floor)

@@ -6,12 +6,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import Side
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
 
 
 class Barriers(NamedTuple):

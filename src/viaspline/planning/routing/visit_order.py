@@ -11,15 +11,14 @@ from collections.abc import Iterator
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import ViaPoint
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.router import NO_BARRIERS, Router, on_the_line
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
 EXACT = 9  # via points up to which all orders are compared
 SLIGHT = 1e-9  # shorter by less is not shorter [m]
 
@@ -57,13 +56,13 @@ def lengths_between(mission: Mission) -> Floats:
     Start first, then the via points, then the goal if there is one; infinite where there is none.
     """
     at = np.array([point.at[:2] for _, point in mission.route.points()])
-    world, required = World.known(mission), Brief.of(mission).required
+    world, required = World.known(mission), Requirements.of(mission).required
     router = Router(world, required, at)
     lengths = np.zeros((len(at), len(at)))
     for i, j in combinations(range(len(at)), 2):
         active = on_the_line(world, at[i], at[j], required)
-        way = router.find(at[i], at[j], NO_BARRIERS, active)
-        lengths[i, j] = lengths[j, i] = np.inf if way is None else way.length
+        taut_path = router.find(at[i], at[j], NO_BARRIERS, active)
+        lengths[i, j] = lengths[j, i] = np.inf if taut_path is None else taut_path.length
     return lengths
 
 

@@ -9,15 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.routing.corners import X as CORNER_X
 from viaspline.kernels.routing.corners import Y as CORNER_Y
 from viaspline.kernels.routing.tangent_arcs import BEND_RADIUS, BEND_X, BEND_Y
 from viaspline.kernels.routing.tangent_arcs import SIDE as BEND_SIDE
 from viaspline.kernels.turning.turn_sequence import HEADING, KEPT, SIDE, X, Y
-from viaspline.planning.problem.via_sequence import Course
-from viaspline.planning.routing.router import Way
+from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.routing.router import TautPath
 
-Floats = NDArray[np.float64]
 DETOUR = -1
 
 
@@ -69,33 +69,33 @@ def bend(x: float, y: float, kept: float = 0.0, side: float = 0.0) -> Floats:
     return row
 
 
-def bends_along(course: Course, ways: Sequence[Way]) -> Bends:
+def bends_along(sequence: ViaSequence, taut_paths: Sequence[TautPath]) -> Bends:
     """The bends of a course whose legs go along given ways."""
     rows: list[Floats] = []
     vias: list[int] = []
-    for k, via in enumerate(course.vias):
+    for k, via in enumerate(sequence.vias):
         rows.append(bend(float(via.at[0]), float(via.at[1])))
         vias.append(k)
-        if k < len(ways):
-            inner = _bends_of(ways[k])
+        if k < len(taut_paths):
+            inner = _bends_of(taut_paths[k])
             rows += inner
             vias += [DETOUR] * len(inner)
     table = np.array(rows)
-    if not course.closed:
-        for k, tangent in ((0, course.start_tangent), (-1, course.end_tangent)):
+    if not sequence.closed:
+        for k, tangent in ((0, sequence.start_tangent), (-1, sequence.end_tangent)):
             if tangent is not None:
                 table[k, HEADING] = math.atan2(tangent[1], tangent[0])
-    return Bends(table, np.array(vias), course.closed)
+    return Bends(table, np.array(vias), sequence.closed)
 
 
-def _bends_of(way: Way) -> list[Floats]:
+def _bends_of(taut_path: TautPath) -> list[Floats]:
     """What a way goes round; where its arcs have no common tangents, its corners."""
-    if len(way.bends):
+    if len(taut_path.bends):
         return [
             bend(row[BEND_X], row[BEND_Y], row[BEND_RADIUS], row[BEND_SIDE])
-            for row in way.bends[1:-1]
+            for row in taut_path.bends[1:-1]
         ]
-    corners = way.corners[:, [CORNER_X, CORNER_Y]]
+    corners = taut_path.corners[:, [CORNER_X, CORNER_Y]]
     steps = np.diff(corners, axis=0)
     turns = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
     return [

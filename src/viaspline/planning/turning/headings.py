@@ -15,14 +15,13 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.heading_costs import cheapest, leg_lengths
 from viaspline.planning.turning.bend_row import DETOUR, HEADING, SIDE, Bends
-from viaspline.planning.turning.turn_path import RAMP, Swing
+from viaspline.planning.turning.turn_path import RAMP, TurnPath
 
-Floats = NDArray[np.float64]
-Lay = Callable[[Bends], Swing | None]
+Lay = Callable[[Bends], TurnPath | None]
 
 HEADINGS = 36
 ROUNDS = 300
@@ -30,7 +29,7 @@ FINER = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they a
 
 
 @dataclass(frozen=True)
-class Leg:
+class HeadingLeg:
     """What lies between two via points of a row of bends.
 
     Attributes:
@@ -62,19 +61,19 @@ class Poses:
 
     Attributes:
         headings: At every via point [rad], (v,); NaN where the robot turns on the spot.
-        swings: One for each leg.
+        turn_paths: One for each leg.
     """
 
     headings: Floats
-    swings: tuple[Swing, ...]
+    turn_paths: tuple[TurnPath, ...]
 
     @cached_property
     def length(self) -> float:
         """[m]."""
-        return sum(swing.length for swing in self.swings)
+        return sum(turn_path.length for turn_path in self.turn_paths)
 
 
-def legs_of(bends: Bends, spots: Collection[int]) -> tuple[Leg, ...]:
+def legs_of(bends: Bends, spots: Collection[int]) -> tuple[HeadingLeg, ...]:
     """The legs of a row of bends.
 
     Args:
@@ -89,7 +88,7 @@ def legs_of(bends: Bends, spots: Collection[int]) -> tuple[Leg, ...]:
         places.append(len(rows) - 1)
     headings = [_headings(bends, via, count, spots) for via in range(count)]
     return tuple(
-        Leg(rows[a : b + 1].copy(), headings[k], headings[k + 1])
+        HeadingLeg(rows[a : b + 1].copy(), headings[k], headings[k + 1])
         for k, (a, b) in enumerate(pairwise(places))
     )
 
@@ -105,7 +104,7 @@ def _headings(bends: Bends, via: int, count: int, spots: Collection[int]) -> Flo
 
 
 def posed(
-    legs: Sequence[Leg],
+    legs: Sequence[HeadingLeg],
     rho: float,
     closed: bool,
     lay: Lay,
@@ -128,24 +127,24 @@ def posed(
     costs = np.full((len(legs), counts.max(), counts.max()), np.inf)
     for k, leg in enumerate(legs):
         costs[k, : counts[k], : counts[k + 1]] = leg.lengths(rho).min(axis=(2, 3))
-    laid: dict[tuple[int, int, int], Swing] = {}
+    spline_path: dict[tuple[int, int, int], TurnPath] = {}
     failed = np.zeros(len(legs), np.int64)
     for _ in range(most):
         row, cost = cheapest(costs, counts, closed)
         if not cost < bound:  # what is not laid yet costs no less than it says
             return None
         keys = [(k, int(row[k]), int(row[k + 1])) for k in range(len(legs))]
-        new = [key for key in keys if key not in laid]
+        new = [key for key in keys if key not in spline_path]
         if not new:
             headings = [leg.starts[key[1]] for leg, key in zip(legs, keys, strict=True)]
             ends = np.array([*headings, legs[-1].goals[row[-1]]])
-            return _finer(Poses(ends, tuple(laid[key] for key in keys)), legs, closed, lay)
+            return _finer(Poses(ends, tuple(spline_path[key] for key in keys)), legs, closed, lay)
         for key in new:
             leg = legs[key[0]]
-            swing = lay(leg.between(leg.starts[key[1]], leg.goals[key[2]]))
-            costs[key] = math.inf if swing is None else swing.length
-            if swing is not None:
-                laid[key] = swing
+            turn_path = lay(leg.between(leg.starts[key[1]], leg.goals[key[2]]))
+            costs[key] = math.inf if turn_path is None else turn_path.length
+            if turn_path is not None:
+                spline_path[key] = turn_path
                 failed[key[0]] = -ROUNDS  # it isn't hopeless
             failed[key[0]] += 1
         if (failed >= patience).any():
@@ -153,7 +152,7 @@ def posed(
     return None
 
 
-def _finer(poses: Poses, legs: Sequence[Leg], closed: bool, lay: Lay) -> Poses:
+def _finer(poses: Poses, legs: Sequence[HeadingLeg], closed: bool, lay: Lay) -> Poses:
     """The same with headings turned a little, each as long as that makes it shorter."""
     free = [k for k in range(len(legs)) if len(legs[k].starts) > 1]
     for part in FINER:
@@ -168,17 +167,17 @@ def _finer(poses: Poses, legs: Sequence[Leg], closed: bool, lay: Lay) -> Poses:
 
 
 def _turned(
-    poses: Poses, legs: Sequence[Leg], closed: bool, lay: Lay, k: int, turn: float
+    poses: Poses, legs: Sequence[HeadingLeg], closed: bool, lay: Lay, k: int, turn: float
 ) -> Poses | None:
     """The same with another heading at via point k."""
     headings = poses.headings.copy()
     headings[k] += turn
     if closed and k == 0:
         headings[-1] = headings[0]
-    swings = list(poses.swings)
+    turn_paths = list(poses.turn_paths)
     for leg in {k, (k - 1) % len(legs) if closed else max(k - 1, 0)}:
-        swing = lay(legs[leg].between(headings[leg], headings[leg + 1]))
-        if swing is None:
+        turn_path = lay(legs[leg].between(headings[leg], headings[leg + 1]))
+        if turn_path is None:
             return None
-        swings[leg] = swing
-    return Poses(headings, tuple(swings))
+        turn_paths[leg] = turn_path
+    return Poses(headings, tuple(turn_paths))

@@ -9,21 +9,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.fit import CLEAR
 from viaspline.planning.checking.conflicts import body_conflicts, is_clear, proven
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.turning.bend_row import DETOUR, KEPT, SIDE, Bends, bend
 from viaspline.planning.turning.turn_path import (
     RAMP,
-    NoSwing,
-    Swing,
-    swing_on_sides,
-    swing_round,
+    NoTurnPath,
+    TurnPath,
+    turn_path_on_sides,
+    turn_path_round,
     with_sides,
 )
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
 ROUNDS = 12
 SAMPLES = 9  # of a span, to find its tightest place
 EPS = 1e-6  # step of the gradient of the distance [m]
@@ -44,57 +44,65 @@ class Stuck:
     places: tuple[tuple[int, Floats], ...]
 
 
-def clear_swing(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | None:
+def clear_turn_path(
+    bends: Bends, rho: float, world: World, requirements: Requirements
+) -> TurnPath | None:
     """The shortest clear swing, to any sides of given headings, pushed away from what is near.
 
     Args:
         bends: The row.
         rho: The least radius [m].
         world: What to keep clear of.
-        brief: What to keep.
+        requirements: What to keep.
     """
-    found = clear_swing_or_why(bends, rho, world, brief)
-    return found if isinstance(found, Swing) else None
+    found = clear_turn_path_or_why(bends, rho, world, requirements)
+    return found if isinstance(found, TurnPath) else None
 
 
-def clear_swing_or_why(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | Stuck:
+def clear_turn_path_or_why(
+    bends: Bends, rho: float, world: World, requirements: Requirements
+) -> TurnPath | Stuck:
     """The same, or where it got stuck."""
-    found = [_pushed_clear(tried, rho, world, brief) for tried in with_sides(bends)]
-    clear = [swing for swing in found if isinstance(swing, Swing)]
-    return min(clear, key=lambda swing: swing.length) if clear else found[0]
+    found = [_pushed_clear(tried, rho, world, requirements) for tried in with_sides(bends)]
+    clear = [turn_path for turn_path in found if isinstance(turn_path, TurnPath)]
+    return min(clear, key=lambda turn_path: turn_path.length) if clear else found[0]
 
 
-def swing_if_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | None:
+def turn_path_if_clear(
+    bends: Bends, rho: float, world: World, requirements: Requirements
+) -> TurnPath | None:
     """The shortest swing to any sides of given headings, if it is clear as it is."""
-    swing = swing_round(bends, rho)
-    if isinstance(swing, NoSwing) or not is_clear(world, swing.spans, brief):
+    turn_path = turn_path_round(bends, rho)
+    if isinstance(turn_path, NoTurnPath) or not is_clear(world, turn_path.spans, requirements):
         return None
-    return swing
+    return turn_path
 
 
-def _pushed_clear(bends: Bends, rho: float, world: World, brief: Brief) -> Swing | Stuck:
+def _pushed_clear(
+    bends: Bends, rho: float, world: World, requirements: Requirements
+) -> TurnPath | Stuck:
     """The same to the sides that are set."""
     ramp = RAMP
-    swing = swing_on_sides(bends, rho, ramp)
+    turn_path = turn_path_on_sides(bends, rho, ramp)
     for _ in range(ROUNDS):
-        if isinstance(swing, NoSwing):
-            return _stuck_between(swing)
-        close = body_conflicts(world, swing.spans, brief)
+        if isinstance(turn_path, NoTurnPath):
+            return _stuck_between(turn_path)
+        close = body_conflicts(world, turn_path.spans, requirements)
         if (close == CLEAR).all():
-            return swing
-        pushed = swing_on_sides(_pushed(swing, close, world, brief), rho, ramp)
-        if isinstance(pushed, Swing) and np.array_equal(pushed.bends.rows, swing.bends.rows):
+            return turn_path
+        pushed = turn_path_on_sides(_pushed(turn_path, close, world, requirements), rho, ramp)
+        if isinstance(pushed, TurnPath) and np.array_equal(pushed.bends.rows, turn_path.bends.rows):
             ramp *= SHORTER  # the lines are far enough off, it is the ramps that cut the corner
-            pushed = swing_on_sides(swing.bends, rho, ramp)
-        if isinstance(pushed, NoSwing) or ramp < LEAST_RAMP:
-            return _stuck_at(swing, close, world, brief)
-        swing = pushed
-    assert isinstance(swing, Swing)
-    close = body_conflicts(world, swing.spans, brief)
-    return swing if (close == CLEAR).all() else _stuck_at(swing, close, world, brief)
+            pushed = turn_path_on_sides(turn_path.bends, rho, ramp)
+        if isinstance(pushed, NoTurnPath) or ramp < LEAST_RAMP:
+            return _stuck_at(turn_path, close, world, requirements)
+        turn_path = pushed
+    assert isinstance(turn_path, TurnPath)
+    close = body_conflicts(world, turn_path.spans, requirements)
+    return turn_path if (close == CLEAR).all() else _stuck_at(turn_path, close, world, requirements)
 
 
-def _stuck_between(failed: NoSwing) -> Stuck:
+def _stuck_between(failed: NoTurnPath) -> Stuck:
     """Where two bends leave no room for their turns."""
     rows = (failed.where, (failed.where + 1) % len(failed.bends.rows))
     if failed.where < 0:
@@ -106,46 +114,52 @@ def _stuck_between(failed: NoSwing) -> Stuck:
     ))  # fmt: skip
 
 
-def _stuck_at(swing: Swing, close: NDArray[np.int64], world: World, brief: Brief) -> Stuck:
+def _stuck_at(
+    turn_path: TurnPath, close: NDArray[np.int64], world: World, requirements: Requirements
+) -> Stuck:
     """Where the first run of spans is too close."""
     hit = np.flatnonzero(close != CLEAR)
     run = np.split(hit, np.flatnonzero(np.diff(hit) > 1) + 1)[0]
-    tight = _tightest(PiecewiseCubic(swing.spans), run, world, brief)
-    return Stuck(((swing.bends.leg_of(_row_before(swing, tight.u)), tight.wall),))
+    tight = _tightest(PiecewiseCubic(turn_path.spans), run, world, requirements)
+    return Stuck(((turn_path.bends.leg_of(_row_before(turn_path, tight.u)), tight.wall),))
 
 
-def _pushed(swing: Swing, close: NDArray[np.int64], world: World, brief: Brief) -> Bends:
+def _pushed(
+    turn_path: TurnPath, close: NDArray[np.int64], world: World, requirements: Requirements
+) -> Bends:
     """The bends with one more, or a wider one, for every run of spans that is too close."""
-    bends = swing.bends
+    bends = turn_path.bends
     hit = np.flatnonzero(close != CLEAR)
     runs = np.split(hit, np.flatnonzero(np.diff(hit) > 1) + 1)
-    curve = PiecewiseCubic(swing.spans)
+    curve = PiecewiseCubic(turn_path.spans)
     for run in reversed(runs):  # from the end, so that the earlier indices stay
-        bends = _push(bends, swing, curve, run, world, brief)
+        bends = _push(bends, turn_path, curve, run, world, requirements)
     return bends
 
 
 def _push(
-    bends: Bends, swing: Swing, curve: PiecewiseCubic, run: NDArray[np.int64], world: World,
-    brief: Brief,
+    bends: Bends, turn_path: TurnPath, curve: PiecewiseCubic, run: NDArray[np.int64], world: World,
+    requirements: Requirements,
 ) -> Bends:  # fmt: skip
-    tight = _tightest(curve, run, world, brief)
+    tight = _tightest(curve, run, world, requirements)
     heading = float(curve.heading(tight.u))
     left = np.array([-np.sin(heading), np.cos(heading)])
     side = 1.0 if tight.into @ left > 0.0 else -1.0
-    row = _row_before(swing, tight.u) + 1
+    row = _row_before(turn_path, tight.u) + 1
     for near in (row - 1, row % len(bends.rows)):
         if bends.vias[near] == DETOUR and bends.rows[near, SIDE] == side:
             off = float(np.linalg.norm(bends.rows[near, :2] - tight.wall))
-            if off < max(SAME * brief.required, bends.rows[near, KEPT] - SAME * brief.required):
+            if off < max(
+                SAME * requirements.required, bends.rows[near, KEPT] - SAME * requirements.required
+            ):
                 return bends.widened(near, 1.1 * tight.missing + EXTRA)
     x, y = tight.wall.tolist()
     return bends.with_bend(row, bend(x, y, tight.kept + EXTRA, side))
 
 
-def _row_before(swing: Swing, u: float) -> int:
+def _row_before(turn_path: TurnPath, u: float) -> int:
     """The bend whose apex comes before a parameter of the curve."""
-    return int(np.searchsorted(swing.begins[: len(swing.bends.rows)], u, side="right")) - 1
+    return int(np.searchsorted(turn_path.begins[: len(turn_path.bends.rows)], u, side="right")) - 1
 
 
 class _Tight(NamedTuple):
@@ -166,30 +180,32 @@ class _Tight(NamedTuple):
     kept: float
 
 
-def _tightest(curve: PiecewiseCubic, run: NDArray[np.int64], world: World, brief: Brief) -> _Tight:
+def _tightest(
+    curve: PiecewiseCubic, run: NDArray[np.int64], world: World, requirements: Requirements
+) -> _Tight:
     """The tightest place of a run of spans."""
-    if brief.footprint is not None:
+    if requirements.footprint is not None:
         part = PiecewiseCubic(curve.spans[run[0] : run[-1] + 1])
-        found = proven(part, world, brief)
+        found = proven(part, world, requirements)
         if found.contact is not None:
             at = np.array(found.contact)
             into = -_gradient(world, at)
             wall = at + float(world.distance(at)) * into
-            missing = brief.least - found.clearance
+            missing = requirements.least - found.clearance
             # the front may touch where the reference point is yet to come
             beside = curve.section(float(run[0]), min(run[-1] + AHEAD, len(curve.spans))).project(
                 wall
             )
-            kept = max(beside.distance + 1.1 * missing, brief.required)
+            kept = max(beside.distance + 1.1 * missing, requirements.required)
             return _Tight(float(run[0] + beside.u), wall, into, missing, kept)
     places_u = np.linspace(run[0], run[-1] + 1, SAMPLES * len(run))
     places = np.asarray(curve.evaluate(places_u))
     gaps = world.distance(places)
     k = int(gaps.argmin())
     into = -_gradient(world, places[k])
-    missing = max(brief.required - float(gaps[k]), 0.0)
+    missing = max(requirements.required - float(gaps[k]), 0.0)
     wall = places[k] + float(gaps[k]) * into
-    return _Tight(float(places_u[k]), wall, into, missing, brief.required)
+    return _Tight(float(places_u[k]), wall, into, missing, requirements.required)
 
 
 def _gradient(world: World, place: Floats) -> Floats:

@@ -10,16 +10,22 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.turning.turn_sequence import FINE, LEFT_OUT, swing, swung_length, swung_spans
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.turning.turn_sequence import (
+    FINE,
+    LEFT_OUT,
+    turn_sequence,
+    turn_sequence_length,
+    turn_sequence_spans,
+)
 from viaspline.planning.turning.bend_row import HEADING, SIDE, Bends
 
-Floats = NDArray[np.float64]
 OVERSHOOT = 1.0035  # of the least radius over the turning circle: cubics bend a little more
 RAMP = 1.0  # length of a ramp, in radii
 
 
 @dataclass(frozen=True, eq=False)
-class Swing:
+class TurnPath:
     """A curve round a row of bends.
 
     Attributes:
@@ -37,7 +43,7 @@ class Swing:
 
 
 @dataclass(frozen=True)
-class NoSwing:
+class NoTurnPath:
     """Why there is none.
 
     Attributes:
@@ -51,7 +57,7 @@ class NoSwing:
     where: int
 
 
-def swing_round(bends: Bends, rho: float) -> Swing | NoSwing:
+def turn_path_round(bends: Bends, rho: float) -> TurnPath | NoTurnPath:
     """The shortest swing round a row of bends, to whichever sides given headings are left.
 
     A detour bend that the others make needless is left out.
@@ -60,20 +66,20 @@ def swing_round(bends: Bends, rho: float) -> Swing | NoSwing:
         bends: The row.
         rho: The least radius [m].
     """
-    best: Swing | NoSwing | None = None
+    best: TurnPath | NoTurnPath | None = None
     for tried in with_sides(bends):
-        found = swing_on_sides(tried, rho)
-        if best is None or (isinstance(found, Swing) and _is_longer(best, found)):
+        found = turn_path_on_sides(tried, rho)
+        if best is None or (isinstance(found, TurnPath) and _is_longer(best, found)):
             best = found
     assert best is not None  # there is always one choice of sides
     return best
 
 
-def _is_longer(swing: Swing | NoSwing, other: Swing) -> bool:
-    return isinstance(swing, NoSwing) or swing.length > other.length
+def _is_longer(turn_sequence: TurnPath | NoTurnPath, other: TurnPath) -> bool:
+    return isinstance(turn_sequence, NoTurnPath) or turn_sequence.length > other.length
 
 
-def swing_on_sides(bends: Bends, rho: float, ramp: float = RAMP) -> Swing | NoSwing:
+def turn_path_on_sides(bends: Bends, rho: float, ramp: float = RAMP) -> TurnPath | NoTurnPath:
     """The swing round a row of bends, to the sides that are set.
 
     Args:
@@ -82,15 +88,17 @@ def swing_on_sides(bends: Bends, rho: float, ramp: float = RAMP) -> Swing | NoSw
         ramp: Length of the ramps, in radii.
     """
     while True:
-        lines, turns, apexes, ramps, state, where = swing(bends.rows, bends.closed, rho, ramp * rho)
+        lines, turns, apexes, ramps, state, where = turn_sequence(
+            bends.rows, bends.closed, rho, ramp * rho
+        )
         if state != LEFT_OUT:
             break
         bends = bends.without(where)
     if state != FINE:
-        return NoSwing(bends, int(state), int(where))
-    laid = (bends.rows, bends.closed, rho, lines, turns, apexes, ramps)
-    spans, begins = swung_spans(*laid)
-    return Swing(bends, spans, begins, float(swung_length(*laid)))
+        return NoTurnPath(bends, int(state), int(where))
+    spline_path = (bends.rows, bends.closed, rho, lines, turns, apexes, ramps)
+    spans, begins = turn_sequence_spans(*spline_path)
+    return TurnPath(bends, spans, begins, float(turn_sequence_length(*spline_path)))
 
 
 def with_sides(bends: Bends) -> Iterator[Bends]:

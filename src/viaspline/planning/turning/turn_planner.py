@@ -19,28 +19,33 @@ from numpy.typing import NDArray
 from viaspline.curve.bending import curvature_bound
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import NoPathError
+from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.lay_clear import lay_clear
-from viaspline.planning.alternatives.lead_round import Task
+from viaspline.planning.alternatives.lead_round import DetourProblem
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.checking.conflicts import is_clear
 from viaspline.planning.problem.heights import with_heights
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.spline_path import Laid
-from viaspline.planning.problem.via_sequence import Course
-from viaspline.planning.routing.router import Way, on_the_line
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.routing.router import TautPath, on_the_line
 from viaspline.planning.turning.bend_row import DETOUR, Bends, bends_along
 from viaspline.planning.turning.driven_alternatives import DrivenSides
-from viaspline.planning.turning.headings import Leg, Poses, legs_of, posed
+from viaspline.planning.turning.headings import HeadingLeg, Poses, legs_of, posed
 from viaspline.planning.turning.hybrid_astar.pose_search import NotFound, Reason
-from viaspline.planning.turning.hybrid_astar.via_route import tight_chains
-from viaspline.planning.turning.next_shortest import swing_on_byways
-from viaspline.planning.turning.repair import Stuck, clear_swing, clear_swing_or_why, swing_if_clear
-from viaspline.planning.turning.turn_path import OVERSHOOT, RAMP, Swing
+from viaspline.planning.turning.hybrid_astar.via_route import via_route_chains
+from viaspline.planning.turning.next_shortest import turn_path_on_next_shortest
+from viaspline.planning.turning.repair import (
+    Stuck,
+    clear_turn_path,
+    clear_turn_path_or_why,
+    turn_path_if_clear,
+)
+from viaspline.planning.turning.turn_path import OVERSHOOT, RAMP, TurnPath
 from viaspline.planning.turning.turn_refusals import refuse_body, refuse_circle
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
 PUSHED = 40  # rows of headings for which legs are pushed clear
 PATIENCE = 16  # pairs of headings of a leg, until one of them can be
 WIDE = (6.0, 3.0, 1.5)  # radii of turns for a long body without a turning circle, and the last,
@@ -49,19 +54,19 @@ NARROW = 0.5  # in distances that its path keeps
 
 
 @dataclass(frozen=True)
-class _Drive:
+class _TurnProblem:
     """What is to be driven, where, and by what."""
 
-    course: Course
+    sequence: ViaSequence
     world: World
-    brief: Brief
+    requirements: Requirements
 
     @property
     def radius(self) -> float:
         """The turning circle [m]."""
-        if self.brief.turn_radius is not None:
-            return self.brief.turn_radius
-        return NARROW * max(self.brief.required, 1e-3)
+        if self.requirements.turn_radius is not None:
+            return self.requirements.turn_radius
+        return NARROW * max(self.requirements.required, 1e-3)
 
     @property
     def rho(self) -> float:
@@ -71,9 +76,9 @@ class _Drive:
     @property
     def radii(self) -> tuple[float, ...]:
         """The least radii that are tried for turns [m]; wide ones first if none is given."""
-        if self.brief.turn_radius is not None:
+        if self.requirements.turn_radius is not None:
             return (self.rho,)
-        return (*(part * self.brief.required for part in WIDE), self.rho)
+        return (*(part * self.requirements.required for part in WIDE), self.rho)
 
     @property
     def careful(self) -> tuple[float, ...]:
@@ -83,87 +88,91 @@ class _Drive:
     @cached_property
     def legs(self) -> tuple[LegSearch, ...]:
         """The legs of the course."""
-        router = Task.of(self.course, self.world, self.brief).router
-        count = len(self.course.legs)
+        router = DetourProblem.of(self.sequence, self.world, self.requirements).router
+        count = len(self.sequence.legs)
         return tuple(
-            LegSearch(self.course, k, self.world, self.brief, router) for k in range(count)
+            LegSearch(self.sequence, k, self.world, self.requirements, router) for k in range(count)
         )
 
     @cached_property
-    def ways(self) -> tuple[Way, ...]:
+    def taut_paths(self) -> tuple[TautPath, ...]:
         """The shortest way of every leg."""
         return tuple(_way_of(leg) for leg in self.legs)
 
     def is_clear(self, spans: Floats) -> bool:
         """Whether the body keeps clear on planar spans."""
-        return is_clear(self.world, spans, self.brief)
+        return is_clear(self.world, spans, self.requirements)
 
     def is_drivable(self, spans: Floats) -> bool:
         """Whether the body keeps clear, and no turn is sharper than the turning circle."""
-        limit = self.brief.turn_radius
+        limit = self.requirements.turn_radius
         if limit is not None:
             flat = np.ascontiguousarray(spans[:, :, :2])
-            is_round = self.course.closed and np.array_equal(flat[0, 0], flat[-1, 3])
+            is_round = self.sequence.closed and np.array_equal(flat[0, 0], flat[-1, 3])
             ground = PiecewiseCubic(flat, closed=is_round)  # with the seam: no turn there either
             if not curvature_bound(ground)[0] * limit <= 1.0:
                 return False
         return self.is_clear(spans)
 
 
-def lay_drivable(course: Course, world: World, brief: Brief) -> tuple[Laid, Account]:
+def lay_drivable(
+    sequence: ViaSequence, world: World, requirements: Requirements
+) -> tuple[SplinePath, Account]:
     """Lay a course for a robot with a turning circle or a long body.
 
     Raises:
         NoPathError: When there is no such curve, with the via point that can't be reached and
             what would allow it.
     """
-    smooth = replace(course, tangents="continuous")
-    laid, account = lay_clear(smooth, world, brief)
-    drive = _Drive(smooth, world, brief)
-    sides = DrivenSides(smooth, world, brief, partial(_along, drive), drive.is_drivable)
-    if not drive.is_drivable(laid.spans):
-        laid = sides.shortest(_swung(drive), account.passed)
-    return laid, replace(account, laid=laid, driven=sides)
+    smooth = replace(sequence, tangents="continuous")
+    spline_path, account = lay_clear(smooth, world, requirements)
+    drive = _TurnProblem(smooth, world, requirements)
+    sides = DrivenSides(smooth, world, requirements, partial(_along, drive), drive.is_drivable)
+    if not drive.is_drivable(spline_path.spans):
+        spline_path = sides.shortest(_turned_path(drive), account.passed)
+    return spline_path, replace(account, spline_path=spline_path, driven=sides)
 
 
-def _along(drive: _Drive, given: Mapping[int, Way]) -> Laid | None:
+def _along(drive: _TurnProblem, given: Mapping[int, TautPath]) -> SplinePath | None:
     """Lines and turns with some legs along given ways, the others along their shortest."""
-    ways = [given.get(k, way) for k, way in enumerate(drive.ways)]
-    bends = bends_along(drive.course, ways)
+    taut_paths = [given.get(k, taut_path) for k, taut_path in enumerate(drive.taut_paths)]
+    bends = bends_along(drive.sequence, taut_paths)
     for rho in drive.radii:
-        swing = clear_swing(bends, rho, drive.world, drive.brief)
-        if swing is not None:
-            return _laid(drive, [swing])
+        turn_path = clear_turn_path(bends, rho, drive.world, drive.requirements)
+        if turn_path is not None:
+            return _spline_path(drive, [turn_path])
     return None
 
 
-def _swung(drive: _Drive) -> Laid:
+def _turned_path(drive: _TurnProblem) -> SplinePath:
     """Lines and turns through the via points of a course.
 
     Raises:
         NoPathError: When there are none.
     """
-    bends = bends_along(drive.course, drive.ways)
+    bends = bends_along(drive.sequence, drive.taut_paths)
     for rho in drive.radii:
-        swing = clear_swing(bends, rho, drive.world, drive.brief)
-        if swing is not None:
-            return _laid(drive, [swing])
+        turn_path = clear_turn_path(bends, rho, drive.world, drive.requirements)
+        if turn_path is not None:
+            return _spline_path(drive, [turn_path])
     failed: NotFound | None = None
     for rho in drive.careful:
-        byway = _on_byways(drive, rho)
-        if byway is not None and byway.length <= ENOUGH * sum(way.length for way in drive.ways):
-            return _laid(drive, [byway])
-        found = _searched(drive, bends, rho, math.inf if byway is None else byway.length)
-        if byway is not None and (isinstance(found, NotFound) or found.length > byway.length):
-            return _laid(drive, [byway])
-        if isinstance(found, Laid):
+        longer = _on_byways(drive, rho)
+        if longer is not None and longer.length <= ENOUGH * sum(
+            taut_path.length for taut_path in drive.taut_paths
+        ):
+            return _spline_path(drive, [longer])
+        found = _searched(drive, bends, rho, math.inf if longer is None else longer.length)
+        if longer is not None and (isinstance(found, NotFound) or found.length > longer.length):
+            return _spline_path(drive, [longer])
+        if isinstance(found, SplinePath):
             return found
         failed = found
     assert failed is not None  # there is at least one radius
     raise _refusal(drive, bends, failed)
 
 
-def _searched(drive: _Drive, bends: Bends, rho: float, bound: float) -> Laid | NotFound:
+def _searched(drive: _TurnProblem, bends: Bends, rho: float, bound: float) -> SplinePath | NotFound:
     """The headings at all via points chosen together, or else a search among poses.
 
     Args:
@@ -175,8 +184,10 @@ def _searched(drive: _Drive, bends: Bends, rho: float, bound: float) -> Laid | N
     spots = _spots(drive)
     poses = _posed(drive, legs_of(bends, spots), rho, bends.closed, bound)
     if poses is not None:
-        return _laid(drive, poses.swings)
-    chains = tight_chains(drive.course, drive.world, drive.brief, rho, RAMP * rho, spots)
+        return _spline_path(drive, poses.turn_paths)
+    chains = via_route_chains(
+        drive.sequence, drive.world, drive.requirements, rho, RAMP * rho, spots
+    )
     if isinstance(chains, NotFound):
         return chains
     spans = np.concatenate([chain.spans for chain in chains])
@@ -186,93 +197,99 @@ def _searched(drive: _Drive, bends: Bends, rho: float, bound: float) -> Laid | N
     return _through(drive, spans, joints, ())
 
 
-def _way_of(leg: LegSearch) -> Way:
-    way, _ = leg.shortest_allowed(on_the_line(leg.world, *leg.ends, leg.brief.required))
-    assert way is not None  # the spline found one
-    return way
+def _way_of(leg: LegSearch) -> TautPath:
+    taut_path, _ = leg.shortest_allowed(
+        on_the_line(leg.world, *leg.ends, leg.requirements.required)
+    )
+    assert taut_path is not None  # the spline found one
+    return taut_path
 
 
-def _on_byways(drive: _Drive, rho: float) -> Swing | None:
+def _on_byways(drive: _TurnProblem, rho: float) -> TurnPath | None:
     """The shortest swing along the shortest ways and those that are a little longer."""
 
-    def lay(along: Sequence[Way]) -> Swing | Stuck:
-        bends = bends_along(drive.course, along)
-        return clear_swing_or_why(bends, rho, drive.world, drive.brief)
+    def lay(along: Sequence[TautPath]) -> TurnPath | Stuck:
+        bends = bends_along(drive.sequence, along)
+        return clear_turn_path_or_why(bends, rho, drive.world, drive.requirements)
 
-    return swing_on_byways(drive.legs, drive.ways, lay)
+    return turn_path_on_next_shortest(drive.legs, drive.taut_paths, lay)
 
 
 def _posed(
-    drive: _Drive, legs: Sequence[Leg], rho: float, closed: bool, bound: float
+    drive: _TurnProblem, legs: Sequence[HeadingLeg], rho: float, closed: bool, bound: float
 ) -> Poses | None:
     """The headings at all via points together: legs as they are, else pushed clear."""
-    world, brief = drive.world, drive.brief
-    as_it_is = partial(swing_if_clear, rho=rho, world=world, brief=brief)
+    world, requirements = drive.world, drive.requirements
+    as_it_is = partial(turn_path_if_clear, rho=rho, world=world, requirements=requirements)
     poses = posed(legs, rho, closed, as_it_is, bound=bound)
     if poses is None:
-        pushed = partial(clear_swing, rho=rho, world=world, brief=brief)
+        pushed = partial(clear_turn_path, rho=rho, world=world, requirements=requirements)
         poses = posed(legs, rho, closed, pushed, most=PUSHED, patience=PATIENCE, bound=bound)
     return poses
 
 
-def _spots(drive: _Drive) -> set[int]:
+def _spots(drive: _TurnProblem) -> set[int]:
     """The via points at which the robot may turn on the spot."""
-    where = drive.brief.turns_on_spot
+    where = drive.requirements.turns_on_spot
     return {
         k
-        for k, via in enumerate(drive.course.vias)
+        for k, via in enumerate(drive.sequence.vias)
         if where == "vias" or (where == "stations" and via.dwell > 0.0)
     }
 
 
-def _refusal(drive: _Drive, bends: Bends, failed: NotFound) -> NoPathError:
-    if drive.brief.turn_radius is None:
-        return refuse_body(drive.course, failed, partial(_has_room, drive, bends))
+def _refusal(drive: _TurnProblem, bends: Bends, failed: NotFound) -> NoPathError:
+    if drive.requirements.turn_radius is None:
+        return refuse_body(drive.sequence, failed, partial(_has_room, drive, bends))
     legs = legs_of(bends, _spots(drive))
 
     def serves(radius: float) -> bool:
         rho = OVERSHOOT * radius
-        lay = partial(swing_if_clear, rho=rho, world=drive.world, brief=drive.brief)
-        return posed(legs, rho, drive.course.closed, lay, most=PUSHED) is not None
+        lay = partial(
+            turn_path_if_clear, rho=rho, world=drive.world, requirements=drive.requirements
+        )
+        return posed(legs, rho, drive.sequence.closed, lay, most=PUSHED) is not None
 
-    return refuse_circle(drive.course, drive.radius, failed, serves)
+    return refuse_circle(drive.sequence, drive.radius, failed, serves)
 
 
-def _has_room(drive: _Drive, bends: Bends, part: float) -> bool:
+def _has_room(drive: _TurnProblem, bends: Bends, part: float) -> bool:
     """Whether there is a path with a part of the clearance."""
-    brief = replace(drive.brief, clearance=part * drive.brief.clearance)
-    return any(clear_swing(bends, rho, drive.world, brief) is not None for rho in drive.radii)
+    requirements = replace(drive.requirements, clearance=part * drive.requirements.clearance)
+    return any(
+        clear_turn_path(bends, rho, drive.world, requirements) is not None for rho in drive.radii
+    )
 
 
-def _laid(drive: _Drive, swings: Sequence[Swing]) -> Laid:
+def _spline_path(drive: _TurnProblem, turn_paths: Sequence[TurnPath]) -> SplinePath:
     """The curve of swings that follow each other, with heights if the course has them."""
     joints, detours, first = [], [], 0
-    for swing in swings:
-        vias = swing.bends.vias
-        if len(swings) > 1:
+    for turn_path in turn_paths:
+        vias = turn_path.bends.vias
+        if len(turn_paths) > 1:
             joints.append(first)
-            detours += (first + swing.begins[1:-1]).tolist()
+            detours += (first + turn_path.begins[1:-1]).tolist()
         else:
-            begins = swing.begins[: len(vias)]
+            begins = turn_path.begins[: len(vias)]
             joints = begins[vias != DETOUR].tolist()
             detours = begins[vias == DETOUR].tolist()
-        first += len(swing.spans)
-    if len(joints) < len(drive.course.vias) + drive.course.closed:
+        first += len(turn_path.spans)
+    if len(joints) < len(drive.sequence.vias) + drive.sequence.closed:
         joints.append(first)
-    spans = np.concatenate([swing.spans for swing in swings])
+    spans = np.concatenate([turn_path.spans for turn_path in turn_paths])
     return _through(drive, spans, np.array(joints), detours)
 
 
 def _through(
-    drive: _Drive, spans: Floats, joints: NDArray[np.int64], detours: Sequence[int]
-) -> Laid:
+    drive: _TurnProblem, spans: Floats, joints: NDArray[np.int64], detours: Sequence[int]
+) -> SplinePath:
     """Planar spans as the curve of the course: with its heights, and exactly through its places."""
-    course = drive.course
-    ends = [*course.vias, course.vias[0]] if course.closed else course.vias
+    sequence = drive.sequence
+    ends = [*sequence.vias, sequence.vias[0]] if sequence.closed else sequence.vias
     spans = with_heights(spans, joints, np.array([via.at[2:] for via in ends]))
     for u, via in zip(joints, ends, strict=True):
         if u < len(spans):
             spans[u, 0] = via.at
         if u > 0:
             spans[u - 1, 3] = via.at
-    return Laid.through(course, spans, joints, detours)
+    return SplinePath.through(sequence, spans, joints, detours)

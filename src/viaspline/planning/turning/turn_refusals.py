@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from viaspline.errors import NoPathError
-from viaspline.planning.problem.via_sequence import Course, RouteVia
+from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
 from viaspline.planning.turning.hybrid_astar.pose_search import NotFound, Reason
 
 SMALLER = (0.9, 0.7, 0.5, 0.3, 0.15)  # parts of the radius that are tried
@@ -16,17 +16,17 @@ DIGITS = 3
 
 
 def refuse_circle(
-    course: Course, radius: float, failed: NotFound, serves: Callable[[float], bool]
+    sequence: ViaSequence, radius: float, failed: NotFound, serves: Callable[[float], bool]
 ) -> NoPathError:
     """The error for a course that can't be driven with a turning circle.
 
     Args:
-        course: What was asked for.
+        sequence: What was asked for.
         radius: The radius of the turning circle [m].
         failed: What the search for a path came to.
         serves: Whether there is a path with a smaller radius [m].
     """
-    via = _at_fault(course, failed)
+    via = _at_fault(sequence, failed)
     smaller = next((part * radius for part in SMALLER if serves(part * radius)), None)
     if smaller is None:
         remedy = f"move {via.name!r} to where there is room to turn, or leave it out"
@@ -45,15 +45,17 @@ def refuse_circle(
     )
 
 
-def refuse_body(course: Course, failed: NotFound, has_room: Callable[[float], bool]) -> NoPathError:
+def refuse_body(
+    sequence: ViaSequence, failed: NotFound, has_room: Callable[[float], bool]
+) -> NoPathError:
     """The error for a course that a long body can't be led along.
 
     Args:
-        course: What was asked for.
+        sequence: What was asked for.
         failed: What the search for a path came to.
         has_room: Whether there is a path with a part of the clearance.
     """
-    via = _at_fault(course, failed)
+    via = _at_fault(sequence, failed)
     less = next((part for part in LESS if has_room(part)), None)
     moves = [f"move {via.name!r} to where there is room for the body"]
     if less is not None:
@@ -66,7 +68,7 @@ def refuse_body(course: Course, failed: NotFound, has_room: Callable[[float], bo
     )
 
 
-def _at_fault(course: Course, failed: NotFound) -> RouteVia:
+def _at_fault(sequence: ViaSequence, failed: NotFound) -> RouteVia:
     """The via point at which a search ended."""
-    start, goal = course.ends(failed.goal)
+    start, goal = sequence.ends(failed.goal)
     return start if failed.reason in (Reason.START_TAKEN, Reason.START_SHUT_IN) else goal

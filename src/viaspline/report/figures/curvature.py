@@ -8,8 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from viaspline.curve.cardinal import CardinalSpline
+from viaspline.kernels.arrays import Floats
 from viaspline.report import style
-from viaspline.report.drawing import Floats, png, polyline
+from viaspline.report.drawing import png, polyline
 from viaspline.report.figures.paper import dots, fit, headline, page
 
 POINTS = np.array([(0, 0), (20, 26), (50, 22), (62, -2), (92, 2), (106, 28), (134, 18.0)])

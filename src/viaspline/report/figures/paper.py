@@ -9,8 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from viaspline.kernels.arrays import Floats
 from viaspline.report import style
-from viaspline.report.drawing import Floats, new_figure, tidy
+from viaspline.report.drawing import new_figure, tidy
 
 SIDE, BETWEEN, ABOVE = 0.45, 0.55, 0.75  # margins [inch]
 LINE = 0.185  # of a caption [inch]

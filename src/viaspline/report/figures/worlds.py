@@ -7,12 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from viaspline.curve.path import PathVia
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.report import style
 from viaspline.report.column import Column
-from viaspline.report.drawing import Floats, png, polyline
+from viaspline.report.drawing import png, polyline
 from viaspline.report.figures.missions import OBSTACLES, PATROL, SURVEY
 from viaspline.report.labels import Labels
 from viaspline.report.marks import draw_arrows, draw_path, draw_vias
@@ -67,7 +68,7 @@ def fig8() -> bytes:
 def _picture(planned: Plan, title: str, lines: Sequence[str], run: Run | None = None) -> bytes:
     mission = planned.mission
     unseen = mission.world.unseen if run is not None else ()
-    scene = Scene.of(planned.world, Brief.of(mission).required, unseen)
+    scene = Scene.of(planned.world, Requirements.of(mission).required, unseen)
     points = polyline(np.asarray(planned.path.spans))
     losers = losing(planned) if run is None else []
     view = view_of(np.vstack([points, *losers]), scene.corners, scene.box, scene.required)

@@ -6,17 +6,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import Obstacle
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.perception.lidar import Scan
-from viaspline.robot.perception.scan_history import Views
-from viaspline.robot.perception.surface_points import Echoes
+from viaspline.robot.perception.scan_history import ScanHistory
+from viaspline.robot.perception.surface_points import SurfacePoints
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
 
 GRAIN = 1.0 / 20.0  # radius of the discs on surfaces, of the distance that the path keeps
 FINEST, COARSEST = 0.005, 0.1  # and its limits [m]
@@ -62,8 +60,8 @@ class Belief:
 
     map: World
     settled: World
-    echoes: Echoes
-    views: Views
+    echoes: SurfacePoints
+    views: ScanHistory
     body: float
     ahead: float
     world: World
@@ -78,11 +76,13 @@ class Belief:
         assert robot.sensor is not None and robot.sensor.lidar is not None  # noqa: PT018
         lidar = robot.sensor.lidar
         required = robot.outer_radius + robot.clearance_m
-        grain = float(np.clip(GRAIN * required, FINEST, COARSEST)) + lidar.noise_m
+        cell_size = float(np.clip(GRAIN * required, FINEST, COARSEST)) + lidar.noise_m
         stop = robot.max_speed_mps**2 / (2.0 * (robot.max_brake_mps2 or robot.max_accel_mps2))
         ahead = AHEAD * stop + 2.0 * required
-        views = Views(near=2.0 * ahead, apart=max(required, 4.0 * grain), noise=lidar.noise_m)
-        echoes = Echoes.none(grain, lidar.noise_m)
+        views = ScanHistory(
+            near=2.0 * ahead, apart=max(required, 4.0 * cell_size), noise=lidar.noise_m
+        )
+        echoes = SurfacePoints.none(cell_size, lidar.noise_m)
         return cls(world, world, echoes, views, robot.outer_radius, ahead, world)
 
     def with_scan(self, scan: Scan) -> tuple[Belief, News]:
@@ -123,8 +123,8 @@ class Belief:
         places = np.asarray(path.evaluate(u))[:, :2]
         tangents = np.asarray(path.tangent(u))[:, :2]
         # beams end at surfaces, which lie inside of the discs that the path keeps clear of
-        rim = min(self.body + RIM * self.echoes.grain, floor + INSIDE * self.echoes.grain)
-        count = self.views.count(places, tangents, rim, GAP * self.echoes.grain)
+        rim = min(self.body + RIM * self.echoes.cell_size, floor + INSIDE * self.echoes.cell_size)
+        count = self.views.count(places, tangents, rim, GAP * self.echoes.cell_size)
         return float(along[count - 1]) if count else start
 
     def clear_until(self, path: Path, start: float, end: float, floor: float) -> float:
@@ -146,7 +146,7 @@ class Belief:
 
     def _along(self, path: Path, start: float, end: float) -> Floats:
         """Places along a path, the same for every start: multiples of a length, and the end."""
-        step = GAP * self.echoes.grain
+        step = GAP * self.echoes.cell_size
         places = step * np.arange(np.ceil(start / step), np.ceil(end / step))
         return np.append(places[places < end], end)
 

@@ -8,15 +8,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.sensing.raycast import cast
 from viaspline.mission.parts import Obstacle
 from viaspline.mission.robot_parts import Lidar
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
 
 WILDEST = 3.0
 """No measurement is farther off than so many standard deviations."""

@@ -6,18 +6,16 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.sensing.visible_region import seen_ahead
 from viaspline.robot.perception.lidar import Scan
-
-Floats = NDArray[np.float64]
 
 TURNED = math.radians(20.0)  # a look at the same place tells more if it was turned by so much
 
 
 @dataclass(frozen=True, eq=False)
-class Views:
+class ScanHistory:
     """The latest scan and older ones from other places near the robot.
 
     What was only seen from far behind is forgotten: so there are never many, however far the
@@ -31,7 +29,7 @@ class Views:
 
     Example:
         >>> scan = Scan((0.0, 0.0), 0.0, -2.0, 0.01, 9.0, np.full(401, 2.0))
-        >>> views = Views(near=5.0, apart=0.5).with_scan(scan)
+        >>> views = ScanHistory(near=5.0, apart=0.5).with_scan(scan)
         >>> places, ahead = np.array([(x, 0.0) for x in range(4)]), np.array([(1.0, 0.0)] * 4)
         >>> views.count(places, ahead, radius=0.5, gap=0.1)
         2
@@ -42,7 +40,7 @@ class Views:
     noise: float = 0.0
     scans: tuple[Scan, ...] = ()
 
-    def with_scan(self, scan: Scan) -> Views:
+    def with_scan(self, scan: Scan) -> ScanHistory:
         """The same with one more look."""
         latest, older = self.scans[:1], self.scans[1:]
         if any(self._is_like(latest[0], other) for other in older):

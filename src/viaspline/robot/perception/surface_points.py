@@ -8,12 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.sensing import visible_region
 from viaspline.mission.parts import Circle, Obstacle
 from viaspline.robot.perception.lidar import WILDEST, Scan
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 BELIEVED = 2  # scans that have to see through a point that was hit once
 CERTAIN = 10  # and through one that was hit again and again
@@ -21,14 +19,14 @@ LEVELS = (4, 16, 64)  # hits of a point at which its place is put right
 
 
 @dataclass(frozen=True, eq=False)
-class Echoes:
+class SurfacePoints:
     """Points on surfaces, each the middle of a small disc that covers what was hit round it.
 
     A hit inside of a disc confirms it. Without noise a point is the first hit itself; with noise
     it is the mean of the hits that confirmed it, put right at the 4th, 16th and 64th of them.
 
     Attributes:
-        grain: Radius of the discs [m].
+        cell_size: Radius of the discs [m].
         noise: Standard deviation of a measured distance [m].
         obstacles: The discs, n of them.
         means: Of the hits of each disc [m], shape (n, 2).
@@ -36,7 +34,7 @@ class Echoes:
         trust: How many scans have yet to see through each, shape (n,).
     """
 
-    grain: float
+    cell_size: float
     noise: float
     obstacles: tuple[Obstacle, ...]
     means: Floats
@@ -44,10 +42,10 @@ class Echoes:
     trust: Ints
 
     @classmethod
-    def none(cls, grain: float, noise: float) -> Echoes:
+    def none(cls, cell_size: float, noise: float) -> SurfacePoints:
         """Nothing was hit yet."""
         nothing = np.empty(0, np.int64)
-        return cls(grain, noise, (), np.empty((0, 2)), nothing, nothing)
+        return cls(cell_size, noise, (), np.empty((0, 2)), nothing, nothing)
 
     def __len__(self) -> int:
         return len(self.obstacles)
@@ -62,7 +60,7 @@ class Echoes:
         """The middles of the discs [m], shape (n, 2)."""
         return np.array([_center(obstacle) for obstacle in self.obstacles]).reshape(-1, 2)
 
-    def confirmed(self, scan: Scan, hits: Floats, index: Ints) -> Echoes:
+    def confirmed(self, scan: Scan, hits: Floats, index: Ints) -> SurfacePoints:
         """The same after some hits of a scan, shape (k, 2), each near the disc ``index``, (k,)."""
         trust = self.trust.copy()
         trust[np.unique(index)] += 1
@@ -88,9 +86,9 @@ class Echoes:
             return index
         near = cKDTree(_seen_from(scan, self.means)).query(_seen_from(scan, hits))[1]
         apart = np.hypot(*(hits - self.means[near]).T)
-        return np.where(apart <= self.grain + 2.0 * self.tolerance, near, index)
+        return np.where(apart <= self.cell_size + 2.0 * self.tolerance, near, index)
 
-    def put_right(self, before: Ints) -> tuple[Echoes, tuple[Obstacle, ...]]:
+    def put_right(self, before: Ints) -> tuple[SurfacePoints, tuple[Obstacle, ...]]:
         """The same with the discs moved whose hits, ``before`` so many, have become enough.
 
         Returns:
@@ -101,19 +99,19 @@ class Echoes:
         due = np.flatnonzero(_level(self.hits) > _level(before))
         obstacles = list(self.obstacles)
         for i in due.tolist():
-            obstacles[i] = _disc(self.means[i], self.grain)
+            obstacles[i] = _disc(self.means[i], self.cell_size)
         moved = tuple(obstacles[i] for i in due.tolist())
         return replace(self, obstacles=tuple(obstacles)), moved
 
-    def with_hits(self, hits: Floats) -> tuple[Echoes, tuple[Obstacle, ...]]:
+    def with_hits(self, hits: Floats) -> tuple[SurfacePoints, tuple[Obstacle, ...]]:
         """The same with new discs that cover some hits [m], shape (k, 2), each the first there.
 
         Returns:
             (echoes, the new discs).
         """
         points = np.ascontiguousarray(hits)
-        points = points[visible_region.spread(points, self.grain)]
-        new = tuple(_disc(point, self.grain) for point in points)
+        points = points[visible_region.beam_spread(points, self.cell_size)]
+        new = tuple(_disc(point, self.cell_size) for point in points)
         ones = np.ones(len(new), np.int64)
         grown = replace(
             self,
@@ -124,7 +122,7 @@ class Echoes:
         )
         return grown, new
 
-    def without_seen_through(self, scan: Scan) -> tuple[Echoes, int]:
+    def without_seen_through(self, scan: Scan) -> tuple[SurfacePoints, int]:
         """The same without the points that scans have seen through often enough.
 
         A scan sees through a point if the beams on either side of it go on well beyond it, and
@@ -138,12 +136,12 @@ class Echoes:
         x, y = (float(value) for value in scan.position[:2])
         through = visible_region.seen_through(
             self.means, x, y, scan.first_direction, scan.angle_increment, scan.free,
-            2.0 * self.grain, 4.0 * self.grain + 2.0 * self.tolerance,
+            2.0 * self.cell_size, 4.0 * self.cell_size + 2.0 * self.tolerance,
         )  # fmt: skip
         doubted = replace(self, trust=self.trust - through)
         return doubted._kept(doubted.trust > 0)
 
-    def _kept(self, kept: NDArray[np.bool_]) -> tuple[Echoes, int]:
+    def _kept(self, kept: NDArray[np.bool_]) -> tuple[SurfacePoints, int]:
         gone = len(self) - int(np.count_nonzero(kept))
         if not gone:
             return self, 0

@@ -8,18 +8,16 @@ from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.path import Path, PathVia
 from viaspline.errors import NoPathError
+from viaspline.kernels.arrays import Floats
 from viaspline.planning import replan
-from viaspline.planning.problem.requirements import Brief
-from viaspline.robot.journey import Close
-from viaspline.robot.replanning.replan_context import Scene
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.robot.journey import ReducedClearance
+from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.ways_on import Choice, timed
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
 
 DIRECTIONS = 48  # that are tried
 REACHES = 12  # and lengths in each,
@@ -27,67 +25,75 @@ FARTHEST = 2.0  # up to so many required distances
 PLACES = 9  # on the way where the distance is looked at
 
 
-def way_out(scene: Scene, world: World, brief: Brief, floor: float) -> tuple[Scene, Choice] | None:
+def way_out(
+    context: ReplanContext, world: World, requirements: Requirements, floor: float
+) -> tuple[ReplanContext, Choice] | None:
     """From where the robot stops straight to the nearest place with room, and on from there.
 
     It turns on the spot at either end.
 
     Args:
-        scene: The robot under way.
+        context: The robot under way.
         world: What is known.
-        brief: What the path keeps from that place on.
+        requirements: What the path keeps from that place on.
         floor: What it keeps on the way there [m].
 
     Returns:
         The scene with what is kept where, and the way; None if there is none.
     """
-    journey, path = scene.journey, scene.journey.path
-    here = np.asarray(path.at_distance(scene.stop))
-    place = _roomy_place(world, here, brief.required, floor)
+    journey, path = context.journey, context.journey.path
+    here = np.asarray(path.at_distance(context.stop))
+    place = _roomy_place(world, here, requirements.required, floor)
     if place is None:
         return None
-    straight = _straight_on(scene, place)
-    at = scene.stop + math.dist(here, place)
+    straight = _straight_on(context, place)
+    at = context.stop + math.dist(here, place)
     try:
-        found = replan.from_rest(straight, at, world, brief)
+        found = replan.from_rest(straight, at, world, requirements)
     except NoPathError:
         return None
-    scene = replace(scene, journey=replace(journey, close=Close(at, floor)))
-    choice = timed(scene, "from_rest", replace(found, changed_from=scene.stop), (at,))
-    return None if choice is None else (scene, choice)
+    context = replace(context, journey=replace(journey, close=ReducedClearance(at, floor)))
+    choice = timed(context, "from_rest", replace(found, changed_from=context.stop), (at,))
+    return None if choice is None else (context, choice)
 
 
 def relieved(
-    scene: Scene, choice: Choice, world: World, brief: Brief, skip: Collection[int]
-) -> tuple[Scene, Choice]:
+    context: ReplanContext,
+    choice: Choice,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int],
+) -> tuple[ReplanContext, Choice]:
     """A way that keeps less than it should, but only as far as it must.
 
     From the first place on that has enough room it is laid anew.
 
     Args:
-        scene: The robot under way, with what the whole way keeps.
+        context: The robot under way, with what the whole way keeps.
         choice: The way.
         world: What is known.
-        brief: What it should keep.
+        requirements: What it should keep.
         skip: Points of the route that are left out.
 
     Returns:
         The scene with what is kept where, and the way; the same if there is no other.
     """
-    journey, path, start = scene.journey, choice.found.path, choice.found.changed_from
+    journey, path, start = context.journey, choice.found.path, choice.found.changed_from
     assert journey.close is not None
-    places = np.arange(start, path.length, journey.grain)
-    roomy = np.flatnonzero(world.distance(path.at_distance(places)) >= brief.required)
+    places = np.arange(start, path.length, journey.cell_size)
+    roomy = np.flatnonzero(world.distance(path.at_distance(places)) >= requirements.required)
     if not roomy.size:
-        return scene, choice
+        return context, choice
     at = float(places[roomy[0]])
     try:
-        found = replan.planned(path, at, world, brief, skip)
+        found = replan.planned(path, at, world, requirements, skip)
     except NoPathError:
-        return scene, choice
-    freed = replace(scene, journey=replace(journey, close=Close(at, journey.close.floor)))
+        return context, choice
+    freed = replace(
+        context, journey=replace(journey, close=ReducedClearance(at, journey.close.floor))
+    )
     again = timed(freed, choice.mode, replace(found, changed_from=start))
-    return (scene, choice) if again is None else (freed, again)
+    return (context, choice) if again is None else (freed, again)
 
 
 def _roomy_place(world: World, here: Floats, required: float, floor: float) -> Floats | None:
@@ -105,12 +111,12 @@ def _roomy_place(world: World, here: Floats, required: float, floor: float) -> F
     return None
 
 
-def _straight_on(scene: Scene, place: Floats) -> Path:
+def _straight_on(context: ReplanContext, place: Floats) -> Path:
     """The driven path up to the stop, then straight to a place, then to the via points ahead."""
-    path = scene.journey.path
-    u = float(path.parameter(scene.stop))
+    path = context.journey.path
+    u = float(path.parameter(context.stop))
     head = path.section(0.0, u).spans if u > 0.0 else np.empty((0, 4, path.dimension))
-    ahead = [via for via, at in scene.journey.ahead if at > scene.stop]
+    ahead = [via for via, at in context.journey.ahead if at > context.stop]
     corners = [np.asarray(path.evaluate(u)), place, *(np.array(via.at) for via in ahead)]
     share = np.arange(4.0)[:, None] / 3.0
     lines = [a + share * (b - a) for a, b in itertools.pairwise(corners)]

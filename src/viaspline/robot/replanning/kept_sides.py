@@ -14,12 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import Obstacle, Side
 from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.robot.journey import points_after
 from viaspline.world.world import World
-
-Floats = NDArray[np.float64]
 
 BETTER = 0.95  # of the other's length is what a path may have that changes sides, and
 SHORTER = 0.5  # so much less than it [m]

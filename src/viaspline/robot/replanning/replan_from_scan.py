@@ -11,13 +11,13 @@ import numpy as np
 
 from viaspline.errors import NoPathError
 from viaspline.planning.alternatives.fit import too_close
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.route_refusals import BlockedLegError
-from viaspline.robot.journey import SLIP, Close, Journey, Wait
+from viaspline.robot.journey import SAME_PLACE_M, NavigationState, ReducedClearance, Wait
 from viaspline.robot.records import give_up, take
 from viaspline.robot.replanning.escape import relieved, way_out
 from viaspline.robot.replanning.kept_sides import is_better
-from viaspline.robot.replanning.replan_context import Scene, scene_of, speed_now
+from viaspline.robot.replanning.replan_context import ReplanContext, replan_context_of, speed_now
 from viaspline.robot.replanning.reroute import Answer, answer
 from viaspline.robot.replanning.ways_on import anew
 from viaspline.robot.run import Event
@@ -33,20 +33,20 @@ PATIENCE = 5.0  # a robot gives up if it has stood so long without a way [s]
 TOUCH = 1e-3  # by which a robot that has come too close may come closer yet [m]
 
 
-def way_round(journey: Journey, free: float) -> Journey:
+def way_round(journey: NavigationState, free: float) -> NavigationState:
     """Round what the path comes too close to, ``free`` metres along it at the soonest."""
     if _may_wait(journey, free):
         return journey
     began = clock.perf_counter()
-    scene, found = _answer(journey, free)
+    context, found = _answer(journey, free)
     if found.choice is not None:
-        journey = replace(take(scene, found.choice, found.skip), wait=None)
+        journey = replace(take(context, found.choice, found.skip), wait=None)
     else:
-        journey = _hold(journey, scene, _plain(found.refusal))
+        journey = _hold(journey, context, _plain(found.refusal))
     return _timed(journey, began)
 
 
-def better(journey: Journey, *, opened: bool) -> Journey:
+def better(journey: NavigationState, *, opened: bool) -> NavigationState:
     """A path that is clearly shorter than the one that is driven, if there may be one.
 
     Args:
@@ -61,8 +61,10 @@ def better(journey: Journey, *, opened: bool) -> Journey:
         return journey
     began = clock.perf_counter()
     journey = replace(journey, reviewed=journey.time)
-    scene = scene_of(journey, journey.world, (), journey.path.length, _spared(journey.brief))
-    freed = replace(scene, journey=replace(journey, close=None))
+    context = replan_context_of(
+        journey, journey.world, (), journey.path.length, _spared(journey.requirements)
+    )
+    freed = replace(context, journey=replace(journey, close=None))
     try:
         choice = anew(freed, journey.world)
     except NoPathError:
@@ -72,73 +74,81 @@ def better(journey: Journey, *, opened: bool) -> Journey:
     return _timed(journey, began)
 
 
-def _timed(journey: Journey, began: float) -> Journey:
+def _timed(journey: NavigationState, began: float) -> NavigationState:
     spent = clock.perf_counter() - began
     return replace(journey, compute_times=(*journey.compute_times, spent))
 
 
-def _may_wait(journey: Journey, free: float) -> bool:
+def _may_wait(journey: NavigationState, free: float) -> bool:
     """Whether a blocked path is not to be laid anew yet: it was just now, or it was in vain."""
     wait = journey.wait
     if wait is not None and wait.reason is not None:
         return journey.time < wait.again
     if not journey.replans or journey.time >= journey.replans[-1].time + EVERY:
         return False
-    return free > journey.distance + EVERY * speed_now(journey) + 2.0 * journey.brief.required
+    return (
+        free > journey.distance + EVERY * speed_now(journey) + 2.0 * journey.requirements.required
+    )
 
 
-def _straight(journey: Journey) -> float:
+def _straight(journey: NavigationState) -> float:
     """Length of the way on if nothing were in it [m]."""
     stops = [journey.place(journey.distance), *(via.at for via, _ in journey.ahead)]
     return sum(math.dist(a, b) for a, b in pairwise(stops))
 
 
-def _spared(brief: Brief) -> Brief:
-    return replace(brief, clearance=brief.clearance + SPARE * brief.required)
+def _spared(requirements: Requirements) -> Requirements:
+    return replace(requirements, clearance=requirements.clearance + SPARE * requirements.required)
 
 
-def _answer(journey: Journey, free: float) -> tuple[Scene, Answer]:
+def _answer(journey: NavigationState, free: float) -> tuple[ReplanContext, Answer]:
     """A way on that keeps something to spare; if there is none, one that keeps what it must.
 
     A robot that has come too close already leaves at the distance that it has, as long as what
     it is close to has not been hit within its body.
     """
     names, journey = _detected(journey)
-    brief, world = journey.brief, journey.world
+    requirements, world = journey.requirements, journey.world
     journey = replace(journey, close=None)
-    scene = scene_of(journey, world, names, free, brief)
-    room = _room(scene)
-    if room >= brief.required:
-        found = answer(replace(scene, brief=_spared(brief)), world)
-        return scene, answer(scene, world) if found.choice is None else found
-    floor = max(room - TOUCH, brief.radius - journey.grain)
-    if brief.required - room > journey.grain:
-        out = way_out(scene, world, _spared(brief), floor) or way_out(scene, world, brief, floor)
+    context = replan_context_of(journey, world, names, free, requirements)
+    room = _room(context)
+    if room >= requirements.required:
+        found = answer(replace(context, requirements=_spared(requirements)), world)
+        return context, answer(context, world) if found.choice is None else found
+    floor = max(room - TOUCH, requirements.radius - journey.cell_size)
+    if requirements.required - room > journey.cell_size:
+        out = way_out(context, world, _spared(requirements), floor) or way_out(
+            context, world, requirements, floor
+        )
         if out is not None:
             return out[0], Answer(out[1])
-    scene = replace(scene, journey=replace(journey, close=Close(math.inf, floor)), floor=floor)
-    eased = replace(brief, clearance=floor - brief.radius - brief.tracking_error)
-    found = answer(replace(scene, brief=eased), world)
+    context = replace(
+        context, journey=replace(journey, close=ReducedClearance(math.inf, floor)), floor=floor
+    )
+    eased = replace(
+        requirements, clearance=floor - requirements.radius - requirements.tracking_error
+    )
+    found = answer(replace(context, requirements=eased), world)
     if found.choice is None:
-        return scene, found
-    scene, choice = relieved(scene, found.choice, world, _spared(brief), set(found.skip))
-    return scene, replace(found, choice=choice)
+        return context, found
+    context, choice = relieved(context, found.choice, world, _spared(requirements), set(found.skip))
+    return context, replace(found, choice=choice)
 
 
-def _room(scene: Scene) -> float:
+def _room(context: ReplanContext) -> float:
     """Smallest distance to anything up to where the robot can stop [m]."""
-    journey = scene.journey
-    count = 2 + int((scene.stop - journey.distance) / journey.grain)
-    places = journey.path.at_distance(np.linspace(journey.distance, scene.stop, count))
-    return float(np.min(scene.against.distance(places)))
+    journey = context.journey
+    count = 2 + int((context.stop - journey.distance) / journey.cell_size)
+    places = journey.path.at_distance(np.linspace(journey.distance, context.stop, count))
+    return float(np.min(context.against.distance(places)))
 
 
-def _detected(journey: Journey) -> tuple[tuple[str, ...], Journey]:
+def _detected(journey: NavigationState) -> tuple[tuple[str, ...], NavigationState]:
     """Names of what is in the way, one for each cluster of it, and the journey with its events."""
     path, world = journey.path, journey.world
     close: list[int] = []
     for start, end, floor in journey.stretches(path.length):
-        if end - start > SLIP:
+        if end - start > SAME_PLACE_M:
             part = path.section(*np.asarray(path.parameter(np.array([start, end]))).tolist())
             close += too_close(world, part.spans, floor).tolist()
     here = journey.place(journey.distance)
@@ -147,7 +157,10 @@ def _detected(journey: Journey) -> tuple[tuple[str, ...], Journey]:
     last = (math.inf, math.inf)
     for index in dict.fromkeys(index for index in close if index >= 0):
         circle = world.obstacles[index].circle
-        if circle is not None and math.dist(circle.center, last) < 2.0 * journey.brief.required:
+        if (
+            circle is not None
+            and math.dist(circle.center, last) < 2.0 * journey.requirements.required
+        ):
             continue
         last = last if circle is None else circle.center
         name, gap = world.name(index), float(world.distances_to(index, here))
@@ -164,14 +177,14 @@ def _plain(refusal: NoPathError | str) -> str:
     return str(refusal)
 
 
-def _hold(journey: Journey, scene: Scene, reason: str) -> Journey:
+def _hold(journey: NavigationState, context: ReplanContext, reason: str) -> NavigationState:
     """Stay on the path as far as it is clear; give up after a long stand."""
     since = journey.time if journey.wait is None else journey.wait.since
-    if scene.speed > 0.0:
+    if context.speed > 0.0:
         since = journey.time
         if journey.wait is None:
             here = journey.place(journey.distance)
             journey = journey.noted(Event("braked", journey.time, here, f"brakes: {reason}"))
     if journey.time - since >= PATIENCE:
-        return give_up(journey, scene.speed, reason)
+        return give_up(journey, context.speed, reason)
     return replace(journey, wait=Wait(since, journey.time + AGAIN, reason))

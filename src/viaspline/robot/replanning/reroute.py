@@ -10,9 +10,9 @@ import numpy as np
 
 from viaspline.errors import NoPathError
 from viaspline.mission.parts import Obstacle
-from viaspline.robot.journey import SLIP, Journey
+from viaspline.robot.journey import SAME_PLACE_M, NavigationState
 from viaspline.robot.records import give_up, take
-from viaspline.robot.replanning.replan_context import Scene, free_until, scene_of
+from viaspline.robot.replanning.replan_context import ReplanContext, free_until, replan_context_of
 from viaspline.robot.replanning.ways_on import Choice, find
 from viaspline.robot.run import Event
 from viaspline.world.world import World
@@ -33,7 +33,7 @@ class Answer:
     skip: Mapping[int, str] = field(default_factory=dict)
 
 
-def notice(journey: Journey, obstacles: Sequence[Obstacle]) -> Journey:
+def notice(journey: NavigationState, obstacles: Sequence[Obstacle]) -> NavigationState:
     """The journey of a robot that has just been told of these obstacles for the first time."""
     belief = journey.belief
     if belief is None:
@@ -61,39 +61,39 @@ def notice(journey: Journey, obstacles: Sequence[Obstacle]) -> Journey:
     if free is None:
         return journey
     began = clock.perf_counter()
-    scene = scene_of(journey, new, names, free, journey.brief)
-    found = answer(scene, world)
+    context = replan_context_of(journey, new, names, free, journey.requirements)
+    found = answer(context, world)
     if found.choice is None:
-        journey = give_up(journey, scene.speed, str(found.refusal))
+        journey = give_up(journey, context.speed, str(found.refusal))
     else:
-        journey = take(scene, found.choice, found.skip)
+        journey = take(context, found.choice, found.skip)
     spent = clock.perf_counter() - began
     return replace(journey, compute_times=(*journey.compute_times, spent))
 
 
-def answer(scene: Scene, world: World) -> Answer:
+def answer(context: ReplanContext, world: World) -> Answer:
     """A way on, past points of the route that can't be reached any more, or why there is none."""
-    if not scene.is_clear(scene.stop):
-        return Answer(None, _too_late(scene))
-    skip, reason = _covered(scene)
+    if not context.is_clear(context.stop):
+        return Answer(None, _too_late(context))
+    skip, reason = _covered(context)
     if reason is not None:
         return Answer(None, reason)
     while True:
         try:
-            return Answer(find(scene, world, frozenset(skip)), skip=skip)
+            return Answer(find(context, world, frozenset(skip)), skip=skip)
         except NoPathError as error:
-            lost = _lost(scene, skip, error)
+            lost = _lost(context, skip, error)
             if lost is None:
                 return Answer(None, error)
             skip[lost] = error.reason
 
 
-def _too_late(scene: Scene) -> str:
-    distance, nearest = scene.against.nearest(scene.journey.path.at_distance(scene.stop))
-    name, brief = scene.against.name(int(nearest)), scene.journey.brief
-    gap = f"{float(distance) - brief.radius:.2f} m"
-    inside = f"inside the clearance of {brief.kept:g} m that it has to keep"
-    if scene.speed == 0.0:
+def _too_late(context: ReplanContext) -> str:
+    distance, nearest = context.against.nearest(context.journey.path.at_distance(context.stop))
+    name, requirements = context.against.name(int(nearest)), context.journey.requirements
+    gap = f"{float(distance) - requirements.radius:.2f} m"
+    inside = f"inside the clearance of {requirements.kept:g} m that it has to keep"
+    if context.speed == 0.0:
         return f"the robot stands {gap} from '{name}', {inside}"
     return (
         f"'{name}' appeared inside the braking distance; the robot comes to stand {gap} from it, "
@@ -101,19 +101,19 @@ def _too_late(scene: Scene) -> str:
     )
 
 
-def _covered(scene: Scene) -> tuple[dict[int, str], str | None]:
+def _covered(context: ReplanContext) -> tuple[dict[int, str], str | None]:
     """The points still to come that what is in the way covers; a reason if the goal is one."""
-    journey = scene.journey
-    ahead = [(via, at) for via, at in journey.ahead if at > scene.stop + SLIP]
+    journey = context.journey
+    ahead = [(via, at) for via, at in journey.ahead if at > context.stop + SAME_PLACE_M]
     if not ahead:
         return {}, None
     places = np.array([via.at[:2] for via, _ in ahead])
-    distances, nearest = scene.against.nearest(places)
+    distances, nearest = context.against.nearest(places)
     covered: dict[int, str] = {}
-    for k in np.flatnonzero(distances < scene.floor).tolist():
-        via, name = ahead[k][0], scene.against.name(int(nearest[k]))
-        free = float(distances[k]) - journey.brief.radius
-        why = f"'{name}' leaves {free:.2f} m there, {journey.brief.kept:g} m are needed"
+    for k in np.flatnonzero(distances < context.floor).tolist():
+        via, name = ahead[k][0], context.against.name(int(nearest[k]))
+        free = float(distances[k]) - journey.requirements.radius
+        why = f"'{name}' leaves {free:.2f} m there, {journey.requirements.kept:g} m are needed"
         if free < 0.0:
             why = f"'{name}' covers it"
         if via.u >= journey.path.domain[1] - 1e-9:
@@ -123,11 +123,11 @@ def _covered(scene: Scene) -> tuple[dict[int, str], str | None]:
     return covered, None
 
 
-def _lost(scene: Scene, skip: Mapping[int, str], error: NoPathError) -> int | None:
+def _lost(context: ReplanContext, skip: Mapping[int, str], error: NoPathError) -> int | None:
     """Index of the point that an error says can't be reached, if the robot may go on without."""
-    path = scene.journey.path
-    for via, at in scene.journey.ahead:
+    path = context.journey.path
+    for via, at in context.journey.ahead:
         is_goal = via.u >= path.domain[1] - 1e-9
-        if via.name == error.via and at > scene.stop + SLIP and not is_goal:
+        if via.name == error.via and at > context.stop + SAME_PLACE_M and not is_goal:
             return via.index if via.index not in skip else None
     return None

@@ -9,10 +9,10 @@ import numpy as np
 
 from viaspline.errors import GeometryError, NoPathError
 from viaspline.planning import replan
-from viaspline.planning.alternatives.solution import Detoured
-from viaspline.robot.journey import SLIP, certain_until, time_law
+from viaspline.planning.alternatives.solution import Solution
+from viaspline.robot.journey import SAME_PLACE_M, certain_until, trajectory_along
 from viaspline.robot.replanning.kept_sides import changed_side, is_better
-from viaspline.robot.replanning.replan_context import Scene
+from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.run import Mode
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
@@ -25,12 +25,12 @@ class Choice:
     """A way on: how it was found, where the robot turns on the spot, and when it is where."""
 
     mode: Mode
-    found: Detoured
+    found: Solution
     turns: tuple[float, ...]
-    law: Trajectory
+    trajectory: Trajectory
 
 
-def find(scene: Scene, world: World, skip: Collection[int] = frozenset()) -> Choice:
+def find(context: ReplanContext, world: World, skip: Collection[int] = frozenset()) -> Choice:
     """The first of: reflex, planned, from rest. It keeps the sides of the path that is driven.
 
     A robot under way doesn't turn back on the spot: a way that leads behind it is left for a
@@ -38,18 +38,18 @@ def find(scene: Scene, world: World, skip: Collection[int] = frozenset()) -> Cho
     to, unless that is clearly better.
 
     Args:
-        scene: The robot under way.
+        context: The robot under way.
         world: What the way keeps clear of.
         skip: Points of the route that are left out.
 
     Raises:
         NoPathError: If there is no way to the goal.
     """
-    choice = _first_way(scene, world, skip)
-    journey = scene.journey
+    choice = _first_way(context, world, skip)
+    journey = context.journey
     changed = changed_side(
         journey.path, choice.found.path, choice.found.changed_from, journey.last, journey.laid,
-        scene.brief.required,
+        context.requirements.required,
     )  # fmt: skip
     if changed is None:
         return choice
@@ -58,81 +58,83 @@ def find(scene: Scene, world: World, skip: Collection[int] = frozenset()) -> Cho
     if now < 0 or world.obstacles[now].forced_side is not None:
         return choice
     try:
-        kept = _first_way(scene, world.with_side(now, side), skip)
+        kept = _first_way(context, world.with_side(now, side), skip)
     except NoPathError:
         return choice
     rest, other = (c.found.path.length - journey.distance for c in (choice, kept))
     return choice if is_better(rest, other) else kept
 
 
-def anew(scene: Scene, world: World) -> Choice:
+def anew(context: ReplanContext, world: World) -> Choice:
     """Everything ahead laid anew, under way or from rest.
 
     Raises:
         NoPathError: If there is no way to the goal.
     """
-    return _first_way(scene, world, (), ("planned",))
+    return _first_way(context, world, (), ("planned",))
 
 
 def _first_way(
-    scene: Scene,
+    context: ReplanContext,
     world: World,
     skip: Collection[int],
     modes: tuple[Mode, ...] = ("reflex", "planned"),
 ) -> Choice:
-    path, brief = scene.journey.path, scene.brief
-    leaves = [leave for leave in scene.leaves if scene.may_leave(leave)]
+    path, requirements = context.journey.path, context.requirements
+    leaves = [leave for leave in context.leaves if context.may_leave(leave)]
     for mode in ("planned",) if skip else modes:
         for leave in leaves:
             try:
                 if mode == "reflex":
-                    found = replan.reflex(path, leave, world, brief)
+                    found = replan.reflex(path, leave, world, requirements)
                 else:
-                    found = replan.planned(path, leave, world, brief, skip=skip)
+                    found = replan.planned(path, leave, world, requirements, skip=skip)
             except NoPathError:
                 continue  # a robot that leaves later, or that stands, may find a way
-            choice = timed(scene, mode, found)
-            if choice is not None and not _turns_back(scene, found):
+            choice = timed(context, mode, found)
+            if choice is not None and not _turns_back(context, found):
                 return choice
-    found = replan.from_rest(path, scene.stop, world, brief, skip=skip)
-    choice = timed(scene, "from_rest", found)
+    found = replan.from_rest(path, context.stop, world, requirements, skip=skip)
+    choice = timed(context, "from_rest", found)
     assert choice is not None  # a robot that stands can go any way on
     return choice
 
 
-def _turns_back(scene: Scene, found: Detoured) -> bool:
+def _turns_back(context: ReplanContext, found: Solution) -> bool:
     """Whether a way leads farther behind the place where it begins than the old path does."""
-    at, old, new = found.changed_from, scene.journey.path, found.path
+    at, old, new = found.changed_from, context.journey.path, found.path
     place, ahead = np.asarray(old.at_distance(at)), old.tangent(float(old.parameter(at)))
     depths = [
         float(((line.at_distance(np.linspace(at, line.length, SAMPLES)) - place) @ ahead).min())
         for line in (old, new)
     ]
-    return depths[1] < depths[0] - scene.brief.required
+    return depths[1] < depths[0] - context.requirements.required
 
 
-def timed(scene: Scene, mode: Mode, found: Detoured, then: tuple[float, ...] = ()) -> Choice | None:
+def timed(
+    context: ReplanContext, mode: Mode, found: Solution, then: tuple[float, ...] = ()
+) -> Choice | None:
     """A way with its time law; None if the robot is too fast to go over to it.
 
     Args:
-        scene: The robot under way.
+        context: The robot under way.
         mode: How the way was found; from rest the robot turns where it stops,
         found: The way.
         then: and at these distances along it [m].
     """
-    journey = scene.journey
-    turns = tuple(turn for turn in journey.turns if turn <= found.changed_from + SLIP)
+    journey = context.journey
+    turns = tuple(turn for turn in journey.turns if turn <= found.changed_from + SAME_PLACE_M)
     stands = mode == "from_rest"
     certain = certain_until(journey, found.path, found.changed_from)
     if stands:
-        turns, certain = (*turns, scene.stop, *then), max(certain, scene.stop)
+        turns, certain = (*turns, context.stop, *then), max(certain, context.stop)
     try:
-        law = time_law(
+        trajectory = trajectory_along(
             journey, found.path, turns,
-            distance=journey.distance, speed=scene.speed, time=journey.time, end=certain,
+            distance=journey.distance, speed=context.speed, time=journey.time, end=certain,
         )  # fmt: skip
     except GeometryError:
         return None  # it could not stop within what it has seen of it
-    if law.over_limit_until is not None and not stands:
+    if trajectory.over_limit_until is not None and not stands:
         return None
-    return Choice(mode, found, turns, law)
+    return Choice(mode, found, turns, trajectory)

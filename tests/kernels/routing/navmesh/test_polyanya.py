@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Bytes
 from viaspline.kernels.routing.navmesh.polyanya import shortest_path
-from viaspline.kernels.routing.navmesh.rectangles import Cells, mesh_of
+from viaspline.kernels.routing.navmesh.rectangles import mesh_of
 
 Floats = NDArray[np.float64]
 shapes = st.tuples(st.integers(1, 8), st.integers(1, 8))
@@ -21,27 +22,27 @@ lattices = arrays(np.uint8, shapes, elements=st.sampled_from([0, 0, 1]))
 seeds = st.integers(0, 2**32)
 
 
-def corners(walled: Cells) -> list[tuple[float, float]]:
+def corners(walled: Bytes) -> list[tuple[float, float]]:
     """Lattice points where just one of the four cells round them is blocked."""
     four = walled[:-1, :-1] + walled[1:, :-1] + walled[:-1, 1:] + walled[1:, 1:]
     return [(float(x), float(y)) for y, x in np.argwhere(four == 1)]
 
 
-def pinches(walled: Cells) -> list[tuple[float, float]]:
+def pinches(walled: Bytes) -> list[tuple[float, float]]:
     """Lattice points between two cells that are blocked and face each other diagonally."""
     one = walled[:-1, :-1] & walled[1:, 1:] & ~walled[1:, :-1] & ~walled[:-1, 1:]
     two = ~walled[:-1, :-1] & ~walled[1:, 1:] & walled[1:, :-1] & walled[:-1, 1:]
     return [(float(x), float(y)) for y, x in np.argwhere((one | two) & 1)]
 
 
-def solid(walled: Cells) -> Any:
+def solid(walled: Bytes) -> Any:
     """What is blocked, a hair smaller, with the pinches shut."""
     boxes = [shapely.box(x - 1, y - 1, x, y) for y, x in np.argwhere(walled)]
     shut = [shapely.Point(place).buffer(1e-6) for place in pinches(walled)]
     return shapely.union_all([shapely.union_all(boxes).buffer(-1e-7), *shut])
 
 
-def visibility_length(blocked: Cells, start: Floats, goal: Floats) -> float:
+def visibility_length(blocked: Bytes, start: Floats, goal: Floats) -> float:
     """Length of the shortest path by Dijkstra; infinite where there is none."""
     walled = np.pad(blocked, 1, constant_values=1)
     nodes = np.array([tuple(start), tuple(goal), *corners(walled)])
@@ -66,7 +67,7 @@ def length_of(path: Floats) -> float:
     return float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum()) if len(path) else np.inf
 
 
-def check(blocked: Cells, start: Any, goal: Any) -> None:
+def check(blocked: Bytes, start: Any, goal: Any) -> None:
     start, goal = np.array(start, float), np.array(goal, float)
     path = shortest_path(mesh_of(blocked), start, goal)
     assert length_of(path) == pytest.approx(visibility_length(blocked, start, goal), abs=1e-6)
@@ -79,28 +80,28 @@ def check(blocked: Cells, start: Any, goal: Any) -> None:
         assert length_of(back) == pytest.approx(length_of(path))
 
 
-def free_cells(blocked: Cells, seed: int) -> tuple[np.random.Generator, Floats]:
+def free_cells(blocked: Bytes, seed: int) -> tuple[np.random.Generator, Floats]:
     rng = np.random.default_rng(seed)
     cells = np.argwhere(blocked == 0)[:, ::-1]
     return rng, rng.choice(cells, 2).astype(float) if len(cells) else np.empty((0, 2))
 
 
 @given(lattices, seeds)
-def test_paths_between_middles_of_cells_are_the_shortest(blocked: Cells, seed: int) -> None:
+def test_paths_between_middles_of_cells_are_the_shortest(blocked: Bytes, seed: int) -> None:
     _, cells = free_cells(blocked, seed)
     if len(cells):
         check(blocked, *(cells + 0.5))
 
 
 @given(lattices, seeds)
-def test_paths_between_any_places_are_the_shortest(blocked: Cells, seed: int) -> None:
+def test_paths_between_any_places_are_the_shortest(blocked: Bytes, seed: int) -> None:
     rng, cells = free_cells(blocked, seed)
     if len(cells):
         check(blocked, *(cells + rng.uniform(0.001, 0.999, (2, 2))))
 
 
 @given(lattices, seeds)
-def test_paths_between_sides_of_cells_are_the_shortest(blocked: Cells, seed: int) -> None:
+def test_paths_between_sides_of_cells_are_the_shortest(blocked: Bytes, seed: int) -> None:
     rng, cells = free_cells(blocked, seed)
     if len(cells):
         check(blocked, *(cells + rng.permuted([[0.5, 0.0], [0.5, 1.0]], axis=1)))
@@ -117,7 +118,7 @@ def test_nothing_leads_through_a_pinch() -> None:
 
 @given(lattices, st.floats(-1, 9), st.floats(-1, 9))
 def test_a_place_is_found_where_it_is_in_a_free_cell_or_on_its_border(
-    blocked: Cells, x: float, y: float
+    blocked: Bytes, x: float, y: float
 ) -> None:
     free = shapely.union_all(
         [shapely.box(c, r, c + 1, r + 1) for r, c in np.argwhere(blocked == 0)]

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import ndimage
 
+from viaspline.kernels.arrays import Bytes
 from viaspline.kernels.routing.navmesh.rectangles import (
     BOTTOM,
     FIRST_ABOVE,
@@ -20,7 +21,6 @@ from viaspline.kernels.routing.navmesh.rectangles import (
     TURN_LEFT,
     TURN_RIGHT,
     UNDER,
-    Cells,
     mesh_of,
 )
 
@@ -29,7 +29,7 @@ lattices = arrays(np.uint8, shapes, elements=st.sampled_from([0, 0, 1]))
 
 
 @given(lattices)
-def test_rectangles_cover_every_free_cell_once(blocked: Cells) -> None:
+def test_rectangles_cover_every_free_cell_once(blocked: Bytes) -> None:
     covered = np.zeros(blocked.shape, int)
     for box in mesh_of(blocked).rectangles:
         covered[box[BOTTOM] : box[TOP], box[LEFT] : box[RIGHT]] += 1
@@ -37,7 +37,7 @@ def test_rectangles_cover_every_free_cell_once(blocked: Cells) -> None:
 
 
 @given(lattices)
-def test_rectangles_have_walls_to_their_sides(blocked: Cells) -> None:
+def test_rectangles_have_walls_to_their_sides(blocked: Bytes) -> None:
     walled = np.pad(blocked, 1, constant_values=1)
     for box in mesh_of(blocked).rectangles:
         rows = slice(box[BOTTOM] + 1, box[TOP] + 1)
@@ -46,7 +46,7 @@ def test_rectangles_have_walls_to_their_sides(blocked: Cells) -> None:
 
 
 @given(lattices)
-def test_portals_are_just_the_borders_that_rectangles_share(blocked: Cells) -> None:
+def test_portals_are_just_the_borders_that_rectangles_share(blocked: Bytes) -> None:
     mesh = mesh_of(blocked)
     shared = set()
     for i, low in enumerate(mesh.rectangles):
@@ -59,7 +59,7 @@ def test_portals_are_just_the_borders_that_rectangles_share(blocked: Cells) -> N
 
 
 @given(lattices)
-def test_paths_can_turn_where_one_rectangle_goes_on_beyond_a_portal(blocked: Cells) -> None:
+def test_paths_can_turn_where_one_rectangle_goes_on_beyond_a_portal(blocked: Bytes) -> None:
     walled = np.pad(blocked, 1, constant_values=1)
     for portal in mesh_of(blocked).portals:
         y, left, right = portal[HEIGHT] + 1, portal[LEFT] + 1, portal[RIGHT] + 1
@@ -68,7 +68,7 @@ def test_paths_can_turn_where_one_rectangle_goes_on_beyond_a_portal(blocked: Cel
 
 
 @given(lattices)
-def test_doors_are_a_rectangles_portals_from_left_to_right(blocked: Cells) -> None:
+def test_doors_are_a_rectangles_portals_from_left_to_right(blocked: Bytes) -> None:
     mesh = mesh_of(blocked)
     for r, doors in enumerate(mesh.doors):
         for first, end in ((FIRST_BELOW, OVER), (FIRST_ABOVE, UNDER)):
@@ -78,7 +78,7 @@ def test_doors_are_a_rectangles_portals_from_left_to_right(blocked: Cells) -> No
 
 
 @given(lattices)
-def test_pieces_are_what_hangs_together_by_the_sides_of_cells(blocked: Cells) -> None:
+def test_pieces_are_what_hangs_together_by_the_sides_of_cells(blocked: Bytes) -> None:
     labels, count = ndimage.label(blocked == 0)
     boxes = mesh_of(blocked).rectangles
     pairs = {(labels[box[BOTTOM], box[LEFT]], box[PIECE]) for box in boxes}

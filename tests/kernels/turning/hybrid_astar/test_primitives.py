@@ -3,14 +3,14 @@ import math
 import numpy as np
 import pytest
 
-from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, WAYS, moves_of
+from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, WAYS, primitives_of
 
 RHO, STEP = 4.0, 0.8
 
 
 @pytest.mark.parametrize("ramp", [0.3, 1.0, 1.6])
 def test_every_move_follows_its_segments_from_level_to_level(chained, ramp):
-    moves = moves_of(RHO, ramp, np.array([STEP, 2.5 * STEP]), 0.02)
+    moves = primitives_of(RHO, ramp, np.array([STEP, 2.5 * STEP]), 0.02)
     for row in range(2 * LEVELS * WAYS):
         scale, level, way = np.unravel_index(row, (2, LEVELS, WAYS))
         step, pace, count = moves.scales[scale]

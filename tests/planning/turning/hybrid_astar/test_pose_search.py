@@ -10,7 +10,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import dubins
 from viaspline.mission.parts import Obstacle
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     Chain,
     Goal,
@@ -23,8 +23,8 @@ from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
 from viaspline.world.world import World
 
 RHO, RAMP = 4.0, 1.0
-DISC = Brief(radius=0.5, clearance=0.1)
-CAR = Brief(
+DISC = Requirements(radius=0.5, clearance=0.1)
+CAR = Requirements(
     radius=0.9, clearance=0.1, footprint=((-1.0, -0.9), (3.2, -0.9), (3.2, 0.9), (-1.0, 0.9))
 )
 OPEN = World([], bounds=(-40, -40, 40, 40))
@@ -39,7 +39,7 @@ def box(x0, y0, x1, y1):
     return Obstacle(polygon=[(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
 
-def is_sound(chain, world, brief, start, goal):
+def is_sound(chain, world, requirements, start, goal):
     """Check all that is promised of a chain."""
     assert isinstance(chain, Chain), chain
     curve = PiecewiseCubic(chain.spans)
@@ -55,14 +55,14 @@ def is_sound(chain, world, brief, start, goal):
     assert np.abs(curve.curvature(at)).max() * RHO < 1.003
     assert curve.curvature_jumps().max(initial=0.0) * RHO < 1e-6
     assert curve.length == pytest.approx(chain.length, rel=1e-5)
-    if brief.footprint is None:
-        assert certify(curve, world, brief.kept, radius=brief.radius).holds
+    if requirements.footprint is None:
+        assert certify(curve, world, requirements.kept, radius=requirements.radius).holds
     else:
-        assert gap_of(world, brief, curve.evaluate(at), heading) > brief.kept - 1e-3
+        assert gap_of(world, requirements, curve.evaluate(at), heading) > requirements.kept - 1e-3
 
 
-def gap_of(world, brief, places, headings):
-    body = shapely.Polygon(brief.footprint)
+def gap_of(world, requirements, places, headings):
+    body = shapely.Polygon(requirements.footprint)
     walls = shapely.union_all([shapely.Polygon(o.polygon) for o in world.obstacles])
     swept = [
         affinity.translate(

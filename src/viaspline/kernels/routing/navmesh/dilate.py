@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
+from viaspline.kernels.arrays import Bytes
 from viaspline.kernels.jit import kernel
-from viaspline.kernels.routing.navmesh.rectangles import Cells
 
 
 @kernel
-def grow_into(blocked: Cells, reach: float, row0: int, column0: int, cells: Cells) -> None:
+def grow_into(blocked: Bytes, reach: float, row0: int, column0: int, cells: Bytes) -> None:
     """Block the cells of a lattice whose middle is nearer than ``reach`` to a blocked square.
 
     Args:

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.growable import new_floats, new_ints, sized_floats
-from viaspline.kernels.jit import inner, kernel, within
+from viaspline.kernels.jit import inlined, inner, kernel
 from viaspline.kernels.routing.navmesh.polyanya_nodes import (
     GOAL,
     PARENT,
@@ -21,11 +22,11 @@ from viaspline.kernels.routing.navmesh.polyanya_nodes import (
     START,
     UP,
     A,
-    Search,
+    PolyanyaSearch,
     next_node,
     sized,
 )
-from viaspline.kernels.routing.navmesh.polyanya_successors import expand, spread
+from viaspline.kernels.routing.navmesh.polyanya_successors import expand, spread_interval
 from viaspline.kernels.routing.navmesh.rectangles import (
     FIRST_ABOVE,
     FIRST_BELOW,
@@ -38,18 +39,17 @@ from viaspline.kernels.routing.navmesh.rectangles import (
     Mesh,
     rectangle_at,
 )
-from viaspline.kernels.world.packed import Floats
 
 
-@within
+@inlined
 def _doors_of(mesh: Mesh, room: int) -> int:
     """How many portals a rectangle has."""
     below = mesh.doors[room, FIRST_BELOW + 1] - mesh.doors[room, FIRST_BELOW]
     return below + mesh.doors[room, FIRST_ABOVE + 1] - mesh.doors[room, FIRST_ABOVE]
 
 
-@within
-def _most_after(mesh: Mesh, search: Search, here: int) -> int:
+@inlined
+def _most_after(mesh: Mesh, search: PolyanyaSearch, here: int) -> int:
     """How many nodes there are at most when a node has been expanded."""
     portal = search.links[here, PORTAL]
     room = mesh.portals[portal, OVER if search.links[here, UP] == 1 else UNDER]
@@ -57,13 +57,13 @@ def _most_after(mesh: Mesh, search: Search, here: int) -> int:
 
 
 @inner
-def _begun(mesh: Mesh, start: Floats, goal: Floats, room: int) -> Search:
+def _begun(mesh: Mesh, start: Floats, goal: Floats, room: int) -> PolyanyaSearch:
     """A search with what is seen from the start."""
     cheapest = new_floats(2 * mesh.portals.shape[0], 1)
     for k in range(cheapest.shape[0]):
         cheapest[k, 0] = np.inf
     size = 1024 + 2 * mesh.portals.shape[0]
-    search = Search(
+    search = PolyanyaSearch(
         new_floats(size, 5),
         new_ints(size, 4),
         new_floats(size, 1),
@@ -77,7 +77,7 @@ def _begun(mesh: Mesh, start: Floats, goal: Floats, room: int) -> Search:
     left = float(mesh.rectangles[room, LEFT])
     right = float(mesh.rectangles[room, RIGHT])
     for up in range(2):
-        spread(mesh, search, room, -1, up, left, right, start[0], start[1], 0.0, START)
+        spread_interval(mesh, search, room, -1, up, left, right, start[0], start[1], 0.0, START)
     return search
 
 
@@ -114,7 +114,7 @@ def shortest_path(mesh: Mesh, start: Floats, goal: Floats) -> Floats:
 
 
 @inner
-def _turns(mesh: Mesh, search: Search, last: int) -> tuple[Floats, int]:
+def _turns(mesh: Mesh, search: PolyanyaSearch, last: int) -> tuple[Floats, int]:
     """Where the path to the last node turns, from its end to its start, and how often."""
     gx = search.goal[0]
     gy = search.goal[1]

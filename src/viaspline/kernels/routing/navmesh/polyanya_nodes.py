@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.growable import sized_floats, sized_ints
-from viaspline.kernels.jit import inner, within
-from viaspline.kernels.world.packed import Floats, Ints
+from viaspline.kernels.jit import inlined, inner
 
 TINY = 1e-9
 # columns of the two tables of nodes
@@ -16,7 +16,7 @@ START = -1  # the root before the first turn
 GOAL = -2  # in place of the portal: the path has arrived
 
 
-class Search(NamedTuple):
+class PolyanyaSearch(NamedTuple):
     """Nodes, and a heap of those that have not been expanded.
 
     A root is a portal's end: ``2 * portal`` for the left one, ``2 * portal + 1`` for the right.
@@ -40,8 +40,8 @@ class Search(NamedTuple):
     goal: Floats
 
 
-@within
-def push(search: Search, key: float, item: int) -> None:
+@inlined
+def push(search: PolyanyaSearch, key: float, item: int) -> None:
     """Put a node into the heap."""
     k = search.sizes[0, 1]
     while k > 0:
@@ -56,8 +56,8 @@ def push(search: Search, key: float, item: int) -> None:
     search.sizes[0, 1] += 1
 
 
-@within
-def _pop(search: Search) -> int:
+@inlined
+def _pop(search: PolyanyaSearch) -> int:
     """Take the node with the smallest key; -1 where there is none."""
     size = search.sizes[0, 1] - 1
     if size < 0:
@@ -83,8 +83,8 @@ def _pop(search: Search) -> int:
     return first
 
 
-@within
-def next_node(search: Search) -> int:
+@inlined
+def next_node(search: PolyanyaSearch) -> int:
     """The next node that no shorter path to its root has made worthless; -1 where none is left."""
     while True:
         node = _pop(search)
@@ -95,9 +95,9 @@ def next_node(search: Search) -> int:
             return node
 
 
-@within
+@inlined
 def add(
-    search: Search,
+    search: PolyanyaSearch,
     portal: int,
     up: int,
     a: float,
@@ -124,10 +124,10 @@ def add(
 
 
 @inner
-def sized(search: Search, room: int) -> Search:
+def sized(search: PolyanyaSearch, room: int) -> PolyanyaSearch:
     """The same with room for that many nodes."""
     count = search.sizes[0, 0]
-    return Search(
+    return PolyanyaSearch(
         sized_floats(search.places, count, room),
         sized_ints(search.links, count, room),
         sized_floats(search.keys, search.sizes[0, 1], room),

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from viaspline.kernels.jit import within
+from viaspline.kernels.arrays import Ints
+from viaspline.kernels.jit import inlined
 from viaspline.kernels.routing.navmesh.polyanya_nodes import (
     COST,
     GOAL,
@@ -16,7 +17,7 @@ from viaspline.kernels.routing.navmesh.polyanya_nodes import (
     UP,
     A,
     B,
-    Search,
+    PolyanyaSearch,
     add,
     push,
 )
@@ -33,10 +34,9 @@ from viaspline.kernels.routing.navmesh.rectangles import (
     UNDER,
     Mesh,
 )
-from viaspline.kernels.world.packed import Ints
 
 
-@within
+@inlined
 def _crossing(
     rx: float, ry: float, a: float, b: float, y: float, gx: float, gy: float
 ) -> tuple[float, float]:
@@ -55,7 +55,7 @@ def _crossing(
     return x, math.hypot(x - rx, y - ry) + math.hypot(gx - x, gy - y)
 
 
-@within
+@inlined
 def _first_door(portals: Ints, first: int, last: int, low: float) -> int:
     """The first of the portals first:last, which stand from left to right, beyond ``low``."""
     while last - first > 8:
@@ -69,10 +69,10 @@ def _first_door(portals: Ints, first: int, last: int, low: float) -> int:
     return first
 
 
-@within
-def spread(
+@inlined
+def spread_interval(
     mesh: Mesh,
-    search: Search,
+    search: PolyanyaSearch,
     room: int,
     parent: int,
     up: int,
@@ -121,9 +121,9 @@ def spread(
         door += 1
 
 
-@within
+@inlined
 def _slide(
-    search: Search,
+    search: PolyanyaSearch,
     door: int,
     parent: int,
     up: int,
@@ -150,9 +150,9 @@ def _slide(
     push(search, cost_there + rest, node)
 
 
-@within
+@inlined
 def _turn(
-    mesh: Mesh, search: Search, here: int, room: int, end: int, seen: float, near: float
+    mesh: Mesh, search: PolyanyaSearch, here: int, room: int, end: int, seen: float, near: float
 ) -> None:
     """Turn at the left (0) or the right (1) end of a node's interval, if the path can.
 
@@ -183,11 +183,11 @@ def _turn(
         limit = x if back == 1 else min(max(seen, left), right)
         low = left if end == 0 else limit
         high = limit if end == 0 else right
-        spread(mesh, search, room, here, abs(up - back), low, high, x, near, cost, root)
+        spread_interval(mesh, search, room, here, abs(up - back), low, high, x, near, cost, root)
 
 
-@within
-def expand(mesh: Mesh, search: Search, here: int, last_room: int) -> None:
+@inlined
+def expand(mesh: Mesh, search: PolyanyaSearch, here: int, last_room: int) -> None:
     """Add what a node leads to."""
     portal = search.links[here, PORTAL]
     up = search.links[here, UP]
@@ -209,7 +209,7 @@ def expand(mesh: Mesh, search: Search, here: int, last_room: int) -> None:
         far = float(mesh.rectangles[room, TOP if up == 1 else BOTTOM])
         low = x + (a - x) * (far - y) / (near - y)
         high = x + (b - x) * (far - y) / (near - y)
-    spread(
+    spread_interval(
         mesh, search, room, here, up, max(low, left), min(high, right),
         x, y, search.places[here, COST], search.links[here, ROOT],
     )  # fmt: skip

@@ -10,14 +10,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from viaspline.kernels.arrays import Bytes, Ints
 from viaspline.kernels.growable import new_ints, sized_ints
-from viaspline.kernels.jit import inner, kernel, within
-from viaspline.kernels.world.packed import Ints
-
-Cells = NDArray[np.uint8]
+from viaspline.kernels.jit import inlined, inner, kernel
 
 SLACK = 1e-9  # within which a place is in a cell [cells]
 # columns of a rectangle, and of a portal
@@ -47,8 +42,8 @@ class Mesh(NamedTuple):
     rows: Ints
 
 
-@within
-def _next_run(blocked: Cells, row: int, column: int) -> tuple[int, int]:
+@inlined
+def _next_run(blocked: Bytes, row: int, column: int) -> tuple[int, int]:
     """The next run of free cells of a row from a column on; an empty one at its end."""
     width = blocked.shape[1]
     first = column
@@ -84,7 +79,7 @@ def _new_portals(
 
 
 @kernel
-def mesh_of(blocked: Cells) -> Mesh:
+def mesh_of(blocked: Bytes) -> Mesh:
     """The free cells of a lattice (height, width) of uint8, nonzero where blocked, as a mesh."""
     height, width = blocked.shape
     rectangles = new_ints(256, 5)
@@ -147,7 +142,7 @@ def _doors(rectangles: Ints, portals: Ints) -> Ints:
     return doors
 
 
-@within
+@inlined
 def _mark_pieces(rectangles: Ints, portals: Ints) -> None:
     """Write the smallest rectangle of its piece to every rectangle."""
     for r in range(rectangles.shape[0]):
@@ -160,7 +155,7 @@ def _mark_pieces(rectangles: Ints, portals: Ints) -> None:
         rectangles[r, PIECE] = _first_of(rectangles, r)
 
 
-@within
+@inlined
 def _first_of(rectangles: Ints, r: int) -> int:
     while rectangles[r, PIECE] != r:
         rectangles[r, PIECE] = rectangles[rectangles[r, PIECE], PIECE]
@@ -168,7 +163,7 @@ def _first_of(rectangles: Ints, r: int) -> int:
     return r
 
 
-@within
+@inlined
 def rectangle_at(mesh: Mesh, x: float, y: float) -> int:
     """The rectangle that holds a place, borders included; -1 where there is none.
 

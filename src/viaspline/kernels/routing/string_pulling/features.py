@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
 from viaspline.kernels.world.distance import box_signed
 from viaspline.kernels.world.grid_rows import grid_corners_near
-from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 
 # columns of a feature: centre and radius [m] (0: a corner), and the unit vector from a corner
 # into the open (0, 0 for a circle)

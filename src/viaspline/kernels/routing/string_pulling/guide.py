@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.jit import within
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inlined
 from viaspline.kernels.routing.string_pulling.features import (
     FEATURE_RADIUS,
     FEATURE_X,
@@ -14,12 +15,11 @@ from viaspline.kernels.routing.string_pulling.features import (
     OUT_X,
     OUT_Y,
 )
-from viaspline.kernels.world.packed import Floats
 
 SMALL = 1e-9  # as a share of a piece, and as a turn [rad]
 
 
-@within
+@inlined
 def _left_of(guide: Floats, k: int, x: float, y: float) -> float:
     """Twice the area of (x, y) and piece k of the guide; above 0 to the left of it."""
     dx = guide[k + 1, 0] - guide[k, 0]
@@ -27,7 +27,7 @@ def _left_of(guide: Floats, k: int, x: float, y: float) -> float:
     return dx * (y - guide[k, 1]) - dy * (x - guide[k, 0])
 
 
-@within
+@inlined
 def foot(guide: Floats, first: int, last: int, x: float, y: float) -> float:
     """Where on the pieces first:last of the guide the nearest place to (x, y) is."""
     best = np.inf
@@ -47,7 +47,7 @@ def foot(guide: Floats, first: int, last: int, x: float, y: float) -> float:
     return place
 
 
-@within
+@inlined
 def side_of(guide: Floats, place: float, found: Floats, j: int) -> float:
     """On which side of the guide feature j lies: +1 to the left, -1 to the right."""
     x = found[j, FEATURE_X]
@@ -75,7 +75,7 @@ def side_of(guide: Floats, place: float, found: Floats, j: int) -> float:
     return 1.0 if area > 0.0 else -1.0
 
 
-@within
+@inlined
 def turn_at(guide: Floats, k: int) -> tuple[float, float, float]:
     """How far the guide turns at a corner [rad], 0 where it goes straight on, and to where.
 

@@ -13,8 +13,9 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.growable import new_floats, sized_floats
-from viaspline.kernels.jit import kernel, part, within
+from viaspline.kernels.jit import fused, inlined, kernel
 from viaspline.kernels.routing.string_pulling.features import (
     FEATURE_RADIUS,
     FEATURE_X,
@@ -41,14 +42,14 @@ from viaspline.kernels.routing.tangent_arcs import (
     corners_round,
 )
 from viaspline.kernels.world.distance import nearest
-from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import nearest_to_segment
 
 ROOM = 256  # features that are looked at near one place
 OFTEN = 2  # times that a feature may be put in anew on one side
 
 
-@part
+@fused
 def _inside(
     world: PackedWorld, guide: Floats, k: int, nx: float, ny: float, rho: float, side: float,
     found: Floats,
@@ -83,7 +84,7 @@ def _inside(
     return chosen
 
 
-@part
+@fused
 def _begin(
     world: PackedWorld, guide: Floats, rho: float, side: float, found: Floats
 ) -> tuple[Floats, int]:
@@ -108,7 +109,7 @@ def _begin(
     return rows, count + 1
 
 
-@within
+@inlined
 def _most_in_the_way(
     rows: Floats,
     k: int,
@@ -163,7 +164,7 @@ def _most_in_the_way(
     return chosen, side, place
 
 
-@within
+@inlined
 def _remember(history: Floats, count: int, found: Floats, j: int, side: float) -> int:
     """Note in row ``count`` that a feature is put in; how often it has been on this side."""
     history[count, BEND_X] = found[j, FEATURE_X]
@@ -176,7 +177,7 @@ def _remember(history: Floats, count: int, found: Floats, j: int, side: float) -
     return times
 
 
-@part
+@fused
 def _pulled(
     world: PackedWorld, guide: Floats, rho: float, floor: float, side: float, stuck: Floats
 ) -> tuple[Floats, int]:
@@ -221,7 +222,7 @@ def _pulled(
         count += 1
 
 
-@part
+@fused
 def _is_clear(world: PackedWorld, corners: Floats, floor: float) -> bool:
     """Whether every piece of a row of corners keeps ``floor``."""
     for k in range(corners.shape[0] - 1):

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from viaspline.kernels.jit import part
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import fused
 from viaspline.kernels.routing.tangent_arcs import (
     BEND_RADIUS,
     BEND_X,
@@ -14,13 +15,13 @@ from viaspline.kernels.routing.tangent_arcs import (
     TURN,
 )
 from viaspline.kernels.world.distance import nearest
-from viaspline.kernels.world.packed import Floats, PackedWorld
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import nearest_to_segment
 
 SMALL = 1e-9  # [m]
 
 
-@part
+@fused
 def _closest_on(
     world: PackedWorld, ax: float, ay: float, bx: float, by: float, floor: float
 ) -> tuple[float, float]:
@@ -40,7 +41,7 @@ def _closest_on(
     return 0.5 * (ax + bx), 0.5 * (ay + by)
 
 
-@part
+@fused
 def _arc_conflict(
     world: PackedWorld, rows: Floats, k: int, floor: float
 ) -> tuple[float, float, float]:
@@ -61,7 +62,7 @@ def _arc_conflict(
     return 0.0, 0.0, -1.0
 
 
-@part
+@fused
 def _conflict(
     world: PackedWorld, rows: Floats, k: int, floor: float
 ) -> tuple[int, float, float, float]:
@@ -88,7 +89,7 @@ def _conflict(
     return at, rows[k, HEADING_IN] + rows[k, SIDE] * turned, x, y
 
 
-@part
+@fused
 def next_conflict(
     world: PackedWorld, rows: Floats, count: int, k: int, floor: float
 ) -> tuple[int, int, float, float, float]:

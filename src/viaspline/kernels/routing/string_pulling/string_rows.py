@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.growable import sized_floats
-from viaspline.kernels.jit import inner, within
+from viaspline.kernels.jit import inlined, inner
 from viaspline.kernels.routing.string_pulling.features import FEATURE_RADIUS, FEATURE_X, FEATURE_Y
 from viaspline.kernels.routing.tangent_arcs import (
     BEND_RADIUS,
@@ -13,7 +14,6 @@ from viaspline.kernels.routing.tangent_arcs import (
     SIDE,
     TURN,
 )
-from viaspline.kernels.world.packed import Floats
 
 # a string's row is a bend and where its feature lies along the guide
 PLACE = 6
@@ -31,7 +31,7 @@ def insert(rows: Floats, count: int, at: int) -> Floats:
     return rows
 
 
-@within
+@inlined
 def remove(rows: Floats, count: int, at: int) -> int:
     """Take out the row at ``at``; how many are left."""
     for i in range(at, count - 1):
@@ -40,7 +40,7 @@ def remove(rows: Floats, count: int, at: int) -> int:
     return count - 1
 
 
-@within
+@inlined
 def write_end(rows: Floats, k: int, guide: Floats, corner: int) -> None:
     """Write an end of the guide to row k."""
     for column in range(COLUMNS):
@@ -50,7 +50,7 @@ def write_end(rows: Floats, k: int, guide: Floats, corner: int) -> None:
     rows[k, PLACE] = corner
 
 
-@within
+@inlined
 def write(
     rows: Floats, k: int, found: Floats, j: int, rho: float, side: float, place: float
 ) -> None:
@@ -64,7 +64,7 @@ def write(
     rows[k, PLACE] = place
 
 
-@within
+@inlined
 def is_row(rows: Floats, k: int, found: Floats, j: int, side: float) -> bool:
     """Whether row k goes round feature j on this side."""
     return (

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from viaspline.kernels.jit import within
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inlined
 from viaspline.kernels.routing.string_pulling.string_rows import remove
 from viaspline.kernels.routing.tangent_arcs import (
     BEND_RADIUS,
@@ -14,10 +15,9 @@ from viaspline.kernels.routing.tangent_arcs import (
     SIDE,
     TURN,
 )
-from viaspline.kernels.world.packed import Floats
 
 
-@within
+@inlined
 def _missing_tangent(rows: Floats, count: int) -> int:
     """Write the headings of the tangents; the first row from which none leads on, or -1."""
     for k in range(count - 1):
@@ -34,7 +34,7 @@ def _missing_tangent(rows: Floats, count: int) -> int:
     return -1
 
 
-@within
+@inlined
 def _slack(rows: Floats, count: int) -> int:
     """Write the turns; the first row that the string does not bend round, or -1."""
     for k in range(1, count - 1):
@@ -46,7 +46,7 @@ def _slack(rows: Floats, count: int) -> int:
     return -1
 
 
-@within
+@inlined
 def slacken(rows: Floats, count: int) -> tuple[int, int]:
     """Leave out rows that the string does not bend round, until all that are left are needed.
 

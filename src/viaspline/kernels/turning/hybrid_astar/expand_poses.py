@@ -14,9 +14,10 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.heap import pop
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.turning.collision_cache import Ground, reach
+from viaspline.kernels.turning.collision_cache import CollisionCache, reach
 from viaspline.kernels.turning.connect import MOST
 from viaspline.kernels.turning.hybrid_astar.goal_arrival import arrive, meet
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
@@ -33,25 +34,33 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     SLOT,
     STILL,
     Ahead,
-    Search,
+    PoseSearch,
     add,
     key_of,
     scale_at,
     slot_of,
     to_come,
 )
-from viaspline.kernels.turning.hybrid_astar.primitives import COUNT, LEVELS, PACE, STEP, WAYS, Moves
-from viaspline.kernels.world.packed import Floats
+from viaspline.kernels.turning.hybrid_astar.primitives import (
+    COUNT,
+    LEVELS,
+    PACE,
+    STEP,
+    WAYS,
+    MotionPrimitives,
+)
 
 RUNNING, FULL, EMPTY, BEATEN = range(4)
 
 
 @kernel
-def set_off(ground: Ground, search: Search, ahead: Ahead, rho: float, starts: Floats) -> None:
+def set_off(
+    cache: CollisionCache, search: PoseSearch, ahead: Ahead, rho: float, starts: Floats
+) -> None:
     """Begin a search.
 
     Args:
-        ground: Ground.
+        cache: Ground.
         search: Search, empty.
         ahead: Ahead.
         rho: The least radius [m].
@@ -63,7 +72,7 @@ def set_off(ground: Ground, search: Search, ahead: Ahead, rho: float, starts: Fl
     search.meeting[LENGTH] = np.inf
     for k in range(starts.shape[0]):
         x, y, heading = starts[k, 0], starts[k, 1], starts[k, 2]
-        scale = scale_at(ground, search, x, y, heading)
+        scale = scale_at(cache, search, x, y, heading)
         key = key_of(search, x, y, heading, LEVELS // 2, scale)
         still = to_come(search, ahead, rho, x, y, heading)
         if key != 0 and still < np.inf:
@@ -73,17 +82,17 @@ def set_off(ground: Ground, search: Search, ahead: Ahead, rho: float, starts: Fl
 
 @inner
 def _is_free(
-    ground: Ground, moves: Moves, row: int, x: float, y: float, c: float, s: float
+    cache: CollisionCache, moves: MotionPrimitives, row: int, x: float, y: float, c: float, s: float
 ) -> bool:
     """Whether the body surely gets along a move."""
     scale = row // (LEVELS * WAYS)
-    half, pace = 0.5 * ground.frame[3], moves.scales[scale, PACE]
+    half, pace = 0.5 * cache.frame[3], moves.scales[scale, PACE]
     last = int(moves.scales[scale, COUNT]) - 1
     k = 0
     while True:
         dx, dy, cosine, sine = moves.places[row, k]
         room = reach(
-            ground, x + c * dx - s * dy, y + s * dx + c * dy, c * cosine - s * sine,
+            cache, x + c * dx - s * dy, y + s * dx + c * dy, c * cosine - s * sine,
             s * cosine + c * sine,
         )  # fmt: skip
         if room < half:
@@ -94,7 +103,9 @@ def _is_free(
 
 
 @inner
-def _expand(ground: Ground, moves: Moves, search: Search, ahead: Ahead, node: int) -> None:
+def _expand(
+    cache: CollisionCache, moves: MotionPrimitives, search: PoseSearch, ahead: Ahead, node: int
+) -> None:
     """Do every move from a node."""
     x, y, heading, cost, _ = search.nodes[node]
     level, scale = search.links[node, LEVEL], search.links[node, SCALE]
@@ -106,7 +117,7 @@ def _expand(ground: Ground, moves: Moves, search: Search, ahead: Ahead, node: in
         row = (scale * LEVELS + level) * WAYS + way
         dx, dy = moves.places[row, last, 0], moves.places[row, last, 1]
         to_x, to_y, to = x + c * dx - s * dy, y + s * dx + c * dy, heading + moves.turns[row]
-        to_scale = scale_at(ground, search, to_x, to_y, to)
+        to_scale = scale_at(cache, search, to_x, to_y, to)
         key = key_of(search, to_x, to_y, to, level + way - 1, to_scale)
         if key == 0:
             search.counts[OUTSIDE] += 1
@@ -115,19 +126,19 @@ def _expand(ground: Ground, moves: Moves, search: Search, ahead: Ahead, node: in
         if other >= 0 and (search.links[other, CLOSED] != 0 or search.nodes[other, COST] <= more):
             continue
         still = to_come(search, ahead, moves.sizes[0], to_x, to_y, to)
-        if still < np.inf and _is_free(ground, moves, row, x, y, c, s):
+        if still < np.inf and _is_free(cache, moves, row, x, y, c, s):
             add(search, ahead, key, to_x, to_y, to, level + way - 1, to_scale, more, still, node)
 
 
 @kernel
 def go_on(
-    ground: Ground, moves: Moves, search: Search, other: Search, ahead: Ahead, quota: int,
-    bound: float,
+    cache: CollisionCache, moves: MotionPrimitives, search: PoseSearch, other: PoseSearch,
+    ahead: Ahead, quota: int, bound: float,
 ) -> int:  # fmt: skip
     """Expand some nodes.
 
     Args:
-        ground: Ground.
+        cache: Ground.
         moves: Moves.
         search: Search, written in place.
         other: One that comes the other way.
@@ -156,25 +167,25 @@ def go_on(
         if search.cells[search.links[node, SLOT]] - 1 != node:
             continue
         search.counts[EXPANDED] += 1
-        _expand(ground, moves, search, ahead, node)
+        _expand(cache, moves, search, ahead, node)
         if search.links[node, LEVEL] != LEVELS // 2:
             continue
-        if meet(ground, moves, search, other, node, segments):
+        if meet(cache, moves, search, other, node, segments):
             return RUNNING
         every = 1 + int(row[STILL] / moves.sizes[0])  # the farther, the less it is worth a try
         if search.counts[EXPANDED] % every > 1:
             continue
-        if arrive(ground, moves, search, node, bound, segments):
+        if arrive(cache, moves, search, node, bound, segments):
             return RUNNING
     return RUNNING
 
 
 @kernel
-def path_to(moves: Moves, search: Search, node: int) -> tuple[Floats, int]:
+def path_to(moves: MotionPrimitives, search: PoseSearch, node: int) -> tuple[Floats, int]:
     """The way to a node.
 
     Returns:
-        Segments (n, 3), see ``ground``, and the number of the start.
+        Segments (n, 3), see ``cache``, and the number of the start.
     """
     size, at = 0, node
     while search.links[at, PARENT] >= 0:

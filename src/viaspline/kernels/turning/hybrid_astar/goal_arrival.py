@@ -9,8 +9,9 @@ import math
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.turning.collision_cache import Ground, is_clear
+from viaspline.kernels.turning.collision_cache import CollisionCache, is_clear
 from viaspline.kernels.turning.connect import MOST, connection
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     FIRST,
@@ -20,13 +21,12 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     SECOND,
     STILL,
     THERE,
-    Search,
+    PoseSearch,
     key_of,
     scale_at,
     slot_of,
 )
-from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, Moves
-from viaspline.kernels.world.packed import Floats, Ints
+from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, MotionPrimitives
 
 NEAR = 3  # places ahead at which another search is looked for
 LESS = 1e-6  # an arrival has to be shorter by as much to replace another [m]
@@ -34,7 +34,12 @@ LESS = 1e-6  # an arrival has to be shorter by as much to replace another [m]
 
 @inner
 def arrive(
-    ground: Ground, moves: Moves, search: Search, node: int, bound: float, segments: Floats
+    cache: CollisionCache,
+    moves: MotionPrimitives,
+    search: PoseSearch,
+    node: int,
+    bound: float,
+    segments: Floats,
 ) -> bool:
     """Try to reach the goal straight from a node; whether an arrival has become shorter."""
     rho, ramp = moves.sizes[0], moves.sizes[1]
@@ -51,7 +56,7 @@ def arrive(
                 if math.isnan(goal) and s2 < 0.0:
                     continue
                 count, length = connection(dx, dy, heading, goal, s1, s2, rho, ramp, segments)
-                if length < best and is_clear(ground, x, y, heading, segments, count):
+                if length < best and is_clear(cache, x, y, heading, segments, count):
                     best = length
                     arrival = search.arrivals[k]
                     arrival[LENGTH], arrival[FIRST], arrival[SECOND] = cost + length, s1, s2
@@ -62,7 +67,12 @@ def arrive(
 
 @inner
 def meet(
-    ground: Ground, moves: Moves, search: Search, other: Search, node: int, segments: Floats
+    cache: CollisionCache,
+    moves: MotionPrimitives,
+    search: PoseSearch,
+    other: PoseSearch,
+    node: int,
+    segments: Floats,
 ) -> bool:
     """Try to reach what another search, which comes the other way, has found close ahead.
 
@@ -75,7 +85,7 @@ def meet(
     for k in range(NEAR):
         gap = (k + 1) * max(0.5 * rho, 4.5 * ramp)
         to_x, to_y = x + gap * math.cos(heading), y + gap * math.sin(heading)
-        scale = scale_at(ground, other, to_x, to_y, heading)
+        scale = scale_at(cache, other, to_x, to_y, heading)
         key = key_of(other, to_x, to_y, heading + math.pi, LEVELS // 2, scale)
         if key == 0:
             continue
@@ -89,7 +99,7 @@ def meet(
                 count, length = connection(dx, dy, heading, goal, s1, s2, rho, ramp, segments)
                 whole = cost + length + rest
                 if whole < search.meeting[LENGTH] - LESS and is_clear(
-                    ground, x, y, heading, segments, count
+                    cache, x, y, heading, segments, count
                 ):
                     met = search.meeting
                     met[LENGTH], met[FIRST], met[SECOND] = whole, s1, s2
@@ -99,7 +109,7 @@ def meet(
 
 
 @kernel
-def connected(moves: Moves, dx: float, dy: float, start: float, goal: float, s1: float,
+def connected(moves: MotionPrimitives, dx: float, dy: float, start: float, goal: float, s1: float,
               s2: float) -> Floats:  # fmt: skip
     """The segments of a connection, see ``connect.connection``."""
     segments = np.empty((MOST, 3))
@@ -109,12 +119,17 @@ def connected(moves: Moves, dx: float, dy: float, start: float, goal: float, s1:
 
 @kernel
 def bridge(
-    ground: Ground, moves: Moves, there: Search, back: Search, out: Ints, home: Ints
+    cache: CollisionCache,
+    moves: MotionPrimitives,
+    there: PoseSearch,
+    back: PoseSearch,
+    out: Ints,
+    home: Ints,
 ) -> tuple[float, int, int, float, float]:
     """Connect a search from the start with one that comes backwards from the goal.
 
     Args:
-        ground: Ground.
+        cache: Ground.
         moves: Moves.
         there: The search from the start.
         back: The search from the goal, with all headings turned round.
@@ -140,7 +155,7 @@ def bridge(
                         dx, dy, heading, goal, s1, s2, moves.sizes[0], moves.sizes[1], segments
                     )
                     if cost + rest + length < best and is_clear(
-                        ground, x, y, heading, segments, count
+                        cache, x, y, heading, segments, count
                     ):
                         best, first, last = cost + rest + length, out[i], home[j]
                         side1, side2 = s1, s2

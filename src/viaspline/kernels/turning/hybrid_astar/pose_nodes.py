@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.heap import Heap, push
 from viaspline.kernels.jit import inner
-from viaspline.kernels.turning.collision_cache import AHEAD, LEFT, Ground, about
+from viaspline.kernels.turning.collision_cache import AHEAD, LEFT, CollisionCache, about
 from viaspline.kernels.turning.dubins import dubins_length, length_to_place
 from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS
-from viaspline.kernels.world.packed import Floats, Ints
 
 NONE = -1  # in place of a node
 CELL = 0.6  # side of a cell, as a share of a move
@@ -28,7 +28,7 @@ LENGTH, FIRST, SECOND, HERE, THERE = range(5)
 NODES, EXPANDED, OUTSIDE = range(3)
 
 
-class Search(NamedTuple):
+class PoseSearch(NamedTuple):
     """What has been searched.
 
     Attributes:
@@ -82,11 +82,11 @@ class Ahead(NamedTuple):
 
 
 @inner
-def scale_at(ground: Ground, search: Search, x: float, y: float, heading: float) -> int:
+def scale_at(cache: CollisionCache, search: PoseSearch, x: float, y: float, heading: float) -> int:
     """The scale on which there are moves from a pose: the longer, the more room there is."""
     c, s = math.cos(heading), math.sin(heading)
-    disc = ground.discs[0]
-    room = about(ground, x + c * disc[AHEAD] - s * disc[LEFT], y + s * disc[AHEAD] + c * disc[LEFT])
+    disc = cache.discs[0]
+    room = about(cache, x + c * disc[AHEAD] - s * disc[LEFT], y + s * disc[AHEAD] + c * disc[LEFT])
     for k in range(search.ends_at.shape[0]):
         if math.hypot(x - search.ends_at[k, X], y - search.ends_at[k, Y]) < search.care[WITHIN]:
             room -= search.care[MORE]
@@ -98,7 +98,7 @@ def scale_at(ground: Ground, search: Search, x: float, y: float, heading: float)
 
 
 @inner
-def key_of(search: Search, x: float, y: float, heading: float, level: int, scale: int) -> int:
+def key_of(search: PoseSearch, x: float, y: float, heading: float, level: int, scale: int) -> int:
     """The number of the cell of a state, 0 outside the window."""
     window = search.window
     if not (window[0] <= x < window[2] and window[1] <= y < window[3]):
@@ -114,7 +114,7 @@ def key_of(search: Search, x: float, y: float, heading: float, level: int, scale
 
 
 @inner
-def slot_of(search: Search, key: int) -> int:
+def slot_of(search: PoseSearch, key: int) -> int:
     """Where a cell is in the table, or would be."""
     mask = search.keys.size - 1
     slot = ((key * 0x9E3779B97F4A7C1) ^ (key >> 7)) & mask
@@ -124,7 +124,9 @@ def slot_of(search: Search, key: int) -> int:
 
 
 @inner
-def to_come(search: Search, ahead: Ahead, rho: float, x: float, y: float, heading: float) -> float:
+def to_come(
+    search: PoseSearch, ahead: Ahead, rho: float, x: float, y: float, heading: float
+) -> float:
     """Length that is still to come at least [m]; infinite where there is no way."""
     side = ahead.frame[2]
     row = math.floor((y - ahead.frame[1]) / side)
@@ -145,7 +147,7 @@ def to_come(search: Search, ahead: Ahead, rho: float, x: float, y: float, headin
 
 @inner
 def add(
-    search: Search, ahead: Ahead, key: int, x: float, y: float, heading: float, level: int,
+    search: PoseSearch, ahead: Ahead, key: int, x: float, y: float, heading: float, level: int,
     scale: int, cost: float, still: float, parent: int,
 ) -> None:  # fmt: skip
     """Note a state as the best of its cell, and put it into the heap."""

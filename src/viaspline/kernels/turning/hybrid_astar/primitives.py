@@ -11,16 +11,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.curvature_ramp import along_bend
-from viaspline.kernels.world.packed import Floats
 
 LEVELS, WAYS = 5, 3  # of curvature; moves from each: down, keep, up
 # columns of the scales
 STEP, PACE, COUNT = range(3)
 
 
-class Moves(NamedTuple):
+class MotionPrimitives(NamedTuple):
     """What a robot can do next: short moves where it is tight, longer ones where there is room.
 
     Attributes:
@@ -42,7 +42,7 @@ class Moves(NamedTuple):
 
 
 @kernel
-def moves_of(rho: float, ramp: float, steps: Floats, pace: float) -> Moves:
+def primitives_of(rho: float, ramp: float, steps: Floats, pace: float) -> MotionPrimitives:
     """The moves of a robot.
 
     Args:
@@ -66,7 +66,7 @@ def moves_of(rho: float, ramp: float, steps: Floats, pace: float) -> Moves:
                 turns[row] = _lay_move(
                     rho, ramp, step, count, level, way, segments[row], places[row]
                 )
-    return Moves(np.array([rho, ramp]), scales, segments, places, turns)
+    return MotionPrimitives(np.array([rho, ramp]), scales, segments, places, turns)
 
 
 @inner

@@ -7,9 +7,9 @@ from functools import lru_cache
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from viaspline.kernels.arrays import Floats
+
 Corners = tuple[tuple[float, float], ...]
 
 QUARTER = 32  # corners of a quarter of a disc, as it is reckoned to cover

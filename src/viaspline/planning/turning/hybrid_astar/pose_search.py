@@ -13,21 +13,19 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL
-from viaspline.kernels.turning.hybrid_astar.primitives import Moves, moves_of
+from viaspline.kernels.turning.hybrid_astar.primitives import MotionPrimitives, primitives_of
 from viaspline.kernels.turning.segment_chain import chain_spans, merged, shortened
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.turning.hybrid_astar.search_tree import Growth, backwards, bridged, met
-from viaspline.planning.turning.hybrid_astar.search_window import Body, Terrain, windows
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.turning.hybrid_astar.search_tree import SearchTree, backwards, bridged, met
+from viaspline.planning.turning.hybrid_astar.search_window import Body, SearchWindow, search_areas
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
-
 FIRST_BRIDGE, PIERS = 1000, 24  # states after which, and between how many, a bridge is tried
-AFTER = 0.25  # what is looked at after the first arrival, see ``Growth``
+AFTER = 0.25  # what is looked at after the first arrival, see ``SearchTree``
 SECTORS = 16  # headings that are tried where any is allowed
 PASSES = 4  # of shortcuts
 ENOUGH = 1e-3  # share of its length that a pass has to save for another one
@@ -140,30 +138,37 @@ LEAST_RAMP = 0.08  # of the radius
 
 
 @dataclass(frozen=True)
-class Task:
+class PoseProblem:
     """What is asked for, in one window with one effort."""
 
-    terrain: Terrain
-    moves: Moves
+    search_window: SearchWindow
+    moves: MotionPrimitives
     room: int
 
     def forwards(
         self, starts: Floats, goal: Goal, headings: Floats, after: float = AFTER
-    ) -> Growth:
+    ) -> SearchTree:
         """A search from some poses to the goal."""
         place = np.array([goal.x, goal.y])
-        return Growth(
-            self.terrain, self.terrain.ground, self.moves, starts, place, headings, self.room, after
+        return SearchTree(
+            self.search_window,
+            self.search_window.cache,
+            self.moves,
+            starts,
+            place,
+            headings,
+            self.room,
+            after,
         )
 
-    def backwards(self, start: Pose, goal: Goal, headings: Floats) -> Growth:
+    def backwards(self, start: Pose, goal: Goal, headings: Floats) -> SearchTree:
         """A search from the goal to the start, as of a robot that drives backwards."""
         starts = np.zeros((len(headings), 4))
         starts[:, 0], starts[:, 1], starts[:, 2] = goal.x, goal.y, headings + math.pi
         place, back = np.array([start.x, start.y]), np.array([start.heading + math.pi])
-        return Growth(
-            self.terrain,
-            self.terrain.ground_back,
+        return SearchTree(
+            self.search_window,
+            self.search_window.cache_back,
             self.moves,
             starts,
             place,
@@ -174,13 +179,13 @@ class Task:
 
 
 def find_poses(
-    world: World, brief: Brief, rho: float, ramp: float, start: Pose, goal: Goal
+    world: World, requirements: Requirements, rho: float, ramp: float, start: Pose, goal: Goal
 ) -> Chain | NotFound:
     """A way from a pose to a place, forwards, with continuous curvature of at most 1 / rho.
 
     Args:
         world: What to keep clear of.
-        brief: The body and what it keeps.
+        requirements: The body and what it keeps.
         rho: The least radius [m].
         ramp: Length on which the curvature rises from 0 to 1 / rho [m]; half of it, but not less
             than a twelfth of rho, where nothing is found otherwise.
@@ -193,7 +198,7 @@ def find_poses(
     places = np.array([[start.x, start.y], [goal.x, goal.y]])
     expanded, reason = 0, Reason.BUDGET
     for effort in EFFORTS:
-        for task in tasks(world, brief, rho, ramp, places, effort):
+        for task in tasks(world, requirements, rho, ramp, places, effort):
             found, is_cut = _one_way(task, start, goal)
             expanded += found.expanded
             if isinstance(found, Chain):
@@ -205,28 +210,35 @@ def find_poses(
 
 
 def tasks(
-    world: World, brief: Brief, rho: float, ramp: float, places: Floats, effort: Effort
-) -> Iterator[Task]:
+    world: World,
+    requirements: Requirements,
+    rho: float,
+    ramp: float,
+    places: Floats,
+    effort: Effort,
+) -> Iterator[PoseProblem]:
     """The task in ever greater windows."""
-    body = Body.of(brief, effort.overhang)
+    body = Body.of(requirements, effort.overhang)
     bent = max(effort.ramps * ramp, min(LEAST_RAMP * rho, ramp))
     steps = np.maximum(np.array(effort.steps) * rho, 0.5 * bent)
-    for window in windows(world, body.reach, places, 3.0 * rho + body.reach):
-        terrain = Terrain(
+    for area in search_areas(world, body.reach, places, 3.0 * rho + body.reach):
+        search_window = SearchWindow(
             world,
-            window,
+            area,
             body,
             rho,
             CELL * float(steps[0]),
             (effort.care[0] * rho, effort.care[1] * rho),
         )
-        yield Task(terrain, moves_of(rho, bent, steps, terrain.pace), effort.room)
+        yield PoseProblem(
+            search_window, primitives_of(rho, bent, steps, search_window.pace), effort.room
+        )
 
 
-def _one_way(task: Task, start: Pose, goal: Goal) -> tuple[Chain | NotFound, bool]:
+def _one_way(task: PoseProblem, start: Pose, goal: Goal) -> tuple[Chain | NotFound, bool]:
     """The way in one window, or why there is none and whether a greater window may have one."""
     headings = headings_at(task, goal)
-    if not task.terrain.has_room(start.x, start.y, start.heading):
+    if not task.search_window.has_room(start.x, start.y, start.heading):
         return NotFound(Reason.START_TAKEN), False
     if not len(headings):
         return NotFound(Reason.GOAL_TAKEN), False
@@ -234,36 +246,39 @@ def _one_way(task: Task, start: Pose, goal: Goal) -> tuple[Chain | NotFound, boo
     begin = np.array([[start.x, start.y, start.heading, 0.0]])
     both = (task.forwards(begin, goal, to), task.backwards(start, goal, headings))
     bridge, due = None, FIRST_BRIDGE
-    while bridge is None and not any(growth.is_over for growth in both):
-        for growth, other in (both, both[::-1]):
-            growth.go_on(other)
-        if both[0].expanded >= due and not any(growth.has_arrived for growth in both):
+    while bridge is None and not any(tree.is_over for tree in both):
+        for tree, other in (both, both[::-1]):
+            tree.go_on(other)
+        if both[0].expanded >= due and not any(tree.has_arrived for tree in both):
             bridge, due = bridged(*both, PIERS), 2 * due
-    expanded = sum(growth.expanded for growth in both)
-    ways = [(way.cost, way.segments, way.heading) for way in both[0].arrivals()[:1]]
-    ways += [
-        (way.cost, backwards(way.segments), float(headings[way.start]))
-        for way in both[1].arrivals()[:1]
+    expanded = sum(tree.expanded for tree in both)
+    taut_paths = [
+        (taut_path.cost, taut_path.segments, taut_path.heading)
+        for taut_path in both[0].arrivals()[:1]
     ]
-    ways += [
-        (way.cost, way.segments, float(headings[way.start]))
-        for way in (bridge, met(*both))
-        if way is not None
+    taut_paths += [
+        (taut_path.cost, backwards(taut_path.segments), float(headings[taut_path.start]))
+        for taut_path in both[1].arrivals()[:1]
     ]
-    if not ways:
-        return _failure(both, task.terrain.window.is_whole, expanded)
-    _, segments, heading = min(ways, key=lambda way: way[0])
+    taut_paths += [
+        (taut_path.cost, taut_path.segments, float(headings[taut_path.start]))
+        for taut_path in (bridge, met(*both))
+        if taut_path is not None
+    ]
+    if not taut_paths:
+        return _failure(both, task.search_window.area.is_whole, expanded)
+    _, segments, heading = min(taut_paths, key=lambda taut_path: taut_path[0])
     free = math.nan if not goal.headings else heading
     return finished(task, start, np.array([goal.x, goal.y, free]), segments, expanded), False
 
 
-def headings_at(task: Task, goal: Goal) -> Floats:
+def headings_at(task: PoseProblem, goal: Goal) -> Floats:
     """The headings with which the body may stand at a goal, of those that are tried."""
     headings = np.array(goal.headings or np.arange(SECTORS) * (2.0 * math.pi / SECTORS))
-    return headings[[task.terrain.has_room(goal.x, goal.y, each) for each in headings]]
+    return headings[[task.search_window.has_room(goal.x, goal.y, each) for each in headings]]
 
 
-def _failure(both: Sequence[Growth], is_whole: bool, expanded: int) -> tuple[NotFound, bool]:
+def _failure(both: Sequence[SearchTree], is_whole: bool, expanded: int) -> tuple[NotFound, bool]:
     forward, backward = both
     if forward.state == EMPTY and (is_whole or not forward.was_cut):
         return NotFound(Reason.START_SHUT_IN, 0, expanded), False
@@ -283,7 +298,9 @@ def _reversed(segments: Floats) -> Floats:
     return np.ascontiguousarray(segments[::-1][:, [1, 0, 2]] * (-1.0, -1.0, 1.0))
 
 
-def finished(task: Task, start: Pose, goal: Floats, segments: Floats, expanded: int) -> Chain:
+def finished(
+    task: PoseProblem, start: Pose, goal: Floats, segments: Floats, expanded: int
+) -> Chain:
     """The chain of what was found, with shortcuts."""
     rho, ramp = task.moves.sizes[:2].tolist()
     begin = np.array([start.x, start.y, start.heading])
@@ -291,7 +308,7 @@ def finished(task: Task, start: Pose, goal: Floats, segments: Floats, expanded: 
     for _ in range(PASSES):
         spacing = max(SPACING * rho, float(segments[:, 2].sum()) / STATES)
         segments = merged(segments, rho)
-        segments = shortened(task.terrain.ground, begin, goal, segments, rho, ramp, spacing)
+        segments = shortened(task.search_window.cache, begin, goal, segments, rho, ramp, spacing)
         before, length = length, float(segments[:, 2].sum())
         if length > (1.0 - ENOUGH) * before:
             break

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     EFFORTS,
     SECTORS,
@@ -18,20 +18,18 @@ from viaspline.planning.turning.hybrid_astar.pose_search import (
     Goal,
     NotFound,
     Pose,
+    PoseProblem,
     Reason,
-    Task,
     finished,
     headings_at,
     tasks,
     turn_of,
 )
-from viaspline.planning.turning.hybrid_astar.search_tree import Growth
+from viaspline.planning.turning.hybrid_astar.search_tree import SearchTree
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
-
 KEPT = 6  # arrivals at every place, of different headings
-AFTER = 1.0  # what is looked at after the first arrival, see ``Growth``
+AFTER = 1.0  # what is looked at after the first arrival, see ``SearchTree``
 DOUBT = 1000  # states after which it is looked at whether the goal can be come to at all
 APART = math.pi / SECTORS  # headings nearer to each other than this are one [rad]
 
@@ -52,13 +50,18 @@ class _Arrival:
 
 
 def find_row(
-    world: World, brief: Brief, rho: float, ramp: float, start: Pose, goals: Sequence[Goal]
+    world: World,
+    requirements: Requirements,
+    rho: float,
+    ramp: float,
+    start: Pose,
+    goals: Sequence[Goal],
 ) -> tuple[Chain, ...] | NotFound:
     """Ways from a pose through a row of places, one after the other; see ``find_poses``.
 
     Args:
         world: What to keep clear of.
-        brief: The body and what it keeps.
+        requirements: The body and what it keeps.
         rho: The least radius [m].
         ramp: Length on which the curvature rises from 0 to 1 / rho [m].
         start: Where the first begins.
@@ -73,7 +76,7 @@ def find_row(
     failed = NotFound(Reason.BUDGET)
     expanded = 0
     for effort in EFFORTS:
-        for task in tasks(world, brief, rho, ramp, places, effort):
+        for task in tasks(world, requirements, rho, ramp, places, effort):
             found, is_cut = _through(task, start, goals)
             if not isinstance(found, NotFound):
                 return found
@@ -85,10 +88,10 @@ def find_row(
 
 
 def _through(
-    task: Task, start: Pose, goals: Sequence[Goal]
+    task: PoseProblem, start: Pose, goals: Sequence[Goal]
 ) -> tuple[tuple[Chain, ...] | NotFound, bool]:
     """The chains in one window, or why there are none and whether a greater one may have some."""
-    if not task.terrain.has_room(start.x, start.y, start.heading):
+    if not task.search_window.has_room(start.x, start.y, start.heading):
         return NotFound(Reason.START_TAKEN), False
     begin = np.array([start.x, start.y, start.heading, 0.0])
     layers = [[_Arrival(begin, -1, np.empty((0, 3)))]]
@@ -98,46 +101,46 @@ def _through(
         if not len(headings):
             return NotFound(Reason.GOAL_TAKEN, number, expanded), False
         to = headings if goal.headings else np.append(headings, math.nan)
-        growth = task.forwards(np.array([a.pose for a in layers[-1]]), goal, to, AFTER)
-        is_shut_in, seen = _grown(task, growth, layers[-1][0].pose, goal, headings)
+        tree = task.forwards(np.array([a.pose for a in layers[-1]]), goal, to, AFTER)
+        is_shut_in, seen = _grown(task, tree, layers[-1][0].pose, goal, headings)
         expanded += seen
         if is_shut_in:
             return NotFound(Reason.GOAL_SHUT_IN, number, expanded), False
         arrivals = []
-        for found in growth.arrivals():
+        for found in tree.arrivals():
             before = layers[-1][found.start].pose[2]
             heading = before + turn_of(found.segments)
             pose = np.array([goal.x, goal.y, heading, found.cost])
             arrivals.append(_Arrival(pose, found.start, found.segments))
         if not arrivals:
-            is_cut = growth.was_cut and not task.terrain.window.is_whole
+            is_cut = tree.was_cut and not task.search_window.area.is_whole
             reason = Reason.START_SHUT_IN if number == 0 else Reason.NO_WAY
-            if growth.state != EMPTY or is_cut:
+            if tree.state != EMPTY or is_cut:
                 reason = Reason.BUDGET
-            return NotFound(reason, number, expanded), growth.state == EMPTY and is_cut
+            return NotFound(reason, number, expanded), tree.state == EMPTY and is_cut
         layers.append(_distinct(arrivals))
     return _chains(task, start, goals, layers, expanded), False
 
 
 def _grown(
-    task: Task, growth: Growth, start: Floats, goal: Goal, headings: Floats
+    task: PoseProblem, tree: SearchTree, start: Floats, goal: Goal, headings: Floats
 ) -> tuple[bool, int]:
     """Let a search grow to its end, and in doubt another one from its goal.
 
     Returns:
         Whether the goal can't be come to from anywhere, and how many states were looked at.
     """
-    back: Growth | None = None
-    while not growth.is_over:
-        growth.go_on()
-        if growth.has_arrived or growth.expanded < DOUBT:
+    back: SearchTree | None = None
+    while not tree.is_over:
+        tree.go_on()
+        if tree.has_arrived or tree.expanded < DOUBT:
             continue
         if back is None:
             back = task.backwards(Pose(*start[:3].tolist()), goal, headings)
         back.go_on()
-        if back.state == EMPTY and (task.terrain.window.is_whole or not back.was_cut):
-            return True, growth.expanded + back.expanded
-    return False, growth.expanded + (0 if back is None else back.expanded)
+        if back.state == EMPTY and (task.search_window.area.is_whole or not back.was_cut):
+            return True, tree.expanded + back.expanded
+    return False, tree.expanded + (0 if back is None else back.expanded)
 
 
 def _distinct(arrivals: Sequence[_Arrival]) -> list[_Arrival]:
@@ -151,7 +154,11 @@ def _distinct(arrivals: Sequence[_Arrival]) -> list[_Arrival]:
 
 
 def _chains(
-    task: Task, start: Pose, goals: Sequence[Goal], layers: Sequence[list[_Arrival]], expanded: int
+    task: PoseProblem,
+    start: Pose,
+    goals: Sequence[Goal],
+    layers: Sequence[list[_Arrival]],
+    expanded: int,
 ) -> tuple[Chain, ...]:
     """The legs of the shortest row."""
     row = [layers[-1][0]]

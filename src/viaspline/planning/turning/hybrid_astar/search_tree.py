@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.heap import Heap
-from viaspline.kernels.turning.collision_cache import Ground
+from viaspline.kernels.turning.collision_cache import CollisionCache
 from viaspline.kernels.turning.hybrid_astar import expand_poses as kernels
 from viaspline.kernels.turning.hybrid_astar.goal_arrival import bridge, connected
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
@@ -22,13 +22,10 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     OUTSIDE,
     THERE,
     Ahead,
-    Search,
+    PoseSearch,
 )
-from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, STEP, Moves
-from viaspline.planning.turning.hybrid_astar.search_window import Terrain
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, STEP, MotionPrimitives
+from viaspline.planning.turning.hybrid_astar.search_window import SearchWindow
 
 FIRST_SLICE, SLICE = 64, 4000  # states between which a search can be stopped
 FEW = 800
@@ -52,18 +49,18 @@ class Arrival:
     segments: Floats
 
 
-class Growth:
+class SearchTree:
     """A search that is stopped and goes on."""
 
     def __init__(
-        self, terrain: Terrain, ground: Ground, moves: Moves, starts: Floats, goal: Floats,
-        headings: Floats, room: int, after: float,
+        self, search_window: SearchWindow, cache: CollisionCache, moves: MotionPrimitives,
+        starts: Floats, goal: Floats, headings: Floats, room: int, after: float,
     ) -> None:  # fmt: skip
         """Begin.
 
         Args:
-            terrain: Where.
-            ground: The same for the kernels.
+            search_window: Where.
+            cache: Its collision cache, for one direction of driving.
             moves: What the robot can do.
             starts: x, y, heading, cost so far, (n, 4).
             goal: x, y [m], (2,).
@@ -72,15 +69,15 @@ class Growth:
             after: How many states are looked at after the first arrival, as a share of those
                 before it and of ``FEW``.
         """
-        self.ground, self.moves = ground, moves
-        self.ahead: Ahead = terrain.ahead(goal[None])
-        self.search = _empty(terrain, moves, starts, goal, headings, room)
-        self._nobody = _empty(terrain, moves, starts, goal, headings, 1)
+        self.cache, self.moves = cache, moves
+        self.ahead: Ahead = search_window.ahead(goal[None])
+        self.search = _empty(search_window, moves, starts, goal, headings, room)
+        self._nobody = _empty(search_window, moves, starts, goal, headings, 1)
         self.state = kernels.RUNNING
         self._slice = FIRST_SLICE
         self._until = math.inf
         self._after = after
-        kernels.set_off(ground, self.search, self.ahead, float(moves.sizes[0]), starts)
+        kernels.set_off(cache, self.search, self.ahead, float(moves.sizes[0]), starts)
 
     @property
     def expanded(self) -> int:
@@ -102,7 +99,7 @@ class Growth:
         """Whether it has come to the goal, or to what another search has found."""
         return bool((self.search.ends >= 0).any() or math.isfinite(self.search.meeting[0]))
 
-    def go_on(self, other: Growth | None = None, bound: float = math.inf) -> None:
+    def go_on(self, other: SearchTree | None = None, bound: float = math.inf) -> None:
         """Look at some more states.
 
         Args:
@@ -115,7 +112,7 @@ class Growth:
         had = self.has_arrived
         opposite = self._nobody if other is None else other.search
         self.state = kernels.go_on(
-            self.ground, self.moves, self.search, opposite, self.ahead, quota, float(bound)
+            self.cache, self.moves, self.search, opposite, self.ahead, quota, float(bound)
         )
         if self.has_arrived and not had:
             self._until = self.expanded + math.ceil(self._after * (self.expanded + FEW))
@@ -171,29 +168,29 @@ class Bridge:
     segments: Floats
 
 
-def bridged(there: Growth, back: Growth, count: int) -> Bridge | None:
+def bridged(there: SearchTree, back: SearchTree, count: int) -> Bridge | None:
     """Connect ``count`` states of either search; None if no two of them can be."""
     out, home = there.spread_out(count), back.spread_out(count)
     cost, first, last, s1, s2 = bridge(
-        there.ground, there.moves, there.search, back.search, out, home
+        there.cache, there.moves, there.search, back.search, out, home
     )
     return None if first < 0 else _bridge(there, back, (cost, s1, s2, first, last))
 
 
-def met(there: Growth, back: Growth) -> Bridge | None:
+def met(there: SearchTree, back: SearchTree) -> Bridge | None:
     """The best way on which one of two searches has met the other, None if neither has."""
-    ways = []
+    taut_paths = []
     if math.isfinite(there.search.meeting[0]):
-        ways.append(_bridge(there, back, there.search.meeting))
+        taut_paths.append(_bridge(there, back, there.search.meeting))
     if math.isfinite(back.search.meeting[0]):
         home = _bridge(back, there, back.search.meeting)
         _, start = kernels.path_to(back.moves, back.search, int(back.search.meeting[HERE]))
-        ways.append(Bridge(home.cost, int(start), backwards(home.segments)))
-    return min(ways, key=lambda way: way.cost, default=None)
+        taut_paths.append(Bridge(home.cost, int(start), backwards(home.segments)))
+    return min(taut_paths, key=lambda taut_path: taut_path.cost, default=None)
 
 
-def _bridge(there: Growth, back: Growth, meeting: Sequence[float] | Floats) -> Bridge:
-    """The way over a meeting, see ``kernels.pose_nodes.Search``."""
+def _bridge(there: SearchTree, back: SearchTree, meeting: Sequence[float] | Floats) -> Bridge:
+    """The way over a meeting, see ``kernels.pose_nodes.PoseSearch``."""
     cost, s1, s2 = (float(value) for value in meeting[:3])
     first, last = int(meeting[HERE]), int(meeting[THERE])
     x, y, heading = there.search.nodes[first, :3].tolist()
@@ -210,17 +207,22 @@ def backwards(segments: Floats) -> Floats:
 
 
 def _empty(
-    terrain: Terrain, moves: Moves, starts: Floats, goal: Floats, headings: Floats, room: int
-) -> Search:
+    search_window: SearchWindow,
+    moves: MotionPrimitives,
+    starts: Floats,
+    goal: Floats,
+    headings: Floats,
+    room: int,
+) -> PoseSearch:
     steps = moves.scales[:, STEP]
     around = np.ceil(4.0 * math.pi * moves.sizes[0] / steps)
     nodes = room
     table = 1 << math.ceil(math.log2(4 * nodes))
-    return Search(
-        window=np.array(terrain.window.box),
+    return PoseSearch(
+        window=np.array(search_window.area.box),
         ends_at=np.concatenate((goal[None], starts[:, :2])),
-        care=np.array(terrain.care),
-        scales=np.column_stack((CELL * steps, around, terrain.rooms(steps))),
+        care=np.array(search_window.care),
+        scales=np.column_stack((CELL * steps, around, search_window.rooms(steps))),
         nodes=np.zeros((nodes, 5)),
         links=np.zeros((nodes, 5), np.int64),
         keys=np.zeros(table, np.int64),

@@ -8,29 +8,27 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from viaspline.kernels.routing.distance_field import spread
-from viaspline.kernels.turning.collision_cache import HALF_DIAGONAL, KEPT, Ground, is_clear
+from viaspline.kernels.arrays import Bytes, Floats
+from viaspline.kernels.routing.distance_field import distance_field
+from viaspline.kernels.turning.collision_cache import HALF_DIAGONAL, KEPT, CollisionCache, is_clear
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import Ahead
 from viaspline.kernels.world.rasterize import rasterized
-from viaspline.planning.problem.requirements import Brief
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.turning.hybrid_astar.disc_cover import covering_discs
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
-Cells = NDArray[np.uint8]
 Box = tuple[float, float, float, float]
 
 GREED = 1.3  # by how much what is still to come counts more than what has been
 FINEST = 400  # cells of the lattice along a window's longer side, at most
 TABLE = 1000  # the same of the table of distances
 PACE = 0.02  # between places that are looked at, as a share of the body's half width
-NO_CELLS: Cells = np.empty((0, 0), np.uint8)
+NO_CELLS: Bytes = np.empty((0, 0), np.uint8)
 
 
 @dataclass(frozen=True)
-class Window:
+class SearchArea:
     """Where a search may go.
 
     Attributes:
@@ -42,7 +40,7 @@ class Window:
     is_whole: bool
 
 
-def windows(world: World, reach: float, places: Floats, margin: float) -> Iterator[Window]:
+def search_areas(world: World, reach: float, places: Floats, margin: float) -> Iterator[SearchArea]:
     """Windows round some places, ever greater, the last one everywhere.
 
     Args:
@@ -57,8 +55,8 @@ def windows(world: World, reach: float, places: Floats, margin: float) -> Iterat
         box = _box(np.maximum(low - wider, whole[:2]), np.minimum(high + wider, whole[2:]))
         if _area(box) > 0.6 * _area(whole):
             break
-        yield Window(box, False)
-    yield Window(whole, True)
+        yield SearchArea(box, False)
+    yield SearchArea(whole, True)
 
 
 def _area(box: Box) -> float:
@@ -99,14 +97,18 @@ class Body:
     width: float
 
     @classmethod
-    def of(cls, brief: Brief, overhang: float) -> Body:
+    def of(cls, requirements: Requirements, overhang: float) -> Body:
         """The body of a brief; the discs jut out by a share ``overhang`` of its half width."""
-        if brief.footprint is None:
-            return cls(np.array([[0.0, 0.0, brief.required]]), brief.required, brief.required)
-        width = 0.5 * float(np.ptp(np.array(brief.footprint), axis=0).min())
-        discs = covering_discs(tuple(brief.footprint), overhang * width).copy()
-        discs[:, 2] += brief.kept
-        return cls(discs, brief.required, width)
+        if requirements.footprint is None:
+            return cls(
+                np.array([[0.0, 0.0, requirements.required]]),
+                requirements.required,
+                requirements.required,
+            )
+        width = 0.5 * float(np.ptp(np.array(requirements.footprint), axis=0).min())
+        discs = covering_discs(tuple(requirements.footprint), overhang * width).copy()
+        discs[:, 2] += requirements.kept
+        return cls(discs, requirements.required, width)
 
     @property
     def reach(self) -> float:
@@ -122,20 +124,20 @@ class Body:
         radius = np.max(np.linalg.norm(self.discs[:, :2] - middle, axis=1) + self.discs[:, 2])
         return np.vstack((np.append(middle, radius), self.discs))
 
-    def rows(self, rho: float, way: float) -> Floats:
+    def rows(self, rho: float, taut_path: float) -> Floats:
         """Rows of discs of the kernels, for a robot that drives forwards (1) or backwards (-1)."""
         x, y, kept = self._held().T
         speed = np.hypot(1.0 + np.abs(y) / rho, x / rho)
-        return np.ascontiguousarray(np.column_stack((way * x, way * y, kept, speed)))
+        return np.ascontiguousarray(np.column_stack((taut_path * x, taut_path * y, kept, speed)))
 
 
 @dataclass(frozen=True)
-class Terrain:
+class SearchWindow:
     """A window of a world for a body.
 
     Attributes:
         world: What to keep clear of.
-        window: Where the reference point may be.
+        area: Where the reference point may be.
         body: The body.
         rho: The least radius [m].
         cell: Side of a cell of the lattice that is wanted [m].
@@ -143,7 +145,7 @@ class Terrain:
     """
 
     world: World
-    window: Window
+    area: SearchArea
     body: Body
     rho: float
     cell: float
@@ -152,7 +154,7 @@ class Terrain:
     @cached_property
     def side(self) -> float:
         """Side of a cell of the lattice [m]."""
-        x0, y0, x1, y1 = self.window.box
+        x0, y0, x1, y1 = self.area.box
         return max(self.cell, max(x1 - x0, y1 - y0) / FINEST)
 
     @cached_property
@@ -161,20 +163,20 @@ class Terrain:
         return PACE * self.body.width
 
     @cached_property
-    def cells(self) -> Cells:
+    def cells(self) -> Bytes:
         """The lattice: cells where the reference point surely can't be are not 0."""
-        x0, y0, x1, y1 = self.window.box
+        x0, y0, x1, y1 = self.area.box
         height, width = math.ceil((y1 - y0) / self.side), math.ceil((x1 - x0) / self.side)
         near = max(self.body.inner - HALF_DIAGONAL * self.side, 0.0)
-        cells: Cells = rasterized(
+        cells: Bytes = rasterized(
             self.world.packed, x0, y0, self.side, height, width, near, NO_CELLS
         )
         return cells
 
     @cached_property
-    def ground(self) -> Ground:
-        """The ground for a robot that drives forwards."""
-        x0, y0, x1, y1 = self.window.box
+    def cache(self) -> CollisionCache:
+        """Where the body may be, for a robot that drives forwards."""
+        x0, y0, x1, y1 = self.area.box
         reach = self.body.reach
         size = max(x1 - x0, y1 - y0) + 2.0 * reach
         side = max(size / TABLE, 0.12 * self.body.width)
@@ -183,14 +185,14 @@ class Terrain:
             math.ceil((x1 - x0 + 2.0 * reach) / side),
         )
         frame = np.array([x0 - reach, y0 - reach, side, self.pace])
-        return Ground(
+        return CollisionCache(
             self.world.packed, frame, np.full(shape, np.nan), self.body.rows(self.rho, 1.0)
         )
 
     @cached_property
-    def ground_back(self) -> Ground:
+    def cache_back(self) -> CollisionCache:
         """The same for one that drives backwards; it shares the table of distances."""
-        return self.ground._replace(discs=self.body.rows(self.rho, -1.0))
+        return self.cache._replace(discs=self.body.rows(self.rho, -1.0))
 
     def rooms(self, steps: Floats) -> Floats:
         """Distances of the body's middle to the world from which on moves are so long [m].
@@ -207,11 +209,11 @@ class Terrain:
     def has_room(self, x: float, y: float, heading: float) -> bool:
         """Whether the body may stand in a pose [m, rad]."""
         nothing = np.empty((0, 3))
-        return bool(is_clear(self.ground, float(x), float(y), float(heading), nothing, 0))
+        return bool(is_clear(self.cache, float(x), float(y), float(heading), nothing, 0))
 
     def ahead(self, places: Floats) -> Ahead:
         """How far it is to some places (n, 2) from everywhere."""
-        x0, y0 = self.window.box[:2]
+        x0, y0 = self.area.box[:2]
         found = np.floor((places[:, ::-1] - (y0, x0)) / self.side).astype(np.int64)
-        lengths = spread(self.cells, np.ascontiguousarray(found))
+        lengths = distance_field(self.cells, np.ascontiguousarray(found))
         return Ahead(np.array([x0, y0, self.side, GREED]), lengths)

@@ -7,37 +7,41 @@ from collections.abc import Collection
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from viaspline.planning.problem.requirements import Brief
-from viaspline.planning.problem.via_sequence import Course
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.turning.hybrid_astar.pose_search import Chain, Goal, NotFound, Pose
 from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
 from viaspline.world.world import World
 
-Floats = NDArray[np.float64]
 FREE_STARTS = 8  # headings that are tried where the first one is free
 
 
-def tight_chains(
-    course: Course, world: World, brief: Brief, rho: float, ramp: float, spots: Collection[int]
+def via_route_chains(
+    sequence: ViaSequence,
+    world: World,
+    requirements: Requirements,
+    rho: float,
+    ramp: float,
+    spots: Collection[int],
 ) -> list[Chain] | NotFound:
     """A chain for every leg of a course, or why there is none.
 
     Args:
-        course: Its via points and the headings at its ends.
+        sequence: Its via points and the headings at its ends.
         world: What to keep clear of.
-        brief: The body and what it keeps.
+        requirements: The body and what it keeps.
         rho: The least radius [m].
         ramp: Length on which the curvature rises from 0 to 1 / rho [m].
         spots: Via points at which the robot may turn on the spot.
     """
-    count = len(course.vias)
-    stops = [0, *(k for k in sorted(spots) if 0 < k < count - (not course.closed))]
-    stops.append(count if course.closed else count - 1)
+    count = len(sequence.vias)
+    stops = [0, *(k for k in sorted(spots) if 0 < k < count - (not sequence.closed))]
+    stops.append(count if sequence.closed else count - 1)
     chains: list[Chain] = []
     for first, last in pairwise(stops):
-        found = _part(course, world, brief, rho, ramp, first, last)
+        found = _part(sequence, world, requirements, rho, ramp, first, last)
         if isinstance(found, NotFound):
             return NotFound(found.reason, first + found.goal, found.expanded)
         chains += found
@@ -45,22 +49,28 @@ def tight_chains(
 
 
 def _part(
-    course: Course, world: World, brief: Brief, rho: float, ramp: float, first: int, last: int
+    sequence: ViaSequence,
+    world: World,
+    requirements: Requirements,
+    rho: float,
+    ramp: float,
+    first: int,
+    last: int,
 ) -> list[Chain] | NotFound:
     """The chains from one stop to the next."""
-    count = len(course.vias)
-    places = [course.vias[k % count].at[:2] for k in range(first, last + 1)]
-    is_loop = course.closed and first == 0 and last == count
-    end = course.end_tangent if last == count - 1 and not course.closed else None
+    count = len(sequence.vias)
+    places = [sequence.vias[k % count].at[:2] for k in range(first, last + 1)]
+    is_loop = sequence.closed and first == 0 and last == count
+    end = sequence.end_tangent if last == count - 1 and not sequence.closed else None
     failed: NotFound | None = None
-    for heading in _starts(course, places, first):
+    for heading in _starts(sequence, places, first):
         goals = [Goal(float(x), float(y)) for x, y in places[1:]]
         if is_loop:
             goals[-1] = Goal(goals[-1].x, goals[-1].y, (heading,))
         elif end is not None:
             goals[-1] = Goal(goals[-1].x, goals[-1].y, (math.atan2(end[1], end[0]),))
         start = Pose(float(places[0][0]), float(places[0][1]), heading)
-        found = find_row(world, brief, rho, ramp, start, goals)
+        found = find_row(world, requirements, rho, ramp, start, goals)
         if not isinstance(found, NotFound):
             return list(found)
         if failed is None or found.goal > failed.goal:
@@ -69,10 +79,10 @@ def _part(
     return failed
 
 
-def _starts(course: Course, places: list[Floats], first: int) -> list[float]:
+def _starts(sequence: ViaSequence, places: list[Floats], first: int) -> list[float]:
     """The headings to begin with: the one that is given, else first the one to the next place."""
-    if first == 0 and course.start_tangent is not None:
-        return [math.atan2(course.start_tangent[1], course.start_tangent[0])]
+    if first == 0 and sequence.start_tangent is not None:
+        return [math.atan2(sequence.start_tangent[1], sequence.start_tangent[0])]
     ahead = places[1] - places[0]
     straight = math.atan2(ahead[1], ahead[0])
     turns = sorted(np.arange(FREE_STARTS) - FREE_STARTS // 2, key=abs)
