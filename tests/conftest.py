@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, settings
 from numpy.typing import NDArray
 
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 
 # With the JIT off the kernels are a thousand times slower: fewer examples.
 settings.register_profile(

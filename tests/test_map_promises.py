@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 import viaspline as vs
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 
 seeds = st.integers(0, 100_000)
 FINE = 6  # lattice points of the oracle along the side of a cell

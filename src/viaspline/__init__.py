@@ -38,7 +38,8 @@ if TYPE_CHECKING:
     from viaspline.maps.grid import Grid
     from viaspline.mission.load_map import load_map
     from viaspline.mission.model import Mission
-    from viaspline.mission.parts import Obstacle, SpeedZone
+    from viaspline.mission.parts import SpeedZone
+    from viaspline.mission.shapes.obstacle import Obstacle
     from viaspline.planner import Plan, plan
     from viaspline.robot.navigator import Navigator
     from viaspline.robot.run import Run
@@ -62,7 +63,7 @@ _HOMES = {
     "MissionWarning": "errors",
     "Navigator": "robot.navigator",
     "NoPathError": "errors",
-    "Obstacle": "mission.parts",
+    "Obstacle": "mission.shapes.obstacle",
     "OutputError": "errors",
     "Path": "curve.path",
     "PiecewiseCubic": "curve.piecewise",

@@ -13,7 +13,7 @@ from viaspline.curve.certificate import SPARE, TOLERANCE, certify
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
 
 Oracle = Callable[..., Any]

@@ -16,7 +16,7 @@ from viaspline.curve.footprint_conflicts import body_conflicts
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]

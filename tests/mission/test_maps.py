@@ -19,7 +19,7 @@ from viaspline.maps.squares import signed_distance
 from viaspline.mission.json_schema import json_schema
 from viaspline.mission.load_map import load_map
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.yaml_reader import read_yaml
 from viaspline.mission.yaml_writer import write_yaml, yaml_text
 

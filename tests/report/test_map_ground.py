@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.report.map_ground import (
     BLOCKED,
     FREE,

@@ -10,7 +10,7 @@ import pytest
 import shapely
 
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 
 Make = Callable[..., Mission]
 

@@ -10,7 +10,8 @@ import pytest
 
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Circle, Obstacle
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot import simulator
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Run

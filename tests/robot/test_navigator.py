@@ -11,7 +11,8 @@ import pytest
 
 from viaspline.errors import NoPathError
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Circle, Obstacle
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.robot.navigator import Navigator

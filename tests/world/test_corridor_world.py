@@ -8,7 +8,7 @@ import shapely
 from viaspline.curve.certificate import certify
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.strip import corridor_area
 from viaspline.world.world import World
 

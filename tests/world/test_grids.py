@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.certificate import certify
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
 
 Oracle = Callable[..., Any]

@@ -13,7 +13,8 @@ from scipy.spatial import cKDTree
 
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Circle, Obstacle
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
 
 Oracle = Callable[..., Any]

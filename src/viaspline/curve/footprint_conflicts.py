@@ -36,7 +36,7 @@ def body_conflicts(
         the whole motion.
 
     Example:
-        >>> from viaspline.mission.parts import Obstacle
+        >>> from viaspline.mission.shapes.obstacle import Obstacle
         >>> from viaspline.world.world import World
         >>> world = World([Obstacle(circle={"center": (5, 3), "radius": 1})])
         >>> spans = np.array([[(0, 0), (1, 0), (2, 0), (3, 0)], [(3, 0), (5, 0), (7, 0), (9, 0)]])

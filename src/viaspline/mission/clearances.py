@@ -11,8 +11,9 @@ from viaspline.maps.squares import is_unknown
 from viaspline.mission.corridors import CORRIDOR, corridor_of
 from viaspline.mission.freespace import FreeSpace
 from viaspline.mission.partial_mission import Corners, PartialMission, obstacle_label
-from viaspline.mission.parts import Obstacle, ViaPoint
+from viaspline.mission.parts import ViaPoint
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
 
 TOLERANCE = 1e-9

@@ -18,8 +18,8 @@ from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.maps.squares import blocked_ground, signed_distance
 from viaspline.mission.partial_mission import Corners
-from viaspline.mission.parts import Obstacle
 from viaspline.mission.polygon_checks import Geometries, polygons_of
+from viaspline.mission.shapes.obstacle import Obstacle
 
 Indices: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
 

@@ -8,11 +8,9 @@ from typing import Any, Final
 
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import (
-    Circle,
     Corridor,
     EndPoint,
     MapSpec,
-    Obstacle,
     Route,
     SpeedZone,
     SplineSpec,
@@ -29,6 +27,8 @@ from viaspline.mission.robot_parts import (
     Sensor,
     SkidSteer,
 )
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
 
 _DOCUMENTED: Final = (
     Mission, WorldSpec, Obstacle, Circle, MapSpec, SpeedZone, RobotSpec, Drive, Differential,

@@ -8,12 +8,10 @@ from typing import Final
 from pydantic import BaseModel
 
 from viaspline.mission.parts import (
-    Circle,
     Corridor,
     EndPoint,
     MapSpec,
     MissionParts,
-    Obstacle,
     Route,
     SpeedZone,
     SplineSpec,
@@ -30,6 +28,8 @@ from viaspline.mission.robot_parts import (
     Sensor,
     SkidSteer,
 )
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import Path
 
 _POINT = "[x, y] or [x, y, z] in metres"

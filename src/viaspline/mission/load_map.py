@@ -9,9 +9,10 @@ from pydantic import ValidationError
 
 from viaspline.errors import MissionError
 from viaspline.maps.reading import Unknown
-from viaspline.mission.parts import MapSpec, Obstacle
+from viaspline.mission.parts import MapSpec
 from viaspline.mission.resolve_files import obstacles_of
 from viaspline.mission.schema_errors import structural_flaws
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import located
 
 

@@ -17,7 +17,6 @@ from viaspline.mission.parts import (
     Corridor,
     EndPoint,
     MissionParts,
-    Obstacle,
     SplineSpec,
     ViaPoint,
     WorldSpec,
@@ -25,6 +24,7 @@ from viaspline.mission.parts import (
 from viaspline.mission.resolve_files import ResolvedFiles
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.schema_errors import parts
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import Path, children, spell
 
 Corners: TypeAlias = tuple[tuple[float, float], ...]

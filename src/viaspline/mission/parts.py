@@ -6,14 +6,13 @@ y north, headings anticlockwise from x. What one part means to another is held i
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import BeforeValidator, Field, InstanceOf
-from pydantic.json_schema import SkipJsonSchema
+from pydantic import BeforeValidator, Field
 
-from viaspline.maps.grid import COARSEST, Grid
-from viaspline.maps.reading import Reading, Unknown
+from viaspline.maps.grid import COARSEST
+from viaspline.maps.reading import Unknown
 from viaspline.mission.fields import (
     FAR,
     Coordinate,
@@ -21,7 +20,6 @@ from viaspline.mission.fields import (
     NotNegative,
     Number,
     Point,
-    Point2,
     Positive,
     Ring,
     Value,
@@ -29,66 +27,12 @@ from viaspline.mission.fields import (
     plain,
 )
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.shapes.obstacle import Obstacle, Side
 
-Side = Literal["left", "right"]
 Tangents = Literal["cardinal", "continuous"]
 
 MOST_LAPS: Final = 1000
 """The most laps of a closed route."""
-
-
-def _as_grid(value: Any) -> Any:
-    """The grid that ``model_dump`` took apart."""
-    if not isinstance(value, Mapping) or not hasattr(value.get("blocked"), "dtype"):
-        return value
-    reading = value["reading"]
-    parts = {key: item for key, item in value.items() if key != "digest"}
-    return Grid(**{**parts, "reading": None if reading is None else Reading(**reading)})
-
-
-class Circle(Value):
-    """A disc.
-
-    Attributes:
-        center: Its middle, ``[x, y]`` [m].
-        radius: Its radius [m].
-    """
-
-    center: Point2
-    radius: Annotated[Positive, Field(le=FAR)]
-
-
-class Obstacle(Value):
-    """Something to keep clear of: a circle, a polygon that may have holes, or a map's squares.
-
-    Attributes:
-        circle: The disc, if it is one.
-        polygon: The outer ring ``[[x, y], ...]`` [m], in either direction. A last point that
-            repeats the first is dropped.
-        holes: Free areas inside the polygon, each a ring of its own.
-        grid: The blocked squares of an occupancy grid. In a file, ``map`` asks for it.
-        name: What it is called in reports and errors.
-        pass_on: Go past it on this side only, as seen by the robot along the leg: ``left`` leaves
-            the obstacle on the robot's right. It counts wherever the obstacle is in the way.
-        never_pass_on: The side that is forbidden; forbidding one is forcing the other.
-    """
-
-    circle: Circle | None = None
-    polygon: Ring | None = None
-    holes: tuple[Ring, ...] = ()
-    grid: Annotated[SkipJsonSchema[InstanceOf[Grid] | None], BeforeValidator(_as_grid)] = None
-    name: Name | None = None
-    pass_on: Side | None = None
-    never_pass_on: Side | None = None
-
-    @property
-    def forced_side(self) -> Side | None:
-        """The only side on which it may be passed, from either key."""
-        if self.pass_on is not None:
-            return self.pass_on
-        if self.never_pass_on is not None:
-            return "right" if self.never_pass_on == "left" else "left"
-        return None
 
 
 class MapSpec(Value):

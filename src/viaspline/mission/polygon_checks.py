@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from viaspline.mission.partial_mission import Corners, PartialMission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
 Geometries: TypeAlias = np.ndarray[Any, np.dtype[np.object_]]
@@ -79,8 +79,7 @@ def shape_flaws(draft: PartialMission) -> list[UnplacedFault]:
 
 def _one_shape(path: Path, obstacle: Obstacle) -> list[UnplacedFault]:
     flaws = []
-    shapes = {"circle": obstacle.circle, "polygon": obstacle.polygon, "grid": obstacle.grid}
-    given = [name for name, shape in shapes.items() if shape is not None]
+    given = [name for name in SHAPES if getattr(obstacle, name) is not None]
     if not given:
         flaws.append(
             UnplacedFault(

@@ -17,8 +17,9 @@ from viaspline.errors import Fault, MissionError
 from viaspline.maps.grid import Grid
 from viaspline.maps.kinds import is_of_squares, read_areas, read_grid
 from viaspline.mission.map_edge import edge_of
-from viaspline.mission.parts import MapSpec, Obstacle
+from viaspline.mission.parts import MapSpec
 from viaspline.mission.schema_errors import structural_flaws
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, children
 
 

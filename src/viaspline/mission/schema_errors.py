@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from viaspline.mission.key_words import expectation, field_of, suggestion
-from viaspline.mission.parts import MapSpec, Obstacle
+from viaspline.mission.parts import MapSpec
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, describe, number
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.report.style import DPI, MUTED, SMALL, TEXT
 
 
@@ -65,26 +65,17 @@ def polyline(spans: Floats, per_span: int = 40) -> Floats:
 
 
 def shape_of(obstacle: Obstacle, segments: int = 32) -> shapely.Geometry:
-    """An obstacle as a polygon; a circle gets ``segments`` sides for each quarter."""
-    if obstacle.circle is not None:
-        centre = shapely.Point(obstacle.circle.center)
-        return centre.buffer(obstacle.circle.radius, quad_segs=segments)
-    return shapely.Polygon(obstacle.polygon, obstacle.holes)
+    """An obstacle as a polygon; what is round gets ``segments`` sides for each quarter."""
+    ring = obstacle.ring
+    return shapely.Polygon() if ring is None else ring.outline(segments)
 
 
 def shapes_of(obstacles: Sequence[Obstacle]) -> NDArray[np.object_]:
-    """Obstacles as an array of polygons; many circles get fewer sides each."""
+    """Obstacles as an array of polygons; many get fewer sides each."""
     segments = 32 if len(obstacles) < 400 else 8
     shapes = np.empty(len(obstacles), object)
-    circles = [i for i, obstacle in enumerate(obstacles) if obstacle.circle is not None]
-    if circles:
-        discs = [obstacles[i].circle for i in circles]
-        centres = shapely.points([disc.center for disc in discs if disc])
-        radii = [disc.radius for disc in discs if disc]
-        shapes[circles] = shapely.buffer(centres, radii, quad_segs=segments)
     for i, obstacle in enumerate(obstacles):
-        if obstacle.circle is None:
-            shapes[i] = shape_of(obstacle)
+        shapes[i] = shape_of(obstacle, segments)
     return shapes
 
 

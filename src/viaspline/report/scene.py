@@ -19,7 +19,7 @@ from shapely.geometry.base import BaseGeometry
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.mission.map_edge import edge_of
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.report import style
 from viaspline.report.drawing import outline, shape_of, shapes_of
 from viaspline.report.labels import Labels

@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch, PathPatch, Polygon, Rectangle
 
 from viaspline.kernels.arrays import Floats
-from viaspline.mission.parts import Obstacle
 from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.report import style
 from viaspline.report.drawing import outline, shape_of
 from viaspline.report.map_ground import MapGround, Tone

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
 from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Corridor, Obstacle
+from viaspline.mission.parts import Corridor
 from viaspline.mission.robot_parts import RobotSpec, Sensor
+from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
 from viaspline.report.units import metres
 
 MAPS = 4  # in the words about a world, before the rest is only counted
@@ -134,9 +136,8 @@ def map_words(grid: Grid) -> str:
 
 
 def _obstacles(obstacles: Sequence[Obstacle], kind: str) -> str:
-    circles = sum(obstacle.circle is not None for obstacle in obstacles)
-    polygons = len(obstacles) - circles
-    parts = [_count(n, what) for n, what in ((circles, "circle"), (polygons, "polygon")) if n]
+    given = Counter(key for key in SHAPES for o in obstacles if getattr(o, key) is not None)
+    parts = [_count(n, what) for what, n in given.items()]
     of = f" ({' and '.join(parts)})" if parts else ""
     return f"{_count(len(obstacles), f'{kind} obstacle')}{of}"
 

@@ -14,7 +14,7 @@ from viaspline.kernels.tracking.drive_motion import SUBSTEP, move
 from viaspline.machine.drive_noise import DriveNoise
 from viaspline.machine.tracking import Tracking
 from viaspline.machine.trial_drive import start_of
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.contact import touched
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.lidar import Scan

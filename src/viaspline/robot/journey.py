@@ -13,7 +13,7 @@ from viaspline.curve.path import Path, PathVia
 from viaspline.errors import GeometryError
 from viaspline.machine.turns_on_spot import with_turns
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.robot.controller import Controller
 from viaspline.robot.perception.belief import LEAST_ROOM, Belief

@@ -12,7 +12,7 @@ from viaspline.errors import GeometryError
 from viaspline.machine.machine import PERIOD, is_driven, machine_of
 from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import Plan, plan
 from viaspline.robot.advance import advance, commanded, happened
 from viaspline.robot.controller import Controller

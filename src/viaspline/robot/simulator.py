@@ -12,7 +12,7 @@ from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import Plan
 from viaspline.robot.driven import Sensed, drive_machine
 from viaspline.robot.driven_run import run_of

@@ -16,9 +16,10 @@ from viaspline.errors import Fault, MissionError
 from viaspline.maps.files import read_text
 from viaspline.maps.grid import Grid
 from viaspline.maps.map_server_keys import MapServerKeys
-from viaspline.mission.parts import MapSpec, Obstacle
+from viaspline.mission.parts import MapSpec
 from viaspline.mission.resolve_files import obstacles_of
 from viaspline.mission.schema_errors import structural_flaws
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import located
 from viaspline.studio.document import Document
 from viaspline.studio.folder import Folder

@@ -14,9 +14,10 @@ from viaspline.kernels.arrays import Columns, Floats, Ints
 from viaspline.kernels.world.box_tree import box_tree, hilbert_keys, ring_boxes
 from viaspline.kernels.world.grid_rows import row_tables
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.rings import pack_polygons
+from viaspline.kernels.world.rings import pack_rings
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
+from viaspline.mission.shapes.rounded_ring import RoundedRing
 
 Rings = Sequence[Sequence[tuple[float, float]]]
 Grids = tuple[Floats, Ints, Columns, Columns]
@@ -30,40 +31,32 @@ def pack(
 ) -> PackedWorld:
     """Pack obstacles, and what the robot stays inside of: each fence a ring and its holes."""
     count = len(obstacles)
-    kind = np.zeros(count, np.int64)
-    slot = np.zeros(count, np.int64)
-    circles: list[tuple[float, float, float]] = []
-    polygons: list[Rings] = []
+    slot = np.empty(count, np.int64)
+    rings: list[RoundedRing] = []
     grids: list[Grid] = []
     for i, obstacle in enumerate(obstacles):
-        circle = obstacle.circle
-        if circle is not None:
-            slot[i] = len(circles)
-            circles.append((*circle.center, circle.radius))
-        elif obstacle.polygon is not None:
-            kind[i] = 1
-            slot[i] = len(polygons)
-            polygons.append((obstacle.polygon, *obstacle.holes))
+        ring = obstacle.ring
+        if ring is not None:
+            slot[i] = len(rings)
+            rings.append(ring)
         elif obstacle.grid is not None:
-            kind[i] = 2
-            slot[i] = len(grids)
+            slot[i] = -1 - len(grids)
             grids.append(obstacle.grid)
         else:
-            raise GeometryError(f"obstacle {i} has no shape: give it a circle, polygon or grid")
-    discs = np.array(circles, np.float64).reshape(-1, 3)
-    edges, polygon_blocks, block_edges = _edges(polygons)
+            raise GeometryError(f"obstacle {i} has no shape: give it a {' or '.join(SHAPES)}")
+    radii = np.array([ring.radius for ring in rings], np.float64)
+    edges, ring_blocks, block_edges = _edges([ring.loops for ring in rings])
+    ring_edges = block_edges[ring_blocks]
     fence_edges, fence_starts = _fences(fences)
-    block_boxes = ring_boxes(edges, block_edges)
     boxes = np.empty((count, 4))
-    boxes[kind == 0, :2] = discs[:, :2] - discs[:, 2:]
-    boxes[kind == 0, 2:] = discs[:, :2] + discs[:, 2:]
-    if polygons:
-        boxes[kind == 1] = ring_boxes(edges, block_edges[polygon_blocks])
+    if rings:
+        grown = radii[:, None] * np.array([-1.0, -1.0, 1.0, 1.0])
+        boxes[slot >= 0] = ring_boxes(edges, ring_edges) + grown
     if grids:
-        boxes[kind == 2] = [grid.extent for grid in grids]
+        boxes[slot < 0] = [grid.extent for grid in grids]
     tree = box_tree(boxes, np.argsort(hilbert_keys(boxes), kind="stable"))
     return PackedWorld(
-        kind, slot, discs, polygon_blocks, block_edges, block_boxes, edges,
+        slot, radii, ring_edges, ring_blocks, block_edges, ring_boxes(edges, block_edges), edges,
         *_grids(grids),
         np.array([] if bounds is None else bounds, np.float64).reshape(-1, 4),
         fence_starts, fence_edges, *tree,
@@ -104,8 +97,8 @@ def _together(tables: Sequence[Columns]) -> Columns:
 
 def _fences(areas: Sequence[Rings]) -> tuple[Floats, Ints]:
     """Edges of fences, clockwise and anticlockwise round holes, and where each fence starts."""
-    edges, polygon_blocks, block_edges = _edges(areas)
-    starts = block_edges[polygon_blocks]
+    edges, ring_blocks, block_edges = _edges(areas)
+    starts = block_edges[ring_blocks]
     for first, last in pairwise(starts.tolist()):
         edges[first:last] = edges[first:last][::-1, [2, 3, 0, 1]]
     return edges, starts
@@ -120,19 +113,19 @@ def _distinct(ring: Sequence[tuple[float, float]]) -> Sequence[tuple[float, floa
     ]
 
 
-def _edges(polygons: Sequence[Rings]) -> tuple[Floats, Ints, Ints]:
+def _edges(rings: Sequence[Rings]) -> tuple[Floats, Ints, Ints]:
     vertices: list[tuple[float, float]] = []
-    ring_starts = [0]
-    polygon_rings = [0]
-    for rings in polygons:
-        for ring in rings:
-            vertices.extend(_distinct(ring))
-            ring_starts.append(len(vertices))
-        polygon_rings.append(len(ring_starts) - 1)
-    packed: tuple[Floats, Ints, Ints] = pack_polygons(
+    loop_starts = [0]
+    ring_loops = [0]
+    for loops in rings:
+        for loop in loops:
+            vertices.extend(_distinct(loop) if len(loop) > 2 else loop)
+            loop_starts.append(len(vertices))
+        ring_loops.append(len(loop_starts) - 1)
+    packed: tuple[Floats, Ints, Ints] = pack_rings(
         np.array(vertices, np.float64).reshape(-1, 2),
-        np.array(ring_starts, np.int64),
-        np.array(polygon_rings, np.int64),
+        np.array(loop_starts, np.int64),
+        np.array(ring_loops, np.int64),
     )
     return packed
 
@@ -148,20 +141,22 @@ def join(first: PackedWorld, second: PackedWorld) -> PackedWorld:
         return second._replace(
             bounds=first.bounds, fence_edges=first.fence_edges, fences=first.fences
         )
-    obstacles = first.kind.size
+    obstacles = first.slot.size
     left = first.leaf.size
     root = np.empty((1, 4))
     root[0, :2] = np.minimum(first.boxes[0, :2], second.boxes[0, :2])
     root[0, 2:] = np.maximum(first.boxes[0, 2:], second.boxes[0, 2:])
     leaf = np.where(second.leaf >= 0, second.leaf + obstacles, -1)
-    before = np.array((len(first.circles), first.polygon_blocks.size - 1, len(first.grid_frames)))
+    rings, grids = len(first.radii), len(first.grid_frames)
     shapes = second.grid_shapes.copy()
     shapes[:, 2] += first.to_right.size
     return PackedWorld(
-        kind=np.concatenate((first.kind, second.kind)),
-        slot=np.concatenate((first.slot, second.slot + before[second.kind])),
-        circles=np.concatenate((first.circles, second.circles)),
-        polygon_blocks=_chain(first.polygon_blocks, second.polygon_blocks),
+        slot=np.concatenate(
+            (first.slot, np.where(second.slot >= 0, second.slot + rings, second.slot - grids))
+        ),
+        radii=np.concatenate((first.radii, second.radii)),
+        ring_edges=_chain(first.ring_edges, second.ring_edges),
+        ring_blocks=_chain(first.ring_blocks, second.ring_blocks),
         block_edges=_chain(first.block_edges, second.block_edges),
         block_boxes=np.concatenate((first.block_boxes, second.block_boxes)),
         edges=np.concatenate((first.edges, second.edges)),

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.world import distance as kernels
 from viaspline.kernels.world.clusters import group_labels
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Obstacle, Side
+from viaspline.mission.shapes.obstacle import Obstacle, Side
 from viaspline.mission.strip import corridor_rings
 from viaspline.world.outline import outline
 from viaspline.world.pack import Rings, join, pack
@@ -92,6 +93,16 @@ class World:
         world.bounds, world.fences, world.packed = self.bounds, self.fences, self.packed
         world.corridor = self.corridor
         return world
+
+    @property
+    def are_maps(self) -> NDArray[np.bool_]:
+        """Which obstacles are occupancy grids, (n,)."""
+        return self.packed.slot < 0
+
+    def places(self) -> tuple[Floats, Ints]:
+        """A place of each obstacle that is no grid [m], (k, 2), and whose it is, (k,)."""
+        first = self.packed.ring_edges[:-1]
+        return np.ascontiguousarray(self.packed.edges[first, :2]), np.flatnonzero(~self.are_maps)
 
     @property
     def enclosures(self) -> tuple[tuple[tuple[float, float], ...], ...]:

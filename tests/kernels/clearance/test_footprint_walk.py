@@ -13,7 +13,7 @@ from viaspline.kernels.clearance.footprint_pose import body_distances
 from viaspline.kernels.curve.curvature_bound import corners, curvature_bounds
 from viaspline.kernels.curve.self_intersection import self_loops
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
 
 CAR = np.array([(-1, -0.5), (3, -0.5), (3, 0.5), (-1, 0.5)], float)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.routing.narrow_gaps import narrow_places, narrowest
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
 
 Floats = NDArray[np.float64]

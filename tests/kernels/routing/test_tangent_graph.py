@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from viaspline.kernels.routing.corners import CENTER_X, RADIUS, X, Y
 from viaspline.kernels.routing.tangent_arcs import SIDE, TURN, bends_of, detour_points, taut_length
 from viaspline.kernels.routing.tangent_graph import barrier_crossings, shortest_route
+from viaspline.kernels.world.corner_fans import CENTER_X, RADIUS, X, Y
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack import pack
 
 Floats = NDArray[np.float64]
@@ -29,7 +29,7 @@ def world(*obstacles: Obstacle, **frame: Any) -> PackedWorld:
 
 
 def route(packed: PackedWorld, start: Any, goal: Any, barriers: Floats = NONE) -> Floats:
-    active = np.zeros(packed.kind.size, np.bool_)
+    active = np.zeros(packed.slot.size, np.bool_)
     return shortest_route(
         packed,
         np.array(start, float),

@@ -1,7 +1,7 @@
 import numpy as np
 
 from viaspline.kernels.turning.collision_cache import CollisionCache, is_clear
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
 
 RHO = 4.0

@@ -14,9 +14,9 @@ from viaspline.kernels.world.box_tree import box_tree, hilbert_keys, ring_boxes
 from viaspline.kernels.world.clusters import group_labels
 from viaspline.kernels.world.distance import distances, obstacle_distances
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.rings import BLOCK, pack_polygons
+from viaspline.kernels.world.rings import BLOCK, pack_rings
 from viaspline.kernels.world.segment import mark_near_segment, nearest_to_segment
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack import join, pack
 
 SQUARE = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
@@ -68,14 +68,14 @@ def test_fences_run_clockwise(flip: int) -> None:
 def test_blocks_hold_all_edges_once(count: int) -> None:
     angle = np.linspace(0, 2 * np.pi, count, endpoint=False)
     ring = np.column_stack((np.cos(angle), np.sin(angle)))
-    edges, polygon_blocks, block_edges = pack_polygons(
+    edges, ring_blocks, block_edges = pack_rings(
         np.vstack((ring, ring + 9)), np.array([0, count, 2 * count]), np.array([0, 1, 2])
     )
     assert block_edges[0] == 0
     assert block_edges[-1] == len(edges) == 2 * count
     assert (np.diff(block_edges) >= 1).all()
     assert (np.diff(block_edges) <= BLOCK).all()
-    np.testing.assert_array_equal(block_edges[polygon_blocks], [0, count, 2 * count])
+    np.testing.assert_array_equal(block_edges[ring_blocks], [0, count, 2 * count])
     boxes = ring_boxes(edges, block_edges)
     for box, first, last in zip(boxes, block_edges[:-1], block_edges[1:], strict=True):
         xs, ys = edges[first:last, ::2], edges[first:last, 1::2]
@@ -123,7 +123,7 @@ def test_a_join_with_nothing_is_the_other_one() -> None:
     assert join(some, world()) is some
     joined = join(none, some)
     np.testing.assert_array_equal(joined.bounds, [[0, 0, 5, 5]])
-    np.testing.assert_array_equal(joined.circles, some.circles)
+    np.testing.assert_array_equal(joined.radii, some.radii)
 
 
 # Distances

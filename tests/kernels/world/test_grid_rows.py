@@ -19,7 +19,7 @@ from viaspline.kernels.world.grid_rows import NONE, row_tables
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import mark_near_segment, nearest_to_segment
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack import pack
 
 Floats = NDArray[np.float64]

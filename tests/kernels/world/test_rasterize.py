@@ -13,7 +13,7 @@ from viaspline.kernels.arrays import Bytes
 from viaspline.kernels.world.distance import distances
 from viaspline.kernels.world.rasterize import mark_segments, rasterized
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack import pack
 
 Floats = NDArray[np.float64]

@@ -8,7 +8,7 @@ import pytest
 
 import viaspline as vs
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.routing.router import NO_BARRIERS, Router, TautPath
 from viaspline.world.world import World
 

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import ndimage
 
-from viaspline.kernels.routing.corners import X, Y
-from viaspline.mission.parts import Obstacle
+from viaspline.kernels.world.corner_fans import X, Y
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.routing.router import NO_BARRIERS, Router, TautPath
 from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.world.world import World

@@ -12,8 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.path import Path
-from viaspline.mission.parts import Circle, Obstacle
 from viaspline.mission.robot_parts import Lidar, RobotSpec, Sensor
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.belief import Belief
 from viaspline.robot.perception.lidar import LidarSensor, Scan
 from viaspline.robot.perception.scan_history import ScanHistory

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Circle, Obstacle
 from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.lidar import LidarSensor, Scan
 
 RING = ((-6.0, -6.0), (6.0, -6.0), (6.0, 5.0), (0.0, 7.0), (-6.0, 6.0))

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
-from viaspline.mission.parts import Circle, Obstacle
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.range_sensor import RangeSensor
 
 coordinates = st.floats(-50, 50)

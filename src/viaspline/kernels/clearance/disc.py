@@ -17,8 +17,9 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.distance import nearest, point_segment
+from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.plane import point_segment
 from viaspline.kernels.world.segment import nearest_to_segment
 
 DEPTH = 64

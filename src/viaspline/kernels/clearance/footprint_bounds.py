@@ -26,8 +26,9 @@ from viaspline.kernels.clearance.footprint_motion import (
     middle_pose,
 )
 from viaspline.kernels.jit import inner
-from viaspline.kernels.world.distance import nearest, squared_point_segment
+from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.plane import squared_point_segment
 from viaspline.kernels.world.segment import nearest_to_segment
 
 POINT = 1e-9  # what is smaller is a point [m]

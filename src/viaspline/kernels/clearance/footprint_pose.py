@@ -12,26 +12,11 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.distance import box_signed, nearest, point_segment
-from viaspline.kernels.world.grid_rows import is_blocked, to_cells, to_world
+from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.plane import box_signed, point_segment
 from viaspline.kernels.world.segment import nearest_to_segment
-
-
-@inner
-def is_within(body: Floats, x: float, y: float) -> bool:
-    """Whether (x, y) in the robot's frame lies inside the outline (k, 2)."""
-    inside = False
-    before = body.shape[0] - 1
-    for k in range(body.shape[0]):
-        y0 = body[before, 1]
-        y1 = body[k, 1]
-        if (y0 > y) != (y1 > y):
-            x0 = body[before, 0]
-            if x < x0 + (y - y0) / (y1 - y0) * (body[k, 0] - x0):
-                inside = not inside
-        before = k
-    return inside
+from viaspline.kernels.world.shape import obstacle_enclosed
 
 
 @inner
@@ -53,34 +38,6 @@ def outer_radius(body: Floats) -> float:
     for k in range(body.shape[0]):
         squared = max(squared, body[k, 0] * body[k, 0] + body[k, 1] * body[k, 1])
     return math.sqrt(squared)
-
-
-@inner
-def _covers(body: Floats, x: float, y: float, c: float, s: float, px: float, py: float) -> bool:
-    """Whether the point (px, py) of the world lies inside the body in a pose."""
-    dx = px - x
-    dy = py - y
-    return is_within(body, c * dx + s * dy, c * dy - s * dx)
-
-
-@inner
-def _grid_enclosed(
-    world: PackedWorld, g: int, body: Floats, outer: float, x: float, y: float, c: float, s: float
-) -> tuple[bool, float, float]:
-    """Whether the middle of a blocked cell of grid g lies inside the body, and that middle [m]."""
-    u, v = to_cells(world, g, x, y)
-    reach = outer / world.grid_frames[g, 4]
-    bottom = max(math.floor(v - reach), 0)
-    top = min(math.floor(v + reach), world.grid_shapes[g, 1] - 1)
-    left = max(math.floor(u - reach), 0)
-    right = min(math.floor(u + reach), world.grid_shapes[g, 0] - 1)
-    for row in range(bottom, top + 1):
-        for column in range(left, right + 1):
-            if is_blocked(world, g, row, column):
-                px, py = to_world(world, g, column + 0.5, row + 0.5)
-                if _covers(body, x, y, c, s, px, py):
-                    return True, px, py
-    return False, 0.0, 0.0
 
 
 @inner
@@ -113,21 +70,7 @@ def enclosed(
         node += 1
         if i < 0:
             continue
-        slot = world.slot[i]
-        px = 0.0
-        py = 0.0
-        found = False
-        if world.kind[i] == 2:
-            found, px, py = _grid_enclosed(world, slot, body, outer, x, y, c, s)
-        else:
-            if world.kind[i] == 0:
-                px = world.circles[slot, 0]
-                py = world.circles[slot, 1]
-            else:
-                first = world.block_edges[world.polygon_blocks[slot]]
-                px = world.edges[first, 0]
-                py = world.edges[first, 1]
-            found = _covers(body, x, y, c, s, px, py)
+        found, px, py = obstacle_enclosed(world, i, body, outer, x, y, c, s)
         if found:
             return i, px, py
     return -1, 0.0, 0.0

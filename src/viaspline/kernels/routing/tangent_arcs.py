@@ -8,7 +8,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.routing.corners import (
+from viaspline.kernels.world.corner_fans import (
     CENTER_X,
     CENTER_Y,
     COLUMNS,

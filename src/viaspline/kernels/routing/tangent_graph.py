@@ -13,17 +13,17 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.routing.corners import (
+from viaspline.kernels.world.corner_fans import (
     COLUMNS,
     X,
     Y,
     fence_corners,
-    obstacle_corners,
     supports,
 )
-from viaspline.kernels.world.clusters import obstacle_gap
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.segment import inner_segment, mark_near_segment, obstacle_segment
+from viaspline.kernels.world.rounded_ring import rings_gap
+from viaspline.kernels.world.segment import inner_segment, mark_near_segment
+from viaspline.kernels.world.shape import obstacle_corners, obstacle_segment
 
 
 @inner
@@ -246,7 +246,7 @@ def has_narrow_gap(world: PackedWorld, active: Flags, low: float, high: float) -
             y1 = members[other, 2] - members[k, 4]
             if max(max(x0, x1), max(y0, y1)) > high:
                 continue
-            gap = obstacle_gap(world, i, int(members[other, 0]), high)
+            gap = rings_gap(world, world.slot[i], world.slot[int(members[other, 0])], high)
             if low <= gap < high:
                 return True
     return False

@@ -14,72 +14,10 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.grid_rows import grid_signed
 from viaspline.kernels.world.packed import PackedWorld
-
-
-@inner
-def squared_point_segment(x: float, y: float, ax: float, ay: float, bx: float, by: float) -> float:
-    """Squared distance from (x, y) to the segment a-b [m²]."""
-    dx = bx - ax
-    dy = by - ay
-    squared = dx * dx + dy * dy
-    w = 0.0
-    if squared > 0.0:
-        w = ((x - ax) * dx + (y - ay) * dy) / squared
-        w = min(1.0, max(0.0, w))
-    across = x - ax - w * dx
-    along = y - ay - w * dy
-    return across * across + along * along
-
-
-@inner
-def point_segment(x: float, y: float, ax: float, ay: float, bx: float, by: float) -> float:
-    """Distance from (x, y) to the segment a-b [m]."""
-    return math.sqrt(squared_point_segment(x, y, ax, ay, bx, by))
-
-
-@inner
-def box_signed(boxes: Floats, b: int, x: float, y: float) -> float:
-    """Signed distance from (x, y) to box b: a lower bound for all that lies in the box."""
-    left = max(boxes[b, 0] - x, x - boxes[b, 2])
-    down = max(boxes[b, 1] - y, y - boxes[b, 3])
-    if left <= 0.0 or down <= 0.0:
-        return max(left, down)
-    return math.sqrt(left * left + down * down)
-
-
-@inner
-def _crosses(edges: Floats, e: int, x: float, y: float) -> bool:
-    """Whether the ray from (x, y) to the east crosses edge e."""
-    y0 = edges[e, 1]
-    y1 = edges[e, 3]
-    if (y0 > y) == (y1 > y):
-        return False
-    return x < edges[e, 0] + (y - y0) / (y1 - y0) * (edges[e, 2] - edges[e, 0])
-
-
-@inner
-def polygon_signed(world: PackedWorld, p: int, x: float, y: float, limit: float) -> float:
-    """Signed distance from (x, y) to polygon p [m]; negative inside."""
-    boxes = world.block_boxes
-    inside = False
-    best = np.inf
-    squared = np.inf
-    for b in range(world.polygon_blocks[p], world.polygon_blocks[p + 1]):
-        near = box_signed(boxes, b, x, y) < best
-        ray = boxes[b, 1] <= y <= boxes[b, 3] and x <= boxes[b, 2]
-        if not (near or ray):
-            continue
-        for e in range(world.block_edges[b], world.block_edges[b + 1]):
-            edge = world.edges[e]
-            if near:
-                other = squared_point_segment(x, y, edge[0], edge[1], edge[2], edge[3])
-                squared = min(squared, other)
-            if ray and _crosses(world.edges, e, x, y):
-                inside = not inside
-        best = math.sqrt(squared)
-    return -best if inside else min(best, limit)
+from viaspline.kernels.world.plane import box_signed, squared_point_segment
+from viaspline.kernels.world.rounded_ring import crosses_eastwards
+from viaspline.kernels.world.shape import obstacle_signed
 
 
 @inner
@@ -90,7 +28,7 @@ def fence_signed(world: PackedWorld, f: int, x: float, y: float) -> float:
     for e in range(world.fence_edges[f], world.fence_edges[f + 1]):
         edge = world.fences[e]
         squared = min(squared, squared_point_segment(x, y, edge[0], edge[1], edge[2], edge[3]))
-        if _crosses(world.fences, e, x, y):
+        if crosses_eastwards(world.fences, e, x, y):
             inside = not inside
     return math.sqrt(squared) if inside else -math.sqrt(squared)
 
@@ -111,20 +49,6 @@ def inner_signed(world: PackedWorld, x: float, y: float, limit: float) -> tuple[
             best = distance
             index = -3 - f
     return best, index
-
-
-@inner
-def obstacle_signed(world: PackedWorld, i: int, x: float, y: float, limit: float) -> float:
-    """Signed distance from (x, y) to obstacle i [m]."""
-    slot = world.slot[i]
-    if world.kind[i] == 0:
-        circle = world.circles[slot]
-        dx = x - circle[0]
-        dy = y - circle[1]
-        return math.sqrt(dx * dx + dy * dy) - circle[2]
-    if world.kind[i] == 2:
-        return grid_signed(world, slot, x, y, limit)
-    return polygon_signed(world, slot, x, y, limit)
 
 
 @inner

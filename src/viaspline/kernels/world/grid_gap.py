@@ -1,4 +1,4 @@
-"""Distance between an occupancy grid and a disc, a polygon or another grid."""
+"""Distance between an occupancy grid and a rounded ring or another grid."""
 
 from __future__ import annotations
 
@@ -7,36 +7,36 @@ import math
 import numpy as np
 
 from viaspline.kernels.jit import inner
-from viaspline.kernels.world.distance import obstacle_signed
-from viaspline.kernels.world.grid_rows import entry, grid_signed, to_cells, to_world
+from viaspline.kernels.world.grid_rows import entry, to_cells, to_world
 from viaspline.kernels.world.grid_segment import grid_segment
 from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.shape import grid_of, is_ring, obstacle_signed
 
 
 @inner
 def _cells_near(world: PackedWorld, g: int, i: int, far: float) -> tuple[int, int, int, int]:
     """First and last column, first and last row of grid g within ``far`` cells of obstacle i's box.
 
-    Obstacle i is a polygon or a grid.
+    Of a rounded ring the box of its core counts.
     """
     u0 = np.inf
     v0 = np.inf
     u1 = -np.inf
     v1 = -np.inf
-    slot = world.slot[i]
     first = 0
     last = 4
-    if world.kind[i] == 1:
-        first = world.block_edges[world.polygon_blocks[slot]]
-        last = world.block_edges[world.polygon_blocks[slot + 1]]
+    if is_ring(world, i):
+        first = world.ring_edges[world.slot[i]]
+        last = world.ring_edges[world.slot[i] + 1]
     for k in range(first, last):
-        if world.kind[i] == 1:
+        if is_ring(world, i):
             x = world.edges[k, 0]
             y = world.edges[k, 1]
         else:
-            right = world.grid_shapes[slot, 0] if k % 2 == 1 else 0
-            top = world.grid_shapes[slot, 1] if k >= 2 else 0
-            x, y = to_world(world, slot, float(right), float(top))
+            other = grid_of(world, i)
+            right = world.grid_shapes[other, 0] if k % 2 == 1 else 0
+            top = world.grid_shapes[other, 1] if k >= 2 else 0
+            x, y = to_world(world, other, float(right), float(top))
         u, v = to_cells(world, g, x, y)
         u0 = min(u0, u)
         v0 = min(v0, v)
@@ -54,11 +54,11 @@ def _cells_near(world: PackedWorld, g: int, i: int, far: float) -> tuple[int, in
 
 @inner
 def _reaches_inside(world: PackedWorld, i: int, j: int) -> bool:
-    """Whether blocked cells of grid i lie inside the polygon or grid j.
+    """Whether blocked cells of grid i lie inside obstacle j.
 
     One cell of a run tells it for all where the outlines are known to be apart.
     """
-    g = world.slot[i]
+    g = grid_of(world, i)
     first, last, low, high = _cells_near(world, g, j, 0.0)
     for row in range(low, high + 1):
         place = world.grid_shapes[g, 2] + row * world.grid_shapes[g, 0]
@@ -75,21 +75,17 @@ def _reaches_inside(world: PackedWorld, i: int, j: int) -> bool:
 
 @inner
 def grid_gap(world: PackedWorld, i: int, j: int, limit: float) -> float:
-    """Distance between the grid i and the disc or polygon j [m]; not above 0 where they overlap."""
-    g = world.slot[i]
-    slot = world.slot[j]
-    if world.kind[j] == 0:
-        circle = world.circles[slot]
-        reach = limit + circle[2]
-        distance = grid_signed(world, g, circle[0], circle[1], reach)
-        return distance - circle[2] if distance < reach else limit
-    best = limit
-    first = world.block_edges[world.polygon_blocks[slot]]
-    last = world.block_edges[world.polygon_blocks[slot + 1]]
-    for e in range(first, last):
+    """Distance between the grid i and the rounded ring j [m]; not above 0 where they overlap."""
+    g = grid_of(world, i)
+    r = world.slot[j]
+    reach = limit + world.radii[r]
+    best = reach
+    for e in range(world.ring_edges[r], world.ring_edges[r + 1]):
         edge = world.edges[e]
         best = grid_segment(world, g, edge[0], edge[1], edge[2], edge[3], best)
-    return 0.0 if _reaches_inside(world, i, j) else best
+    if best < reach:
+        return best - world.radii[r]
+    return 0.0 if _reaches_inside(world, i, j) else limit
 
 
 @inner
@@ -115,8 +111,8 @@ def _sides_gap(
 def grids_gap(world: PackedWorld, i: int, j: int, limit: float) -> float:
     """Distance between the grids i and j [m]; 0 where they touch."""
     best = limit
-    g = world.slot[i]
-    other = world.slot[j]
+    g = grid_of(world, i)
+    other = grid_of(world, j)
     first, last, low, high = _cells_near(world, g, j, limit / world.grid_frames[g, 4] + 1.0)
     for row in range(low, high + 1):
         place = world.grid_shapes[g, 2] + row * world.grid_shapes[g, 0]

@@ -12,9 +12,9 @@ import numpy as np
 
 from viaspline.kernels.arrays import Columns
 from viaspline.kernels.jit import inner
-from viaspline.kernels.world.distance import squared_point_segment
 from viaspline.kernels.world.grid_rows import entry, nearest_cell, to_cells
 from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.plane import squared_point_segment
 
 NARROW = 4.0  # cells; within so little no time is lost by looking everywhere
 

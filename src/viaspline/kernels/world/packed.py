@@ -1,7 +1,9 @@
-"""The world as kernels see it: one NamedTuple of arrays, the same argument for every kernel.
+"""The planar world as kernels see it: one NamedTuple of arrays, the same argument for every kernel.
 
-A new kind of obstacle is one more field here and one more file beside ``distance.py``; a world
-without that kind has an empty array.
+An obstacle is a *rounded ring* or a *grid*. A rounded ring is a core of closed rings of edges, and
+a radius by which the core is grown: a disc is one vertex with a radius, a capsule two, a polygon
+many with radius 0 and its holes after it. What is asked of an obstacle is asked in ``shape``; which
+of the two it is, is known there and nowhere else.
 """
 
 from __future__ import annotations
@@ -14,17 +16,17 @@ from viaspline.kernels.arrays import Columns, Floats, Ints
 class PackedWorld(NamedTuple):
     """A static planar world.
 
-    Obstacle ``i`` is a circle, a polygon or a grid: ``kind[i]`` is 0, 1 or 2 and ``slot[i]`` its
-    place among its like. The robot stays inside the bounds and inside every fence.
+    The robot stays inside the bounds and inside every fence.
 
     Attributes:
-        kind: (n,).
-        slot: (n,).
-        circles: Centre and radius [m], (c, 3).
-        polygon_blocks: Polygon p has blocks ``polygon_blocks[p]:polygon_blocks[p + 1]``, (p + 1,).
+        slot: Of obstacle i its rounded ring, or -1 - g for grid g, (n,).
+        radii: By how much a ring's core is grown [m], (r,).
+        ring_edges: Ring r has the edges ``ring_edges[r]:ring_edges[r + 1]``, (r + 1,).
+        ring_blocks: It has the blocks ``ring_blocks[r]:ring_blocks[r + 1]``, (r + 1,).
         block_edges: Edges of block b are ``block_edges[b]:block_edges[b + 1]``, (b + 1,).
         block_boxes: x_min, y_min, x_max, y_max [m], (b, 4).
-        edges: x0, y0, x1, y1 [m]; outer rings run anticlockwise, holes clockwise, (e, 4).
+        edges: x0, y0, x1, y1 [m]; outer rings run anticlockwise, holes clockwise; a disc has one
+            that ends where it begins, (e, 4).
         grid_frames: Of each grid x, y of its origin [m], cosine and sine of its yaw, side of a cell
             [m], (g, 5).
         grid_shapes: Of each grid its width and height in cells, and where its first cell stands in
@@ -42,10 +44,10 @@ class PackedWorld(NamedTuple):
         leaf: The obstacle in a leaf, -1 in an inner node, (t,).
     """
 
-    kind: Ints
     slot: Ints
-    circles: Floats
-    polygon_blocks: Ints
+    radii: Floats
+    ring_edges: Ints
+    ring_blocks: Ints
     block_edges: Ints
     block_boxes: Floats
     edges: Floats

@@ -6,32 +6,13 @@ import numpy as np
 
 from viaspline.kernels.arrays import Bytes, Floats
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.distance import inner_signed, obstacle_signed
+from viaspline.kernels.world.distance import inner_signed
 from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.shape import is_ring, mark_obstacle, obstacle_signed
 
 
 @inner
-def _mark_circle(
-    circle: Floats, x: float, y: float, side: float, reach: float, cells: Bytes
-) -> None:
-    """Block the cells whose middle is nearer than ``reach`` to a circle."""
-    height, width = cells.shape
-    radius = circle[2] + reach
-    first = max(0, int(np.floor((circle[1] - radius - y) / side)))
-    last = min(height, int(np.ceil((circle[1] + radius - y) / side)))
-    for row in range(first, last):
-        rise = y + (row + 0.5) * side - circle[1]
-        if rise * rise >= radius * radius:
-            continue
-        half = np.sqrt(radius * radius - rise * rise)
-        left = max(0, int(np.ceil((circle[0] - half - x) / side - 0.5)))
-        right = min(width - 1, int(np.floor((circle[0] + half - x) / side - 0.5)))
-        for column in range(left, right + 1):
-            cells[row, column] = 1
-
-
-@inner
-def _mark_obstacle(
+def _mark_leaf(
     world: PackedWorld, node: int, x: float, y: float, side: float, reach: float, cells: Bytes
 ) -> None:
     """Block the cells whose middle is nearer than ``reach`` to the obstacle in a leaf."""
@@ -42,6 +23,8 @@ def _mark_obstacle(
     left = max(0, int(np.floor((box[0] - reach - x) / side)))
     right = min(width, int(np.ceil((box[2] + reach - x) / side)))
     obstacle = world.leaf[node]
+    if mark_obstacle(world, obstacle, x, y, side, reach, cells):
+        return
     for row in range(first, last):
         py = y + (row + 0.5) * side
         column = left
@@ -91,10 +74,8 @@ def rasterized(
         obstacle = world.leaf[node]
         if obstacle < 0:
             continue
-        if world.kind[obstacle] == 0:
-            _mark_circle(world.circles[world.slot[obstacle]], x, y, side, reach, cells)
-        elif world.kind[obstacle] == 1 or blocked.size == 0:
-            _mark_obstacle(world, node, x, y, side, reach, cells)
+        if is_ring(world, obstacle) or blocked.size == 0:
+            _mark_leaf(world, node, x, y, side, reach, cells)
     if world.bounds.shape[0] == 0 and world.fence_edges.size < 2:
         return cells
     for row in range(height):

@@ -1,4 +1,4 @@
-"""Packing rings of vertices into oriented edges and blocks of edges."""
+"""Packing closed loops of vertices into oriented edges and blocks of edges."""
 
 from __future__ import annotations
 
@@ -23,32 +23,30 @@ def _twice_area(vertices: Floats, first: int, last: int) -> float:
 
 
 @kernel
-def pack_polygons(
-    vertices: Floats, ring_starts: Ints, polygon_rings: Ints
-) -> tuple[Floats, Ints, Ints]:
-    """Turn polygons into edges that run anticlockwise outside and clockwise round holes.
+def pack_rings(vertices: Floats, loop_starts: Ints, ring_loops: Ints) -> tuple[Floats, Ints, Ints]:
+    """Turn rings into edges that run anticlockwise outside and clockwise round holes.
 
     Args:
-        vertices: All rings' vertices [m], not closed, (v, 2).
-        ring_starts: Ring r is ``vertices[ring_starts[r]:ring_starts[r + 1]]``.
-        polygon_rings: Polygon p has the rings ``polygon_rings[p]:polygon_rings[p + 1]``, the first
-            of them its outer one.
+        vertices: All loops' vertices [m], not closed, (v, 2); a loop may be one vertex, or two.
+        loop_starts: Loop l is ``vertices[loop_starts[l]:loop_starts[l + 1]]``.
+        ring_loops: Ring r has the loops ``ring_loops[r]:ring_loops[r + 1]``, the first of them its
+            outer one, the others its holes.
 
     Returns:
-        (edges (v, 4), polygon_blocks, block_edges), as in PackedWorld.
+        (edges (v, 4), ring_blocks, block_edges), as in PackedWorld.
     """
     total = vertices.shape[0]
-    rings = ring_starts.size - 1
+    loops = loop_starts.size - 1
     edges = np.empty((total, 4))
-    polygon_blocks = np.zeros(polygon_rings.size, np.int64)
-    block_edges = np.zeros(total // BLOCK + rings + 1, np.int64)
+    ring_blocks = np.zeros(ring_loops.size, np.int64)
+    block_edges = np.zeros(total // BLOCK + loops + 1, np.int64)
     block = 0
-    for p in range(polygon_rings.size - 1):
-        for r in range(polygon_rings[p], polygon_rings[p + 1]):
-            first = ring_starts[r]
-            last = ring_starts[r + 1]
+    for ring in range(ring_loops.size - 1):
+        for loop in range(ring_loops[ring], ring_loops[ring + 1]):
+            first = loop_starts[loop]
+            last = loop_starts[loop + 1]
             count = last - first
-            forwards = (_twice_area(vertices, first, last) > 0.0) == (r == polygon_rings[p])
+            forwards = (_twice_area(vertices, first, last) > 0.0) == (loop == ring_loops[ring])
             for k in range(count):
                 start = first + (k if forwards else count - 1 - k)
                 end = first + ((k + 1) % count if forwards else (2 * count - 2 - k) % count)
@@ -59,5 +57,5 @@ def pack_polygons(
             for k in range(0, count, BLOCK):
                 block += 1
                 block_edges[block] = first + min(k + BLOCK, count)
-        polygon_blocks[p + 1] = block
-    return edges, polygon_blocks, block_edges[: block + 1].copy()
+        ring_blocks[ring + 1] = block
+    return edges, ring_blocks, block_edges[: block + 1].copy()

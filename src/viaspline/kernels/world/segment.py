@@ -6,74 +6,14 @@ Segments take the second-order step of the certificate, and they are what routes
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.arrays import Flags
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.distance import box_signed, fence_signed, point_segment, polygon_signed
-from viaspline.kernels.world.grid_segment import grid_segment
+from viaspline.kernels.world.distance import fence_signed
 from viaspline.kernels.world.packed import PackedWorld
-
-
-@inner
-def _orientation(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> float:
-    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-
-
-@inner
-def segment_segment(
-    ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
-) -> float:
-    """Distance between the segments a-b and c-d [m]; 0 where they cross."""
-    if _orientation(ax, ay, bx, by, cx, cy) * _orientation(ax, ay, bx, by, dx, dy) < 0.0 and (
-        _orientation(cx, cy, dx, dy, ax, ay) * _orientation(cx, cy, dx, dy, bx, by) < 0.0
-    ):
-        return 0.0
-    return min(
-        min(point_segment(ax, ay, cx, cy, dx, dy), point_segment(bx, by, cx, cy, dx, dy)),
-        min(point_segment(cx, cy, ax, ay, bx, by), point_segment(dx, dy, ax, ay, bx, by)),
-    )
-
-
-@inner
-def box_gap(boxes: Floats, b: int, x0: float, y0: float, x1: float, y1: float) -> float:
-    """Distance between box b and the box (x0, y0)-(x1, y1); 0 where they overlap."""
-    gap_x = max(max(boxes[b, 0] - x1, x0 - boxes[b, 2]), 0.0)
-    gap_y = max(max(boxes[b, 1] - y1, y0 - boxes[b, 3]), 0.0)
-    return math.sqrt(gap_x * gap_x + gap_y * gap_y)
-
-
-@inner
-def obstacle_segment(
-    world: PackedWorld, i: int, ax: float, ay: float, bx: float, by: float, limit: float
-) -> float:
-    """Distance between obstacle i and the segment a-b [m].
-
-    Signed for circles; for polygons and grids 0 where the segment touches one, or lies inside it.
-    """
-    slot = world.slot[i]
-    if world.kind[i] == 0:
-        circle = world.circles[slot]
-        return point_segment(circle[0], circle[1], ax, ay, bx, by) - circle[2]
-    if world.kind[i] == 2:
-        return grid_segment(world, slot, ax, ay, bx, by, limit)
-    x0 = min(ax, bx)
-    x1 = max(ax, bx)
-    y0 = min(ay, by)
-    y1 = max(ay, by)
-    best = limit
-    for b in range(world.polygon_blocks[slot], world.polygon_blocks[slot + 1]):
-        if box_gap(world.block_boxes, b, x0, y0, x1, y1) >= best:
-            continue
-        for e in range(world.block_edges[b], world.block_edges[b + 1]):
-            edge = world.edges[e]
-            gap = segment_segment(ax, ay, bx, by, edge[0], edge[1], edge[2], edge[3])
-            best = min(best, gap)
-    if best > 0.0 and polygon_signed(world, slot, ax, ay, np.inf) < 0.0:
-        return 0.0
-    return best
+from viaspline.kernels.world.plane import box_gap, box_signed, segment_segment
+from viaspline.kernels.world.shape import obstacle_segment
 
 
 @inner

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viaspline.mission.parts import Side
+from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.leg_search import Curve, LegSearch
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.planning.routing.router import TautPath

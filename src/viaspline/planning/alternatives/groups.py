@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.kernels.routing.corners import X, Y
-from viaspline.mission.parts import Side
+from viaspline.kernels.world.corner_fans import X, Y
+from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.comparison import Comparison, Met
 from viaspline.planning.alternatives.fit import Fitted
 from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite
@@ -172,8 +172,7 @@ def _nearby(leg: LegSearch, group: Group, closed: Floats, best: TautPath) -> Tau
 
 
 def _centre(world: World, index: int) -> Floats:
-    obstacle = world.obstacles[index]
-    if obstacle.circle is not None:
-        return np.array(obstacle.circle.center)
-    mean: Floats = np.array(obstacle.polygon).mean(axis=0)
+    ring = world.obstacles[index].ring
+    assert ring is not None  # grids are islands, not members of groups
+    mean: Floats = ring.vertices.mean(axis=0)
     return mean

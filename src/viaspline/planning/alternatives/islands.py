@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats
-from viaspline.mission.parts import Side
+from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.comparison import Comparison, Met
 from viaspline.planning.alternatives.fit import Fitted
 from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite
@@ -23,7 +23,6 @@ from viaspline.planning.routing.router import on_the_line
 from viaspline.planning.routing.side_barrier import barriers_at
 from viaspline.world.world import World
 
-MAP = 2  # kind of an obstacle
 MEMBERS = 12  # names that an island is given
 
 
@@ -89,8 +88,8 @@ def _names(leg: LegSearch, island: NDArray[np.bool_], middle: Floats) -> tuple[s
     world = leg.world
     names = []
     within = leg.router.lattice.at(island, _centres(world))
-    for i in np.flatnonzero(within | (world.packed.kind == MAP)).tolist():
-        if world.packed.kind[i] != MAP:
+    for i in np.flatnonzero(within | world.are_maps).tolist():
+        if not world.are_maps[i]:
             names.append(world.name(i))
         elif world.distances_to(i, middle[None, :])[0] < leg.requirements.required:
             names.append(f"{world.name(i)} at ({middle[0]:.2f}, {middle[1]:.2f})")

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.kernels.routing.corners import X, Y
 from viaspline.kernels.routing.narrow_gaps import narrow_places
 from viaspline.kernels.world.clusters import group_labels
+from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.planning.alternatives.groups import (
     DeferredComparison,
     PassedGroups,

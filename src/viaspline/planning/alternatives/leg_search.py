@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.mission.parts import Side
+from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.fit import Fitted, fit
 from viaspline.planning.checking.cost import CandidateCost, measure
 from viaspline.planning.problem.requirements import Requirements

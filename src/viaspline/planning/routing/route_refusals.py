@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from viaspline.curve.certificate import SPARE
 from viaspline.errors import Change, NoPathError
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.routing.corners import X, Y
+from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
 from viaspline.planning.routing.router import NO_BARRIERS, Router, TautPath, on_the_line

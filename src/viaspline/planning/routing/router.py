@@ -11,7 +11,6 @@ import numpy as np
 
 from viaspline.curve.certificate import SPARE
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.kernels.routing.corners import X, Y
 from viaspline.kernels.routing.narrow_gaps import narrow_places, narrowest
 from viaspline.kernels.routing.string_pulling.pull import pulled_taut
 from viaspline.kernels.routing.tangent_arcs import bends_of, detour_points, taut_length
@@ -20,6 +19,7 @@ from viaspline.kernels.routing.tangent_graph import (
     has_narrow_gap,
     shortest_route,
 )
+from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.kernels.world.segment import mark_near_segment
 from viaspline.planning.routing.lattice import Lattice, lattices
 from viaspline.world.world import World
@@ -39,7 +39,7 @@ class TautPath:
     """A route between two places.
 
     Attributes:
-        corners: Corner rows, see ``kernels.routing.corners``, shape (k, 8), start and goal
+        corners: Corner rows, see ``kernels.world.corner_fans``, shape (k, 8), start and goal
             among them.
         bends: Pulled taut, see ``kernels.routing.tangent_arcs``, shape (m, 6); empty where the arcs
             have no common tangents.
@@ -125,7 +125,7 @@ class Router:
     @cached_property
     def has_maps(self) -> bool:
         """Whether there are occupancy grids in the world."""
-        return bool(len(self.world.packed.grid_shapes))
+        return bool(self.world.are_maps.any())
 
     @cached_property
     def lattice(self) -> Lattice:
@@ -159,8 +159,8 @@ class Router:
         """Whether circumscribed corners close no gap that the arcs themselves leave open."""
         if self.world.enclosures and active.any():
             return False
-        met = (self.world.obstacles[i].circle for i in np.flatnonzero(active))
-        radius = max((circle.radius for circle in met if circle is not None), default=0.0)
+        met = (self.world.obstacles[i].ring for i in np.flatnonzero(active))
+        radius = max((ring.radius for ring in met if ring is not None), default=0.0)
         excess = (radius + self.required) * (1.0 / np.cos(0.25 * STEPS[0]) - 1.0)
         low, high = 2.0 * self._floor, 2.0 * (self.required + MARGINS[0] + excess)
         return not has_narrow_gap(self.world.packed, active, low, high)

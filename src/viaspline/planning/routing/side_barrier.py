@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.mission.parts import Side
+from viaspline.mission.shapes.obstacle import Side
 from viaspline.world.world import World
 
 
@@ -50,10 +50,11 @@ def barriers_at(world: World, inside: Floats, start: Floats, goal: Floats) -> Ba
 
 def _place_in(world: World, index: int, start: Floats, goal: Floats) -> Floats:
     """A place in an obstacle: on the straight line if that goes through it, else near to it."""
-    circle = world.obstacles[index].circle
-    if circle is not None:
-        return np.array(circle.center)
-    ring = np.array(world.obstacles[index].polygon)
+    shape = world.obstacles[index].ring
+    assert shape is not None  # a grid has barriers where a path meets it
+    ring = shape.vertices
+    if shape.is_disc:
+        return np.asarray(ring[0])
     along = goal - start
     offset = ring - start
     across = along[0] * offset[:, 1] - along[1] * offset[:, 0]

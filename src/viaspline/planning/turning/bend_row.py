@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.routing.corners import X as CORNER_X
-from viaspline.kernels.routing.corners import Y as CORNER_Y
 from viaspline.kernels.routing.tangent_arcs import BEND_RADIUS, BEND_X, BEND_Y
 from viaspline.kernels.routing.tangent_arcs import SIDE as BEND_SIDE
 from viaspline.kernels.turning.turn_sequence import HEADING, KEPT, SIDE, X, Y
+from viaspline.kernels.world.corner_fans import X as CORNER_X
+from viaspline.kernels.world.corner_fans import Y as CORNER_Y
 from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.routing.router import TautPath
 

@@ -13,7 +13,7 @@ from itertools import count
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.routing.corners import X, Y
+from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.router import NO_BARRIERS, TautPath, on_the_line

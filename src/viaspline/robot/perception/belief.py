@@ -9,8 +9,8 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
-from viaspline.mission.parts import Obstacle
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.scan_history import ScanHistory
 from viaspline.robot.perception.surface_points import SurfacePoints

@@ -12,8 +12,8 @@ import numpy as np
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.sensing.raycast import cast
-from viaspline.mission.parts import Obstacle
 from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
 
 WILDEST = 3.0

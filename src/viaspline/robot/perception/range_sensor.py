@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.world.world import World
 
 
@@ -64,10 +65,8 @@ class RangeSensor:
 
 def _disc_around(obstacle: Obstacle) -> tuple[float, float, float]:
     """Centre and radius [m] of a disc that the obstacle lies in."""
-    if obstacle.circle is not None:
-        x, y = obstacle.circle.center
-        return x, y, obstacle.circle.radius
-    corners = obstacle.polygon if obstacle.grid is None else obstacle.grid.corners
-    ring: NDArray[np.float64] = np.array(corners)
-    x, y = 0.5 * (ring.min(axis=0) + ring.max(axis=0))
-    return float(x), float(y), float(np.hypot(*(ring - (x, y)).T).max())
+    ring = obstacle.ring
+    if ring is None:
+        assert obstacle.grid is not None
+        ring = RoundedRing([[(x, y) for x, y in obstacle.grid.corners.tolist()]])
+    return ring.disc_around()

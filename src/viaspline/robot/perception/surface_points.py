@@ -10,7 +10,8 @@ from scipy.spatial import cKDTree
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.sensing import visible_region
-from viaspline.mission.parts import Circle, Obstacle
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.lidar import WILDEST, Scan
 
 BELIEVED = 2  # scans that have to see through a point that was hit once

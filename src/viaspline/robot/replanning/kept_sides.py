@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
-from viaspline.mission.parts import Obstacle, Side
+from viaspline.mission.shapes.obstacle import Obstacle, Side
 from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.robot.journey import points_after
 from viaspline.world.world import World
@@ -50,7 +50,7 @@ def changed_side(
         (a place in it [m], side); of several the one nearest to the old path. None if they pass
         everything on the same sides.
     """
-    places, indices = _places(known)
+    places, indices = known.places()
     if not len(places):
         return None
     for before, after in _legs(old, new, at, last, 0.5 * width):
@@ -71,15 +71,6 @@ def _enclosed(ring: Floats, places: Floats) -> NDArray[np.intp]:
         return np.empty(0, np.intp)
     area = World([Obstacle(polygon=[(x, y) for x, y in ring.tolist()])])
     return found[area.distance(places[found]) < 0.0]
-
-
-def _places(world: World) -> tuple[Floats, NDArray[np.intp]]:
-    """A place in each obstacle [m], maps apart, and whose it is: (k, 2), (k,)."""
-    packed = world.packed
-    starts = packed.block_edges[packed.polygon_blocks[:-1]]
-    places = np.concatenate((packed.circles[:, :2], packed.edges[starts, :2]))
-    indices = np.concatenate((np.flatnonzero(packed.kind == 0), np.flatnonzero(packed.kind == 1)))
-    return np.ascontiguousarray(places), indices
 
 
 def _legs(

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from viaspline.errors import NoPathError
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.journey import SAME_PLACE_M, NavigationState
 from viaspline.robot.records import give_up, take
 from viaspline.robot.replanning.replan_context import ReplanContext, free_until, replan_context_of

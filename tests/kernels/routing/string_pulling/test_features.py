@@ -9,14 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from viaspline.kernels.routing.string_pulling.features import (
-    FEATURE_RADIUS,
-    FEATURE_X,
-    OUT_X,
-    features_near,
-)
+from viaspline.kernels.routing.string_pulling.features import features_near
+from viaspline.kernels.world.ring_features import FEATURE_RADIUS, FEATURE_X, OUT_X
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack import pack
 
 pytestmark = pytest.mark.skipif(

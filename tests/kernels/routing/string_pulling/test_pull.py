@@ -12,11 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from viaspline.kernels.routing.corners import X, Y
 from viaspline.kernels.routing.string_pulling.pull import pulled_taut
 from viaspline.kernels.routing.tangent_arcs import SIDE, TURN, taut_length
+from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.maps.grid import Grid
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.routing.lattice import lattices
 from viaspline.world.world import World
 

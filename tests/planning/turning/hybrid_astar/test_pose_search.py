@@ -9,7 +9,7 @@ from viaspline.curve.certificate import certify
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import dubins
-from viaspline.mission.parts import Obstacle
+from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     Chain,

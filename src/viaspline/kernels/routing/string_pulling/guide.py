@@ -8,13 +8,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inlined
-from viaspline.kernels.routing.string_pulling.features import (
-    FEATURE_RADIUS,
-    FEATURE_X,
-    FEATURE_Y,
-    OUT_X,
-    OUT_Y,
-)
+from viaspline.kernels.world.ring_features import FEATURE_RADIUS, FEATURE_X, FEATURE_Y, OUT_X, OUT_Y
 
 SMALL = 1e-9  # as a share of a piece, and as a turn [rad]
 

@@ -16,12 +16,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.growable import new_floats, sized_floats
 from viaspline.kernels.jit import fused, inlined, kernel
-from viaspline.kernels.routing.string_pulling.features import (
-    FEATURE_RADIUS,
-    FEATURE_X,
-    FEATURE_Y,
-    features_near,
-)
+from viaspline.kernels.routing.string_pulling.features import features_near
 from viaspline.kernels.routing.string_pulling.guide import foot, side_of, turn_at
 from viaspline.kernels.routing.string_pulling.string_conflicts import SMALL, next_conflict
 from viaspline.kernels.routing.string_pulling.string_rows import (
@@ -43,6 +38,7 @@ from viaspline.kernels.routing.tangent_arcs import (
 )
 from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.ring_features import FEATURE_RADIUS, FEATURE_X, FEATURE_Y
 from viaspline.kernels.world.segment import nearest_to_segment
 
 ROOM = 256  # features that are looked at near one place

@@ -5,7 +5,6 @@ from __future__ import annotations
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.growable import sized_floats
 from viaspline.kernels.jit import inlined, inner
-from viaspline.kernels.routing.string_pulling.features import FEATURE_RADIUS, FEATURE_X, FEATURE_Y
 from viaspline.kernels.routing.tangent_arcs import (
     BEND_RADIUS,
     BEND_X,
@@ -14,6 +13,7 @@ from viaspline.kernels.routing.tangent_arcs import (
     SIDE,
     TURN,
 )
+from viaspline.kernels.world.ring_features import FEATURE_RADIUS, FEATURE_X, FEATURE_Y
 
 # a string's row is a bend and where its feature lies along the guide
 PLACE = 6

@@ -1,7 +1,7 @@
 """Corners: where a shortest route round inflated obstacles can turn.
 
-Inflated by ``rho`` an obstacle is bounded by arcs: the circle itself made larger, or an arc about
-every convex vertex of a polygon, the straight pieces between them being tangents. Each arc is
+Inflated by ``rho`` a rounded ring is bounded by arcs: a disc made larger, or an arc about every
+convex vertex, the straight pieces between them being tangents. Each arc is
 wrapped in a few circumscribed corners. A corner knows its arc, so that a route of corners can be
 pulled taut onto the true arcs afterwards.
 """
@@ -15,6 +15,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
 from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.rounded_ring import is_disc
 
 # columns of a corner
 X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, SLOPE = range(8)
@@ -80,37 +81,22 @@ def _ring_corners(
 
 
 @inner
-def obstacle_corners(
-    world: PackedWorld, i: int, rho: float, step: float, corners: Floats, count: int
+def ring_fans(
+    world: PackedWorld, r: int, rho: float, step: float, corners: Floats, count: int
 ) -> int:
-    """Append the corners of obstacle i to ``corners`` from row ``count`` on; a grid has none here.
-
-    Args:
-        world: PackedWorld.
-        i: The obstacle.
-        rho: Distance that the route keeps from it [m].
-        step: Largest turn at one corner [rad].
-        corners: Room for them, (size, 8).
-        count: Rows that are taken.
-
-    Returns:
-        The new count; where it is more than the room there is, call again with more.
-    """
-    if world.kind[i] == 0:
-        circle = world.circles[world.slot[i]]
-        radius = circle[2] + rho
-        return _fan(corners, count, circle[0], circle[1], radius, 0.0, 2 * np.pi, 0.5 * step)
-    if world.kind[i] == 2:
-        return count
-    slot = world.slot[i]
-    first = world.block_edges[world.polygon_blocks[slot]]
-    last = world.block_edges[world.polygon_blocks[slot + 1]]
-    return _ring_corners(world.edges, first, last, rho, step, corners, count)
+    """Append the corners of ring r; see ``shape.obstacle_corners``."""
+    first = world.ring_edges[r]
+    radius = world.radii[r] + rho
+    if is_disc(world, r):
+        center = world.edges[first]
+        return _fan(corners, count, center[0], center[1], radius, 0.0, 2 * np.pi, 0.5 * step)
+    last = world.ring_edges[r + 1]
+    return _ring_corners(world.edges, first, last, radius, step, corners, count)
 
 
 @inner
 def fence_corners(world: PackedWorld, rho: float, step: float, corners: Floats, count: int) -> int:
-    """Append the corners of all fences, where these are not convex; as ``obstacle_corners``."""
+    """Append the corners of fences, where they aren't convex; see ``shape.obstacle_corners``."""
     for f in range(world.fence_edges.size - 1):
         first = world.fence_edges[f]
         last = world.fence_edges[f + 1]

@@ -1,0 +1,71 @@
+"""An obstacle of a mission: one shape, a name, and the side on which to pass it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, InstanceOf
+from pydantic.json_schema import SkipJsonSchema
+
+from viaspline.maps.grid import Grid
+from viaspline.maps.reading import Reading
+from viaspline.mission.fields import Name, Ring, Value
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.rounded_ring import RoundedRing
+
+Side = Literal["left", "right"]
+
+SHAPES = ("circle", "polygon", "grid")
+"""The keys that give an obstacle its shape."""
+
+
+def _as_grid(value: Any) -> Any:
+    """The grid that ``model_dump`` took apart."""
+    if not isinstance(value, Mapping) or not hasattr(value.get("blocked"), "dtype"):
+        return value
+    reading = value["reading"]
+    parts = {key: item for key, item in value.items() if key != "digest"}
+    return Grid(**{**parts, "reading": None if reading is None else Reading(**reading)})
+
+
+class Obstacle(Value):
+    """Something to keep clear of: a circle, a polygon that may have holes, or a map's squares.
+
+    Attributes:
+        circle: The disc, if it is one.
+        polygon: The outer ring ``[[x, y], ...]`` [m], in either direction. A last point that
+            repeats the first is dropped.
+        holes: Free areas inside the polygon, each a ring of its own.
+        grid: The blocked squares of an occupancy grid. In a file, ``map`` asks for it.
+        name: What it is called in reports and errors.
+        pass_on: Go past it on this side only, as seen by the robot along the leg: ``left`` leaves
+            the obstacle on the robot's right. It counts wherever the obstacle is in the way.
+        never_pass_on: The side that is forbidden; forbidding one is forcing the other.
+    """
+
+    circle: Circle | None = None
+    polygon: Ring | None = None
+    holes: tuple[Ring, ...] = ()
+    grid: Annotated[SkipJsonSchema[InstanceOf[Grid] | None], BeforeValidator(_as_grid)] = None
+    name: Name | None = None
+    pass_on: Side | None = None
+    never_pass_on: Side | None = None
+
+    @property
+    def ring(self) -> RoundedRing | None:
+        """Its shape as a rounded ring; None if it is a grid, or has no shape."""
+        if self.circle is not None:
+            return self.circle.ring()
+        if self.polygon is not None:
+            return RoundedRing((self.polygon, *self.holes))
+        return None
+
+    @property
+    def forced_side(self) -> Side | None:
+        """The only side on which it may be passed, from either key."""
+        if self.pass_on is not None:
+            return self.pass_on
+        if self.never_pass_on is not None:
+            return "right" if self.never_pass_on == "left" else "left"
+        return None
