@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +14,6 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.kernels.clearance import disc as kernels
 from viaspline.world.outline import outline
-from viaspline.world.world import World
 
 TOLERANCE = 1e-3  # between the proven bound and the true clearance [m]
 SPARE = 1e-6  # what a proof may lack of what is required: a curve that just touches it [m]
@@ -54,6 +53,21 @@ class Certificate:
         return self.clearance >= self.required - SPARE
 
 
+class Surroundings(Protocol):
+    """What a certificate needs of a world: its packed form, and what an index is called.
+
+    The planar ``World`` is one. Another kind is another packed type; see
+    ``kernels.clearance.world_protocol``.
+    """
+
+    @property
+    def packed(self) -> Any:
+        """The NamedTuple of arrays that kernels take."""
+
+    def name(self, index: int) -> str:
+        """What an index of what is nearest is called."""
+
+
 class _Bounds(NamedTuple):
     """What a kernel knows of the smallest distance: bounds [m], where, and what is nearest."""
 
@@ -67,7 +81,7 @@ class _Bounds(NamedTuple):
 
 def certify(
     curve: PiecewiseCubic,
-    world: World,
+    world: Surroundings,
     clearance: float,
     *,
     radius: float = 0.0,
@@ -86,7 +100,7 @@ def certify(
 
     Args:
         curve: Any piecewise cubic; of a curve in space, its ground track counts.
-        world: The obstacles and bounds.
+        world: The obstacles and bounds: a ``World``, or another kind with a packed form.
         clearance: What is to be kept free between the body and everything [m].
         radius: The robot's body, a disc [m]; what a footprint is grown by.
         footprint: The robot's body, a polygon in its own frame, x forward and y left, (k, 2) [m];
@@ -135,7 +149,7 @@ def certify(
 
 
 def _bounder(
-    curve: PiecewiseCubic, world: World, footprint: ArrayLike | None
+    curve: PiecewiseCubic, world: Surroundings, footprint: ArrayLike | None
 ) -> Callable[[float], _Bounds]:
     """From a tolerance to bounds of the distance between the body and the world."""
     spans = np.array(curve.spans)  # numba compiles read-only arrays once more

@@ -44,9 +44,10 @@ def pack(
             grids.append(obstacle.grid)
         else:
             raise GeometryError(f"obstacle {i} has no shape: give it a {' or '.join(SHAPES)}")
-    radii = np.array([ring.radius for ring in rings], np.float64)
     edges, ring_blocks, block_edges = _edges([ring.loops for ring in rings])
     ring_edges = block_edges[ring_blocks]
+    radii = np.array([ring.radius for ring in rings], np.float64)
+    heads = np.column_stack((edges[ring_edges[:-1], :2], radii, np.diff(ring_edges)))
     fence_edges, fence_starts = _fences(fences)
     boxes = np.empty((count, 4))
     if rings:
@@ -56,7 +57,7 @@ def pack(
         boxes[slot < 0] = [grid.extent for grid in grids]
     tree = box_tree(boxes, np.argsort(hilbert_keys(boxes), kind="stable"))
     return PackedWorld(
-        slot, radii, ring_edges, ring_blocks, block_edges, ring_boxes(edges, block_edges), edges,
+        slot, heads, ring_edges, ring_blocks, block_edges, ring_boxes(edges, block_edges), edges,
         *_grids(grids),
         np.array([] if bounds is None else bounds, np.float64).reshape(-1, 4),
         fence_starts, fence_edges, *tree,
@@ -147,14 +148,14 @@ def join(first: PackedWorld, second: PackedWorld) -> PackedWorld:
     root[0, :2] = np.minimum(first.boxes[0, :2], second.boxes[0, :2])
     root[0, 2:] = np.maximum(first.boxes[0, 2:], second.boxes[0, 2:])
     leaf = np.where(second.leaf >= 0, second.leaf + obstacles, -1)
-    rings, grids = len(first.radii), len(first.grid_frames)
+    rings, grids = len(first.heads), len(first.grid_frames)
     shapes = second.grid_shapes.copy()
     shapes[:, 2] += first.to_right.size
     return PackedWorld(
         slot=np.concatenate(
             (first.slot, np.where(second.slot >= 0, second.slot + rings, second.slot - grids))
         ),
-        radii=np.concatenate((first.radii, second.radii)),
+        heads=np.concatenate((first.heads, second.heads)),
         ring_edges=_chain(first.ring_edges, second.ring_edges),
         ring_blocks=_chain(first.ring_blocks, second.ring_blocks),
         block_edges=_chain(first.block_edges, second.block_edges),

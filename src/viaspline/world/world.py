@@ -101,8 +101,7 @@ class World:
 
     def places(self) -> tuple[Floats, Ints]:
         """A place of each obstacle that is no grid [m], (k, 2), and whose it is, (k,)."""
-        first = self.packed.ring_edges[:-1]
-        return np.ascontiguousarray(self.packed.edges[first, :2]), np.flatnonzero(~self.are_maps)
+        return np.ascontiguousarray(self.packed.heads[:, :2]), np.flatnonzero(~self.are_maps)
 
     @property
     def enclosures(self) -> tuple[tuple[tuple[float, float], ...], ...]:

@@ -123,7 +123,7 @@ def test_a_join_with_nothing_is_the_other_one() -> None:
     assert join(some, world()) is some
     joined = join(none, some)
     np.testing.assert_array_equal(joined.bounds, [[0, 0, 5, 5]])
-    np.testing.assert_array_equal(joined.radii, some.radii)
+    np.testing.assert_array_equal(joined.heads, some.heads)
 
 
 # Distances

@@ -1,4 +1,4 @@
-"""The certificate's kernels: bounds of the distance between a cubic and a packed world.
+"""The certificate's kernels: bounds of the distance between a cubic and a world.
 
 A piece of a curve lies in the hull of its Bézier control points. So with p the curve's middle and
 rho the farthest control point from it, no point of the piece is nearer to the world than
@@ -7,33 +7,34 @@ of the two inner control points from it, no point is nearer than ``distance(c) -
 because the inner control points weigh at most 3/4 together. The first bound walks in great steps
 through open space, the second in long ones beside an obstacle, where the first would crawl; what
 neither settles is halved.
+
+Of a world that moves, both are taken at the piece's middle instant, less what its pace allows until
+its first and its last.
 """
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.distance import nearest
-from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.plane import point_segment
-from viaspline.kernels.world.segment import nearest_to_segment
+from viaspline.kernels.clearance.world_protocol import chord_distance, dimension, distance_at, pace
+from viaspline.kernels.jit import inlined, inner, kernel
 
-DEPTH = 64
-MOST = 2_000_000  # pieces that a bound may take
+MAX_DEPTH = 64  # halvings of a span
+MAX_PIECES = 2_000_000  # that a bound may take
 
 
-@inner
-def _halve(stack: Floats, top: int) -> None:
+@inlined
+def _halve(stack: Floats, top: int, d: int) -> None:
     """Replace the piece at ``top`` of the stack by its right half, its left half above it."""
-    for axis in range(2):
+    for axis in range(d):
         p0 = stack[top, axis]
-        p1 = stack[top, 2 + axis]
-        p2 = stack[top, 4 + axis]
-        p3 = stack[top, 6 + axis]
+        p1 = stack[top, d + axis]
+        p2 = stack[top, 2 * d + axis]
+        p3 = stack[top, 3 * d + axis]
         q0 = 0.5 * (p0 + p1)
         q1 = 0.5 * (p1 + p2)
         q2 = 0.5 * (p2 + p3)
@@ -41,70 +42,80 @@ def _halve(stack: Floats, top: int) -> None:
         r1 = 0.5 * (q1 + q2)
         middle = 0.5 * (r0 + r1)
         stack[top + 1, axis] = p0
-        stack[top + 1, 2 + axis] = q0
-        stack[top + 1, 4 + axis] = r0
-        stack[top + 1, 6 + axis] = middle
+        stack[top + 1, d + axis] = q0
+        stack[top + 1, 2 * d + axis] = r0
+        stack[top + 1, 3 * d + axis] = middle
         stack[top, axis] = middle
-        stack[top, 2 + axis] = r1
-        stack[top, 4 + axis] = q2
-        stack[top, 6 + axis] = p3
-    middle = 0.5 * (stack[top, 8] + stack[top, 9])
-    stack[top + 1, 8] = stack[top, 8]
-    stack[top + 1, 9] = middle
-    stack[top, 8] = middle
+        stack[top, d + axis] = r1
+        stack[top, 2 * d + axis] = q2
+        stack[top, 3 * d + axis] = p3
+    middle = 0.5 * (stack[top, 4 * d] + stack[top, 4 * d + 1])
+    stack[top + 1, 4 * d] = stack[top, 4 * d]
+    stack[top + 1, 4 * d + 1] = middle
+    stack[top, 4 * d] = middle
 
 
-@inner
-def _load(stack: Floats, spans: Floats, span: int) -> None:
+@inlined
+def _load(stack: Floats, spans: Floats, span: int, d: int) -> None:
+    """Begin with a whole span: its control points, and the parameters of its ends."""
     for k in range(4):
-        stack[0, 2 * k] = spans[span, k, 0]
-        stack[0, 2 * k + 1] = spans[span, k, 1]
-    stack[0, 8] = 0.0
-    stack[0, 9] = 1.0
+        for axis in range(d):
+            stack[0, k * d + axis] = spans[span, k, axis]
+    stack[0, 4 * d] = 0.0
+    stack[0, 4 * d + 1] = 1.0
 
 
-@inner
-def _middle(piece: Floats) -> tuple[float, float]:
-    x = (piece[0] + 3.0 * (piece[2] + piece[4]) + piece[6]) / 8.0
-    y = (piece[1] + 3.0 * (piece[3] + piece[5]) + piece[7]) / 8.0
-    return x, y
+@inlined
+def _set_middle(piece: Floats, d: int, middle: Floats) -> None:
+    for axis in range(d):
+        inner_ones = piece[d + axis] + piece[2 * d + axis]
+        middle[axis] = (piece[axis] + 3.0 * inner_ones + piece[3 * d + axis]) / 8.0
 
 
-@inner
-def _reach(piece: Floats, x: float, y: float) -> float:
-    """Distance from (x, y) to the farthest control point."""
+@inlined
+def _reach(piece: Floats, d: int, middle: Floats) -> float:
+    """Distance from the middle to the farthest control point."""
     squared = 0.0
     for k in range(4):
-        dx = piece[2 * k] - x
-        dy = piece[2 * k + 1] - y
-        squared = max(squared, dx * dx + dy * dy)
+        apart = 0.0
+        for axis in range(d):
+            gap = piece[k * d + axis] - middle[axis]
+            apart += gap * gap
+        squared = max(squared, apart)
     return math.sqrt(squared)
 
 
-@inner
-def _sag(piece: Floats) -> float:
+@inlined
+def _aside(piece: Floats, d: int, k: int) -> float:
+    """Distance of control point k from the chord."""
+    squared = 0.0
+    along = 0.0
+    for axis in range(d):
+        chord = piece[3 * d + axis] - piece[axis]
+        squared += chord * chord
+        along += (piece[k * d + axis] - piece[axis]) * chord
+    w = min(1.0, max(0.0, along / squared)) if squared > 0.0 else 0.0
+    apart = 0.0
+    for axis in range(d):
+        gap = piece[k * d + axis] - piece[axis] - w * (piece[3 * d + axis] - piece[axis])
+        apart += gap * gap
+    return math.sqrt(apart)
+
+
+@inlined
+def _sag(piece: Floats, d: int) -> float:
     """Bound of the distance between a piece and its chord."""
-    first = point_segment(piece[2], piece[3], piece[0], piece[1], piece[6], piece[7])
-    second = point_segment(piece[4], piece[5], piece[0], piece[1], piece[6], piece[7])
-    return 0.75 * max(first, second)
+    return 0.75 * max(_aside(piece, d, 1), _aside(piece, d, 2))
 
 
-@kernel
-def tightest(
-    world: PackedWorld, spans: Floats, tolerance: float
+@inner
+def _tightest(
+    world: Any, spans: Floats, instants: Floats, tolerance: float
 ) -> tuple[float, float, int, float, int]:
-    """The smallest distance between a curve and a world, from both sides.
-
-    Args:
-        world: PackedWorld.
-        spans: Bézier control polygons, (m, 4, d); the first two coordinates count.
-        tolerance: How far apart the two bounds may be [m].
-
-    Returns:
-        (lower, upper, span, w, index): the bounds [m], where the upper one is reached, and what is
-        nearest there. Both are infinite in an empty world. The lower one is minus infinity where
-        so small a tolerance takes too many pieces: kilometres deep inside of something.
-    """
+    """See ``tightest_in_time``; without instants, all of it at instant 0."""
+    d = dimension(world)
+    moves = pace(world)
+    timed = instants.size > 0
     upper = np.inf
     lower = np.inf
     span_at = 0
@@ -113,85 +124,131 @@ def tightest(
     for joint in range(spans.shape[0] + 1):
         span = min(joint, spans.shape[0] - 1)
         end = 3 * (joint - span)  # the last joint is the last control point, the others first ones
-        distance, index = nearest(world, spans[span, end, 0], spans[span, end, 1], upper)
+        instant = instants[joint] if timed else 0.0
+        distance, index = distance_at(world, spans[span, end], instant, upper)
         if distance < upper:
             upper, span_at, w_at, index_at = distance, span, float(joint - span), index
-    if upper == np.inf:
+    if upper == np.inf and moves == 0.0:
         return lower, upper, span_at, w_at, index_at
-    stack = np.empty((DEPTH, 10))
+    stack = np.empty((MAX_DEPTH, 4 * d + 2))
+    middle = np.empty(d)
     pieces = 0
     for span in range(spans.shape[0]):
-        _load(stack, spans, span)
+        begin = instants[span] if timed else 0.0
+        lasts = instants[span + 1] - begin if timed else 0.0
+        _load(stack, spans, span, d)
         top = 0
         while top >= 0:
             pieces += 1
-            if pieces > MOST:
+            if pieces > MAX_PIECES:
                 return -np.inf, upper, span_at, w_at, index_at
             piece = stack[top]
-            x, y = _middle(piece)
-            reach = _reach(piece, x, y)
-            distance, index = nearest(world, x, y, upper + reach)
+            _set_middle(piece, d, middle)
+            w = 0.5 * (piece[4 * d] + piece[4 * d + 1])
+            instant = begin + w * lasts
+            drift = moves * 0.5 * (piece[4 * d + 1] - piece[4 * d]) * lasts
+            reach = _reach(piece, d, middle)
+            distance, index = distance_at(world, middle, instant, upper + reach + drift)
             if distance < upper:
                 upper, span_at, index_at = distance, span, index
-                w_at = 0.5 * (piece[8] + piece[9])
-            bound = distance - reach
+                w_at = w
+            bound = distance - reach - drift
             if bound < upper - tolerance:
-                sag = _sag(piece)
+                sag = _sag(piece, d) + drift
                 if sag <= tolerance + distance - upper and upper > 0.0:
-                    chord, _ = nearest_to_segment(
-                        world, piece[0], piece[1], piece[6], piece[7], upper + sag
+                    chord, _ = chord_distance(
+                        world, piece[:d], piece[3 * d : 4 * d], instant, upper + sag
                     )
                     if chord > 0.0:  # a chord that touches something says nothing about depth
                         bound = max(bound, chord - sag)
-            if bound >= upper - tolerance or top + 2 > DEPTH or reach < 1e-9:
+            is_small = reach + drift < 1e-9
+            if bound >= upper - tolerance or top + 2 > MAX_DEPTH or is_small:
                 lower = min(lower, bound)
                 top -= 1
             else:
-                _halve(stack, top)
+                _halve(stack, top, d)
                 top += 1
     return min(lower, upper), upper, span_at, w_at, index_at
 
 
 @kernel
-def conflicts(world: PackedWorld, spans: Floats, required: float) -> tuple[Ints, Floats]:
-    """What each span comes too close to.
+def tightest(world: Any, spans: Floats, tolerance: float) -> tuple[float, float, int, float, int]:
+    """The smallest distance between a curve and a world that stands still, from both sides.
 
     Args:
-        world: PackedWorld.
-        spans: Bézier control polygons, (m, 4, d).
+        world: A packed world; see ``world_protocol``.
+        spans: Bézier control polygons, (m, 4, e), of at least as many coordinates as the world.
+        tolerance: How far apart the two bounds may be [m].
+
+    Returns:
+        (lower, upper, span, w, index): the bounds [m], where the upper one is reached, and what is
+        nearest there. Both are infinite in an empty world. The lower one is minus infinity where
+        so small a tolerance takes too many pieces: kilometres deep inside of something.
+    """
+    return _tightest(world, spans, np.empty(0), tolerance)
+
+
+@kernel
+def tightest_in_time(
+    world: Any, spans: Floats, instants: Floats, tolerance: float
+) -> tuple[float, float, int, float, int]:
+    """The smallest distance between what moves along a curve and a world that may move too.
+
+    Args:
+        world: A packed world; see ``world_protocol``.
+        spans: Bézier control polygons, (m, 4, e).
+        instants: When each span begins, and the last one ends [s], (m + 1,). Within a span time
+            goes evenly with the parameter: cut spans where it doesn't.
+        tolerance: How far apart the two bounds may be [m].
+
+    Returns:
+        As ``tightest``.
+    """
+    return _tightest(world, spans, instants, tolerance)
+
+
+@kernel
+def conflicts(world: Any, spans: Floats, required: float) -> tuple[Ints, Floats]:
+    """What each span comes too close to, in a world that stands still.
+
+    Args:
+        world: A packed world; see ``world_protocol``.
+        spans: Bézier control polygons, (m, 4, e).
         required: Distance that is to be kept [m].
 
     Returns:
         (index (m,), w (m,)): -1 where a span is proven clear; elsewhere the index of what it is
-        too close to (see ``nearest``) and where on the span it was found.
+        too close to (see ``distance_at``) and where on the span it was found.
     """
+    d = dimension(world)
     count = spans.shape[0]
     found = np.full(count, -1, np.int64)
     where = np.zeros(count)
-    stack = np.empty((DEPTH, 10))
+    stack = np.empty((MAX_DEPTH, 4 * d + 2))
+    middle = np.empty(d)
     for span in range(count):
-        _load(stack, spans, span)
+        _load(stack, spans, span, d)
         top = 0
         while top >= 0:
             piece = stack[top]
-            x, y = _middle(piece)
-            reach = _reach(piece, x, y)
-            distance, index = nearest(world, x, y, required + reach)
+            _set_middle(piece, d, middle)
+            reach = _reach(piece, d, middle)
+            distance, index = distance_at(world, middle, 0.0, required + reach)
             if distance >= required + reach:
                 top -= 1
                 continue
-            sag = _sag(piece)
+            sag = _sag(piece, d)
             if distance >= required and sag <= 0.1 * required + (distance - required):
-                chord, _ = nearest_to_segment(
-                    world, piece[0], piece[1], piece[6], piece[7], required + sag
+                chord, _ = chord_distance(
+                    world, piece[:d], piece[3 * d : 4 * d], 0.0, required + sag
                 )
                 if chord >= required + sag:
                     top -= 1
                     continue
-            if distance < required or reach < 1e-7 or top + 2 > DEPTH:
+            if distance < required or reach < 1e-7 or top + 2 > MAX_DEPTH:
                 found[span] = index
-                where[span] = 0.5 * (piece[8] + piece[9])
+                where[span] = 0.5 * (piece[4 * d] + piece[4 * d + 1])
                 break
-            _halve(stack, top)
+            _halve(stack, top, d)
             top += 1
     return found, where

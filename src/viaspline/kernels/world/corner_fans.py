@@ -15,7 +15,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.rounded_ring import is_disc
+from viaspline.kernels.world.rounded_ring import is_disc, radius_of
 
 # columns of a corner
 X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, SLOPE = range(8)
@@ -85,11 +85,11 @@ def ring_fans(
     world: PackedWorld, r: int, rho: float, step: float, corners: Floats, count: int
 ) -> int:
     """Append the corners of ring r; see ``shape.obstacle_corners``."""
-    first = world.ring_edges[r]
-    radius = world.radii[r] + rho
+    radius = radius_of(world, r) + rho
     if is_disc(world, r):
-        center = world.edges[first]
+        center = world.heads[r]
         return _fan(corners, count, center[0], center[1], radius, 0.0, 2 * np.pi, 0.5 * step)
+    first = world.ring_edges[r]
     last = world.ring_edges[r + 1]
     return _ring_corners(world.edges, first, last, radius, step, corners, count)
 

@@ -10,6 +10,7 @@ from viaspline.kernels.jit import inner
 from viaspline.kernels.world.grid_rows import entry, to_cells, to_world
 from viaspline.kernels.world.grid_segment import grid_segment
 from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.rounded_ring import radius_of
 from viaspline.kernels.world.shape import grid_of, is_ring, obstacle_signed
 
 
@@ -78,13 +79,13 @@ def grid_gap(world: PackedWorld, i: int, j: int, limit: float) -> float:
     """Distance between the grid i and the rounded ring j [m]; not above 0 where they overlap."""
     g = grid_of(world, i)
     r = world.slot[j]
-    reach = limit + world.radii[r]
+    reach = limit + radius_of(world, r)
     best = reach
     for e in range(world.ring_edges[r], world.ring_edges[r + 1]):
         edge = world.edges[e]
         best = grid_segment(world, g, edge[0], edge[1], edge[2], edge[3], best)
     if best < reach:
-        return best - world.radii[r]
+        return best - radius_of(world, r)
     return 0.0 if _reaches_inside(world, i, j) else limit
 
 

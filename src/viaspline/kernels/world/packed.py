@@ -20,7 +20,8 @@ class PackedWorld(NamedTuple):
 
     Attributes:
         slot: Of obstacle i its rounded ring, or -1 - g for grid g, (n,).
-        radii: By how much a ring's core is grown [m], (r,).
+        heads: Of each ring x, y of its first vertex, the radius by which its core is grown [m], and
+            how many edges it has: all that a disc is, in one row, (r, 4).
         ring_edges: Ring r has the edges ``ring_edges[r]:ring_edges[r + 1]``, (r + 1,).
         ring_blocks: It has the blocks ``ring_blocks[r]:ring_blocks[r + 1]``, (r + 1,).
         block_edges: Edges of block b are ``block_edges[b]:block_edges[b + 1]``, (b + 1,).
@@ -45,7 +46,7 @@ class PackedWorld(NamedTuple):
     """
 
     slot: Ints
-    radii: Floats
+    heads: Floats
     ring_edges: Ints
     ring_blocks: Ints
     block_edges: Ints

@@ -10,7 +10,7 @@ import math
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.rounded_ring import is_disc
+from viaspline.kernels.world.rounded_ring import is_disc, radius_of
 
 # columns of a feature: centre and radius [m] (0: a corner), and the unit vector from a corner
 # into the open (0, 0 for a disc)
@@ -94,12 +94,12 @@ def ring_features(
     world: PackedWorld, r: int, x: float, y: float, reach: float, out: Floats, count: int
 ) -> int:
     """Append the features of ring r within ``reach`` of (x, y) [m]; see ``edge_features``."""
-    first = world.ring_edges[r]
-    radius = world.radii[r]
+    radius = radius_of(world, r)
     if not is_disc(world, r):
+        first = world.ring_edges[r]
         last = world.ring_edges[r + 1]
         return edge_features(world.edges, first, last, radius, x, y, reach, out, count)
-    center = world.edges[first]
+    center = world.heads[r]
     if math.hypot(center[0] - x, center[1] - y) - radius <= reach:
         if count < out.shape[0]:
             _write_disc(out, count, center[0], center[1], radius)

@@ -13,7 +13,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.plane import box_signed
-from viaspline.kernels.world.rounded_ring import is_disc
+from viaspline.kernels.world.rounded_ring import is_disc, radius_of
 
 SLIP_RAD = 1e-9  # beams are tried a little beyond the angle that a ring covers
 
@@ -112,9 +112,9 @@ def cast_ring(
     reach: float, ranges: Floats,
 ) -> None:  # fmt: skip
     """Shorten the beams from (x, y) that hit ring r; see ``shape.cast_obstacle``."""
-    radius = world.radii[r]
+    radius = radius_of(world, r)
     if is_disc(world, r):
-        center = world.edges[world.ring_edges[r]]
+        center = world.heads[r]
         _cast_disc(rays, first, step, center[0] - x, center[1] - y, radius, ranges)
         return
     for block in range(world.ring_blocks[r], world.ring_blocks[r + 1]):

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Bytes, Floats
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import inlined, inner
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.plane import (
     box_gap,
@@ -22,10 +22,16 @@ from viaspline.kernels.world.plane import (
 )
 
 
-@inner
+@inlined
 def is_disc(world: PackedWorld, r: int) -> bool:
     """Whether ring r is a single vertex."""
-    return world.ring_edges[r + 1] - world.ring_edges[r] == 1
+    return world.heads[r, 3] == 1.0
+
+
+@inlined
+def radius_of(world: PackedWorld, r: int) -> float:
+    """By how much the core of ring r is grown [m]."""
+    return world.heads[r, 2]
 
 
 @inner
@@ -61,18 +67,17 @@ def _core_signed(world: PackedWorld, r: int, x: float, y: float) -> float:
     return -best if inside else best
 
 
-@inner
+@inlined
 def ring_signed(world: PackedWorld, r: int, x: float, y: float, limit: float) -> float:
     """Signed distance from (x, y) to ring r [m]; negative inside."""
     if is_disc(world, r):
-        edge = world.edges[world.ring_edges[r]]
-        dx = x - edge[0]
-        dy = y - edge[1]
-        return math.sqrt(dx * dx + dy * dy) - world.radii[r]
-    return min(_core_signed(world, r, x, y) - world.radii[r], limit)
+        dx = x - world.heads[r, 0]
+        dy = y - world.heads[r, 1]
+        return math.sqrt(dx * dx + dy * dy) - world.heads[r, 2]
+    return min(_core_signed(world, r, x, y) - world.heads[r, 2], limit)
 
 
-@inner
+@inlined
 def ring_segment(
     world: PackedWorld, r: int, ax: float, ay: float, bx: float, by: float, limit: float
 ) -> float:
@@ -81,10 +86,9 @@ def ring_segment(
     Where the segment touches the core, or lies inside of it, that is less the radius: 0 for a
     polygon; exact for a disc.
     """
-    radius = world.radii[r]
+    radius = world.heads[r, 2]
     if is_disc(world, r):
-        edge = world.edges[world.ring_edges[r]]
-        return point_segment(edge[0], edge[1], ax, ay, bx, by) - radius
+        return point_segment(world.heads[r, 0], world.heads[r, 1], ax, ay, bx, by) - radius
     x0 = min(ax, bx)
     x1 = max(ax, bx)
     y0 = min(ay, by)
@@ -108,7 +112,7 @@ def rings_gap(world: PackedWorld, r: int, q: int, limit: float) -> float:
     """Distance between the rings r and q [m]; not above 0 where they overlap."""
     best = limit
     for one, other in ((r, q), (q, r)):
-        radius = world.radii[one]
+        radius = radius_of(world, one)
         for e in range(world.ring_edges[one], world.ring_edges[one + 1]):
             edge = world.edges[e]
             reach = best + radius
@@ -124,8 +128,8 @@ def mark_disc(
 ) -> None:
     """Block the cells whose middle is nearer than ``reach`` to a disc, row by row."""
     height, width = cells.shape
-    center = world.edges[world.ring_edges[r]]
-    radius = world.radii[r] + reach
+    center = world.heads[r]
+    radius = center[2] + reach
     first = max(0, int(np.floor((center[1] - radius - y) / side)))
     last = min(height, int(np.ceil((center[1] + radius - y) / side)))
     for row in range(first, last):

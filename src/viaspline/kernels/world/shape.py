@@ -9,7 +9,7 @@ them in a file of its own and stands in each of these functions.
 from __future__ import annotations
 
 from viaspline.kernels.arrays import Bytes, Floats
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import inlined, inner
 from viaspline.kernels.world.corner_fans import ring_fans
 from viaspline.kernels.world.grid_cover import grid_enclosed, grid_features
 from viaspline.kernels.world.grid_rays import grid_range
@@ -22,13 +22,13 @@ from viaspline.kernels.world.ring_rays import cast_ring
 from viaspline.kernels.world.rounded_ring import is_disc, mark_disc, ring_segment, ring_signed
 
 
-@inner
+@inlined
 def is_ring(world: PackedWorld, i: int) -> bool:
     """Whether obstacle i is a rounded ring; else it is a grid."""
     return world.slot[i] >= 0
 
 
-@inner
+@inlined
 def grid_of(world: PackedWorld, i: int) -> int:
     """The number of the grid that obstacle i is."""
     return -1 - world.slot[i]
@@ -142,5 +142,5 @@ def obstacle_enclosed(
     slot = world.slot[i]
     if slot < 0:
         return grid_enclosed(world, -1 - slot, body, outer, x, y, c, s)
-    vertex = world.edges[world.ring_edges[slot]]
+    vertex = world.heads[slot]
     return covers(body, x, y, c, s, vertex[0], vertex[1]), vertex[0], vertex[1]
