@@ -116,6 +116,7 @@ def certify(
     Example:
         >>> from viaspline.curve.cardinal import CardinalSpline
         >>> from viaspline.mission.shapes.obstacle import Obstacle
+        >>> from viaspline.world.world import World
         >>> world = World([Obstacle(circle={"center": (5, 3), "radius": 1})])
         >>> curve = CardinalSpline([(0, 0), (5, 0), (10, 0)])
         >>> certificate = certify(curve, world, 1.0, radius=0.5)

@@ -25,7 +25,7 @@ from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import nearest_to_segment
 
-INTO_THE_CALLER = {"forceinline": True, "_nrt": False, "error_model": "numpy", "nogil": True}
+INTO_THE_CALLER: Any = {"forceinline": True, "_nrt": False, "error_model": "numpy", "nogil": True}
 """A world is a hundred words long: handing it on once more than need be costs a quarter."""
 
 _Answer = TypeVar("_Answer", bound=Callable[..., Any])
@@ -77,8 +77,8 @@ def answers(question: Any, packed: type) -> Callable[[_Answer], _Answer]:
         question.register(packed, answer)
 
         def chosen(world: Any, *_: Any) -> Any:
-            mine = isinstance(world, BaseNamedTuple) and world.instance_class is packed
-            return answer if mine else None
+            mine = isinstance(world, BaseNamedTuple)
+            return answer if mine and getattr(world, "instance_class", None) is packed else None
 
         overload(question, jit_options=INTO_THE_CALLER, strict=False)(chosen)
         return answer
