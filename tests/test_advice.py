@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from scipy.integrate import quad
 
 import viaspline as vs
-from viaspline.advice import TENSIONS
+from viaspline.advice import TRIED_TENSIONS
 from viaspline.cli import cli
 from viaspline.report.tension_picture import tension_picture
 
@@ -30,7 +30,7 @@ def mission(tension: object = "auto", robot: dict | None = None, known: list | N
 def test_lengths_clearances_and_curvatures_are_those_of_the_spline() -> None:
     tank = {"name": "tank", "circle": {"center": [36, 22], "radius": 1}}
     advice = vs.advise_tension(mission(known=[tank]))
-    j = TENSIONS.index(0.3)
+    j = TRIED_TENSIONS.index(0.3)
     spline = vs.CardinalSpline([[0, 0], *VIAS, [-30, 0]], tension=0.3, knots="chordal")
     for k in range(5):
         length = quad(lambda u: np.linalg.norm(spline.evaluate(u, 1)), k, k + 1)[0]
@@ -51,7 +51,7 @@ def test_durations_are_those_of_the_drive_with_one_span_changed(tangents: str) -
     spline = asked.spline.model_copy(update={"tangents": tangents})
     asked = asked.model_copy(update={"spline": spline})
     advice = vs.advise_tension(asked)
-    k, j = 2, TENSIONS.index(0.7)
+    k, j = 2, TRIED_TENSIONS.index(0.7)
     each = [advice.best] * 5
     each[k] = 0.7
     numbers = asked.model_copy(

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import viaspline as vs
-from viaspline.curve.certificate import SPARE
+from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.requirements import Requirements
@@ -170,7 +170,7 @@ def test_the_certificate_holds_and_shapely_agrees(shapely_distance: Oracle, seed
     least = least_distance(shapely_distance, found.path.spans, found.world)
     assert found.certificate.holds
     assert found.certificate.required == robot.clearance_m
-    assert least >= robot.radius_m + robot.clearance_m - SPARE - 1e-9
+    assert least >= robot.radius_m + robot.clearance_m - PROOF_SLACK_M - 1e-9
     assert found.certificate.clearance <= least - robot.radius_m + 1e-9
 
 
@@ -318,7 +318,7 @@ def test_a_new_path_under_way_keeps_what_was_driven_and_is_proven_ahead(
         ahead = new.section(min(u, new.domain[1] - 1e-6), new.domain[1])
         least = least_distance(shapely_distance, ahead.spans, world)
         assert found.certificate.holds
-        assert least >= brief.required - SPARE - 1e-9
+        assert least >= brief.required - PROOF_SLACK_M - 1e-9
         assert found.certificate.clearance <= least - brief.radius + 1e-8
     np.testing.assert_allclose(
         new.at_distance(found.certificate.tightest_distance),

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viaspline.curve.certificate import SPARE
+from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import tightest
@@ -20,9 +20,9 @@ from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.world.world import World
 
-TENSIONS = (-0.5, -0.3, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)
-WORTH = 0.02  # part of a span's time that may be spent on a rounder curve
-TOLERANCE = 1e-3  # of a clearance [m]
+TRIED_TENSIONS = (-0.5, -0.3, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)
+MAX_TIME_SHARE = 0.02  # part of a span's time that may be spent on a rounder curve
+CLEARANCE_TOLERANCE_M = 1e-3  # of a clearance [m]
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +71,7 @@ class TensionAdvice:
     turn_radius: float | None
 
 
-def advise_tension(mission: Mission, tensions: Sequence[float] = TENSIONS) -> TensionAdvice:
+def advise_tension(mission: Mission, tensions: Sequence[float] = TRIED_TENSIONS) -> TensionAdvice:
     """Try tensions on a mission, all spans at once and span by span.
 
     Args:
@@ -102,7 +102,7 @@ def advise_tension(mission: Mission, tensions: Sequence[float] = TENSIONS) -> Te
     lengths, clearances, curvatures = table.transpose(2, 1, 0)
     times = np.array([_duration(sequence, row, limits) for row in grouped])
     common = np.vstack((lengths.sum(0), clearances.min(0), curvatures.max(0), times))
-    best = _choice(common, WORTH * times.min(), requirements)
+    best = _choice(common, MAX_TIME_SHARE * times.min(), requirements)
     durations = np.empty_like(lengths)
     for k in range(len(lengths)):
         for j in range(len(tried)):
@@ -113,12 +113,12 @@ def advise_tension(mission: Mission, tensions: Sequence[float] = TENSIONS) -> Te
     chosen = np.array([
         _choice(
             np.vstack((lengths[k], clearances[k], curvatures[k], durations[k])),
-            WORTH * share * times[best], requirements,
+            MAX_TIME_SHARE * share * times[best], requirements,
         )
         for k, share in enumerate(shares)
     ])  # fmt: skip
     together = _duration(sequence, grouped[chosen, np.arange(len(chosen))], limits)
-    if together > (1.0 + WORTH) * times[best]:
+    if together > (1.0 + MAX_TIME_SHARE) * times[best]:
         chosen, together = np.full(len(chosen), best), float(times[best])
     return TensionAdvice(
         spans=tuple((a.name, b.name) for a, b in map(sequence.ends, range(len(sequence.legs)))),
@@ -152,7 +152,7 @@ def _laid(sequence: ViaSequence, tensions: Floats) -> Floats:
 def _measured(span: Floats, world: World, requirements: Requirements) -> tuple[float, float, float]:
     """Length, proven clearance of the body and peak curvature of a span's cubics."""
     span = np.ascontiguousarray(span)
-    lower, upper = tightest(world.packed, span, TOLERANCE)[:2]
+    lower, upper = tightest(world.packed, span, CLEARANCE_TOLERANCE_M)[:2]
     length, peak = length_and_curvature(span)
     gap = lower if np.isfinite(lower) else upper
     return float(length), float(gap) - requirements.radius, float(peak)
@@ -174,7 +174,7 @@ def _duration(sequence: ViaSequence, spans: Floats, limits: Limits) -> float:
 def _choice(rows: Floats, spare: float, requirements: Requirements) -> int:
     """Which tension is suggested: see ``TensionAdvice``."""
     length, clearance, curvature, duration = rows
-    allowed = clearance >= requirements.kept - SPARE
+    allowed = clearance >= requirements.kept - PROOF_SLACK_M
     if not allowed.any():
         allowed = np.ones(length.size, np.bool_)
     if requirements.turn_radius is not None:

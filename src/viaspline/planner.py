@@ -25,9 +25,11 @@ from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
-ROUNDS = 6  # of planning and trial drives
-SPARE = 1.1  # by which an allowance grows that was measured once already
-RESERVE = 1.2  # of a turning circle, where steering at its stop leaves too little to correct with
+MAX_TRIAL_ROUNDS = 6  # of planning and trial drives
+ALLOWANCE_GROWTH = 1.1  # by which an allowance grows that was measured once already
+TURN_RESERVE = (
+    1.2  # of a turning circle, where steering at its stop leaves too little to correct with
+)
 
 
 @dataclass(frozen=True)
@@ -106,11 +108,11 @@ def _as_driven(first: Plan) -> Plan:
         first: A plan, whatever it keeps.
     """
     result = first
-    for _ in range(ROUNDS):
+    for _ in range(MAX_TRIAL_ROUNDS):
         needed = allowance(result.path, result.trajectory, result.mission.robot)
         if needed <= result.tracking_error:
             return result
-        error = SPARE * max(needed, result.tracking_error)
+        error = ALLOWANCE_GROWTH * max(needed, result.tracking_error)
         result = _with_error(first.mission, first.world, error)
     raise GeometryError(
         f"the robot gets ever farther beside its path, {result.tracking_error:.2f} m in the last "
@@ -122,7 +124,7 @@ def _with_reserve(mission: Mission) -> Mission:
     """The same with a wider turning circle, so that there is steering left to correct with."""
     radius = mission.robot.turn_radius
     assert radius is not None  # steered robots have one
-    eased = mission.robot.model_copy(update={"min_turn_radius_m": RESERVE * radius})
+    eased = mission.robot.model_copy(update={"min_turn_radius_m": TURN_RESERVE * radius})
     return mission.model_copy(update={"robot": eased})
 
 

@@ -21,8 +21,8 @@ from viaspline.kernels.jit import CACHE_FOLDER
 from viaspline.mission.robot_parts import RobotSpec
 
 Job = Literal["curves", "driving"]
-LOCK = "compiling"
-LONGEST = 300.0  # a lock that is older than this was left behind [s]
+LOCK_NAME = "compiling"
+MAX_LOCK_AGE_S = 300.0  # a lock that is older than this was left behind [s]
 
 
 def compile_curves() -> None:
@@ -116,9 +116,9 @@ def _mark(job: Job) -> Path:
 def _taken() -> bool:
     """Take the job: one helper is enough, however many first runs begin at once."""
     assert CACHE_FOLDER is not None
-    lock = CACHE_FOLDER / LOCK
+    lock = CACHE_FOLDER / LOCK_NAME
     with suppress(OSError):
-        if time.time() - lock.stat().st_mtime > LONGEST:
+        if time.time() - lock.stat().st_mtime > MAX_LOCK_AGE_S:
             lock.unlink()
     try:
         lock.touch(exist_ok=False)
@@ -130,7 +130,7 @@ def _taken() -> bool:
 def _release() -> None:
     assert CACHE_FOLDER is not None
     with suppress(OSError):
-        (CACHE_FOLDER / LOCK).unlink()
+        (CACHE_FOLDER / LOCK_NAME).unlink()
 
 
 @contextmanager

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from viaspline.curve.cardinal import CardinalSpline
-from viaspline.curve.certificate import SPARE, TOLERANCE, certify
+from viaspline.curve.certificate import PROOF_SLACK_M, PROOF_TOLERANCE_M, certify
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.maps.grid import Grid
@@ -90,11 +90,11 @@ def test_the_bound_is_proven_and_within_a_millimetre(shapely_distance: Oracle, s
     certificate = certify(curve, World(obstacles, **frame), required, radius=radius)
     least = true_minimum(curve, lambda xy: shapely_distance(xy, obstacles, **frame))
     assert certificate.clearance + radius <= least + 1e-9
-    assert certificate.clearance + radius >= least - TOLERANCE - 1e-9
-    assert certificate.holds == (certificate.clearance >= required - SPARE)
+    assert certificate.clearance + radius >= least - PROOF_TOLERANCE_M - 1e-9
+    assert certificate.holds == (certificate.clearance >= required - PROOF_SLACK_M)
     # nothing that truly keeps its distance is refused, nothing that doesn't passes
-    assert certificate.holds or least - radius < required - 0.4 * SPARE
-    assert not certificate.holds or least - radius >= required - SPARE - 1e-9
+    assert certificate.holds or least - radius < required - 0.4 * PROOF_SLACK_M
+    assert not certificate.holds or least - radius >= required - PROOF_SLACK_M - 1e-9
 
 
 @given(seeds)
@@ -105,7 +105,7 @@ def test_the_tightest_place_is_where_it_says(shapely_distance: Oracle, seed: int
     certificate = certify(curve, World(obstacles, **frame), 0.5)
     at = np.asarray(certificate.tightest_at)
     there = float(shapely_distance([at], obstacles, **frame)[0])
-    assert certificate.clearance == pytest.approx(there, abs=TOLERANCE + 1e-9)
+    assert certificate.clearance == pytest.approx(there, abs=PROOF_TOLERANCE_M + 1e-9)
     assert certificate.clearance <= there + 1e-9
     np.testing.assert_allclose(curve.evaluate(certificate.tightest_u), at, atol=1e-9)
     np.testing.assert_allclose(curve.at_distance(certificate.tightest_distance), at, atol=1e-5)
@@ -132,7 +132,7 @@ def test_a_curve_that_touches_what_is_required_holds() -> None:
     world = World([disc(5, 3, 1)])
     certificate = certify(straight((0, 0), (10, 0)), world, 1.5, radius=0.5)
     assert certificate.holds
-    assert certificate.clearance == pytest.approx(1.5, abs=SPARE)
+    assert certificate.clearance == pytest.approx(1.5, abs=PROOF_SLACK_M)
     assert not certify(straight((0, 0), (10, 0)), world, 1.5 + 3e-6, radius=0.5).holds
 
 
@@ -146,16 +146,16 @@ def test_a_curve_along_a_wall_at_exactly_what_is_required_holds() -> None:
 def test_a_curve_that_only_touches_an_obstacle_holds_for_nothing_required() -> None:
     certificate = certify(straight((0, 0), (7, 0), (10, 0)), World([disc(5, 3, 3)]), 0.0)
     assert certificate.holds
-    assert certificate.clearance == pytest.approx(0.0, abs=SPARE)
+    assert certificate.clearance == pytest.approx(0.0, abs=PROOF_SLACK_M)
 
 
 def test_a_curve_through_an_obstacle_has_the_depth_as_its_clearance() -> None:
     inside = certify(straight((0, 0), (10, 0)), World([disc(5, 1, 3)]), 0.5)
-    assert inside.clearance == pytest.approx(-2.0, abs=TOLERANCE)
+    assert inside.clearance == pytest.approx(-2.0, abs=PROOF_TOLERANCE_M)
     assert not inside.holds
     square = Obstacle(polygon=[(2, -1), (8, -1), (8, 3), (2, 3)])
     deep = certify(straight((0, 0), (10, 0)), World([square]), 0.5)
-    assert deep.clearance == pytest.approx(-1.0, abs=TOLERANCE)
+    assert deep.clearance == pytest.approx(-1.0, abs=PROOF_TOLERANCE_M)
     assert deep.obstacle == "obstacle 1"
 
 
@@ -181,7 +181,9 @@ def test_a_curve_along_a_staircase_of_cells_at_exactly_what_is_required_holds() 
     aside = np.array([1.0, -1.0]) / math.sqrt(2)
     ends = np.array([(-5.0, -5.0), (30.0, 30.0), (105.0, 105.0)]) + aside
     assert certify(CardinalSpline(ends), world, 1.0).holds
-    assert certify(CardinalSpline(ends), world, 1.0).clearance == pytest.approx(1.0, abs=SPARE)
+    assert certify(CardinalSpline(ends), world, 1.0).clearance == pytest.approx(
+        1.0, abs=PROOF_SLACK_M
+    )
     assert not certify(CardinalSpline(ends), world, 1.0 + 3e-6).holds
 
 
@@ -189,7 +191,7 @@ def test_what_is_nearest_on_a_map_is_called_by_the_file_of_the_map() -> None:
     grid = Grid(np.ones((2, 2), bool), 1.0, (4.0, 1.0, 0.0), "depot.yaml")
     certificate = certify(straight((0, 0), (10, 0)), World([Obstacle(grid=grid)]), 0.5)
     assert certificate.obstacle == "map 'depot.yaml'"
-    assert certificate.clearance == pytest.approx(1.0, abs=TOLERANCE)
+    assert certificate.clearance == pytest.approx(1.0, abs=PROOF_TOLERANCE_M)
 
 
 def test_an_empty_world_leaves_infinite_clearance() -> None:
@@ -201,7 +203,7 @@ def test_an_empty_world_leaves_infinite_clearance() -> None:
 
 def test_a_curve_outside_the_bounds_does_not_hold() -> None:
     certificate = certify(straight((1, 1), (20, 1)), World(bounds=(0, 0, 10, 10)), 0.0)
-    assert certificate.clearance == pytest.approx(-10.0, abs=TOLERANCE)
+    assert certificate.clearance == pytest.approx(-10.0, abs=PROOF_TOLERANCE_M)
     assert certificate.obstacle == "bounds"
     assert certificate.tightest_at == (20.0, 1.0)
 
@@ -227,7 +229,7 @@ def test_a_million_metres_away_the_proof_holds_to_a_micrometre(shift: float) -> 
         ),
     )
     certificate = certify(curve, world, 1.0)
-    assert oracle - TOLERANCE - 1e-6 <= certificate.clearance <= oracle + 1e-6
+    assert oracle - PROOF_TOLERANCE_M - 1e-6 <= certificate.clearance <= oracle + 1e-6
     assert certify(curve, world, oracle - 1e-6).holds
     assert not certify(curve, world, oracle + 4e-6).holds
 
@@ -235,7 +237,7 @@ def test_a_million_metres_away_the_proof_holds_to_a_micrometre(shift: float) -> 
 def test_a_span_of_a_thousand_kilometres_is_proven_beside_a_pebble() -> None:
     certificate = certify(straight((0, 0), (1e6, 0)), World([disc(654_321, 1.5, 0.5)]), 1.0)
     assert certificate.holds
-    assert certificate.clearance == pytest.approx(1.0, abs=TOLERANCE)
+    assert certificate.clearance == pytest.approx(1.0, abs=PROOF_TOLERANCE_M)
 
 
 def test_kilometres_inside_of_something_are_refused_in_bounded_time() -> None:

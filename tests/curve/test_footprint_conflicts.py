@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from viaspline.curve.cardinal import CardinalSpline
-from viaspline.curve.certificate import SPARE, TOLERANCE, Certificate, certify
+from viaspline.curve.certificate import PROOF_SLACK_M, PROOF_TOLERANCE_M, Certificate, certify
 from viaspline.curve.footprint_conflicts import body_conflicts
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
@@ -162,7 +162,7 @@ def test_the_bound_is_proven_and_attained_to_a_millimetre(shapely_distance: Any,
     check_contact(found, curve, body)
     at = float(shapely_distance([found.contact], obstacles, **frame)[0])
     assert found.clearance <= at + 1e-9
-    assert at - max(TOLERANCE, -0.3 * at) - 1e-9 <= found.clearance
+    assert at - max(PROOF_TOLERANCE_M, -0.3 * at) - 1e-9 <= found.clearance
 
 
 def check_contact(found: Certificate, curve: PiecewiseCubic, body: Floats) -> None:
@@ -189,12 +189,12 @@ def test_conflicts_agree_with_the_certificate(seed: int) -> None:
     found = certify(open_curve, world, 0.5, footprint=body)
     spans = np.array(curve.spans)
     for required in (0.0, 0.3, 1.0, found.clearance - 2e-6):
-        if required < -SPARE:  # how deep is no question for a body
+        if required < -PROOF_SLACK_M:  # how deep is no question for a body
             continue
         clear = (body_conflicts(world.packed, spans, body, required) == -1).all()
         if found.clearance >= required + 1e-6:
             assert clear
-        if found.clearance + TOLERANCE < required:
+        if found.clearance + PROOF_TOLERANCE_M < required:
             assert not clear
 
 
@@ -236,9 +236,9 @@ def test_moving_or_mirroring_everything_changes_nothing(seed: int) -> None:
     others = [disc(*(turn @ d.circle.center + 7.0), d.circle.radius) for d in discs if d.circle]
     there = certify(moved, World(others), 0.5, footprint=body @ mirror).clearance
     if min(here, there) > 0.0:
-        assert here == pytest.approx(there, abs=TOLERANCE)
+        assert here == pytest.approx(there, abs=PROOF_TOLERANCE_M)
     else:
-        assert max(here, there) <= TOLERANCE
+        assert max(here, there) <= PROOF_TOLERANCE_M
 
 
 @settings(max_examples=30)
@@ -253,8 +253,12 @@ def test_a_polygon_of_many_corners_is_nearly_a_disc(seed: int) -> None:
     whole = certify(curve, world, 0.5, radius=1.0)
     cut = certify(curve, world, 0.5, footprint=round_body)
     if whole.clearance > 0.0:
-        least = whole.clearance - TOLERANCE
-        assert least <= cut.clearance <= whole.clearance + 1 - math.cos(math.pi / 48) + TOLERANCE
+        least = whole.clearance - PROOF_TOLERANCE_M
+        assert (
+            least
+            <= cut.clearance
+            <= whole.clearance + 1 - math.cos(math.pi / 48) + PROOF_TOLERANCE_M
+        )
 
 
 def straight(*points: Any) -> CardinalSpline:
@@ -269,7 +273,7 @@ def test_a_long_vehicle_goes_through_a_door_that_its_circle_would_not_pass() -> 
     aisle = straight((0, 0), (20, 0))
     found = certify(aisle, world, 0.2, footprint=LONG)
     assert found.holds
-    assert found.clearance == pytest.approx(0.2, abs=SPARE)
+    assert found.clearance == pytest.approx(0.2, abs=PROOF_SLACK_M)
     assert not certify(aisle, world, 0.2, radius=math.hypot(2, 0.5)).holds
     assert not certify(aisle, world, 0.2 + 3e-6, footprint=LONG).holds
     assert (body_conflicts(world.packed, np.array(aisle.spans), LONG, 0.2 - 1e-6) == -1).all()
@@ -361,7 +365,7 @@ def test_an_empty_world_leaves_infinite_clearance() -> None:
 def test_a_curve_that_is_a_single_point_is_proven_for_every_heading() -> None:
     curve = PiecewiseCubic(np.ones((1, 4, 2)))
     found = certify(curve, World([disc(1, 6, 1)]), 1.0, footprint=LONG)
-    assert found.clearance == pytest.approx(4 - math.hypot(2, 0.5), abs=TOLERANCE)
+    assert found.clearance == pytest.approx(4 - math.hypot(2, 0.5), abs=PROOF_TOLERANCE_M)
 
 
 def test_a_curve_in_space_counts_by_its_ground_track() -> None:

@@ -16,7 +16,7 @@ from viaspline.errors import GeometryError
 from viaspline.mission.parts import SpeedZone
 from viaspline.trajectory.coupled import Stage, System
 from viaspline.trajectory.limited_path import limited_path_of
-from viaspline.trajectory.limits import SETTLE, Limits, Station
+from viaspline.trajectory.limits import YAW_SETTLE_S, Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 
@@ -278,7 +278,7 @@ def test_a_jump_of_the_curvature_is_taken_slowly() -> None:
     jumps = path.curvature_jumps()
     for joint, jump in enumerate(jumps, start=1):
         speed = float(law.speed_at(path.distance(float(joint))))
-        assert 0 < speed * jump <= 0.5 * SETTLE * (1 + 1e-6)
+        assert 0 < speed * jump <= 0.5 * YAW_SETTLE_S * (1 + 1e-6)
 
 
 def test_a_start_that_is_too_fast_brakes_and_says_how_far() -> None:

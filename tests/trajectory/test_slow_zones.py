@@ -17,7 +17,7 @@ from viaspline.planner import plan
 from viaspline.robot.simulator import simulate
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
-from viaspline.trajectory.slow_zones import NEAR, slow_parts
+from viaspline.trajectory.slow_zones import ZONE_EDGE_M, slow_parts
 
 seeds = st.integers(0, 2**32 - 1)
 LIMITS = Limits(max_speed=2.0, max_accel=1.0)
@@ -59,7 +59,7 @@ def test_a_place_is_slow_exactly_where_it_is_inside(seed: int) -> None:
         slow |= (u >= low) & (u <= high)
     assert not np.any(inside & ~slow)
     wrong = shapely.points(path.evaluate(u[slow & ~inside]))
-    assert np.all(shapely.distance(area, wrong) <= 2 * NEAR)
+    assert np.all(shapely.distance(area, wrong) <= 2 * ZONE_EDGE_M)
 
 
 def test_a_line_through_a_zone_slows_down_for_it_and_speeds_up_behind() -> None:

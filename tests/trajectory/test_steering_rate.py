@@ -12,7 +12,7 @@ from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.trajectory.lap import retime_lap
-from viaspline.trajectory.limits import SETTLE, Limits
+from viaspline.trajectory.limits import YAW_SETTLE_S, Limits
 from viaspline.trajectory.retime import retime
 
 LIMITS = Limits(max_speed=3, max_accel=1, max_steer_rate=0.3, wheelbase=1.2)
@@ -62,7 +62,7 @@ def test_where_the_curvature_jumps_the_robot_is_slow_enough_for_the_wheels() -> 
         turn = abs(float(np.diff(np.arctan(1.2 * near))[0]))
         assert turn > 0.05
         speed = float(law.speed_at(path.distance(float(k))))
-        assert speed * turn / 0.3 <= 3 * SETTLE * (1 + 1e-6)
+        assert speed * turn / 0.3 <= 3 * YAW_SETTLE_S * (1 + 1e-6)
 
 
 def test_a_fast_steering_is_none_and_one_without_a_wheelbase_is_refused() -> None:
@@ -81,4 +81,4 @@ def test_laps_keep_the_steering_rate_at_their_seam() -> None:
     law = retime_lap(path, LIMITS)
     ends = np.asarray(path.curvature(np.array([path.domain[1] - 1e-9, 1e-9])))
     turn = abs(float(np.diff(np.arctan(1.2 * ends))[0]))
-    assert law.speeds[0] <= 3 * SETTLE * 0.3 / turn * (1 + 1e-6)
+    assert law.speeds[0] <= 3 * YAW_SETTLE_S * 0.3 / turn * (1 + 1e-6)

@@ -12,7 +12,7 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.curve import curvature_bound as kernels
 from viaspline.kernels.curve import self_intersection
 
-CORNER = 1e-7  # a tangent that jumps by less is smooth but for rounding [rad]
+SMOOTH_JUMP_RAD = 1e-7  # a tangent that jumps by less is smooth but for rounding [rad]
 
 
 def curvature_bound(curve: PiecewiseCubic) -> tuple[float, float]:
@@ -37,7 +37,7 @@ def curvature_bound(curve: PiecewiseCubic) -> tuple[float, float]:
         ...                                 [(3, 0), (3, 1), (3, 2), (3, 3)]]))
         (inf, 1.0)
     """
-    sharp = np.flatnonzero(corner_angles(curve) > CORNER)
+    sharp = np.flatnonzero(corner_angles(curve) > SMOOTH_JUMP_RAD)
     if sharp.size:
         return math.inf, float(sharp[0])
     upper, _, w = kernels.curvature_bounds(np.array(curve.spans), 0.0)

@@ -15,8 +15,8 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.clearance import disc as kernels
 from viaspline.world.outline import outline
 
-TOLERANCE = 1e-3  # between the proven bound and the true clearance [m]
-SPARE = 1e-6  # what a proof may lack of what is required: a curve that just touches it [m]
+PROOF_TOLERANCE_M = 1e-3  # between the proven bound and the true clearance [m]
+PROOF_SLACK_M = 1e-6  # what a proof may lack of what is required: a curve that just touches it [m]
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Certificate:
     @property
     def holds(self) -> bool:
         """Whether the proven clearance is the one that was asked for, to a micrometre."""
-        return self.clearance >= self.required - SPARE
+        return self.clearance >= self.required - PROOF_SLACK_M
 
 
 class Surroundings(Protocol):
@@ -169,13 +169,13 @@ def _bounder(
 
 def _proven(bounds: Callable[[float], _Bounds], required: float) -> _Bounds:
     """Bounds as tight as they can be had, and as they have to be to tell what is required."""
-    tolerance = TOLERANCE
+    tolerance = PROOF_TOLERANCE_M
     found = bounds(tolerance)
     while math.isinf(found.lower) and math.isfinite(found.upper):
         tolerance *= 10.0
         found = bounds(tolerance)
-    for tolerance in (0.01 * TOLERANCE, 0.1 * SPARE):
-        if found.lower >= required - SPARE or found.upper < required - SPARE:
+    for tolerance in (0.01 * PROOF_TOLERANCE_M, 0.1 * PROOF_SLACK_M):
+        if found.lower >= required - PROOF_SLACK_M or found.upper < required - PROOF_SLACK_M:
             break
         finer = bounds(tolerance)
         found = finer._replace(lower=max(found.lower, finer.lower))

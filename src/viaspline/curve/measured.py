@@ -14,7 +14,7 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve import arclength, cubic, extrema, frenet
 
-MOST_SAMPLES = 50_000_000
+MAX_SAMPLES = 50_000_000
 
 
 class Projection(NamedTuple):
@@ -119,7 +119,7 @@ class Measured:
                 than 50 million points.
         """
         length = self.length
-        if not spacing > 0.0 or length / spacing > MOST_SAMPLES:
+        if not spacing > 0.0 or length / spacing > MAX_SAMPLES:
             raise GeometryError(f"spacing = {spacing} can't divide a curve of {length:.6g} m")
         steps = max(1, math.ceil(length / spacing - 1e-9))
         s = np.linspace(0.0, length, steps + 1)

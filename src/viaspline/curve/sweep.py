@@ -9,13 +9,13 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike
 
-from viaspline.curve.bending import CORNER, corner_angles
+from viaspline.curve.bending import SMOOTH_JUMP_RAD, corner_angles
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.world.outline import outline
 
-MOST_POSES = 200_000
+MAX_POSES = 200_000
 
 
 def footprints_along(curve: PiecewiseCubic, footprint: ArrayLike, spacing: float) -> Floats:
@@ -129,8 +129,8 @@ def _poses(curve: PiecewiseCubic, reach: float, tolerance: float) -> tuple[Float
         coarse &= np.diff(u) > 1e-9
         if not coarse.any():
             break
-        if len(u) > MOST_POSES:
-            raise GeometryError(f"a tolerance of {tolerance} takes more than {MOST_POSES} poses")
+        if len(u) > MAX_POSES:
+            raise GeometryError(f"a tolerance of {tolerance} takes more than {MAX_POSES} poses")
         u = np.sort(np.concatenate((u, 0.5 * (u[:-1] + u[1:])[coarse])))
     return _with_turns(curve, at, heading, widest)
 
@@ -146,7 +146,7 @@ def _with_turns(
     share = np.concatenate([np.arange(1, n + 1) / n for n in steps])
     places = np.vstack((at[:1], at[first] + share[:, None] * np.diff(at, axis=0)[first]))
     headings = np.append(heading[0], heading[first] + share * turn[first])
-    if curve.closed and corner_angles(curve)[-1] > CORNER:
+    if curve.closed and corner_angles(curve)[-1] > SMOOTH_JUMP_RAD:
         over = math.remainder(heading[0] - heading[-1], math.tau)
         spin = np.linspace(0.0, 1.0, max(2, math.ceil(abs(over) / widest) + 1))
         places = np.vstack((np.repeat(at[:1], len(spin), axis=0), places))

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from viaspline.machine.machine import is_driven
 from viaspline.mission.robot_parts import RobotSpec
-from viaspline.trajectory.limits import REACTION, Limits
+from viaspline.trajectory.limits import REACTION_S, Limits
 
 STRAIGHT = 0.8
 """Part of a wheel's speed that is used at most on the straight; the rest is for turning."""
@@ -15,7 +15,7 @@ GRIP = 5.0
 """Acceleration across the path that tyres stand [m/s²], for machines without a limit of it."""
 
 
-def limits_of(robot: RobotSpec, reaction: float = REACTION) -> Limits:
+def limits_of(robot: RobotSpec, reaction: float = REACTION_S) -> Limits:
     """The limits of a mission's robot, with what its machine and its sensor allow.
 
     The time between two looks of the sensor is longer by the delay and the lag of the drive: so

@@ -25,7 +25,7 @@ from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
 from viaspline.robot.steer import steer
 from viaspline.robot.visits import visits_of
-from viaspline.trajectory.limits import REACTION
+from viaspline.trajectory.limits import REACTION_S
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
@@ -91,7 +91,7 @@ class Navigator:
         mission: Mission,
         plan: Plan | None = None,
         *,
-        reaction: float = REACTION,
+        reaction: float = REACTION_S,
         period: float = PERIOD,
     ) -> None:
         if not 0.0 < reaction < float("inf"):

@@ -21,7 +21,7 @@ from viaspline.robot.outcome import outcome
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.perception.range_sensor import RangeSensor
 from viaspline.robot.run import Event, Run
-from viaspline.trajectory.limits import REACTION
+from viaspline.trajectory.limits import REACTION_S
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
@@ -89,7 +89,7 @@ def simulate(
     if not 0.0 < step < float("inf"):
         raise GeometryError(f"step is {step}; give a time above 0 s")
     world = World.everything(mission)
-    nav = Navigator(mission, plan, reaction=max(step, REACTION), period=step)
+    nav = Navigator(mission, plan, reaction=max(step, REACTION_S), period=step)
     if nav.controller is not None:
         return _run_of_machine(nav, world, step, progress, seed)
     drive = _drive(nav, world, step, progress, seed)

@@ -12,15 +12,15 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.timing import cut_cells as kernels
 from viaspline.kernels.timing.cell_frames import fill_cells
 
-SAMPLED = 1000
+MIN_SAMPLES = 1000
 """Number of cells of a curve that is only known by its values."""
 
-SAFETY = 1.5
+ERROR_SAFETY = 1.5
 """What is measured of an error is taken so many times."""
 
-WIDEST = 0.1  # turn of the heading of a curve in space within one cell [rad]
-NARROWEST = 1e-7  # cell that is cut for it, in its span's parameter
-HALVINGS = 24
+MAX_CELL_TURN_RAD = 0.1  # turn of the heading of a curve in space within one cell [rad]
+MIN_CELL = 1e-7  # cell that is cut for it, in its span's parameter
+CELL_HALVINGS = 24
 _PLACES = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
 _BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90.0
 
@@ -131,14 +131,16 @@ def _cut_by_heading(
     A curve in space that climbs nearly straight up turns its heading within a few millimetres.
     """
     ground = 3.0 * np.diff(spans[:, :, :2], axis=1)
-    for _ in range(HALVINGS):
+    for _ in range(CELL_HALVINGS):
         a, b = rows[:, kernels.FIRST, None], rows[:, kernels.LAST, None]
         c = ground[rows[:, kernels.SPAN].astype(int)]
         first, last = (_blossom(c, u, u) for u in (a, b))
         hulls = np.stack((first, _blossom(c, a, b), last), axis=1)
         angles = np.arctan2(hulls[..., 1], hulls[..., 0])
         spread = np.abs(np.remainder(np.diff(angles, axis=1) + np.pi, 2 * np.pi) - np.pi).sum(1)
-        wide = (spread > WIDEST) & (rows[:, kernels.LAST] - rows[:, kernels.FIRST] > NARROWEST)
+        wide = (spread > MAX_CELL_TURN_RAD) & (
+            rows[:, kernels.LAST] - rows[:, kernels.FIRST] > MIN_CELL
+        )
         if not wide.any():
             break
         index = np.repeat(np.arange(len(rows)), 1 + wide)
@@ -158,7 +160,7 @@ def _blossom(c: Floats, u: Floats, w: Floats) -> Floats:
 
 
 def sampled_cells(
-    curve: Evaluable, cell_size: CellSize, count: int = SAMPLED
+    curve: Evaluable, cell_size: CellSize, count: int = MIN_SAMPLES
 ) -> tuple[Cells, Floats]:
     """The cells of any curve, from five samples in each; they are shorter where it bends.
 
@@ -259,7 +261,8 @@ def _fitted(values: Floats, shares: Floats) -> tuple[Floats, Floats]:
         shares: Which part of the length lies before the middle one, shape (n,).
 
     Returns:
-        Bernstein coefficients (n, k, 3), and how far they are off between, with ``SAFETY`` (n, k).
+        Bernstein coefficients (n, k, 3), and how far they are off between, with ``ERROR_SAFETY``,
+        (n, k).
     """
     x = shares[:, None]
     y = 1.0 - x
@@ -272,4 +275,4 @@ def _fitted(values: Floats, shares: Floats) -> tuple[Floats, Floats]:
         q = 1.0 - p
         value = q * q * fit[..., 0] + 2.0 * p * q * fit[..., 1] + p * p * fit[..., 2]
         miss = np.maximum(miss, np.abs(value - values[..., k]))
-    return np.ascontiguousarray(fit), SAFETY * miss
+    return np.ascontiguousarray(fit), ERROR_SAFETY * miss

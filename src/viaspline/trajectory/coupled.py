@@ -10,18 +10,18 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing import cell_caps, halfplanes, reachability, time_grid
 from viaspline.trajectory.cells import Cells, CellSize
-from viaspline.trajectory.limits import SETTLE, Limits
+from viaspline.trajectory.limits import YAW_SETTLE_S, Limits
 from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.steering_rate import jump_speeds, steered_caps
 
-RAMP = 8
+MIN_RAMP_STRETCHES = 8
 """Stretches that the shortest way to full speed is divided into, at least."""
 
 GATE, SHARE, PIECES = 0.009, 0.0022, 16
 """Where more than ``GATE`` of the time may be lost to the grid, stretches are cut into up to
 ``PIECES`` so that it is ``SHARE``. What is lost indeed is a fifth to a half of that."""
 
-MOST = 20_000
+MAX_STRETCHES = 20_000
 """A cell is never made shorter than the path over this, as long as it bends little."""
 
 
@@ -84,14 +84,14 @@ def cell_size_for(
     square = min(stage.top**2, max(stage.first, stage.last) ** 2 + 2.0 * accel * length)
     if speeds.size:
         square = min(square, float(speeds @ speeds))
-    longest = max(square / (2.0 * accel) / RAMP, length / MOST)
+    longest = max(square / (2.0 * accel) / MIN_RAMP_STRETCHES, length / MAX_STRETCHES)
     turning = (limits.max_yaw_rate, limits.max_yaw_accel, limits.max_steer_rate)
     steered = np.inf
     if limits.max_steer_rate is not None and limits.wheelbase is not None:
         steered = limits.max_steer_rate / limits.wheelbase * max(stage.top, stage.first)
     return CellSize(
         longest=longest if grid is None else min(longest, length / grid),
-        least=length / MOST,
+        least=length / MAX_STRETCHES,
         accel=accel,
         square=square,
         axis=min([*axes.tolist(), _or_inf(limits.max_lateral_accel)]),
@@ -184,7 +184,7 @@ def jump_caps(cells: Cells, limits: Limits, line: Floats, cell_size: CellSize) -
         return caps
     at = np.searchsorted(line, cells.along[1:-1] - 1e-9 * (1.0 + line[-1]))
     inner = (at > 0) & (at < line.size)
-    rate = _or_inf(limits.max_yaw_accel) * SETTLE
+    rate = _or_inf(limits.max_yaw_accel) * YAW_SETTLE_S
     slow = rate / np.maximum(cells.jumps[inner], 1e-12)
     before, after = cells.yaws[:-1, 0, 2], cells.yaws[1:, 0, 0]
     slow = np.minimum(slow, jump_speeds(before[inner], after[inner], limits))

@@ -13,7 +13,7 @@ from viaspline.kernels.timing.two_pass import two_pass_profile
 from viaspline.trajectory.coupled import Profile, Stage
 from viaspline.trajectory.limits import Limits
 
-TOLERANCE = 1.1
+CAP_RATIO = 1.1
 """Largest ratio of what two places within one arc of the profile allow for v²."""
 
 
@@ -76,7 +76,7 @@ def _stretches(
             np.ascontiguousarray(path.spans[first:]), joints[first:],
             np.inf if lateral is None else lateral, np.inf if turning is None else turning,
             max(limits.max_accel, limits.brake), square,
-            TOLERANCE if turning is None else np.sqrt(TOLERANCE),
+            CAP_RATIO if turning is None else np.sqrt(CAP_RATIO),
         )  # fmt: skip
         line = np.union1d(arcs[arcs > start], places)
         middles = 0.5 * (line[1:] + line[:-1])

@@ -13,16 +13,16 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 
-GAP = 2e-4
+DUALITY_GAP = 2e-4
 """What the barrier keeps of the time, at most, as a part of it."""
 
-STEEPER = 12.0
-ROUNDS = 60
+BARRIER_GROWTH = 12.0
+MAX_NEWTON_STEPS = 60
 
 LOOSER, NEARER = 40, 8
 """Rounds in which a motion that keeps every limit is sought, and Newton's steps in each."""
 
-SPARE = 0.998
+INTERIOR_SHARE = 0.998
 """Part of the limits that is planned with."""
 
 _GAUSS = (0.21132486540518713, 0.7886751345948129)
@@ -66,7 +66,7 @@ class Rows:
 
     def spared(self) -> Rows:
         """The same with a little less, so that a robot that is re-planned under way has room."""
-        return Rows(self.weights, self.limits * SPARE)
+        return Rows(self.weights, self.limits * INTERIOR_SHARE)
 
 
 @dataclass(frozen=True)
@@ -216,9 +216,9 @@ class SpeedProblem:
         sharpness = self.limits.size / self.time(m)
         while True:
             m = self.centred(m, sharpness)
-            if self.limits.size < GAP * sharpness * self.time(m):
+            if self.limits.size < DUALITY_GAP * sharpness * self.time(m):
                 return m
-            sharpness *= STEEPER
+            sharpness *= BARRIER_GROWTH
 
     def value(self, m: Floats, sharpness: float) -> float:
         """What the barrier makes least."""
@@ -230,7 +230,7 @@ class SpeedProblem:
         finite = linear[np.isfinite(linear)]
         return float(sharpness * self.time(m) - np.log(finite).sum() - np.log(jerk).sum())
 
-    def centred(self, m: Floats, sharpness: float, rounds: int = ROUNDS) -> Floats:
+    def centred(self, m: Floats, sharpness: float, rounds: int = MAX_NEWTON_STEPS) -> Floats:
         """The least of the barrier function from m on, by Newton's method."""
         from scipy.linalg import solveh_banded  # 0.2 s to import, and few plans ask for the jerk
 

@@ -20,20 +20,20 @@ from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.motion_pieces import time_into
 from viaspline.trajectory.trajectory import Trajectory
 
-QUICKEST = 0.02
+QUICKEST_S = 0.02
 """Time in which the acceleration rises from nothing at the soonest [s]: no motor answers sooner,
 and it makes no difference to the duration."""
 
-FINEST = 400
+MAX_FINE_CELLS = 400
 """Cells that a path is cut into for the jerk alone, at most."""
 
-FEWEST = 32
+MIN_REST_STRETCHES = 32
 """Stretches from rest to rest, at least."""
 
-GROWTH = 1.25
+STRETCH_GROWTH = 1.25
 """Beside a rest every stretch is longer than the one before it by this."""
 
-WIDEST = 0.01
+MAX_EXCESS = 0.01
 """By what part of it a limit other than the jerk is widened at most where a robot is under way."""
 
 
@@ -92,7 +92,7 @@ def smooth_law(
 def reachable(limits: Limits) -> Limits:
     """The same with a jerk that a motor may have."""
     assert limits.max_jerk is not None
-    jerk = max(limits.max_accel, limits.brake) / QUICKEST
+    jerk = max(limits.max_accel, limits.brake) / QUICKEST_S
     return replace(limits, max_jerk=min(limits.max_jerk, jerk))
 
 
@@ -103,7 +103,7 @@ def fine_path(limited_path: LimitedPath, limits: Limits, stage: Stage) -> Limite
     if not isinstance(limited_path, LimitedCubicPath):
         return limited_path
     fast = min(stage.top, (length * length * limits.max_jerk) ** (1.0 / 3.0) + stage.first)
-    longest = max(fast * accel / limits.max_jerk / 6.0, limited_path.length / FINEST)
+    longest = max(fast * accel / limits.max_jerk / 6.0, limited_path.length / MAX_FINE_CELLS)
     return replace(
         limited_path, grid=max(limited_path.grid or 1, int(np.ceil(limited_path.length / longest)))
     )
@@ -136,7 +136,10 @@ def _under_way(
     sums = sudden.speeds[1:] + sudden.speeds[:-1]
     quick = float((2.0 * np.diff(rough) / np.maximum(sums, 1e-12)).sum())
     found = smoothest_from(widths, rows, limits.max_jerk, begin, end, limits.brake, quick, hint)
-    if found.beyond < WIDEST and found.time < 2.0 * quick + 4.0 * limits.brake / limits.max_jerk:
+    if (
+        found.beyond < MAX_EXCESS
+        and found.time < 2.0 * quick + 4.0 * limits.brake / limits.max_jerk
+    ):
         return line, found.motion, float(line[found.over]), float(line[found.harsh])
     return rough, sudden, plain.over, float(line[-1])
 
@@ -211,7 +214,7 @@ class Section:
 
 def _marks(along: Floats, low: float, high: float, first: float, last: float) -> Floats:
     """The ends, and places beside them that come ever closer [m]; none beside an end of a cell."""
-    even = low + (high - low) * np.arange(1, FEWEST) / FEWEST
+    even = low + (high - low) * np.arange(1, MIN_REST_STRETCHES) / MIN_REST_STRETCHES
     beside = [_steps(0.5 * (high - low), step) for step in (first, last)]
     free = np.concatenate((low + beside[0], even, high - beside[1]))
     at = np.searchsorted(along, free).clip(1, along.size - 1)
@@ -223,8 +226,10 @@ def _marks(along: Floats, low: float, high: float, first: float, last: float) ->
 
 def _steps(room: float, first: float) -> Floats:
     """Distances that grow from a first one on, as far as there is room [m]."""
-    count = int(np.log1p((GROWTH - 1.0) * room / first) / np.log(GROWTH))
-    return np.asarray(first * (GROWTH ** np.arange(1.0, count + 1.0) - 1.0) / (GROWTH - 1.0))
+    count = int(np.log1p((STRETCH_GROWTH - 1.0) * room / first) / np.log(STRETCH_GROWTH))
+    return np.asarray(
+        first * (STRETCH_GROWTH ** np.arange(1.0, count + 1.0) - 1.0) / (STRETCH_GROWTH - 1.0)
+    )
 
 
 def _rows(

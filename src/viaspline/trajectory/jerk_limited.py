@@ -25,18 +25,18 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.trajectory.interior_point import Even, Moving, Rest, Rows, Seam, SpeedProblem
 
-STEPS = 400  # of the guess
+GUESS_STEPS = 400  # of the guess
 GUESSES = ((0.5, 0.6), (0.95, 0.95))
 """Parts of the braking and of the jerk that a first guess brakes with."""
 
 
-SPARE = 0.99
+JERK_SHARE = 0.99
 """Part of the jerk that is planned with; the rest is for a robot that is re-planned under way."""
 
-LATE = 1.3
+MAX_DURATION_RATIO = 1.3
 """Times what a motion takes without a limit of the jerk that it may take; else there's another."""
 
-KEPT = 1e-7  # an excess that is rounding
+ROUNDING_EXCESS = 1e-7  # an excess that is rounding
 
 
 class Motion(NamedTuple):
@@ -65,7 +65,7 @@ def smoothest(widths: Floats, rows: Rows, jerk: float, end: Rest | Even) -> Moti
         jerk: [m/s³].
         end: How it ends.
     """
-    problem = SpeedProblem.of(widths, rows.spared(), SPARE * jerk, Rest(), end)
+    problem = SpeedProblem.of(widths, rows.spared(), JERK_SHARE * jerk, Rest(), end)
     return _motion(problem, problem.fastest(problem.crawl()), widths, Rest(), end)
 
 
@@ -77,7 +77,7 @@ def smoothest_lap(widths: Floats, rows: Rows, jerk: float) -> Motion:
         rows: Their limits.
         jerk: [m/s³].
     """
-    problem = SpeedProblem.of(widths, rows.spared(), SPARE * jerk, Seam(), Seam())
+    problem = SpeedProblem.of(widths, rows.spared(), JERK_SHARE * jerk, Seam(), Seam())
     return _motion(problem, problem.fastest(problem.crawl()), widths, Seam(), Seam())
 
 
@@ -125,7 +125,7 @@ def smoothest_from(
             [m²/s²], shape (2 n + 1,).
     """
     true = SpeedProblem.of(widths, rows, jerk, start, end)
-    tight = SpeedProblem.of(widths, rows.spared(), SPARE * jerk, start, end)
+    tight = SpeedProblem.of(widths, rows.spared(), JERK_SHARE * jerk, start, end)
     found = None
     guesses = [_guess(widths, start, end, part * brake, rate * jerk) for part, rate in GUESSES]
     if hint is not None:
@@ -145,7 +145,7 @@ def smoothest_from(
         )
         if found is None or (one.over, one.harsh, one.time) < (found.over, found.harsh, found.time):
             found = one
-        if not (found.over or found.harsh) and found.time < LATE * quick:
+        if not (found.over or found.harsh) and found.time < MAX_DURATION_RATIO * quick:
             break
     assert found is not None
     return found
@@ -153,7 +153,7 @@ def smoothest_from(
 
 def _passed(excess: Floats) -> int:
     """After how many stretches nothing is exceeded any more; the first one is not among these."""
-    off = np.flatnonzero(excess > KEPT)
+    off = np.flatnonzero(excess > ROUNDING_EXCESS)
     return int(off[-1]) + 2 if off.size else 0
 
 
@@ -177,8 +177,8 @@ def _braked(
 ) -> tuple[list[float], list[float]]:
     """Distances and v² of a robot that brakes to a crawl, from a speed and an acceleration on."""
     line, squares, s = [0.0], [v * v], 0.0
-    step = (v / brake + (brake + abs(a)) / jerk) * 2.0 / STEPS
-    for _ in range(4 * STEPS):
+    step = (v / brake + (brake + abs(a)) / jerk) * 2.0 / GUESS_STEPS
+    for _ in range(4 * GUESS_STEPS):
         wanted = -min(brake, float(np.sqrt(max(jerk * (v - crawl), 0.0))))
         a += min(max(wanted - a, -jerk * step), jerk * step)
         new = max(v + a * step, crawl)
@@ -193,7 +193,7 @@ def _braked(
 
 def _risen(top: float, length: float, brake: float, jerk: float) -> tuple[Floats, Floats]:
     """Distances back from a rest and v² of a robot that brakes as hard as it can to it."""
-    late = np.linspace(0.0, brake / jerk + 2.0 * top / brake, STEPS)
+    late = np.linspace(0.0, brake / jerk + 2.0 * top / brake, GUESS_STEPS)
     ramp = np.minimum(late, brake / jerk)
     after = late - ramp
     v = 0.5 * jerk * ramp**2 + brake * after

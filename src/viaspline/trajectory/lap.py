@@ -13,15 +13,15 @@ from viaspline.trajectory.coupled import Profile, Stage
 from viaspline.trajectory.curvature_limited import Cubic
 from viaspline.trajectory.jerk_limited_lap import smooth_lap
 from viaspline.trajectory.limited_path import LimitedCubicPath, crawl
-from viaspline.trajectory.limits import SETTLE, Limits, Station
+from viaspline.trajectory.limits import YAW_SETTLE_S, Limits, Station
 from viaspline.trajectory.retime import stops_from
 from viaspline.trajectory.steering_rate import jump_speeds
 from viaspline.trajectory.trajectory import Trajectory
 
-CLOSE = 1e-6
+SEAM_TOLERANCE = 1e-6
 """A lap ends where it starts, this near [m]."""
 
-HALVINGS = 50
+SPEED_HALVINGS = 50
 
 
 def retime_lap(
@@ -65,7 +65,7 @@ def retime_lap(
     """
     limited_path = LimitedCubicPath(path, limits, grid)
     gap = float(np.linalg.norm(path.spans[0, 0] - path.spans[-1, 3]))
-    if gap > CLOSE:
+    if gap > SEAM_TOLERANCE:
         raise GeometryError(f"the path ends {gap:.3g} m from where it starts: that is no lap")
     length = limited_path.length
     top = limits.max_speed if speed_cap is None else min(limits.max_speed, float(speed_cap))
@@ -96,7 +96,7 @@ def retime_lap(
     profile, kept = lap(top_at_seam)
     if not kept:
         low, high = 0.0, top_at_seam**2
-        for _ in range(HALVINGS):
+        for _ in range(SPEED_HALVINGS):
             middle = 0.5 * (low + high)
             low, high = (middle, high) if lap(np.sqrt(middle))[1] else (low, middle)
         profile, _ = lap(np.sqrt(low))
@@ -139,7 +139,7 @@ def _seam_speed(limited_path: LimitedCubicPath) -> float:
     if limits.max_yaw_accel is None:
         return steered
     jump = abs(float(after[0] - before[0]))
-    return min(steered, limits.max_yaw_accel * SETTLE / max(jump, 1e-12))
+    return min(steered, limits.max_yaw_accel * YAW_SETTLE_S / max(jump, 1e-12))
 
 
 def _direction(span: Floats) -> Floats:

@@ -12,7 +12,7 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import SpeedZone
 from viaspline.trajectory.cells import (
-    SAMPLED,
+    MIN_SAMPLES,
     Cells,
     CellSize,
     Evaluable,
@@ -51,7 +51,7 @@ def limited_path_of(
     if hasattr(path, "spans"):
         return LimitedCubicPath(cast(Cubic, path), limits, grid)
     rough = cell_size_for(limits, 1, Stage(start=0.0, end=1.0, first=0.0, last=0.0, top=1.0))
-    cells, u = sampled_cells(path, rough, SAMPLED if grid is None else grid)
+    cells, u = sampled_cells(path, rough, MIN_SAMPLES if grid is None else grid)
     return LimitedSampledPath(path, limits, cells, u)
 
 

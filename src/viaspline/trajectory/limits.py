@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from viaspline.errors import GeometryError
 from viaspline.mission.robot_parts import RobotSpec
 
-REACTION = 0.1
+REACTION_S = 0.1
 """Longest time between two looks of the sensor for which speeds are planned [s]."""
 
-SETTLE = 0.1
+YAW_SETTLE_S = 0.1
 """Time in which a robot takes up the yaw rate of the next piece where the curvature jumps [s]."""
 
 _ALONG = (
@@ -43,11 +43,11 @@ class Limits:
         max_yaw_rate: Of the path's heading over the ground [rad/s].
         max_yaw_accel: Change of that [rad/s²]. At a place where the curvature jumps, as it does at
             the via points of a cardinal spline, the yaw rate would have to jump as well; the robot
-            is so slow there that the jump is what this limit allows in ``SETTLE`` seconds.
+            is so slow there that the jump is what this limit allows in ``YAW_SETTLE_S`` seconds.
         max_jerk: Change of the acceleration along the path [m/s³].
         max_steer_rate: How fast steered wheels turn [rad/s]; with ``wheelbase``. Where the
             curvature jumps the robot is so slow that while they turn it rolls no farther than at
-            full speed in ``SETTLE`` seconds.
+            full speed in ``YAW_SETTLE_S`` seconds.
         wheelbase: From the reference point, on the rear axle, to the steered wheels [m].
         axis_speed: Along every coordinate axis [m/s]: one number, or one for each axis.
         axis_accel: Along every coordinate axis [m/s²], the acceleration across the path included.
@@ -160,7 +160,7 @@ class Limits:
         return tuple(found)
 
     @classmethod
-    def of(cls, robot: RobotSpec, reaction: float = REACTION) -> Limits:
+    def of(cls, robot: RobotSpec, reaction: float = REACTION_S) -> Limits:
         """The limits of a mission's robot, with what its sensor allows.
 
         A robot with a sensor drives no faster than lets it stop inside what it has seen; one

@@ -11,7 +11,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 
-_TINY = 1e-4  # below this a series of two terms is exact to rounding
+_SERIES_LIMIT = 1e-4  # below this a series of two terms is exact to rounding
 
 
 def after(late: Floats, v: Floats, a: Floats, k: Floats, j: Floats) -> tuple[Floats, ...]:
@@ -34,7 +34,7 @@ def after(late: Floats, v: Floats, a: Floats, k: Floats, j: Floats) -> tuple[Flo
 def _slope(square: Floats) -> Floats:
     """sinh(x) / x for x² = square, which may be negative: then it is sin(|x|) / |x|."""
     x = np.sqrt(np.abs(square))
-    small = x < _TINY
+    small = x < _SERIES_LIMIT
     y = np.where(small, 1.0, x)
     curved = np.where(square < 0.0, np.sin(y), np.sinh(np.minimum(y, 700.0))) / y
     return np.asarray(np.where(small, 1.0 + square / 6.0, curved))
@@ -55,7 +55,7 @@ def time_into(x: Floats, width: Floats, v: Floats, speed: Floats, k: Floats, j: 
     sums = v + speed
     ratio = np.divide(x, sums, out=np.zeros_like(x), where=sums > 0.0)
     y = np.sqrt(np.abs(k)) * ratio
-    small = y < _TINY
+    small = y < _SERIES_LIMIT
     z = np.where(small, 0.5, y)
     curved = np.where(k < 0.0, np.arctan(z), np.arctanh(np.minimum(z, 1.0 - 1e-16))) / z
     plain = 2.0 * ratio * np.where(small, 1.0 + k * ratio * ratio / 3.0, curved)

@@ -13,10 +13,10 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.parts import SpeedZone
 
-NEAR = 1e-6
+ZONE_EDGE_M = 1e-6
 """What is nearer to a zone than this counts as inside [m]."""
 
-DEEPEST = 40  # halvings of a span; then a piece is taken as inside
+MAX_ZONE_HALVINGS = 40  # halvings of a span; then a piece is taken as inside
 
 
 class Slow(NamedTuple):
@@ -30,8 +30,8 @@ class Slow(NamedTuple):
 def slow_parts(spans: Floats, zones: Sequence[SpeedZone]) -> list[tuple[float, float, float]]:
     """The parts of a curve that may lie in zones.
 
-    Nothing that lies in a zone is missing; what is farther than ``NEAR`` from it is not there,
-    except within ``NEAR`` along the curve of where it enters or leaves. A piece of a span lies in
+    Nothing that lies in a zone is missing; what is farther than ``ZONE_EDGE_M`` from it is not
+    there, except that near along the curve to where it enters or leaves. A piece of a span lies in
     the hull of its control points: one whose hull is outside is left out, one whose hull is inside
     is taken, all others are halved. In space the zone stands upright on its polygon.
 
@@ -56,7 +56,7 @@ def slow_parts(spans: Floats, zones: Sequence[SpeedZone]) -> list[tuple[float, f
     if spans.shape[2] < 2:
         raise GeometryError("a path of one dimension has no speed zones")
     areas = np.array([_area(zone) for zone in zones], dtype=object)
-    wide = shapely.buffer(areas, NEAR, join_style="mitre")
+    wide = shapely.buffer(areas, ZONE_EDGE_M, join_style="mitre")
     shapely.prepare(areas)
     shapely.prepare(wide)
     hulls = _hulls(spans[:, :, :2])
@@ -69,11 +69,11 @@ def slow_parts(spans: Floats, zones: Sequence[SpeedZone]) -> list[tuple[float, f
         span.astype(np.float64) + 1.0,
         spans[span][:, :, :2],
     )
-    for depth in range(DEEPEST + 1):
+    for depth in range(MAX_ZONE_HALVINGS + 1):
         hulls = _hulls(pieces)
         taken = shapely.covers(wide[zone], hulls)
-        small = np.abs(np.diff(pieces, axis=1)).max(axis=(1, 2), initial=0.0) < 0.3 * NEAR
-        taken |= shapely.intersects(areas[zone], hulls) & (small | (depth == DEEPEST))
+        small = np.abs(np.diff(pieces, axis=1)).max(axis=(1, 2), initial=0.0) < 0.3 * ZONE_EDGE_M
+        taken |= shapely.intersects(areas[zone], hulls) & (small | (depth == MAX_ZONE_HALVINGS))
         inside.append((low[taken], high[taken], zone[taken]))
         go = ~taken & shapely.intersects(areas[zone], hulls)
         if not go.any():

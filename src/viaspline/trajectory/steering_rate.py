@@ -11,9 +11,9 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.trajectory.cells import Cells
-from viaspline.trajectory.limits import SETTLE, Limits
+from viaspline.trajectory.limits import YAW_SETTLE_S, Limits
 
-_LEAST = 1e-12
+_MIN_CURVATURE_1PM = 1e-12
 
 
 def steered_caps(cells: Cells, limits: Limits) -> Floats:
@@ -26,14 +26,14 @@ def steered_caps(cells: Cells, limits: Limits) -> Floats:
     one_way = bends.min(axis=1) * bends.max(axis=1) > 0.0
     least = np.where(one_way, np.abs(bends).min(axis=1) - cells.misses[:, 2], 0.0)
     flat = 1.0 + (limits.wheelbase * np.maximum(least, 0.0)) ** 2
-    speed = limits.max_steer_rate * flat / np.maximum(limits.wheelbase * most, _LEAST)
+    speed = limits.max_steer_rate * flat / np.maximum(limits.wheelbase * most, _MIN_CURVATURE_1PM)
     return np.asarray(speed * speed)
 
 
 def jump_speeds(before: Floats, after: Floats, limits: Limits) -> Floats:
     """The largest speeds where the curvature jumps [m/s].
 
-    While the wheels turn the robot rolls no farther than at full speed in ``SETTLE``.
+    While the wheels turn the robot rolls no farther than at full speed in ``YAW_SETTLE_S``.
 
     Args:
         before: Curvature before each jump [1/m], shape (n,).
@@ -43,5 +43,5 @@ def jump_speeds(before: Floats, after: Floats, limits: Limits) -> Floats:
     if limits.max_steer_rate is None or limits.wheelbase is None:
         return np.full(before.size, np.inf)
     turn = np.abs(np.arctan(limits.wheelbase * after) - np.arctan(limits.wheelbase * before))
-    room = limits.max_speed * SETTLE * limits.max_steer_rate
-    return np.asarray(room / np.maximum(turn, _LEAST))
+    room = limits.max_speed * YAW_SETTLE_S * limits.max_steer_rate
+    return np.asarray(room / np.maximum(turn, _MIN_CURVATURE_1PM))

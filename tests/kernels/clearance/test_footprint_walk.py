@@ -81,7 +81,7 @@ def test_what_a_body_encloses_is_no_free_space():
 @pytest.mark.parametrize("seed", range(8))
 def test_the_hull_of_four_places_misses_no_more_than_it_says(seed):
     rng = np.random.default_rng(seed)
-    stack = np.empty((60, pieces.COLUMNS))
+    stack = np.empty((60, pieces.MOTION_COLUMNS))
     spans = rng.uniform(0, 10, (1, 4, 2))
     assert pieces.load_path(stack, spans, 0, 0)
     body = rng.uniform(-3, 3, (2, 2))

@@ -7,7 +7,7 @@ from viaspline.kernels.curve import extrema
 
 def found_roots(coefficients):
     out = np.empty(8 * len(coefficients))
-    stack = np.empty((extrema.DEPTH, len(coefficients) + 2))
+    stack = np.empty((extrema.MAX_ROOT_DEPTH, len(coefficients) + 2))
     count = extrema.roots(np.array(coefficients, float), stack, out)
     return out[:count]
 

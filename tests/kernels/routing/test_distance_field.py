@@ -5,7 +5,7 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
-from viaspline.kernels.routing.distance_field import OVER, distance_field
+from viaspline.kernels.routing.distance_field import OCTILE_EXCESS, distance_field
 
 
 def test_lengths_spread_as_dijkstra_finds_them_on_the_graph_of_neighbours():
@@ -20,6 +20,6 @@ def test_lengths_spread_as_dijkstra_finds_them_on_the_graph_of_neighbours():
                 if (dr or dc) and 0 <= to[0] < 12 and 0 <= to[1] < 17 and not cells[to]:
                     rows.append(r * 17 + c)
                     columns.append(to[0] * 17 + to[1])
-                    weights.append(math.hypot(dr, dc) / OVER)
+                    weights.append(math.hypot(dr, dc) / OCTILE_EXCESS)
     graph = coo_array((weights, (rows, columns)), shape=(cells.size, cells.size)).tocsr()
     assert lengths.ravel() == pytest.approx(dijkstra(graph, indices=3 * 17 + 4))

@@ -34,7 +34,7 @@ def along_bend(first, last, length, s):
 
 
 def connected(x, y, start, goal, s1, s2, ramp=RAMP):
-    segments = np.empty((connect.MOST, 3))
+    segments = np.empty((connect.MAX_SEGMENTS, 3))
     count, length = connection(x, y, start, goal, s1, s2, RHO, ramp, segments)
     return segments[:count], length
 

@@ -14,7 +14,7 @@ from viaspline.kernels.world.box_tree import box_tree, hilbert_keys, ring_boxes
 from viaspline.kernels.world.clusters import group_labels
 from viaspline.kernels.world.distance import distances, obstacle_distances
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.rings import BLOCK, pack_rings
+from viaspline.kernels.world.rings import EDGES_PER_BLOCK, pack_rings
 from viaspline.kernels.world.segment import mark_near_segment, nearest_to_segment
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack import join, pack
@@ -64,7 +64,9 @@ def test_fences_run_clockwise(flip: int) -> None:
         np.testing.assert_array_equal(edges[:, 2:], np.roll(edges[:, :2], -1, axis=0))
 
 
-@pytest.mark.parametrize("count", [3, BLOCK - 1, BLOCK, BLOCK + 1, 5 * BLOCK + 3])
+@pytest.mark.parametrize(
+    "count", [3, EDGES_PER_BLOCK - 1, EDGES_PER_BLOCK, EDGES_PER_BLOCK + 1, 5 * EDGES_PER_BLOCK + 3]
+)
 def test_blocks_hold_all_edges_once(count: int) -> None:
     angle = np.linspace(0, 2 * np.pi, count, endpoint=False)
     ring = np.column_stack((np.cos(angle), np.sin(angle)))
@@ -74,7 +76,7 @@ def test_blocks_hold_all_edges_once(count: int) -> None:
     assert block_edges[0] == 0
     assert block_edges[-1] == len(edges) == 2 * count
     assert (np.diff(block_edges) >= 1).all()
-    assert (np.diff(block_edges) <= BLOCK).all()
+    assert (np.diff(block_edges) <= EDGES_PER_BLOCK).all()
     np.testing.assert_array_equal(block_edges[ring_blocks], [0, count, 2 * count])
     boxes = ring_boxes(edges, block_edges)
     for box, first, last in zip(boxes, block_edges[:-1], block_edges[1:], strict=True):

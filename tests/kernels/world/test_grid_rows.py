@@ -15,7 +15,7 @@ from viaspline.kernels.clearance.disc import conflicts
 from viaspline.kernels.world import grid_rows as grid_kernels
 from viaspline.kernels.world.clusters import group_labels
 from viaspline.kernels.world.distance import distances, obstacle_distances
-from viaspline.kernels.world.grid_rows import NONE, row_tables
+from viaspline.kernels.world.grid_rows import NO_COLUMN, row_tables
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import mark_near_segment, nearest_to_segment
 from viaspline.maps.grid import Grid
@@ -83,7 +83,7 @@ def test_tables_count_the_columns_to_where_a_row_changes(grid: Grid) -> None:
     for (row, column), kind in np.ndenumerate(grid.blocked):
         other = np.flatnonzero(grid.blocked[row] != kind) - column
         right, left = other[other > 0], -other[other < 0]
-        none = -NONE - 1 if kind else NONE
+        none = -NO_COLUMN - 1 if kind else NO_COLUMN
         sign = -1 if kind else 1
         assert to_right[row, column] == (sign * right.min() if right.size else none)
         assert to_left[row, column] == (sign * left.min() if left.size else none)
@@ -93,8 +93,8 @@ def test_tables_of_the_widest_grid_have_room_for_its_columns() -> None:
     blocked = np.zeros((1, 32_000), bool)
     blocked[0, -1] = True
     to_right, to_left = row_tables(blocked)
-    assert (to_right[0], to_right[-1]) == (31_999, -NONE - 1)
-    assert (to_left[0], to_left[-2], to_left[-1]) == (NONE, NONE, -1)
+    assert (to_right[0], to_right[-1]) == (31_999, -NO_COLUMN - 1)
+    assert (to_left[0], to_left[-2], to_left[-1]) == (NO_COLUMN, NO_COLUMN, -1)
     grid = Grid(blocked, 1.0)
     assert to_points(grid, [(0.0, 0.5), (-5.0, 0.5), (31_999.5, 0.5)]).tolist() == [
         31_999.0, 32_004.0, -0.5,

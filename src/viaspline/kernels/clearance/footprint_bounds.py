@@ -31,7 +31,7 @@ from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.plane import squared_point_segment
 from viaspline.kernels.world.segment import nearest_to_segment
 
-POINT = 1e-9  # what is smaller is a point [m]
+POINT_SIZE_M = 1e-9  # what is smaller is a point [m]
 
 LOWER = 0  # what is known so far: bounds of the distance [m]
 UPPER = 1
@@ -41,7 +41,7 @@ Y = 4
 COS = 5
 SIN = 6
 CELLS = 7  # how many have been looked at
-STATE = 8
+STATE_SIZE = 8
 
 
 @inner
@@ -138,7 +138,7 @@ def cell_bound(
         index = -1
     bound = distance - ball
     along = max(squared_gap(at, 0, 2), squared_gap(at, 1, 3))
-    if bound >= accept or ball < POINT:
+    if bound >= accept or ball < POINT_SIZE_M:
         return bound, 0, index
     width = _spine(at) + missed
     if distance - width >= accept and state[UPPER] > 0.0:

@@ -38,10 +38,12 @@ COS1 = 24
 SIN1 = 25
 SAG = 26  # what the hull of four places misses: sag + |b| swing
 SWING = 27
-COLUMNS = 28
+MOTION_COLUMNS = 28
 
-NARROW = 0.35  # tangent of the widest angle to start with between a chord and the derivative
-STEP = 0.5  # widest turn on the spot that is taken at once [rad]
+MAX_CHORD_SLOPE = (
+    0.35  # tangent of the widest angle to start with between a chord and the derivative
+)
+MAX_SPOT_TURN_RAD = 0.5  # widest turn on the spot that is taken at once [rad]
 
 
 @inner
@@ -98,7 +100,7 @@ def end_heading(row: Floats, last: bool) -> float:
 
 @inner
 def _copy(stack: Floats, top: int) -> None:
-    for column in range(COLUMNS):
+    for column in range(MOTION_COLUMNS):
         stack[top + 1, column] = stack[top, column]
 
 
@@ -186,7 +188,7 @@ def settle(row: Floats) -> bool:
         turn = row[LAST] - row[FIRST]
         row[SAG] = 0.0
         row[SWING] = 0.125 * turn * turn
-        return abs(turn) <= STEP
+        return abs(turn) <= MAX_SPOT_TURN_RAD
     cx = row[SPEED] + row[SPEED + 2] + row[SPEED + 4]
     cy = row[SPEED + 1] + row[SPEED + 3] + row[SPEED + 5]
     squared = cx * cx + cy * cy
@@ -226,7 +228,7 @@ def settle(row: Floats) -> bool:
     row[SAG] = 0.75 * max(abs(across1), abs(across2))
     spread = min(left - right, _turning_spread(row) + 0.75 * lag * turn)
     row[SWING] = 0.125 * turn * turn + spread
-    return left <= NARROW and right >= -NARROW
+    return left <= MAX_CHORD_SLOPE and right >= -MAX_CHORD_SLOPE
 
 
 @inner

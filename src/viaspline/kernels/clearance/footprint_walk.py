@@ -21,18 +21,18 @@ from viaspline.kernels.clearance.footprint_bounds import (
     COS,
     LOWER,
     SIN,
-    STATE,
+    STATE_SIZE,
     UPPER,
     X,
     Y,
     cell_bound,
 )
 from viaspline.kernels.clearance.footprint_motion import (
-    COLUMNS,
     EDGE,
     FROM,
     HIGH,
     LOW,
+    MOTION_COLUMNS,
     PATH,
     SAG,
     SPEED,
@@ -51,13 +51,13 @@ from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import nearest_to_segment
 
-DEPTH = 200
-MOST = 1_000_000  # cells that a bound may take
-CUSP = 1e-9  # a piece so small that still turns without bound is a turn on the spot [m]
-COARSE = 1.0  # the tolerance of the first look [m]; every other one is so much finer:
-FINER = 32.0
-LONG = 4.0  # pieces are halved until they reach no farther than so many outer radii
-STRAIGHT = 1e-9  # headings nearer to each other than this are one [rad]
+MAX_STACK = 200
+MAX_CELLS = 1_000_000  # cells that a bound may take
+CUSP_PIECE_M = 1e-9  # a piece so small that still turns without bound is a turn on the spot [m]
+FIRST_TOLERANCE_M = 1.0  # the tolerance of the first look [m]; every other one is so much finer:
+TOLERANCE_RATIO = 32.0
+MAX_REACH_RADII = 4.0  # pieces are halved until they reach no farther than so many outer radii
+SAME_HEADING_RAD = 1e-9  # headings nearer to each other than this are one [rad]
 
 
 @inner
@@ -76,7 +76,7 @@ def _halve(stack: Floats, top: int) -> int:
     if late[TURN] == 1.0 or late[SPEED] != 0.0 or late[SPEED + 1] != 0.0:
         return top + 1
     turn = _turn(end_heading(early, True), end_heading(late, False))
-    if abs(turn) <= STRAIGHT:
+    if abs(turn) <= SAME_HEADING_RAD:
         return top + 1
     load_turn(stack, late[PATH], late[PATH + 1], late[FROM], 0.0, 2.0 * math.pi, top + 2)
     return top + 2
@@ -103,7 +103,7 @@ def _open(
         state[LOWER] = min(state[LOWER], bound)
         return top - 1
     if not settle(row):
-        if row[TURN] == 0.0 and reach < CUSP:
+        if row[TURN] == 0.0 and reach < CUSP_PIECE_M:
             load_turn(stack, row[PATH], row[PATH + 1], row[FROM], 0.0, 2.0 * math.pi, top)
             return top
         return _halve(stack, top)
@@ -115,13 +115,13 @@ def _open(
         if chord > 0.0 and chord - width >= accept:
             state[LOWER] = min(state[LOWER], chord - width)
             return top - 1
-    if reach > LONG * outer:
+    if reach > MAX_REACH_RADII * outer:
         return _halve(stack, top)
     row[LOW] = 0.0
     row[HIGH] = 1.0
     for edge in range(body.shape[0]):
         if edge > 0:
-            for column in range(COLUMNS):
+            for column in range(MOTION_COLUMNS):
                 stack[top + edge, column] = row[column]
         stack[top + edge, EDGE] = edge
     return top + body.shape[0] - 1
@@ -147,7 +147,7 @@ def _walk(
     found = -1
     while top >= 0:
         state[CELLS] += 1.0
-        if state[CELLS] > MOST:
+        if state[CELLS] > MAX_CELLS:
             state[LOWER] = -np.inf
             return found
         accept = state[UPPER] - max(tolerance, -0.25 * state[UPPER])
@@ -179,7 +179,7 @@ def _walk(
 @kernel
 def end_direction(spans: Floats, last: bool) -> float:
     """Heading at the start or the end of a curve [rad]; nan when it is a single point."""
-    stack = np.empty((1, COLUMNS))
+    stack = np.empty((1, MOTION_COLUMNS))
     count = spans.shape[0]
     for k in range(count):
         span = count - 1 - k if last else k
@@ -200,7 +200,7 @@ def _load_span(stack: Floats, spans: Floats, span: int, heading: float) -> tuple
     start = end_heading(stack[0], False)
     end = end_heading(stack[0], True)
     turn = _turn(heading, start)
-    if not abs(turn) > STRAIGHT:
+    if not abs(turn) > SAME_HEADING_RAD:
         return 0, end
     if abs(turn) > math.pi - 1e-6:  # either way round
         turn = 2.0 * math.pi
@@ -249,14 +249,14 @@ def body_tightest(
             dx, dy = px - x, py - y
             depth = -outline_gap(body, c * dx + s * dy, c * dy - s * dx)
             return depth, depth, 0, 0.0, index, (px, py, heading)
-    state = np.zeros(STATE)
+    state = np.zeros(STATE_SIZE)
     state[UPPER] = np.inf
-    stack = np.empty((DEPTH + body.shape[0], COLUMNS))
+    stack = np.empty((MAX_STACK + body.shape[0], MOTION_COLUMNS))
     at = np.empty((6, 2))
     index = -1
     span_at = 0
     start = heading
-    within = max(COARSE, tolerance)
+    within = max(FIRST_TOLERANCE_M, tolerance)
     while True:  # from coarse to fine, so that the fine look knows where to look
         state[LOWER] = np.inf
         state[CELLS] = 0.0
@@ -273,7 +273,7 @@ def body_tightest(
                 span_at = max(span, 0)
         if within <= tolerance:
             break
-        within = max(tolerance, within / FINER)
+        within = max(tolerance, within / TOLERANCE_RATIO)
     lower = min(state[LOWER], state[UPPER])
     heading = math.atan2(state[SIN], state[COS])
     place = (state[X], state[Y], heading)
@@ -301,9 +301,9 @@ def body_conflicts(
     count = spans.shape[0]
     outer = outer_radius(body)
     index = np.full(count, -1, np.int64)
-    stack = np.empty((DEPTH + body.shape[0], COLUMNS))
+    stack = np.empty((MAX_STACK + body.shape[0], MOTION_COLUMNS))
     at = np.empty((6, 2))
-    state = np.zeros(STATE)
+    state = np.zeros(STATE_SIZE)
     spare = 1e-7
     heading = arrival
     for span in range(count):

@@ -17,8 +17,8 @@ from viaspline.kernels.curve.cubic import wrapped
 from viaspline.kernels.jit import inner, kernel
 
 _NODES, _WEIGHTS = (half[4:] for half in np.polynomial.legendre.leggauss(8))
-TOLERANCE = 1e-10  # of a span's longest possible length
-SMALLEST = 2.0**-36  # panel
+LENGTH_TOLERANCE = 1e-10  # of a span's longest possible length
+MIN_PANEL = 2.0**-36  # panel
 
 
 @kernel
@@ -105,7 +105,7 @@ def length_table(rows: Floats) -> tuple[Floats, Floats]:
         top = 0
         allowed = 0.0
         for j in range(9):
-            allowed = max(allowed, TOLERANCE * speed(rows, k, j / 8.0))
+            allowed = max(allowed, LENGTH_TOLERANCE * speed(rows, k, j / 8.0))
         while top >= 0:
             start = stack[top, 0]
             end = stack[top, 1]
@@ -113,7 +113,7 @@ def length_table(rows: Floats) -> tuple[Floats, Floats]:
             left = panel_length(rows, k, start, middle)
             right = panel_length(rows, k, middle, end)
             error = max(abs(left + right - stack[top, 2]), _longest(rows, k, start, end))
-            if error <= allowed or end - start <= SMALLEST:
+            if error <= allowed or end - start <= MIN_PANEL:
                 if size + 2 > at.shape[0]:
                     at = _larger(at)
                     along = _larger(along)

@@ -15,8 +15,8 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 
 FINE, NOT_FINITE, APART = range(3)
-LARGEST = 1e100  # coordinates beyond this would overflow where they are squared [m]
-JOINT_TOLERANCE = 1e-9  # [m], beside a few units in the last place
+MAX_COORDINATE_M = 1e100  # coordinates beyond this would overflow where they are squared [m]
+JOINT_TOLERANCE_M = 1e-9  # [m], beside a few units in the last place
 
 
 @kernel
@@ -36,14 +36,14 @@ def prepare(spans: Floats, closed: bool) -> tuple[Floats, int, int]:
     for k in range(count):
         for j in range(4):
             for axis in range(dimension):
-                if not abs(spans[k, j, axis]) <= LARGEST:
+                if not abs(spans[k, j, axis]) <= MAX_COORDINATE_M:
                     return rows, NOT_FINITE, k
     for k in range(0 if closed else 1, count):
         before = k - 1 if k > 0 else count - 1
         for axis in range(dimension):
             there = spans[before, 3, axis]
             gap = abs(spans[k, 0, axis] - there)
-            if gap > JOINT_TOLERANCE + 1e-15 * abs(there):
+            if gap > JOINT_TOLERANCE_M + 1e-15 * abs(there):
                 return rows, APART, k
             if k > 0:
                 spans[k, 0, axis] = there

@@ -19,12 +19,12 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 
-FINE = 1e-6  # what the bound may exceed an attained value by, relative
-DEPTH = 64
-SMALLEST = 2.0**-46  # pieces narrower than this, in which the curve stands still, are cusps
-ROUNDING = 4e-15
-SMALL = 1e-12  # beside a span's largest number, what is only rounding
-ALIKE = 64.0  # |V|² may vary so much where the polynomial is formed
+BOUND_TOLERANCE = 1e-6  # what the bound may exceed an attained value by, relative
+MAX_HALVINGS = 64
+MIN_CUSP_PIECE = 2.0**-46  # pieces narrower than this, in which the curve stands still, are cusps
+ROUNDING_ERROR = 4e-15
+NEGLIGIBLE_SHARE = 1e-12  # beside a span's largest number, what is only rounding
+MAX_SPEED_RATIO = 64.0  # |V|² may vary so much where the polynomial is formed
 
 
 @inner
@@ -148,7 +148,7 @@ def _load(spans: Floats, span: int, v: Floats) -> tuple[float, float]:
             v[k, i] = 3.0 * (spans[span, k + 1, i] - spans[span, k, i])
             largest = max(largest, abs(v[k, i]))
             size = max(size, abs(spans[span, k, i]))
-    noise = max(SMALL * largest, ROUNDING * size)
+    noise = max(NEGLIGIBLE_SHARE * largest, ROUNDING_ERROR * size)
     for k in range(3):
         small = True
         for i in range(spans.shape[2]):
@@ -187,7 +187,7 @@ def turning_point(v: Floats, scale: float) -> float:
         value = (1.0 - w) * ((1.0 - w) * along[0] + 2.0 * w * along[1]) + w * w * along[2]
         low = min(low, value)
         high = max(high, value)
-        if where < 0.0 and low < -SMALL * scale < SMALL * scale < high:
+        if where < 0.0 and low < -NEGLIGIBLE_SHARE * scale < NEGLIGIBLE_SHARE * scale < high:
             where = w
     return where
 
@@ -207,7 +207,7 @@ def is_straight(v: Floats, scale: float, size: float) -> bool:
             for k in range(3):
                 for m in range(k):
                     bend = max(bend, abs(v[k, i] * v[m, j] - v[k, j] * v[m, i]))
-    return bend <= 4.0 * ROUNDING * scale * max(scale, size)
+    return bend <= 4.0 * ROUNDING_ERROR * scale * max(scale, size)
 
 
 @inner
@@ -246,14 +246,14 @@ def _span_bound(
             low = min(low, q[k])
             high = max(high, q[k])
             bend = max(bend, y[k])
-        limit = max(best * (1.0 + 0.5 * FINE), least)
+        limit = max(best * (1.0 + 0.5 * BOUND_TOLERANCE), least)
         squared = limit * limit * width * width
         proven = low > 0.0 and bend <= squared * low * low * low
-        if not proven and low > 0.0 and high < ALIKE * low:
+        if not proven and low > 0.0 and high < MAX_SPEED_RATIO * low:
             proven = _is_below(q, y, squared)
         if proven:
             top -= 1
-        elif width < SMALLEST or top + 2 > stack.shape[0]:
+        elif width < MIN_CUSP_PIECE or top + 2 > stack.shape[0]:
             return np.inf, np.inf, start
         else:
             _halve(v, stack[top + 1])
@@ -262,7 +262,7 @@ def _span_bound(
             ends[top, 0] = start + 0.5 * width
             ends[top, 1] = 0.5 * width
             top += 1
-    return max(best * (1.0 + FINE), least), best, where
+    return max(best * (1.0 + BOUND_TOLERANCE), least), best, where
 
 
 @kernel
@@ -282,8 +282,8 @@ def curvature_bounds(spans: Floats, least: float) -> tuple[Floats, Floats, Float
     upper = np.empty(count)
     attained = np.empty(count)
     where = np.zeros(count)
-    stack = np.empty((DEPTH, 3, spans.shape[2]))
-    ends = np.empty((DEPTH, 2))
+    stack = np.empty((MAX_HALVINGS, 3, spans.shape[2]))
+    ends = np.empty((MAX_HALVINGS, 2))
     q = np.empty(5)
     y = np.empty(5)
     for span in range(count):

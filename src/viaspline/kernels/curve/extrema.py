@@ -18,8 +18,8 @@ from viaspline.kernels.curve.cubic import speed_bound
 from viaspline.kernels.curve.frenet import curvature_at
 from viaspline.kernels.jit import inner, kernel
 
-NARROW = 2.0**-26
-DEPTH = 32
+MIN_BRACKET = 2.0**-26
+MAX_ROOT_DEPTH = 32
 
 
 @inner
@@ -60,7 +60,7 @@ def _changes_sign(coefficients: Floats) -> bool:
 
 @kernel
 def roots(coefficients: Floats, stack: Floats, out: Floats) -> int:
-    """Roots of a Bernstein polynomial inside (0, 1), to ``NARROW``; those at 0 and 1 don't count.
+    """Roots of a Bernstein polynomial inside (0, 1), to ``MIN_BRACKET``; not those at 0 and 1.
 
     Args:
         coefficients: (n + 1,).
@@ -83,7 +83,7 @@ def roots(coefficients: Floats, stack: Floats, out: Floats) -> int:
             continue
         start = stack[top, size]
         width = stack[top, size + 1]
-        if width <= NARROW:
+        if width <= MIN_BRACKET:
             out[found] = start + 0.5 * width
             found += 1
             top -= 1
@@ -151,7 +151,7 @@ def _polished(control: Floats, w: float) -> float:
         if slope <= 0.0:
             return w
         better = min(max(w - value / slope, 0.0), 1.0)
-        if better == w or abs(better - w) > 4.0 * NARROW:
+        if better == w or abs(better - w) > 4.0 * MIN_BRACKET:
             return w
         w = better
     return w
@@ -192,7 +192,7 @@ def nearest_parameter(
             here = _squared(control, high)
             if here < best:
                 best, at = here, k + high
-    stack = np.empty((DEPTH, 8))
+    stack = np.empty((MAX_ROOT_DEPTH, 8))
     found = np.empty(40)
     position = np.empty(4)
     velocity = np.empty(3)
@@ -262,7 +262,7 @@ def sharpest(spans: Floats) -> tuple[float, int, float]:
     Returns:
         (curvature without sign [1/m], span, w); the first of several.
     """
-    stack = np.empty((DEPTH, 10))
+    stack = np.empty((MAX_ROOT_DEPTH, 10))
     found = np.empty(56)
     slope = np.empty(8)
     largest = -1.0

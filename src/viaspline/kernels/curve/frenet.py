@@ -20,7 +20,7 @@ from viaspline.kernels.curve.cubic import (
 )
 from viaspline.kernels.jit import inner, kernel
 
-ROUNDING = 2e-15
+REST_ROUNDING = 2e-15
 
 
 @kernel
@@ -60,7 +60,7 @@ def curvature_at(spans: Floats, k: int, w: float) -> float:
         across += (b - ab / aa * a) ** 2
     if dimension > 2:
         area = math.sqrt(across) * speed
-    if abs(area) <= ROUNDING * scale * (speed + math.sqrt(bb)):
+    if abs(area) <= REST_ROUNDING * scale * (speed + math.sqrt(bb)):
         return 0.0
     return area / (aa * speed)
 

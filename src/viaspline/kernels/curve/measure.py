@@ -9,8 +9,8 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 
-SAMPLES = 32  # of curvature on a span
-PARTS = 4  # Gauss-Legendre rules of five points on a span
+CURVATURE_SAMPLES = 32  # of curvature on a span
+LENGTH_RULES = 4  # Gauss-Legendre rules of five points on a span
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 
@@ -21,9 +21,9 @@ def length_and_curvature(spans: Floats) -> tuple[float, float]:
     length = 0.0
     sharpest = 0.0
     for span in range(spans.shape[0]):
-        for part in range(PARTS):
+        for part in range(LENGTH_RULES):
             for node in range(NODES.size):
-                w = (part + 0.5 * (1.0 + NODES[node])) / PARTS
+                w = (part + 0.5 * (1.0 + NODES[node])) / LENGTH_RULES
                 squared = 0.0
                 for axis in range(dimension):
                     a = spans[span, 1, axis] - spans[span, 0, axis]
@@ -31,9 +31,9 @@ def length_and_curvature(spans: Floats) -> tuple[float, float]:
                     c = spans[span, 3, axis] - spans[span, 2, axis]
                     slope = 3.0 * ((1 - w) * ((1 - w) * a + 2 * w * b) + w * w * c)
                     squared += slope * slope
-                length += 0.5 / PARTS * WEIGHTS[node] * math.sqrt(squared)
-        for k in range(SAMPLES + 1):
-            sharpest = max(sharpest, _curvature(spans, span, k / SAMPLES))
+                length += 0.5 / LENGTH_RULES * WEIGHTS[node] * math.sqrt(squared)
+        for k in range(CURVATURE_SAMPLES + 1):
+            sharpest = max(sharpest, _curvature(spans, span, k / CURVATURE_SAMPLES))
     return length, sharpest
 
 

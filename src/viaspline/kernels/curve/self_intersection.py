@@ -17,7 +17,7 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.curve.curvature_bound import is_straight, turning_point
 from viaspline.kernels.jit import inner, kernel
 
-SMALL = 1e-12  # beside the span's size, what is only rounding
+ROUNDING_SHARE = 1e-12  # beside the span's size, what is only rounding
 
 
 @inner
@@ -26,14 +26,14 @@ def _crosses_itself(a: Floats, scale: float) -> bool:
     one = a[0, 0] * a[2, 1] - a[0, 1] * a[2, 0]
     two = a[1, 0] * a[2, 1] - a[1, 1] * a[2, 0]
     cubed = a[2, 0] * a[2, 0] + a[2, 1] * a[2, 1]
-    if abs(two) <= SMALL * scale * scale or cubed <= (SMALL * scale) ** 2:
+    if abs(two) <= ROUNDING_SHARE * scale * scale or cubed <= (ROUNDING_SHARE * scale) ** 2:
         return False
     total = -one / two
     product = total * total
     for k in range(2):
         product += (a[2, k] * (a[1, k] * total + a[0, k])) / cubed
     spread = total * total - 4.0 * product
-    if spread < -SMALL:
+    if spread < -ROUNDING_SHARE:
         return False
     apart = math.sqrt(max(spread, 0.0))
     return 0.5 * (total - apart) >= 0.0 and 0.5 * (total + apart) <= 1.0

@@ -10,7 +10,7 @@ from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.heap import Heap, pop, push
 from viaspline.kernels.jit import kernel
 
-OVER = (
+OCTILE_EXCESS = (
     1.0824  # by how much a way of steps to eight neighbours is longer than a straight one at most
 )
 
@@ -47,7 +47,7 @@ def distance_field(cells: Bytes, sources: Ints) -> Floats:
                 if cells[r, c] != 0 or done[r, c] != 0:
                     continue
                 step = math.sqrt(2.0) if r != row and c != column else 1.0
-                length = lengths[row, column] + step / OVER
+                length = lengths[row, column] + step / OCTILE_EXCESS
                 if length < lengths[r, c]:
                     lengths[r, c] = length
                     push(heap, length, r * width + c)

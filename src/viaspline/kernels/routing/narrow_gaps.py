@@ -12,10 +12,12 @@ from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 
-TOUCHING = 1e-3  # distance from an obstacle at which a chord ends, in radii
+TOUCH_RADII = 1e-3  # distance from an obstacle at which a chord ends, in radii
 MOST_CHORDS, MOST_PLACES = 1000, 20_000  # along a guide beside its corners, all of which is near
-PROBE = 1e-6  # step of the gradient in radii: in the middle of a gap either side is the nearest
-MOST_STEPS = 64  # of a chord to either side: along a wall it would crawl
+GRADIENT_STEP_RADII = (
+    1e-6  # step of the gradient in radii: in the middle of a gap either side is the nearest
+)
+MAX_CHORD_STEPS = 64  # of a chord to either side: along a wall it would crawl
 
 
 @inner
@@ -48,17 +50,17 @@ def _write_chord(
         2 rho nothing that keeps rho crosses it: no place on it is farther than half of that from
         the world.
     """
-    heading = _away(world, x, y, max(PROBE * rho, 1e-9))
+    heading = _away(world, x, y, max(GRADIENT_STEP_RADII * rho, 1e-9))
     width = 0.0
     for end in range(2):
         sense = 2.0 * end - 1.0
         along = 0.0
         left = np.inf
-        for _ in range(MOST_STEPS):
+        for _ in range(MAX_CHORD_STEPS):
             px = x + sense * along * math.cos(heading)
             py = y + sense * along * math.sin(heading)
             left, _ = nearest(world, px, py, np.inf)
-            if left <= TOUCHING * rho or along > 4.0 * rho:
+            if left <= TOUCH_RADII * rho or along > 4.0 * rho:
                 break
             along += left
         chords[row, 2 * end] = px

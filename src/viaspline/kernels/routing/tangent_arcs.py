@@ -11,7 +11,7 @@ from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.corner_fans import (
     CENTER_X,
     CENTER_Y,
-    COLUMNS,
+    CORNER_COLUMNS,
     NORMAL_X,
     NORMAL_Y,
     RADIUS,
@@ -22,7 +22,7 @@ from viaspline.kernels.world.corner_fans import (
 
 # columns of a bend: the arc's centre, radius and side (+1: it turns left), the headings with which
 # the route comes to it and leaves it
-WIDEST = 0.9  # turn at one via point [rad]
+MAX_TURN_RAD = 0.9  # turn at one via point [rad]
 BEND_X, BEND_Y, BEND_RADIUS, SIDE, HEADING_IN, TURN = range(6)
 
 
@@ -165,7 +165,7 @@ def _parts(bends: Floats, k: int, step: float, ease: float) -> int:
     longer = bends[k, BEND_RADIUS] * turn**3 / 12.0
     if longer < spare * most * most:
         most = np.ceil(math.sqrt(longer / spare))
-    return int(max(most, max(1.0, np.ceil(turn / WIDEST))))
+    return int(max(most, max(1.0, np.ceil(turn / MAX_TURN_RAD))))
 
 
 @inner
@@ -271,7 +271,7 @@ def corners_round(bends: Floats, step: float) -> Floats:
     room = count
     for k in range(1, count - 1):
         room += int(np.ceil(bends[k, TURN] / step))
-    corners = np.zeros((room, COLUMNS))
+    corners = np.zeros((room, CORNER_COLUMNS))
     size = 0
     for k in range(count):
         if k == 0 or k == count - 1:

@@ -14,7 +14,7 @@ import numpy as np
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.corner_fans import (
-    COLUMNS,
+    CORNER_COLUMNS,
     X,
     Y,
     fence_corners,
@@ -107,7 +107,7 @@ def _corners(
     """Start, goal, then the corners of all fences and members, (n, 8)."""
     room = 64
     while True:
-        corners = np.zeros((room, COLUMNS))
+        corners = np.zeros((room, CORNER_COLUMNS))
         corners[0, X] = start[0]
         corners[0, Y] = start[1]
         corners[1, X] = goal[0]
@@ -198,7 +198,7 @@ def shortest_route(
     while True:
         members = _members(world, active)
         if members.shape[0] > most:
-            return np.empty((0, COLUMNS))
+            return np.empty((0, CORNER_COLUMNS))
         corners = _corners(world, members, start, goal, rho, step)
         before = _search(world, members, corners, barriers, floor)
         if before[1] < 0:

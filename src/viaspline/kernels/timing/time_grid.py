@@ -11,7 +11,7 @@ from viaspline.kernels.jit import kernel
 _GRADED = 1e-3 * 1.5 ** np.arange(12)
 """Nodes beside a rest, as parts of the shortest way to full speed."""
 
-LEGS = 16
+MIN_STRETCHES = 16
 """Stretches between two places where the robot stops, at least."""
 
 
@@ -38,11 +38,11 @@ def marks(
         Nodes [m], increasing.
     """
     legs, grades, last = stops.shape[0] - 1, _GRADED.shape[0], along.shape[0] - 1
-    found = np.empty(legs * (2 * LEGS + 2 * grades + 4) + edges.shape[0] + 1)
+    found = np.empty(legs * (2 * MIN_STRETCHES + 2 * grades + 4) + edges.shape[0] + 1)
     count, edge, cell = 0, 0, 1
     for leg in range(legs):
         low, high = stops[leg], stops[leg + 1]
-        step = 2.0 ** np.floor(np.log2((high - low) / LEGS))
+        step = 2.0 ** np.floor(np.log2((high - low) / MIN_STRETCHES))
         even = step * (np.floor(low / step) + 1.0)
         up = 0 if graded or leg > 0 else grades
         down = grades - 1

@@ -17,9 +17,9 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cardinal_tangents import three_cubics
 from viaspline.kernels.jit import inner
 
-STRAIGHT = 1e-9  # less than this is no turn [rad]
-SLIVER = 0.95  # of the length that a turn without an arc needs for its ramps
-STEP = 0.4  # most that the heading changes along one span of three cubics [rad]
+MIN_TURN_RAD = 1e-9  # less than this is no turn [rad]
+FULL_RAMP_SHARE = 0.95  # of the length that a turn without an arc needs for its ramps
+MAX_SPAN_TURN_RAD = 0.4  # most that the heading changes along one span of three cubics [rad]
 _AT = np.array([0.1834346424956498, 0.525532409916329, 0.7966664774136267, 0.9602898564975363])
 _WEIGHT = np.array(
     [0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763]
@@ -60,7 +60,7 @@ def arc_and_ramp(theta: float, rho: float, ramp: float) -> tuple[float, float]:
     longest = rho * theta
     if ramp >= longest:
         return ramp / theta, ramp
-    return rho, longest if ramp > SLIVER * longest else ramp
+    return rho, longest if ramp > FULL_RAMP_SHARE * longest else ramp
 
 
 @inner
@@ -112,8 +112,8 @@ def turn_nodes(
     radius, ramp = arc_and_ramp(theta, rho, ramp)
     on_ramp = 0.5 * ramp / radius
     on_arc = max(0.5 * theta - on_ramp, 0.0)
-    arcs = math.ceil(on_arc / STEP - 1e-9)
-    ramps = max(1, math.ceil(on_ramp / STEP))
+    arcs = math.ceil(on_arc / MAX_SPAN_TURN_RAD - 1e-9)
+    ramps = max(1, math.ceil(on_ramp / MAX_SPAN_TURN_RAD))
     half = arcs + ramps
     center_x = apex_x - side * radius * math.sin(heading)
     center_y = apex_y + side * radius * math.cos(heading)
@@ -151,7 +151,7 @@ def turn_nodes(
 def turn_length(turn: float, rho: float, ramp: float) -> float:
     """Length of a turn [m]."""
     theta = abs(turn)
-    if theta < STRAIGHT:
+    if theta < MIN_TURN_RAD:
         return 0.0
     radius, ramp = arc_and_ramp(theta, rho, ramp)
     return ramp + radius * theta

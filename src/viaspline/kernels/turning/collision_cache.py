@@ -19,7 +19,7 @@ from viaspline.kernels.turning.curvature_ramp import along_bend
 from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 
-HALF_DIAGONAL = math.sqrt(0.5)
+HALF_DIAGONAL_CELLS = math.sqrt(0.5)
 # columns of a disc: where it is in the robot's frame, the distance that it keeps, and by how much
 # its middle moves at most while the reference point moves by one
 AHEAD, LEFT, KEPT, SPEED = range(4)

@@ -14,17 +14,17 @@ from viaspline.kernels.jit import inner
 from viaspline.kernels.turning.clothoid import arc_and_ramp, shape_of
 from viaspline.kernels.turning.collision_cache import FROM, LENGTH, TO
 
-ROUNDS = 12
-BACK = 0.5  # a turn may go to the other side by as much [rad]
-MOST = 7  # segments
-NO_TURN = 1e-10  # [rad]
+MAX_NEWTON_ROUNDS = 12
+MAX_BACK_TURN_RAD = 0.5  # a turn may go to the other side by as much [rad]
+MAX_SEGMENTS = 7  # segments
+NO_TURN_RAD = 1e-10  # [rad]
 
 
 @inner
 def _turned(angle: float, side: float) -> float:
     """A turn by an angle plus whole turns, from ``-BACK`` to nearly a whole turn to a side."""
     angle *= side
-    angle -= 2.0 * math.pi * math.floor((angle + BACK) / (2.0 * math.pi))
+    angle -= 2.0 * math.pi * math.floor((angle + MAX_BACK_TURN_RAD) / (2.0 * math.pi))
     return side * angle
 
 
@@ -32,7 +32,7 @@ def _turned(angle: float, side: float) -> float:
 def _chord(heading: float, turn: float, rho: float, ramp: float) -> tuple[float, float]:
     """From the start to the end of a turn [m]."""
     theta = abs(turn)
-    if theta < NO_TURN:
+    if theta < NO_TURN_RAD:
         return 0.0, 0.0
     radius, shift, lead = shape_of(theta, rho, ramp)
     middle = heading + 0.5 * turn
@@ -84,7 +84,7 @@ def _first_guess(x: float, y: float, start: float, goal: float, s1: float, s2: f
 @inner
 def _add_turn(turn: float, rho: float, ramp: float, segments: Floats, count: int) -> int:
     """Append the segments of a turn; returns how many there are."""
-    if abs(turn) < NO_TURN:
+    if abs(turn) < NO_TURN_RAD:
         return count
     radius, ramp = arc_and_ramp(abs(turn), rho, ramp)
     bend = math.copysign(1.0 / radius, turn)
@@ -114,7 +114,7 @@ def connection(
         s2: The same of the second turn.
         rho: The least radius [m].
         ramp: Length of the ramps [m].
-        segments: Room for ``MOST`` rows, see ``cache``; filled.
+        segments: Room for ``MAX_SEGMENTS`` rows, see ``cache``; filled.
 
     Returns:
         How many segments there are, 0 if there is no such way, and their length [m].
@@ -125,7 +125,7 @@ def connection(
     before, before_aside = line, aside
     if abs(aside) > 1e-13 * scale:
         line += math.atan2(aside, max(length, 0.5 * rho))
-        for _ in range(ROUNDS):
+        for _ in range(MAX_NEWTON_ROUNDS):
             aside, length, first, second = _miss(x, y, start, goal, line, s1, s2, rho, ramp)
             if abs(aside) <= 1e-13 * scale or aside == before_aside:
                 break

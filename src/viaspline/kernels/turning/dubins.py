@@ -11,15 +11,15 @@ import math
 
 from viaspline.kernels.jit import inner
 
-WHOLE = 2.0 * math.pi
-CLOSED = 1e-9  # an angle that is short of a whole turn by less is none [rad]
+WHOLE_TURN_RAD = 2.0 * math.pi
+CLOSED_TURN_RAD = 1e-9  # an angle that is short of a whole turn by less is none [rad]
 
 
 @inner
 def positive(angle: float) -> float:
     """The angle plus whole turns, in [0, 2 pi); what rounding makes a whole turn is 0."""
-    turned = angle - WHOLE * math.floor(angle / WHOLE)
-    return 0.0 if turned > WHOLE - CLOSED else turned
+    turned = angle - WHOLE_TURN_RAD * math.floor(angle / WHOLE_TURN_RAD)
+    return 0.0 if turned > WHOLE_TURN_RAD - CLOSED_TURN_RAD else turned
 
 
 @inner

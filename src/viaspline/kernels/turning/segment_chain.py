@@ -8,14 +8,14 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.turning.clothoid import STEP, spans_between
+from viaspline.kernels.turning.clothoid import MAX_SPAN_TURN_RAD, spans_between
 from viaspline.kernels.turning.collision_cache import FROM, LENGTH, TO, CollisionCache, is_clear
-from viaspline.kernels.turning.connect import MOST, connection
+from viaspline.kernels.turning.connect import MAX_SEGMENTS, connection
 from viaspline.kernels.turning.curvature_ramp import along_bend
 
-SAME = 1e-9  # relative to the curvature, or its change, of the turning circle
-SHORTEST = 1e-3  # line that is laid by itself [m]
-GAIN = 1e-4  # by which a shortcut has to be shorter [m]
+CURVATURE_TOLERANCE = 1e-9  # relative to the curvature, or its change, of the turning circle
+MIN_LINE_M = 1e-3  # line that is laid by itself [m]
+MIN_SHORTCUT_M = 1e-4  # by which a shortcut has to be shorter [m]
 
 
 @kernel
@@ -36,7 +36,10 @@ def merged(segments: Floats, rho: float) -> Floats:
             before = found[size - 1]
             slope = (before[TO] - before[FROM]) / before[LENGTH]
             other = (last - first) / length
-            if abs(slope - other) <= SAME / rho**2 and abs(before[TO] - first) <= SAME / rho:
+            if (
+                abs(slope - other) <= CURVATURE_TOLERANCE / rho**2
+                and abs(before[TO] - first) <= CURVATURE_TOLERANCE / rho
+            ):
                 before[TO] = last
                 before[LENGTH] += length
                 continue
@@ -114,14 +117,14 @@ def shortened(
     count = _stations(start, goal, parts, poses, begins)
     costs, before = np.zeros(count), np.zeros(count, np.int64)
     sides = np.zeros((count, 2))
-    trial = np.empty((MOST, 3))
+    trial = np.empty((MAX_SEGMENTS, 3))
     for j in range(1, count):
         costs[j] = costs[j - 1] + poses[j, 3] - poses[j - 1, 3]
         before[j] = j - 1
         heading = goal[2] if j == count - 1 else poses[j, 2]
         for i in range(j):
             dx, dy = poses[j, 0] - poses[i, 0], poses[j, 1] - poses[i, 1]
-            if costs[i] + math.hypot(dx, dy) >= costs[j] - GAIN:
+            if costs[i] + math.hypot(dx, dy) >= costs[j] - MIN_SHORTCUT_M:
                 continue
             for s1 in (1.0, -1.0):
                 for s2 in (1.0, -1.0):
@@ -130,7 +133,7 @@ def shortened(
                     size, length = connection(
                         dx, dy, poses[i, 2], heading, s1, s2, rho, ramp, trial
                     )
-                    if costs[i] + length < costs[j] - GAIN and is_clear(
+                    if costs[i] + length < costs[j] - MIN_SHORTCUT_M and is_clear(
                         cache, poses[i, 0], poses[i, 1], poses[i, 2], trial, size
                     ):
                         costs[j], before[j] = costs[i] + length, i
@@ -150,7 +153,7 @@ def _rebuilt(
     while j > 0:
         follows[before[j]] = j
         j = before[j]
-    found = np.zeros((parts.shape[0] + MOST * (last + 1), 3))
+    found = np.zeros((parts.shape[0] + MAX_SEGMENTS * (last + 1), 3))
     size, i = 0, 0
     while i < last:
         j = follows[i]
@@ -180,9 +183,9 @@ def _nodes(start: Floats, segments: Floats, nodes: Floats, lengths: Floats) -> i
     for k in range(segments.shape[0]):
         first, last, length = segments[k]
         flat = first == 0.0 and last == 0.0
-        is_sliver = flat and length < SHORTEST and segments.shape[0] > 1
+        is_sliver = flat and length < MIN_LINE_M and segments.shape[0] > 1
         _, _, turn = along_bend(first, last, length, length)
-        pieces = 1 if flat else max(1, math.ceil(abs(turn) / STEP - 1e-9))
+        pieces = 1 if flat else max(1, math.ceil(abs(turn) / MAX_SPAN_TURN_RAD - 1e-9))
         c, s = math.cos(heading), math.sin(heading)
         for i in range(1, pieces + 1):
             at = length * i / pieces
@@ -220,7 +223,7 @@ def chain_spans(start: Floats, goal: Floats, segments: Floats) -> Floats:
     room, total = 2, 0.0
     for k in range(segments.shape[0]):
         bend = max(abs(segments[k, FROM]), abs(segments[k, TO]))
-        room += 1 + math.ceil(bend * segments[k, LENGTH] / STEP)
+        room += 1 + math.ceil(bend * segments[k, LENGTH] / MAX_SPAN_TURN_RAD)
         total += segments[k, LENGTH]
     nodes, lengths = np.empty((room, 4)), np.empty(room)
     count = _nodes(start, segments, nodes, lengths)

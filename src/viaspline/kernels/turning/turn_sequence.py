@@ -14,8 +14,8 @@ import numpy as np
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.clothoid import (
-    STEP,
-    STRAIGHT,
+    MAX_SPAN_TURN_RAD,
+    MIN_TURN_RAD,
     arc_and_ramp,
     shape_of,
     spans_between,
@@ -27,13 +27,13 @@ from viaspline.kernels.turning.clothoid import (
 # left, -1 right, 0 whichever comes), and the heading that is given at an end (NaN: it is free).
 X, Y, KEPT, SIDE, HEADING = range(5)
 FINE, NO_TANGENT, NO_ROOM, RESTLESS, LEFT_OUT = range(5)
-ROUNDS = 400
-STILL = 1e-13  # change of a heading in the last round [rad]
-GENTLE = 1.2  # turns up to this are reckoned from where their lines meet [rad]
-LEAST_RAMP = 0.08  # of the radius
-SHORTER = 0.6
-NODES = 64  # of one turn, at most
-SHORTEST = 1e-3  # straight piece that is laid by itself [m]
+MAX_HEADING_ROUNDS = 400
+SETTLED_RAD = 1e-13  # change of a heading in the last round [rad]
+GENTLE_TURN_RAD = 1.2  # turns up to this are reckoned from where their lines meet [rad]
+MIN_RAMP_RADII = 0.08  # of the radius
+RAMP_SHRINK = 0.6
+MAX_TURN_NODES = 64  # of one turn, at most
+MIN_STRAIGHT_M = 1e-3  # straight piece that is laid by itself [m]
 
 
 @inner
@@ -81,7 +81,7 @@ def _settle(bend: Floats, kind: int, turn: float, heading: float, rho: float, ra
         apex: x, y; filled.
     """
     theta = abs(turn)
-    if theta < STRAIGHT or (kind == 0 and bend[SIDE] * turn < 0.0):
+    if theta < MIN_TURN_RAD or (kind == 0 and bend[SIDE] * turn < 0.0):
         off = bend[SIDE] * bend[KEPT]  # what may prove needless is touched without a turn
         apex[0], apex[1] = bend[X] + off * math.sin(heading), bend[Y] - off * math.cos(heading)
         circle[0], circle[1], circle[2] = apex[0], apex[1], 0.0
@@ -96,7 +96,7 @@ def _settle(bend: Floats, kind: int, turn: float, heading: float, rho: float, ra
     else:
         given = heading + kind * 0.5 * turn
         c, s = math.cos(given), math.sin(given)
-        if theta < GENTLE:
+        if theta < GENTLE_TURN_RAD:
             reach = -kind * (lead + touch * math.tan(0.5 * theta))
             meet_x, meet_y = bend[X] + reach * c, bend[Y] + reach * s
             height = touch / math.cos(0.5 * theta)
@@ -105,7 +105,7 @@ def _settle(bend: Floats, kind: int, turn: float, heading: float, rho: float, ra
             center_x = bend[X] - kind * lead * c - side * touch * s
             center_y = bend[Y] - kind * lead * s + side * touch * c
         apex[0], apex[1] = center_x + radius * out_x, center_y + radius * out_y
-    if theta < GENTLE:
+    if theta < GENTLE_TURN_RAD:
         height = touch / math.cos(0.5 * theta)
         circle[0], circle[1] = center_x + height * out_x, center_y + height * out_y
         circle[2] = 0.0
@@ -139,7 +139,7 @@ def _relaxed(
     """
     count = bends.shape[0]
     last = count if closed else count - 1
-    for round_ in range(ROUNDS):
+    for round_ in range(MAX_HEADING_ROUNDS):
         moved = 0.0
         for k in range(last):
             line = _line(circles, k, (k + 1) % count)
@@ -148,7 +148,7 @@ def _relaxed(
             line = _wrapped(line, lines[k])
             moved = max(moved, abs(line - lines[k]))
             lines[k] = line
-        if round_ > 0 and moved < STILL:
+        if round_ > 0 and moved < SETTLED_RAD:
             return _failed(bends, closed, turns, FINE, -1)
         for k in range(count):
             kind = 0
@@ -202,7 +202,7 @@ def _nodes_of(
 ) -> int:  # fmt: skip
     """Fill in the nodes of one bend, the apex in the middle; returns their number."""
     heading = _heading_at(bends, closed, lines, turns, k)
-    if abs(turns[k]) < STRAIGHT:
+    if abs(turns[k]) < MIN_TURN_RAD:
         nodes[0, 0], nodes[0, 1] = bends[k, X], bends[k, Y]
         nodes[0, 2], nodes[0, 3] = heading, 0.0
         return 1
@@ -217,7 +217,7 @@ def _crowded(
 ) -> int:  # fmt: skip
     """The first line on which two turns overlap, -1 if there is none."""
     count = bends.shape[0]
-    nodes = np.empty((NODES, 4))
+    nodes = np.empty((MAX_TURN_NODES, 4))
     for k in range(count):
         size = _nodes_of(bends, closed, rho, lines, turns, apexes, ramps, k, nodes)
         for i in range(2):
@@ -261,10 +261,10 @@ def turn_sequence(
         if state != NO_ROOM and state != NO_TANGENT:
             return lines, turns, apexes, ramps, state, where
         after = (where + 1) % count
-        if max(ramps[where], ramps[after]) <= LEAST_RAMP * rho:
+        if max(ramps[where], ramps[after]) <= MIN_RAMP_RADII * rho:
             return lines, turns, apexes, ramps, state, where
-        ramps[where] = max(SHORTER * ramps[where], LEAST_RAMP * rho)
-        ramps[after] = max(SHORTER * ramps[after], LEAST_RAMP * rho)
+        ramps[where] = max(RAMP_SHRINK * ramps[where], MIN_RAMP_RADII * rho)
+        ramps[after] = max(RAMP_SHRINK * ramps[after], MIN_RAMP_RADII * rho)
         if state == NO_TANGENT:
             _guess(bends, closed, lines, turns, circles)
 
@@ -299,9 +299,9 @@ def turn_sequence_spans(
     """
     count = bends.shape[0]
     total = count + 1 if closed else count
-    polygons = np.empty((3 * NODES * total, 4, 2))
+    polygons = np.empty((3 * MAX_TURN_NODES * total, 4, 2))
     begins = np.zeros(total, np.int64)
-    nodes, lengths = np.empty((NODES + 1, 4)), np.empty(NODES)
+    nodes, lengths = np.empty((MAX_TURN_NODES + 1, 4)), np.empty(MAX_TURN_NODES)
     size = 0
     for row in range(total):
         k = row % count
@@ -318,7 +318,10 @@ def turn_sequence_spans(
         elif not closed and row == count - 1:
             middle = end
         if row > 0:
-            if math.hypot(nodes[first, 0] - nodes[0, 0], nodes[first, 1] - nodes[0, 1]) > SHORTEST:
+            if (
+                math.hypot(nodes[first, 0] - nodes[0, 0], nodes[first, 1] - nodes[0, 1])
+                > MIN_STRAIGHT_M
+            ):
                 _straight(nodes, 0, first, polygons[size])
                 size += 1
             else:
@@ -342,7 +345,7 @@ def _lengths(theta: float, rho: float, ramp: float, number: int, lengths: Floats
     radius, ramp = arc_and_ramp(theta, rho, ramp)
     on_ramp = 0.5 * ramp / radius
     half = number // 2
-    ramps = max(1, math.ceil(on_ramp / STEP))
+    ramps = max(1, math.ceil(on_ramp / MAX_SPAN_TURN_RAD))
     arcs = half - ramps
     for k in range(half):
         piece = ramp / ramps

@@ -7,7 +7,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 
-BRANCHES = 4
+CHILDREN_PER_NODE = 4
 
 
 @kernel
@@ -55,7 +55,7 @@ def box_tree(boxes: Floats, order: Ints) -> tuple[Floats, Ints, Ints]:
     nodes = np.empty((2 * count + 1, 4))
     skip = np.empty(2 * count + 1, np.int64)
     leaf = np.full(2 * count + 1, -1, np.int64)
-    pending = np.empty((64 * BRANCHES, 2), np.int64)
+    pending = np.empty((64 * CHILDREN_PER_NODE, 2), np.int64)
     size = 0
     depth = 0
     if count > 0:
@@ -71,7 +71,7 @@ def box_tree(boxes: Floats, order: Ints) -> tuple[Floats, Ints, Ints]:
             skip[size] = size + 1
         else:
             skip[size] = last - first  # the number of leaves below, for now
-            parts = min(BRANCHES, last - first)
+            parts = min(CHILDREN_PER_NODE, last - first)
             for part in range(parts - 1, -1, -1):
                 pending[depth, 0] = first + part * (last - first) // parts
                 pending[depth, 1] = first + (part + 1) * (last - first) // parts

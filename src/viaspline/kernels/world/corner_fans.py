@@ -19,7 +19,7 @@ from viaspline.kernels.world.rounded_ring import is_disc, radius_of
 
 # columns of a corner
 X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, SLOPE = range(8)
-COLUMNS = 8
+CORNER_COLUMNS = 8
 
 
 @inner

@@ -16,7 +16,7 @@ from viaspline.kernels.arrays import Columns, Flags, Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.packed import PackedWorld
 
-NONE = 32767  # columns to where there is nothing: more than a grid may have
+NO_COLUMN = 32767  # columns to where there is nothing: more than a grid may have
 
 
 @kernel
@@ -32,7 +32,7 @@ def _fill(blocked: Flags, to_right: Columns, to_left: Columns) -> None:
             while end < width and blocked[r, end] == kind:
                 end += 1
             sign = -1 if kind else 1
-            nowhere = -NONE - 1 if kind else NONE
+            nowhere = -NO_COLUMN - 1 if kind else NO_COLUMN
             for c in range(start, end):
                 to_right[first + c] = sign * (end - c) if end < width else nowhere
                 to_left[first + c] = sign * (c - start + 1) if start > 0 else nowhere
@@ -98,10 +98,10 @@ def _aside(
     if right < 0:
         return max(max(column - u, u - column - 1.0), 0.0)
     aside = np.inf
-    if right < NONE:
+    if right < NO_COLUMN:
         aside = column + right - u
     left = sign * entry(to_left, place)
-    if left < NONE:
+    if left < NO_COLUMN:
         aside = min(aside, u - (column - left + 1))
     return aside
 
@@ -231,8 +231,8 @@ def grid_corners_near(
         sw = column > 0 and line > 0 and to_right[lower + column - 1] < 0
         while column <= last:
             within = column < width
-            above = entry(to_right, upper + column) if within and line < height else NONE
-            below = entry(to_right, lower + column) if within and line > 0 else NONE
+            above = entry(to_right, upper + column) if within and line < height else NO_COLUMN
+            below = entry(to_right, lower + column) if within and line > 0 else NO_COLUMN
             ne = above < 0
             se = below < 0
             blocked = int(nw) + int(ne) + int(sw) + int(se)

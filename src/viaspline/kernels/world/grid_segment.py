@@ -16,7 +16,7 @@ from viaspline.kernels.world.grid_rows import entry, nearest_cell, to_cells
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.plane import squared_point_segment
 
-NARROW = 4.0  # cells; within so little no time is lost by looking everywhere
+NARROW_CELLS = 4.0  # cells; within so little no time is lost by looking everywhere
 
 
 @inner
@@ -113,7 +113,7 @@ def grid_segment(
     width = world.grid_shapes[g, 0]
     height = world.grid_shapes[g, 1]
     first = world.grid_shapes[g, 2]
-    if best > NARROW:
+    if best > NARROW_CELLS:
         u = 0.5 * (au + bu)
         v = 0.5 * (av + bv)
         best = nearest_cell(to_right, world.to_left, first, width, height, u, v, 1, best)

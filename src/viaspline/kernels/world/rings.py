@@ -7,7 +7,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 
-BLOCK = 16  # consecutive edges that share a box
+EDGES_PER_BLOCK = 16  # consecutive edges that share a box
 
 
 @inner
@@ -39,7 +39,7 @@ def pack_rings(vertices: Floats, loop_starts: Ints, ring_loops: Ints) -> tuple[F
     loops = loop_starts.size - 1
     edges = np.empty((total, 4))
     ring_blocks = np.zeros(ring_loops.size, np.int64)
-    block_edges = np.zeros(total // BLOCK + loops + 1, np.int64)
+    block_edges = np.zeros(total // EDGES_PER_BLOCK + loops + 1, np.int64)
     block = 0
     for ring in range(ring_loops.size - 1):
         for loop in range(ring_loops[ring], ring_loops[ring + 1]):
@@ -54,8 +54,8 @@ def pack_rings(vertices: Floats, loop_starts: Ints, ring_loops: Ints) -> tuple[F
                 edges[first + k, 1] = vertices[start, 1]
                 edges[first + k, 2] = vertices[end, 0]
                 edges[first + k, 3] = vertices[end, 1]
-            for k in range(0, count, BLOCK):
+            for k in range(0, count, EDGES_PER_BLOCK):
                 block += 1
-                block_edges[block] = first + min(k + BLOCK, count)
+                block_edges[block] = first + min(k + EDGES_PER_BLOCK, count)
         ring_blocks[ring + 1] = block
     return edges, ring_blocks, block_edges[: block + 1].copy()

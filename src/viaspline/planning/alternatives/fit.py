@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.bending import self_loops
-from viaspline.curve.certificate import SPARE
+from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import conflicts
 from viaspline.planning.problem.via_sequence import Leg, ViaSequence, lay
@@ -55,7 +55,7 @@ def too_close(world: World, spans: Floats, required: float) -> NDArray[np.int64]
     A little stricter than the certificate, which is never quite at the true distance.
     """
     writable = spans if spans.flags.writeable else spans.copy()  # numba compiles for one kind
-    found: NDArray[np.int64] = conflicts(world.packed, writable, required - 0.8 * SPARE)[0]
+    found: NDArray[np.int64] = conflicts(world.packed, writable, required - 0.8 * PROOF_SLACK_M)[0]
     return found
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from viaspline.curve.certificate import SPARE
+from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats
@@ -40,7 +40,7 @@ def refuse_narrow(strip: Strip, margin: float) -> None:
         NoPathError: Naming the narrowest place.
     """
     row = int(strip.widths.argmin())
-    if strip.widths[row] < 2.0 * (margin - SPARE):
+    if strip.widths[row] < 2.0 * (margin - PROOF_SLACK_M):
         where = 0.5 * (strip.left[row] + strip.right[row])
         raise no_room(where, 0.5 * float(strip.widths[row]), margin, strip)
 

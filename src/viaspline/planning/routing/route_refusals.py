@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.curve.certificate import SPARE
+from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.errors import Change, NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.world.corner_fans import X, Y
@@ -27,7 +27,7 @@ def refuse_blocked_vias(sequence: ViaSequence, world: World, requirements: Requi
     at = np.array([via.at[:2] for via in sequence.vias])
     distance, index = world.nearest(at)
     for via, room, nearest in zip(sequence.vias, distance, index, strict=True):
-        if room < requirements.required - SPARE:
+        if room < requirements.required - PROOF_SLACK_M:
             raise _no_room(via, float(room), int(nearest), world, requirements)
 
 
@@ -313,7 +313,7 @@ def _narrowest(taut_path: TautPath, world: World) -> _Gap:
 
 def _walls(start: RouteVia, goal: RouteVia, world: World) -> tuple[str, ...]:
     """The obstacles that the straight line between two via points meets."""
-    found = on_the_line(world, start.at, goal.at, SPARE)
+    found = on_the_line(world, start.at, goal.at, PROOF_SLACK_M)
     return tuple(world.name(int(i)) for i in np.flatnonzero(found))
 
 

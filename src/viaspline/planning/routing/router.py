@@ -9,7 +9,7 @@ from itertools import chain, islice, pairwise
 
 import numpy as np
 
-from viaspline.curve.certificate import SPARE
+from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.routing.narrow_gaps import narrow_places, narrowest
 from viaspline.kernels.routing.string_pulling.pull import pulled_taut
@@ -27,7 +27,7 @@ from viaspline.world.world import World
 # How far off an obstacle a route turns beyond what is required, for gaps that are ever less wider
 # than the robot. Below nothing at last: a via point may stand at just what is required, and a route
 # turns only round what it is outside of.
-MARGINS = (1e-3, 1e-4, -0.25 * SPARE)
+MARGINS = (1e-3, 1e-4, -0.25 * PROOF_SLACK_M)
 STEPS = (np.pi / 6, np.pi / 32, np.pi / 200)  # largest turn at one corner [rad]
 MANY = 16  # obstacles in the way of a leg beyond which it is sought on a lattice
 GAPS = 200  # gaps that may prove too narrow before a finer lattice is tried
@@ -247,7 +247,7 @@ class Router:
     @property
     def _floor(self) -> float:
         """What a way keeps, a little less than what is asked for, as the certificate does."""
-        return self.required - 0.5 * SPARE
+        return self.required - 0.5 * PROOF_SLACK_M
 
     @property
     def _finer(self) -> Iterator[Lattice]:

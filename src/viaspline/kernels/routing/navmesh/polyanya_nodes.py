@@ -8,7 +8,7 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.growable import sized_floats, sized_ints
 from viaspline.kernels.jit import inlined, inner
 
-TINY = 1e-9
+SAME_PLACE_CELLS = 1e-9
 # columns of the two tables of nodes
 A, B, ROOT_X, ROOT_Y, COST = range(5)
 PORTAL, UP, ROOT, PARENT = range(4)
@@ -91,7 +91,10 @@ def next_node(search: PolyanyaSearch) -> int:
         if node < 0:
             return -1
         root = search.links[node, ROOT]
-        if root == START or search.places[node, COST] <= search.cheapest[root, 0] + TINY:
+        if (
+            root == START
+            or search.places[node, COST] <= search.cheapest[root, 0] + SAME_PLACE_CELLS
+        ):
             return node
 
 

@@ -13,7 +13,7 @@ from viaspline.kernels.routing.navmesh.polyanya_nodes import (
     ROOT,
     ROOT_X,
     ROOT_Y,
-    TINY,
+    SAME_PLACE_CELLS,
     UP,
     A,
     B,
@@ -60,11 +60,11 @@ def _first_door(portals: Ints, first: int, last: int, low: float) -> int:
     """The first of the portals first:last, which stand from left to right, beyond ``low``."""
     while last - first > 8:
         middle = (first + last) >> 1
-        if portals[middle, RIGHT] <= low + TINY:
+        if portals[middle, RIGHT] <= low + SAME_PLACE_CELLS:
             first = middle + 1
         else:
             last = middle
-    while first < last and portals[first, RIGHT] <= low + TINY:
+    while first < last and portals[first, RIGHT] <= low + SAME_PLACE_CELLS:
         first += 1
     return first
 
@@ -98,19 +98,19 @@ def spread_interval(
         cost: Length of the path to the root.
         root: The root.
     """
-    if high - low <= TINY:
+    if high - low <= SAME_PLACE_CELLS:
         return
     side = FIRST_ABOVE if up == 1 else FIRST_BELOW
     last = mesh.doors[room, side + 1]
     door = _first_door(mesh.portals, mesh.doors[room, side], last, low)
     behind = search.links[parent, PORTAL] if parent >= 0 else -1
     far = float(mesh.rectangles[room, TOP if up == 1 else BOTTOM])
-    while door < last and mesh.portals[door, LEFT] < high - TINY:
+    while door < last and mesh.portals[door, LEFT] < high - SAME_PLACE_CELLS:
         # where the window ends within rounding of the portal's end it is that end: paths turn there
         a = float(mesh.portals[door, LEFT])
-        a = low if low > a + TINY else a
+        a = low if low > a + SAME_PLACE_CELLS else a
         b = float(mesh.portals[door, RIGHT])
-        b = high if high < b - TINY else b
+        b = high if high < b - SAME_PLACE_CELLS else b
         if door != behind:
             if far == y and not a <= x <= b:
                 _slide(search, door, parent, up, a, b, x, y, cost, root)
@@ -141,7 +141,7 @@ def _slide(
     end = a if x < a else b
     turned = 2 * door if x < a else 2 * door + 1
     cost_there = cost + abs(end - x)
-    if cost_there > search.cheapest[turned, 0] + TINY:
+    if cost_there > search.cheapest[turned, 0] + SAME_PLACE_CELLS:
         return
     search.cheapest[turned, 0] = cost_there
     first = add(search, door, up, a, b, x, y, cost, root, parent)
@@ -174,7 +174,7 @@ def _turn(
     cost = search.places[here, COST] + math.hypot(
         x - search.places[here, ROOT_X], near - search.places[here, ROOT_Y]
     )
-    if cost > search.cheapest[root, 0] + TINY:
+    if cost > search.cheapest[root, 0] + SAME_PLACE_CELLS:
         return
     search.cheapest[root, 0] = cost
     left = float(mesh.rectangles[room, LEFT])

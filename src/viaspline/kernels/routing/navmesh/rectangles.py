@@ -14,7 +14,7 @@ from viaspline.kernels.arrays import Bytes, Ints
 from viaspline.kernels.growable import new_ints, sized_ints
 from viaspline.kernels.jit import inlined, inner, kernel
 
-SLACK = 1e-9  # within which a place is in a cell [cells]
+CELL_EDGE_SLACK = 1e-9  # within which a place is in a cell [cells]
 # columns of a rectangle, and of a portal
 LEFT, RIGHT, BOTTOM, TOP, PIECE = range(5)
 HEIGHT, UNDER, OVER, TURN_LEFT, TURN_RIGHT = range(2, 7)
@@ -172,12 +172,12 @@ def rectangle_at(mesh: Mesh, x: float, y: float) -> int:
     height = mesh.rows.shape[0] - 1
     for j in (math.floor(y), math.ceil(y) - 1):
         row = min(max(j, 0), height - 1)
-        if abs(row + 0.5 - y) > 0.5 + SLACK:
+        if abs(row + 0.5 - y) > 0.5 + CELL_EDGE_SLACK:
             continue
         # the rectangle may have begun in any row below
         for r in range(mesh.rows[row + 1, 0] - 1, -1, -1):
             box = mesh.rectangles[r]
-            in_width = box[LEFT] - SLACK <= x <= box[RIGHT] + SLACK
-            if in_width and box[BOTTOM] - SLACK <= y <= box[TOP] + SLACK:
+            in_width = box[LEFT] - CELL_EDGE_SLACK <= x <= box[RIGHT] + CELL_EDGE_SLACK
+            if in_width and box[BOTTOM] - CELL_EDGE_SLACK <= y <= box[TOP] + CELL_EDGE_SLACK:
                 return r
     return -1

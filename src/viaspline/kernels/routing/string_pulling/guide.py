@@ -10,7 +10,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inlined
 from viaspline.kernels.world.ring_features import FEATURE_RADIUS, FEATURE_X, FEATURE_Y, OUT_X, OUT_Y
 
-SMALL = 1e-9  # as a share of a piece, and as a turn [rad]
+ALONG_SLACK = 1e-9  # as a share of a piece, and as a turn [rad]
 
 
 @inlined
@@ -52,9 +52,9 @@ def side_of(guide: Floats, place: float, found: Floats, j: int) -> float:
     size = math.hypot(guide[k + 1, 0] - guide[k, 0], guide[k + 1, 1] - guide[k, 1])
     area = _left_of(guide, k, x, y)
     other = k
-    if w <= SMALL and k > 0:
+    if w <= ALONG_SLACK and k > 0:
         other = k - 1
-    elif w >= 1.0 - SMALL and k + 1 < pieces:
+    elif w >= 1.0 - ALONG_SLACK and k + 1 < pieces:
         other = k + 1
     if other != k:
         first = min(k, other)
@@ -83,7 +83,7 @@ def turn_at(guide: Floats, k: int) -> tuple[float, float, float]:
     long_u = math.hypot(ux, uy)
     long_v = math.hypot(vx, vy)
     area = ux * vy - uy * vx
-    if abs(area) <= SMALL * long_u * long_v:
+    if abs(area) <= ALONG_SLACK * long_u * long_v:
         return 0.0, 0.0, 0.0
     turn = math.atan2(area, ux * vx + uy * vy)
     half = math.atan2(uy, ux) + 0.5 * turn + math.copysign(0.5 * math.pi, turn)

@@ -18,10 +18,10 @@ from viaspline.kernels.growable import new_floats, sized_floats
 from viaspline.kernels.jit import fused, inlined, kernel
 from viaspline.kernels.routing.string_pulling.features import features_near
 from viaspline.kernels.routing.string_pulling.guide import foot, side_of, turn_at
-from viaspline.kernels.routing.string_pulling.string_conflicts import SMALL, next_conflict
+from viaspline.kernels.routing.string_pulling.string_conflicts import SAME_DISTANCE_M, next_conflict
 from viaspline.kernels.routing.string_pulling.string_rows import (
-    COLUMNS,
     PLACE,
+    ROW_COLUMNS,
     insert,
     is_row,
     write,
@@ -41,8 +41,8 @@ from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.ring_features import FEATURE_RADIUS, FEATURE_X, FEATURE_Y
 from viaspline.kernels.world.segment import nearest_to_segment
 
-ROOM = 256  # features that are looked at near one place
-OFTEN = 2  # times that a feature may be put in anew on one side
+MAX_FEATURES_NEAR = 256  # features that are looked at near one place
+MAX_INSERTIONS = 2  # times that a feature may be put in anew on one side
 
 
 @fused
@@ -86,7 +86,7 @@ def _begin(
 ) -> tuple[Floats, int]:
     """One row for every feature that a corner of the guide goes round, and the two ends."""
     corners = guide.shape[0]
-    rows = new_floats(max(16, 2 * corners), COLUMNS)
+    rows = new_floats(max(16, 2 * corners), ROW_COLUMNS)
     write_end(rows, 0, guide, 0)
     count = 1
     for k in range(1, corners - 1):
@@ -178,9 +178,9 @@ def _pulled(
     world: PackedWorld, guide: Floats, rho: float, floor: float, side: float, stuck: Floats
 ) -> tuple[Floats, int]:
     """The rows of a taut string; none where it gets stuck, and ``stuck`` says where."""
-    found = new_floats(ROOM, 5)
+    found = new_floats(MAX_FEATURES_NEAR, 5)
     rows, count = _begin(world, guide, rho, side, found)
-    history = new_floats(64, COLUMNS)
+    history = new_floats(64, ROW_COLUMNS)
     insertions = 0
     k = 0
     while True:
@@ -199,7 +199,7 @@ def _pulled(
         chosen = -1
         lean = 0.0
         place = 0.0
-        wide = 1.26 * floor + SMALL
+        wide = 1.26 * floor + SAME_DISTANCE_M
         while chosen < 0 and wide < 40.0 * floor + 4.0 * side:
             near = features_near(world, x, y, wide, found)
             chosen, lean, place = _most_in_the_way(rows, k, at, guide, found, near, rho, heading)
@@ -209,7 +209,7 @@ def _pulled(
             return rows, 0
         if insertions == history.shape[0]:
             history = sized_floats(history, insertions, 2 * insertions)
-        if _remember(history, insertions, found, chosen, lean) > OFTEN:
+        if _remember(history, insertions, found, chosen, lean) > MAX_INSERTIONS:
             stuck[0, 4] = place
             return rows, 0
         insertions += 1

@@ -18,7 +18,7 @@ from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import nearest_to_segment
 
-SMALL = 1e-9  # [m]
+SAME_DISTANCE_M = 1e-9  # [m]
 
 
 @fused
@@ -27,7 +27,7 @@ def _closest_on(
 ) -> tuple[float, float]:
     """A place on a segment near which it comes closer than ``floor`` to the world."""
     size = math.hypot(bx - ax, by - ay)
-    while size > 0.25 * floor + SMALL:
+    while size > 0.25 * floor + SAME_DISTANCE_M:
         mx = 0.5 * (ax + bx)
         my = 0.5 * (ay + by)
         distance, _ = nearest_to_segment(world, ax, ay, mx, my, floor)

@@ -17,7 +17,7 @@ from viaspline.kernels.world.ring_features import FEATURE_RADIUS, FEATURE_X, FEA
 
 # a string's row is a bend and where its feature lies along the guide
 PLACE = 6
-COLUMNS = 7
+ROW_COLUMNS = 7
 
 
 @inner
@@ -26,7 +26,7 @@ def insert(rows: Floats, count: int, at: int) -> Floats:
     if count == rows.shape[0]:
         rows = sized_floats(rows, count, 2 * count)
     for i in range(count, at, -1):
-        for k in range(COLUMNS):
+        for k in range(ROW_COLUMNS):
             rows[i, k] = rows[i - 1, k]
     return rows
 
@@ -35,7 +35,7 @@ def insert(rows: Floats, count: int, at: int) -> Floats:
 def remove(rows: Floats, count: int, at: int) -> int:
     """Take out the row at ``at``; how many are left."""
     for i in range(at, count - 1):
-        for k in range(COLUMNS):
+        for k in range(ROW_COLUMNS):
             rows[i, k] = rows[i + 1, k]
     return count - 1
 
@@ -43,7 +43,7 @@ def remove(rows: Floats, count: int, at: int) -> int:
 @inlined
 def write_end(rows: Floats, k: int, guide: Floats, corner: int) -> None:
     """Write an end of the guide to row k."""
-    for column in range(COLUMNS):
+    for column in range(ROW_COLUMNS):
         rows[k, column] = 0.0
     rows[k, BEND_X] = guide[corner, 0]
     rows[k, BEND_Y] = guide[corner, 1]

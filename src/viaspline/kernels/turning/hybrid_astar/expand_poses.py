@@ -18,7 +18,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.heap import pop
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.collision_cache import CollisionCache, reach
-from viaspline.kernels.turning.connect import MOST
+from viaspline.kernels.turning.connect import MAX_SEGMENTS
 from viaspline.kernels.turning.hybrid_astar.goal_arrival import arrive, meet
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     CLOSED,
@@ -26,8 +26,8 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     EXPANDED,
     LENGTH,
     LEVEL,
+    NO_NODE,
     NODES,
-    NONE,
     OUTSIDE,
     PARENT,
     SCALE,
@@ -68,7 +68,7 @@ def set_off(
     """
     for k in range(search.headings.size):
         search.arrivals[k, LENGTH] = np.inf
-        search.ends[k] = NONE
+        search.ends[k] = NO_NODE
     search.meeting[LENGTH] = np.inf
     for k in range(starts.shape[0]):
         x, y, heading = starts[k, 0], starts[k, 1], starts[k, 2]
@@ -150,7 +150,7 @@ def go_on(
         RUNNING: there are more; FULL: there is no room for more; EMPTY: everything that can be
         reached has been; BEATEN: what is left is no better than the bound.
     """
-    segments = np.empty((MOST, 3))
+    segments = np.empty((MAX_SEGMENTS, 3))
     for _ in range(quota):
         if search.heap.size[0] == 0:
             return EMPTY

@@ -12,12 +12,12 @@ import numpy as np
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.collision_cache import CollisionCache, is_clear
-from viaspline.kernels.turning.connect import MOST, connection
+from viaspline.kernels.turning.connect import MAX_SEGMENTS, connection
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     FIRST,
     HERE,
     LENGTH,
-    NONE,
+    NO_NODE,
     SECOND,
     STILL,
     THERE,
@@ -28,8 +28,8 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
 )
 from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, MotionPrimitives
 
-NEAR = 3  # places ahead at which another search is looked for
-LESS = 1e-6  # an arrival has to be shorter by as much to replace another [m]
+PLACES_AHEAD = 3  # places ahead at which another search is looked for
+MIN_GAIN_M = 1e-6  # an arrival has to be shorter by as much to replace another [m]
 
 
 @inner
@@ -48,7 +48,7 @@ def arrive(
     found = False
     for k in range(search.headings.size):
         goal = search.headings[k]
-        best = min(search.arrivals[k, LENGTH], bound) - LESS - cost
+        best = min(search.arrivals[k, LENGTH], bound) - MIN_GAIN_M - cost
         if best <= search.nodes[node, STILL]:
             continue
         for s1 in (1.0, -1.0):
@@ -82,7 +82,7 @@ def meet(
     rho, ramp = moves.sizes[0], moves.sizes[1]
     x, y, heading, cost, _ = search.nodes[node]
     found = False
-    for k in range(NEAR):
+    for k in range(PLACES_AHEAD):
         gap = (k + 1) * max(0.5 * rho, 4.5 * ramp)
         to_x, to_y = x + gap * math.cos(heading), y + gap * math.sin(heading)
         scale = scale_at(cache, other, to_x, to_y, heading)
@@ -98,7 +98,7 @@ def meet(
             for s2 in (1.0, -1.0):
                 count, length = connection(dx, dy, heading, goal, s1, s2, rho, ramp, segments)
                 whole = cost + length + rest
-                if whole < search.meeting[LENGTH] - LESS and is_clear(
+                if whole < search.meeting[LENGTH] - MIN_GAIN_M and is_clear(
                     cache, x, y, heading, segments, count
                 ):
                     met = search.meeting
@@ -112,7 +112,7 @@ def meet(
 def connected(moves: MotionPrimitives, dx: float, dy: float, start: float, goal: float, s1: float,
               s2: float) -> Floats:  # fmt: skip
     """The segments of a connection, see ``connect.connection``."""
-    segments = np.empty((MOST, 3))
+    segments = np.empty((MAX_SEGMENTS, 3))
     count, _ = connection(dx, dy, start, goal, s1, s2, moves.sizes[0], moves.sizes[1], segments)
     return segments[:count].copy()
 
@@ -140,8 +140,8 @@ def bridge(
         Length of the shortest way [m], infinite if there is none; the two nodes; the sides of the
         two turns between them.
     """
-    segments = np.empty((MOST, 3))
-    best, first, last, side1, side2 = np.inf, NONE, NONE, 0.0, 0.0
+    segments = np.empty((MAX_SEGMENTS, 3))
+    best, first, last, side1, side2 = np.inf, NO_NODE, NO_NODE, 0.0, 0.0
     for i in range(out.size):
         x, y, heading, cost, _ = there.nodes[out[i]]
         for j in range(home.size):

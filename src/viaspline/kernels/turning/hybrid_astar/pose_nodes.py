@@ -14,8 +14,8 @@ from viaspline.kernels.turning.collision_cache import AHEAD, LEFT, CollisionCach
 from viaspline.kernels.turning.dubins import dubins_length, length_to_place
 from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS
 
-NONE = -1  # in place of a node
-CELL = 0.6  # side of a cell, as a share of a move
+NO_NODE = -1  # in place of a node
+CELL_SHARE = 0.6  # side of a cell, as a share of a move
 # columns of a node, and of its links; a start has the parent -1 less its number
 X, Y, HEADING, COST, STILL = range(5)
 LEVEL, PARENT, CLOSED, SLOT, SCALE = range(5)

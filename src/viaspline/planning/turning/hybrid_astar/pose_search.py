@@ -16,7 +16,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
-from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL
+from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL_SHARE
 from viaspline.kernels.turning.hybrid_astar.primitives import MotionPrimitives, primitives_of
 from viaspline.kernels.turning.segment_chain import chain_spans, merged, shortened
 from viaspline.planning.problem.requirements import Requirements
@@ -227,7 +227,7 @@ def tasks(
             area,
             body,
             rho,
-            CELL * float(steps[0]),
+            CELL_SHARE * float(steps[0]),
             (effort.care[0] * rho, effort.care[1] * rho),
         )
         yield PoseProblem(

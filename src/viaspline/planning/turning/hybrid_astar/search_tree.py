@@ -14,7 +14,7 @@ from viaspline.kernels.turning.collision_cache import CollisionCache
 from viaspline.kernels.turning.hybrid_astar import expand_poses as kernels
 from viaspline.kernels.turning.hybrid_astar.goal_arrival import bridge, connected
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
-    CELL,
+    CELL_SHARE,
     EXPANDED,
     HERE,
     LEVEL,
@@ -222,7 +222,7 @@ def _empty(
         window=np.array(search_window.area.box),
         ends_at=np.concatenate((goal[None], starts[:, :2])),
         care=np.array(search_window.care),
-        scales=np.column_stack((CELL * steps, around, search_window.rooms(steps))),
+        scales=np.column_stack((CELL_SHARE * steps, around, search_window.rooms(steps))),
         nodes=np.zeros((nodes, 5)),
         links=np.zeros((nodes, 5), np.int64),
         keys=np.zeros(table, np.int64),

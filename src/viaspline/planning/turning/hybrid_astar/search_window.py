@@ -11,7 +11,12 @@ import numpy as np
 
 from viaspline.kernels.arrays import Bytes, Floats
 from viaspline.kernels.routing.distance_field import distance_field
-from viaspline.kernels.turning.collision_cache import HALF_DIAGONAL, KEPT, CollisionCache, is_clear
+from viaspline.kernels.turning.collision_cache import (
+    HALF_DIAGONAL_CELLS,
+    KEPT,
+    CollisionCache,
+    is_clear,
+)
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import Ahead
 from viaspline.kernels.world.rasterize import rasterized
 from viaspline.planning.problem.requirements import Requirements
@@ -167,7 +172,7 @@ class SearchWindow:
         """The lattice: cells where the reference point surely can't be are not 0."""
         x0, y0, x1, y1 = self.area.box
         height, width = math.ceil((y1 - y0) / self.side), math.ceil((x1 - x0) / self.side)
-        near = max(self.body.inner - HALF_DIAGONAL * self.side, 0.0)
+        near = max(self.body.inner - HALF_DIAGONAL_CELLS * self.side, 0.0)
         cells: Bytes = rasterized(
             self.world.packed, x0, y0, self.side, height, width, near, NO_CELLS
         )
