@@ -10,6 +10,8 @@
     └── NoPathError         there is no such path: where, why, what would help (exit code 3)
 
 Every error carries its data as attributes; its message names the thing and the remedy.
+
+Tested through ``test_cli``.
 """
 
 from __future__ import annotations

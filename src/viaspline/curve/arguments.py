@@ -1,4 +1,7 @@
-"""Arguments on their way to the kernels: validated, converted, writable."""
+"""Arguments on their way to the kernels: validated, converted, writable.
+
+Tested through ``curve/test_piecewise``.
+"""
 
 from __future__ import annotations
 

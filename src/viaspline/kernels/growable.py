@@ -1,4 +1,7 @@
-"""Tables that grow. numba compiles ``np.empty`` anew for every kernel that calls it: here once."""
+"""Tables that grow. numba compiles ``np.empty`` anew for every kernel that calls it: here once.
+
+Tested through ``kernels/routing/test_tangent_graph``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Tangent, curvature and change of heading along a curve, cell by cell, with their errors."""
+"""Tangent, curvature and change of heading along a curve, cell by cell, with their errors.
+
+Tested through ``trajectory/test_coupled``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The time law under limits that are a largest speed at every place: exact, arc by arc."""
+"""The time law under limits that are a largest speed at every place: exact, arc by arc.
+
+Tested through ``trajectory/test_retime``.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 All is in terms of the middle Bernstein coefficients of w = v² on the stretches: a stretch knows its
 own, the one before it and the one after it.
+
+Tested through ``trajectory/test_jerk``.
 """
 
 from __future__ import annotations

@@ -14,6 +14,8 @@ it as near to the limits as it says.
 
 Source: the same problem as in L. Consolini, M. Locatelli and A. Minari, "A sequential algorithm
 for jerk limited speed planning", IEEE T-ASE 2022.
+
+Tested through ``trajectory/test_jerk``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""The time law of a lap with a limit of the jerk: it goes on at its start where it ends."""
+"""The time law of a lap with a limit of the jerk: it goes on at its start where it ends.
+
+Tested through ``trajectory/test_lap``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A path as the time law sees it: its length, where it is slow, and the fastest v² along it."""
+"""A path as the time law sees it: its length, where it is slow, and the fastest v² along it.
+
+Tested through ``trajectory/test_retime``.
+"""
 
 from __future__ import annotations
 

@@ -3,6 +3,8 @@
 A piece begins with the speed v and the acceleration a. Either the acceleration changes with the
 distance, a + k x (k = 0: it is constant), which is a linear differential equation; or it changes
 with time, a + j t, at the very start and end of a motion that is limited in jerk.
+
+Tested through ``trajectory/test_retime``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""A time law along a path: where the robot is at every time, and when it is everywhere."""
+"""A time law along a path: where the robot is at every time, and when it is everywhere.
+
+Tested through ``trajectory/test_retime``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A robot's footprint as kernels take it."""
+"""A robot's footprint as kernels take it.
+
+Tested through ``mission/test_footprint_check``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""From obstacles as people write them to the arrays that kernels take."""
+"""From obstacles as people write them to the arrays that kernels take.
+
+Tested through ``kernels/world/test_distance``.
+"""
 
 from __future__ import annotations
 

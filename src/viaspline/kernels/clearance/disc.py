@@ -10,6 +10,8 @@ neither settles is halved.
 
 Of a world that moves, both are taken at the piece's middle instant, less what its pace allows until
 its first and its last.
+
+Tested through ``curve/test_certificate``.
 """
 
 from __future__ import annotations

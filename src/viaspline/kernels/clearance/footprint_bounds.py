@@ -3,6 +3,8 @@
 A cell lies in the hull of four places of body points, grown by what the hull misses. It is bounded
 by a ball about a body point that is really attained, and by a capsule along its long side, which is
 exact where an edge slides along itself.
+
+Tested through ``kernels/clearance/test_footprint_walk``.
 """
 
 from __future__ import annotations

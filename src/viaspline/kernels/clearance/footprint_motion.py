@@ -11,6 +11,8 @@ where sag is the path's own distance from its chord. The last term has two bound
 range, and (max θ' - min θ')/4 + Δ max |w - λ|; both come from Bernstein coefficients, the second
 is of second order. All vanish on straight pieces. So the cell lies in the hull of four places of
 body points, grown by that.
+
+Tested through ``kernels/clearance/test_footprint_walk``.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 The body's outline is a ring of corners in the robot's frame, x forward and y left, about its
 reference point. A pose is the reference point's place and the cosine and sine of the heading.
+
+Tested through ``kernels/clearance/test_footprint_walk``.
 """
 
 from __future__ import annotations

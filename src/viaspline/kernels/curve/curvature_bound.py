@@ -8,6 +8,8 @@ Where that is not enough, that all curvature is below K is that the polynomial
 
 of degree 12 has positive Bernstein coefficients, which is of second order. What neither settles is
 halved. K is a little more than the largest curvature that is attained.
+
+Tested through ``curve/test_bending``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Length and largest curvature of Bézier spans, for comparing candidates."""
+"""Length and largest curvature of Bézier spans, for comparing candidates.
+
+Tested through ``kernels/world/test_distance``.
+"""
 
 from __future__ import annotations
 

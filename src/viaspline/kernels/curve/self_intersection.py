@@ -5,6 +5,8 @@ With P(w) = a3 w³ + a2 w² + a1 w + a0, a crossing P(s) = P(t) of a planar cubi
     a3 (s² + s t + t²) + a2 (s + t) + a1 = 0,
 
 two equations that are linear in s + t and s t. Equal s and t are a cusp.
+
+Tested through ``curve/test_bending``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""A route of corners pulled taut: straight pieces and true arcs, and via points beside them."""
+"""A route of corners pulled taut: straight pieces and true arcs, and via points beside them.
+
+Tested through ``kernels/routing/test_tangent_graph``.
+"""
 
 from __future__ import annotations
 

@@ -3,6 +3,8 @@
 Every obstacle within reach is projected onto the beams that can hit it, so the cost is that of the
 obstacles in sight and not of beams times obstacles. Bounds and fences are lines on a map: beams
 don't see them.
+
+Tested through ``robot/perception/test_lidar``.
 """
 
 from __future__ import annotations

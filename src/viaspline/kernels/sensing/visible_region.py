@@ -1,4 +1,7 @@
-"""What beams say: where a body can go inside of what they passed, and what they saw through."""
+"""What beams say: where a body can go inside of what they passed, and what they saw through.
+
+Tested through ``robot/perception/test_belief``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What limits of speeds allow on the cells of a curve: whatever lies below a line."""
+"""What limits of speeds allow on the cells of a curve: whatever lies below a line.
+
+Tested through ``trajectory/test_coupled``.
+"""
 
 from __future__ import annotations
 

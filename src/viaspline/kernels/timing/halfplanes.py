@@ -4,6 +4,8 @@ v² is linear on a stretch, so the acceleration is (w1 - w0) / 2h there. Every l
 half-planes p w0 + q w1 <= g that hold for the whole stretch: tangent and curvature are quadratics
 with bounded errors, what the limits bound is a polynomial in the distance, and a polynomial lies
 below its largest Bernstein coefficient.
+
+Tested through ``kernels/timing/test_reachability``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Speeds, times and accelerations of a v² that is linear between its points."""
+"""Speeds, times and accelerations of a v² that is linear between its points.
+
+Tested through ``trajectory/test_retime``.
+"""
 
 from __future__ import annotations
 

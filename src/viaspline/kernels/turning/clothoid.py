@@ -5,6 +5,8 @@ and after it ramps (clothoids) of the length l on which curvature changes from a
 touch the circle of radius rho + shift about the middle of the arc, and the ramps begin ``lead``
 before the feet of the perpendiculars on them, whatever theta is. A turn by less than l / rho has
 no arc: its curvature rises to theta / l only.
+
+Tested through ``kernels/turning/test_turn_sequence``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Segments of evenly changing curvature: lines, arcs and ramps in one form."""
+"""Segments of evenly changing curvature: lines, arcs and ramps in one form.
+
+Tested through ``kernels/turning/test_connect``.
+"""
 
 from __future__ import annotations
 

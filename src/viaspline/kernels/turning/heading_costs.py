@@ -1,4 +1,7 @@
-"""The heading at every via point: what each leg costs from each heading to each other one."""
+"""The heading at every via point: what each leg costs from each heading to each other one.
+
+Tested through ``planning/turning/test_turn_planner``.
+"""
 
 from __future__ import annotations
 

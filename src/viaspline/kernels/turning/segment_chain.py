@@ -1,4 +1,7 @@
-"""Chains of segments of evenly changing curvature: made simpler, shortened, laid as spans."""
+"""Chains of segments of evenly changing curvature: made simpler, shortened, laid as spans.
+
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
+"""
 
 from __future__ import annotations
 

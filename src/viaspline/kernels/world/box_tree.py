@@ -1,4 +1,7 @@
-"""Building a packed world: boxes of obstacles, and a tree of boxes in depth-first order."""
+"""Building a packed world: boxes of obstacles, and a tree of boxes in depth-first order.
+
+Tested through ``kernels/world/test_distance``.
+"""
 
 from __future__ import annotations
 

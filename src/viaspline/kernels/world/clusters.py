@@ -1,4 +1,7 @@
-"""Which obstacles stand so close together that nothing passes between them."""
+"""Which obstacles stand so close together that nothing passes between them.
+
+Tested through ``kernels/world/test_distance``.
+"""
 
 from __future__ import annotations
 

@@ -4,6 +4,8 @@ Inflated by ``rho`` a rounded ring is bounded by arcs: a disc made larger, or an
 convex vertex, the straight pieces between them being tangents. Each arc is
 wrapped in a few circumscribed corners. A corner knows its arc, so that a route of corners can be
 pulled taut onto the true arcs afterwards.
+
+Tested through ``kernels/routing/test_tangent_graph``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Which blocked cells of a grid lie inside a body, and what a taut string can lie against there."""
+"""Which blocked cells of a grid lie inside a body, and what a taut string can lie against there.
+
+Tested through ``kernels/clearance/test_footprint_walk``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Distance between an occupancy grid and a rounded ring or another grid."""
+"""Distance between an occupancy grid and a rounded ring or another grid.
+
+Tested through ``kernels/world/test_grid_rows``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Where a beam first meets a blocked cell of an occupancy grid."""
+"""Where a beam first meets a blocked cell of an occupancy grid.
+
+Tested through ``robot/perception/test_lidar``.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 Of every row that the segment comes near to, the part within reach is taken run by run: blocked
 cells that follow each other are one rectangle, and free ones are stepped over at once.
+
+Tested through ``kernels/world/test_grid_rows``.
 """
 
 from __future__ import annotations

@@ -4,6 +4,8 @@ An obstacle is a *rounded ring* or a *grid*. A rounded ring is a core of closed 
 a radius by which the core is grown: a disc is one vertex with a radius, a capsule two, a polygon
 many with radius 0 and its holes after it. What is asked of an obstacle is asked in ``shape``; which
 of the two it is, is known there and nowhere else.
+
+Tested through ``kernels/world/test_distance``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Distances in the plane between points, segments and boxes."""
+"""Distances in the plane between points, segments and boxes.
+
+Tested through ``kernels/world/test_distance``.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,8 @@
 """What a taut string can lie against on a rounded ring: discs about its convex vertices.
 
 A vertex of a polygon is a disc of radius 0, which has a direction that leads into the open.
+
+Tested through ``kernels/world/test_shape``.
 """
 
 from __future__ import annotations

@@ -3,6 +3,8 @@
 A ring is projected onto the beams that can hit it, so the cost is that of the beams it covers. Its
 surface is that of the discs about its vertices and of its edges moved outwards by its radius; what
 of these lies inside of it is hit by no beam first.
+
+Tested through ``kernels/world/test_shape``.
 """
 
 from __future__ import annotations

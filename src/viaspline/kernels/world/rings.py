@@ -1,4 +1,7 @@
-"""Packing closed loops of vertices into oriented edges and blocks of edges."""
+"""Packing closed loops of vertices into oriented edges and blocks of edges.
+
+Tested through ``kernels/world/test_distance``.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 Signed distances are exact outside, and inside the depth below the surface; they are 1-Lipschitz. A
 query's ``limit`` is answered where the ring is farther away than that.
+
+Tested through ``kernels/world/test_shape``.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 Segments take the second-order step of the certificate, and they are what routes are made of. The
 ``limit`` of a query and the indices of its answer are those of ``distance``.
+
+Tested through ``kernels/world/test_distance``.
 """
 
 from __future__ import annotations

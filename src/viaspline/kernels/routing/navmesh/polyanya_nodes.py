@@ -1,4 +1,7 @@
-"""The nodes of Polyanya's search, and the heap of those that have not been expanded."""
+"""The nodes of Polyanya's search, and the heap of those that have not been expanded.
+
+Tested through ``kernels/routing/navmesh/test_polyanya``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What a node of Polyanya's search leads to: portals that are seen from it, and turns."""
+"""What a node of Polyanya's search leads to: portals that are seen from it, and turns.
+
+Tested through ``kernels/routing/navmesh/test_polyanya``.
+"""
 
 from __future__ import annotations
 

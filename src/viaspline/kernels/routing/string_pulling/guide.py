@@ -1,4 +1,7 @@
-"""Where along a guide a feature lies and on which side, and how the guide turns at a corner."""
+"""Where along a guide a feature lies and on which side, and how the guide turns at a corner.
+
+Tested through ``kernels/routing/string_pulling/test_pull``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Where a string's tangents and arcs come too close to the world."""
+"""Where a string's tangents and arcs come too close to the world.
+
+Tested through ``kernels/routing/string_pulling/test_pull``.
+"""
 
 from __future__ import annotations
 

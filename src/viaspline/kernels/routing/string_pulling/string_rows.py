@@ -1,4 +1,7 @@
-"""The rows of a string: the features that it goes round, and its two ends."""
+"""The rows of a string: the features that it goes round, and its two ends.
+
+Tested through ``kernels/routing/string_pulling/test_pull``.
+"""
 
 from __future__ import annotations
 

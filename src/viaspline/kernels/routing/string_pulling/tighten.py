@@ -1,4 +1,7 @@
-"""A string's tangents and turns, and which of its rows it does not bend round."""
+"""A string's tangents and turns, and which of its rows it does not bend round.
+
+Tested through ``kernels/routing/string_pulling/test_pull``.
+"""
 
 from __future__ import annotations
 

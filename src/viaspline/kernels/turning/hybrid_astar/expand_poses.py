@@ -6,6 +6,8 @@ one of five levels from one turning circle to the other, and a move keeps it or 
 level, so that it is continuous (A. Scheuer, Th. Fraichard: "Continuous-curvature path planning for
 car-like vehicles", 1997). From states without curvature turns with ramps and a line between them
 are laid to the goal, which they hit exactly.
+
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
 """
 
 from __future__ import annotations

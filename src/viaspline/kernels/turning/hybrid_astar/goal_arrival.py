@@ -1,6 +1,8 @@
 """How a search through poses comes to the goal, or to what another search has found.
 
 Two turns with ramps and a line between them are laid there from a state without curvature.
+
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
 """
 
 from __future__ import annotations

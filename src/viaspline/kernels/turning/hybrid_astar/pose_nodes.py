@@ -1,4 +1,7 @@
-"""The states that a search through poses has found, and the table of their cells."""
+"""The states that a search through poses has found, and the table of their cells.
+
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
+"""
 
 from __future__ import annotations
 
