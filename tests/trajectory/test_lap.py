@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
+from viaspline.trajectory.interior_point import Seam
 from viaspline.trajectory.lap import retime_lap
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
@@ -95,3 +96,11 @@ def test_a_lap_keeps_the_jerk_across_its_seam(name: str, stations: tuple[float, 
     assert rough.duration < law.duration < 1.5 * rough.duration
     for at in stations:
         assert law.speed_at(at) == 0.0
+
+
+def test_a_lap_is_a_drive_whose_end_is_a_seam() -> None:
+    path, limits = ring(0), LIMITS["bends"]
+    lap, drive = retime_lap(path, limits), retime(path, limits, end_speed=Seam())
+    np.testing.assert_array_equal(lap.times, drive.times)
+    with pytest.raises(GeometryError, match="begins at the start"):
+        retime(path, limits, start=1.0, end_speed=Seam())

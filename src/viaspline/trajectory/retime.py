@@ -11,9 +11,12 @@ from viaspline.mission.parts import SpeedZone
 from viaspline.trajectory.cells import Evaluable
 from viaspline.trajectory.coupled import Stage
 from viaspline.trajectory.curvature_limited import Cubic
+from viaspline.trajectory.interior_point import Seam
 from viaspline.trajectory.jerk import smooth_law
-from viaspline.trajectory.limited_path import crawl, limited_path_of
+from viaspline.trajectory.jerk_limited_lap import smooth_lap
+from viaspline.trajectory.limited_path import LimitedCubicPath, crawl, limited_path_of
 from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.seam import checked_lap, lap_profile, once_a_lap
 from viaspline.trajectory.trajectory import Trajectory
 
 Curve = Cubic | Evaluable
@@ -28,7 +31,7 @@ def retime(
     start: float = 0.0,
     start_speed: float = 0.0,
     start_accel: float = 0.0,
-    end_speed: float = 0.0,
+    end_speed: float | Seam = 0.0,
     speed_cap: float | None = None,
     start_time: float = 0.0,
     grid: int | None = None,
@@ -65,7 +68,8 @@ def retime(
         start_speed: Speed there [m/s]. If the limits allow less, the robot brakes as hard as it
             can, and ``over_limit_until`` of the result says how far.
         start_accel: Acceleration there [m/s²] if the speed isn't 0; only ``max_jerk`` asks for it.
-        end_speed: Speed at the end of the path [m/s], or less.
+        end_speed: Speed at the end of the path [m/s], or less; a ``Seam`` if it is a lap that goes
+            on at its start, which then ends as it begins.
         speed_cap: One more limit of the speed [m/s], e.g. what the sensor allows.
         start_time: Time at the start [s].
         grid: At least so many cells where speed and acceleration are coupled; on a sampled curve
@@ -94,23 +98,31 @@ def retime(
     """
     limited_path = limited_path_of(path, limits, grid)
     length = limited_path.length
-    _check(length, start, start_speed, start_accel, end_speed, speed_cap)
+    last = 0.0 if isinstance(end_speed, Seam) else float(end_speed)
+    _check(length, start, start_speed, start_accel, last, speed_cap)
+    if isinstance(end_speed, Seam):
+        limited_path, stations = checked_lap(limited_path, start), once_a_lap(stations, length)
     stops = stops_from(stations, start, length)
-    accel = crawl(limits)
     if length - start <= 0.0:
         return Trajectory.through(
-            np.full(2, length), np.zeros(2), max_accel=accel, stations=stops, start_time=start_time
-        )
+            np.full(2, length), np.zeros(2), max_accel=crawl(limits), stations=stops,
+            start_time=start_time,
+        )  # fmt: skip
     stage = Stage(
         start=start,
         end=length,
         first=float(start_speed),
-        last=float(end_speed),
+        last=last,
         top=limits.max_speed if speed_cap is None else min(limits.max_speed, float(speed_cap)),
         stops=tuple(stop.distance for stop in stops),
         slow=limited_path.slow(zones, start),
     )
-    profile = limited_path.profile(stage)
+    if isinstance(limited_path, LimitedCubicPath) and isinstance(end_speed, Seam):
+        profile, seam_speed = lap_profile(limited_path, stage)
+        if limits.max_jerk is not None:
+            return smooth_lap(limited_path, limits, stage, profile, stops, start_time, seam_speed)
+    else:
+        profile = limited_path.profile(stage)
     if profile.missed == profile.missed:
         raise GeometryError(
             f"the robot can't stop at {profile.missed:g} m: from {start_speed:g} m/s at "
@@ -124,7 +136,7 @@ def retime(
     return Trajectory.through(
         profile.points,
         profile.squares,
-        max_accel=accel,
+        max_accel=crawl(limits),
         stations=stops,
         start_time=start_time,
         over_limit_until=profile.over if profile.over > start else None,
