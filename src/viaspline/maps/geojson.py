@@ -26,8 +26,8 @@ from viaspline.maps.area import (
     warn_of_nothing,
     with_area,
 )
-from viaspline.maps.faults import refusal
-from viaspline.maps.files import read_text
+from viaspline.maps.map_faults import refusal
+from viaspline.maps.map_files import read_text
 
 _PROJECT: Final = "project it to metres (e.g. UTM), and take the site's corner for the origin"
 _ONLY: Final = "give Polygon or MultiPolygon, e.g. widen it by how far it is to be kept clear of"

@@ -1,4 +1,7 @@
-"""The YAML file of a map of ROS's map_server."""
+"""The YAML file of a map of ROS's map_server.
+
+Tested through ``tests/maps/test_map_server.py``.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,8 @@
 """Portable greymaps: P5 and P2, 8 and 16 bits.
 
 Format: https://netpbm.sourceforge.net/doc/pgm.html
+
+Tested through ``tests/maps/test_map_server.py``.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from viaspline.errors import MissionError
-from viaspline.maps.faults import check_size, refusal
+from viaspline.maps.map_faults import check_size, refusal
 from viaspline.maps.picture import Picture, Pixels
 
 _BLANK: Final = rb"(?:\s|#[^\n\r]*[\n\r])+"

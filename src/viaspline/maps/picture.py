@@ -2,6 +2,8 @@
 
 A map of a hundred million squares is an everyday thing: nothing as large as the whole picture is
 made beside the picture itself.
+
+Tested through ``tests/maps/test_map_server.py``.
 """
 
 from __future__ import annotations

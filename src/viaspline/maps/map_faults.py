@@ -1,4 +1,7 @@
-"""Faults in map files."""
+"""Faults in map files.
+
+Tested through the tests of every kind of map in ``tests/maps``.
+"""
 
 from __future__ import annotations
 
