@@ -4,13 +4,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
-from hypothesis import strategies as st
 
 from viaspline.errors import MissionError, MissionWarning
 from viaspline.maps.area import Area
 from viaspline.maps.svg import read_svg
-from viaspline.maps.svg_outline import flattened, segments_of
 
 HEAD = (
     '<svg xmlns="http://www.w3.org/2000/svg" '
@@ -132,24 +129,6 @@ def test_no_chord_is_farther_from_its_curve_than_is_said(tmp_path: Path, radius:
     assert len(corners) < 20_000
 
 
-@given(
-    points=st.lists(st.floats(-50, 50), min_size=8, max_size=8),
-    matrix=st.lists(st.floats(-3, 3), min_size=4, max_size=4),
-)
-def test_a_cubic_is_nowhere_farther_from_its_chords_than_is_asked_for(
-    points: list[float], matrix: list[float]
-) -> None:
-    control = np.reshape(points, (4, 2))
-    d = "M{} {}C{} {} {} {} {} {}".format(*points)
-    placing = np.array([[matrix[0], matrix[1], 7.0], [matrix[2], matrix[3], -2.0], [0, 0, 1.0]])
-    (ring,) = flattened(segments_of("path", {"d": d}), placing, 0.01)
-    u = np.linspace(0, 1, 500)[:, None]
-    curve = (1 - u) ** 3 * control[0] + 3 * u * (1 - u) ** 2 * control[1]
-    curve = curve + 3 * u**2 * (1 - u) * control[2] + u**3 * control[3]
-    placed = curve @ placing[:2, :2].T + placing[:2, 2]
-    assert shapely.distance(shapely.LineString(ring), shapely.points(placed)).max() <= 0.0100001
-
-
 def test_transforms_are_applied_from_the_inside_out(tmp_path: Path) -> None:
     body = (
         '<g transform="translate(10 20)"><g transform="rotate(90)"><g transform="scale(2 3)">'
@@ -200,35 +179,6 @@ def test_style_sheets_say_what_is_filled(tmp_path: Path) -> None:
         '<g class="even"><path d="M0 0H9V9H0Z M3 3H6V6H3Z"/></g>',
     )
     assert ground(read_svg(file)).area == 72
-
-
-@pytest.mark.parametrize(
-    ("head", "body", "fault"),
-    [
-        ('<!ENTITY a SYSTEM "file:///etc/passwd">', "&a;", "'a', which is another file, long or"),
-        ('<!ENTITY a "x"><!ENTITY b "&a;&a;">', "", "'b', which is another file, long or made"),
-        (f'<!ENTITY a "{"x" * 500}">', "", "'a', which is another file, long or made of others"),
-        ('<!ENTITY % a "x">', "", "'a', which is another file, long or made of others; save"),
-    ],
-)
-def test_entities_that_read_files_or_grow_are_refused(
-    tmp_path: Path, head: str, body: str, fault: str
-) -> None:
-    file = tmp_path / "a.svg"
-    file.write_text(f"<!DOCTYPE svg [\n{head}]>{HEAD}{body}</svg>")
-    with pytest.raises(MissionError) as caught:
-        read_svg(file)
-    assert str(caught.value).startswith(f"{file}:2:")
-    assert f": declares the entity {fault}" in str(caught.value)
-
-
-def test_short_entities_as_illustrator_has_them_are_read(tmp_path: Path) -> None:
-    file = tmp_path / "a.svg"
-    file.write_text(
-        '<!DOCTYPE svg [<!ENTITY ns "http://www.w3.org/2000/svg">]>'
-        '<svg xmlns="&ns;"><rect width="1" height="1"/></svg>'
-    )
-    assert len(read_svg(file)) == 1
 
 
 def test_a_drawing_that_would_grow_without_end_is_refused(tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ import numpy as np
 from viaspline.errors import Fault, MissionError
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.area import (
-    FARTHEST,
+    FARTHEST_M,
     Area,
     Rule,
     areas_of,
@@ -53,10 +53,10 @@ CHORD_ERROR_M: Final = 5e-3
 """How far a curve may be from the chords in its place [m]."""
 
 CHORD_ERROR_SHARE: Final = 1e-3
-"""The same as a part of the drawing's longer side; the smaller of the two holds."""
+"""How far, as a part of the drawing's longer side; the smaller of the two holds."""
 
-FINEST_SHARE: Final = 1e-7
-"""The same, but never less than this: a curve has some thousand chords at most."""
+LEAST_CHORD_ERROR_SHARE: Final = 1e-7
+"""It is never less than this part of that side: a curve has some thousand chords at most."""
 
 MOST_ELEMENTS: Final = 100_000
 """That are drawn; an element counts each time that it is used."""
@@ -163,7 +163,7 @@ class _Drawing:
                 raise OutlineError(f"the {tag} isn't filled", remedy)
             segments = segments_of(tag, own)
             hull = hull_of(segments, matrix)
-            if not (np.abs(hull) <= FARTHEST).all():
+            if not (np.abs(hull) <= FARTHEST_M).all():
                 raise OutlineError(f"the {tag} has a coordinate that is too far away", TOO_FAR)
             self.outlines.append(_Outline(element, segments, matrix, hull, style.rule))
 
@@ -192,7 +192,7 @@ def _areas(path: Path, outlines: Sequence[_Outline]) -> list[Area]:
     """What outlines go round."""
     corners = np.vstack([np.zeros((0, 2)), *(outline.hull for outline in outlines)])
     size = float(np.ptp(corners, axis=0).max()) if corners.size else 0.0
-    error = max(min(CHORD_ERROR_M, CHORD_ERROR_SHARE * size), FINEST_SHARE * size)
+    error = max(min(CHORD_ERROR_M, CHORD_ERROR_SHARE * size), LEAST_CHORD_ERROR_SHARE * size)
     areas: list[Area] = []
     for element, segments, matrix, _, rule in outlines:
         polygons = filled(flattened(segments, matrix, error or CHORD_ERROR_M), rule)

@@ -16,12 +16,12 @@ from typing import Any, Final
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.maps.area import FARTHEST
+from viaspline.maps.area import FARTHEST_M
 
 PIXELS_PER_INCH: Final = 96.0
 """CSS: what makes a length with a unit a number of the drawing's own units."""
 
-TOO_FAR: Final = f"it should be within {FARTHEST:g} m"
+TOO_FAR: Final = f"it should be within {FARTHEST_M:g} m"
 
 _LARGEST: Final = 1e30  # of the numbers that are calculated with
 _NUMBER: Final = r"(?>[+-]?(?:\d*\.)?\d+(?:[eE][+-]?\d+)?)"  # never only a part of a number

@@ -1,4 +1,7 @@
-"""What an element of a drawing looks like, and what it hands down to those inside of it."""
+"""What an element of a drawing looks like, and what it hands down to those inside of it.
+
+Tested through ``tests/maps/test_svg.py``.
+"""
 
 from __future__ import annotations
 
