@@ -1,6 +1,6 @@
 """Pictures of maps: greymaps by hand, PNG and BMP with Pillow.
 
-Tested through ``tests/maps/test_map_server.py``.
+Tested through ``maps/test_map_server``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Which kinds of map files there are: those of squares, and those of areas.
 
-Tested through ``tests/mission/test_maps.py``.
+Tested through ``mission/test_maps``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Faults in map files.
 
-Tested through the tests of every kind of map in ``tests/maps``.
+Tested through ``maps/test_map_server``, ``maps/test_movingai`` and ``maps/test_svg``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Map files as bytes and texts, or why they can't be read.
 
-Tested through ``tests/maps/test_map_server.py``.
+Tested through ``maps/test_map_server``.
 """
 
 from __future__ import annotations

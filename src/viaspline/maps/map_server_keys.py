@@ -1,6 +1,6 @@
 """The YAML file of a map of ROS's map_server.
 
-Tested through ``tests/maps/test_map_server.py``.
+Tested through ``maps/test_map_server``.
 """
 
 from __future__ import annotations

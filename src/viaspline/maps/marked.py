@@ -1,6 +1,6 @@
 """A flat YAML mapping whose values know where they stand.
 
-Tested through ``tests/maps/test_map_server.py``.
+Tested through ``maps/test_map_server``.
 """
 
 from __future__ import annotations

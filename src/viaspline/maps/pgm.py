@@ -8,7 +8,7 @@ it doesn't say after how many pixels. A million pixels in plain text take 0.32 s
 
 Format: https://netpbm.sourceforge.net/doc/pgm.html
 
-Tested through ``tests/maps/test_map_server.py``.
+Tested through ``maps/test_map_server``.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 A map of a hundred million squares is an everyday thing: nothing as large as the whole picture is
 made beside the picture itself.
 
-Tested through ``tests/maps/test_map_server.py``.
+Tested through ``maps/test_map_server``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """How a map was read from its file.
 
-Tested through ``tests/maps/test_map_server.py``.
+Tested through ``maps/test_map_server``.
 """
 
 from __future__ import annotations

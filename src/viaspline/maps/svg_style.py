@@ -1,6 +1,6 @@
 """What an element of a drawing looks like, and what it hands down to those inside of it.
 
-Tested through ``tests/maps/test_svg.py``.
+Tested through ``maps/test_svg``.
 """
 
 from __future__ import annotations
