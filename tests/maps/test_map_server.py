@@ -293,7 +293,7 @@ def test_a_picture_in_many_bands_is_put_together(
     noise = np.random.default_rng(2).integers(0, 256, (31, 8, 4), np.uint8)
     Image.fromarray(noise).save(tmp_path / "a.png")
     whole = read_map_server(described(image="a.png"))
-    monkeypatch.setattr("viaspline.maps.picture.BAND", 50)
+    monkeypatch.setattr("viaspline.maps.picture.BAND_PIXELS", 50)
     banded = read_map_server(described(image="a.png"))
     assert banded == whole
     assert banded.unknown is not None

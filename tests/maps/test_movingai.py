@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from viaspline.errors import MissionError
-from viaspline.maps.movingai import Problem, read_movingai, read_problems
+from viaspline.maps.movingai import BenchmarkProblem, read_movingai, read_problems
 
 HEAD = "type octile\nheight 2\nwidth 3\nmap\n"
 
@@ -56,7 +56,7 @@ def test_problems_are_in_metres_from_the_lower_left_corner(tmp_path: Path) -> No
     line = "3\tmaps/my map.map\t4\t10\t1\t0\t3\t9\t11.5"
     (tmp_path / "a.scen").write_text(f"version 1.0\r\n\r\n{line}\r\n")
     (problem,) = read_problems(tmp_path / "a.scen", 0.5)
-    assert problem == Problem(3, "maps/my map.map", (0.75, 4.75), (1.75, 0.25), 5.75)
+    assert problem == BenchmarkProblem(3, "maps/my map.map", (0.75, 4.75), (1.75, 0.25), 5.75)
 
 
 @pytest.mark.parametrize(

@@ -77,6 +77,6 @@ def test_the_ground_in_a_box_is_all_of_it_and_drawn_coarser_never_less(
     drawn = blocked_ground(grid, box)
     assert shapely.symmetric_difference(shapely.intersection(drawn, window), inside).area < 1e-6
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(squares, "FINE", fine)
+        patch.setattr(squares, "MOST_CELLS_DRAWN", fine)
         coarse = blocked_ground(grid, box)
     assert shapely.difference(inside, coarse).area < 1e-6

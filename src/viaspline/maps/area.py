@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 Ring: TypeAlias = tuple[tuple[float, float], ...]
 Rule: TypeAlias = Literal["nonzero", "evenodd"]
 
-FARTHEST: Final = 1e9
+FARTHEST_M: Final = 1e9
 """The farthest coordinate [m], as everywhere in a mission."""
 
-_FINEST: Final = 1e-4  # width [m] below which an area is what rounding made of a line
+_LEAST_WIDTH_M: Final = 1e-4  # width [m] below which an area is what rounding made of a line
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ def _turns(ring: Floats, point: Floats) -> int:
 
 def with_area(polygons: Iterable[Polygon]) -> list[Polygon]:
     """The polygons that are wider than a tenth of a millimetre."""
-    return [part for part in polygons if 2 * part.area > _FINEST * part.length]
+    return [part for part in polygons if 2 * part.area > _LEAST_WIDTH_M * part.length]
 
 
 def warn_of_nothing(path: Path, what: str) -> None:

@@ -18,7 +18,7 @@ import numpy as np
 from viaspline.errors import MissionError
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.area import (
-    FARTHEST,
+    FARTHEST_M,
     Area,
     areas_of,
     distinct,
@@ -26,13 +26,13 @@ from viaspline.maps.area import (
     warn_of_nothing,
     with_area,
 )
-from viaspline.maps.faults import refusal
-from viaspline.maps.files import read_text
+from viaspline.maps.map_faults import refusal
+from viaspline.maps.map_files import read_text
 
 _PROJECT: Final = "project it to metres (e.g. UTM), and take the site's corner for the origin"
 _ONLY: Final = "give Polygon or MultiPolygon, e.g. widen it by how far it is to be kept clear of"
 _DEGREES: Final = ("CRS84", "4326")
-_SMALLEST: Final = 0.1  # metres are larger than this all together, degrees of a site seldom
+_LEAST_SIZE_M: Final = 0.1  # metres are larger than this all together, degrees of a site seldom
 
 
 def read_geojson(path: str | Path) -> tuple[Area, ...]:
@@ -89,7 +89,7 @@ def _check_metres(path: Path, root: dict[str, Any]) -> None:
 def _check_size(path: Path, rings: list[Floats]) -> None:
     corners = np.concatenate(rings)
     size = np.ptp(corners, axis=0)
-    if (size < _SMALLEST).all() and (np.abs(corners) <= (180, 90)).all():
+    if (size < _LEAST_SIZE_M).all() and (np.abs(corners) <= (180, 90)).all():
         problem = f"all of it lies within {max(size):.2g} m: these are degrees, not metres"
         raise refusal(path, problem, _PROJECT)
 
@@ -169,9 +169,9 @@ def _ring(path: Path, ring: Any, key: str) -> Floats:
         raise _no_ring(path, key) from None
     if len(corners) < 3:
         raise _no_ring(path, key)
-    if not (np.abs(corners) <= FARTHEST).all() or not math.isfinite(corners.sum()):
+    if not (np.abs(corners) <= FARTHEST_M).all() or not math.isfinite(corners.sum()):
         problem = "a corner is too far away"
-        raise refusal(path, problem, f"it should be within {FARTHEST:g} m", key=key)
+        raise refusal(path, problem, f"it should be within {FARTHEST_M:g} m", key=key)
     return corners
 
 

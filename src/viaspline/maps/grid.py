@@ -14,7 +14,9 @@ from viaspline.errors import GeometryError
 from viaspline.maps.reading import Reading
 
 MOST_CELLS_ASIDE = 32_000  # kernels count columns in 16 bits
-COARSEST = 1e4  # side of a square [m]; the largest map is then about as wide as a mission may be
+LARGEST_CELL_M = (
+    1e4  # side of a square [m]; the largest map is then about as wide as a mission may be
+)
 Origin = tuple[float, float, float]
 
 

@@ -1,4 +1,7 @@
-"""Pictures of maps: greymaps by hand, PNG and BMP with Pillow."""
+"""Pictures of maps: greymaps by hand, PNG and BMP with Pillow.
+
+Tested through ``maps/test_map_server``.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +12,8 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from viaspline.maps.faults import check_size, refusal
-from viaspline.maps.files import read_bytes
+from viaspline.maps.map_faults import check_size, refusal
+from viaspline.maps.map_files import read_bytes
 from viaspline.maps.pgm import is_pgm, read_pgm
 from viaspline.maps.picture import Picture, Pixels
 

@@ -1,4 +1,7 @@
-"""Which kinds of map files there are: those of squares, and those of areas."""
+"""Which kinds of map files there are: those of squares, and those of areas.
+
+Tested through ``mission/test_maps``.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +9,8 @@ from pathlib import Path
 from typing import Final
 
 from viaspline.maps.area import Area
-from viaspline.maps.faults import refusal
 from viaspline.maps.grid import Grid
+from viaspline.maps.map_faults import refusal
 from viaspline.maps.reading import Unknown
 
 _OF_SQUARES: Final = (".yaml", ".yml", ".map")

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from viaspline.errors import MissionError
 from viaspline.kernels.arrays import Flags
-from viaspline.maps.faults import refusal
-from viaspline.maps.files import read_text
 from viaspline.maps.grid import Grid
 from viaspline.maps.image import read_picture
+from viaspline.maps.map_faults import refusal
+from viaspline.maps.map_files import read_text
 from viaspline.maps.map_server_keys import MapServerKeys
 from viaspline.maps.occupancy import squares_of
 from viaspline.maps.reading import Reading, Unknown

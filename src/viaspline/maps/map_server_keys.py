@@ -1,4 +1,7 @@
-"""The YAML file of a map of ROS's map_server."""
+"""The YAML file of a map of ROS's map_server.
+
+Tested through ``maps/test_map_server``.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +11,13 @@ from pathlib import Path
 from typing import Final, TypeVar
 
 from viaspline.errors import Fault, MissionError
-from viaspline.maps.grid import COARSEST, Origin
+from viaspline.maps.grid import LARGEST_CELL_M, Origin
 from viaspline.maps.marked import Marked, read_mapping
 from viaspline.maps.occupancy import MODES, Meaning, Mode
 
 _KEYS: Final = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 _REMEDY: Final = "it should be a mapping with the keys " + ", ".join(_KEYS) + " (and mode)"
-_FARTHEST: Final = 5e8  # [m]; all of the largest map is then where a mission may be
+_FARTHEST_ORIGIN_M: Final = 5e8  # all of the largest map is then where a mission may be
 
 T = TypeVar("T")
 
@@ -100,7 +103,7 @@ def _name(value: Marked) -> Marked | None:
 
 
 def _side(value: Marked) -> float | None:
-    return value.number if value.number is not None and 0 < value.number <= COARSEST else None
+    return value.number if value.number is not None and 0 < value.number <= LARGEST_CELL_M else None
 
 
 def _fraction(value: Marked) -> float | None:
@@ -109,7 +112,9 @@ def _fraction(value: Marked) -> float | None:
 
 def _origin(value: Marked) -> Origin | None:
     numbers = [item.number for item in value.items]
-    sound = [number for number in numbers if number is not None and abs(number) <= _FARTHEST]
+    sound = [
+        number for number in numbers if number is not None and abs(number) <= _FARTHEST_ORIGIN_M
+    ]
     return (sound[0], sound[1], sound[2]) if len(numbers) == len(sound) == 3 else None
 
 

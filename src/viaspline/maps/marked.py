@@ -1,4 +1,7 @@
-"""A flat YAML mapping whose values know where they stand."""
+"""A flat YAML mapping whose values know where they stand.
+
+Tested through ``maps/test_map_server``.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, StringMark, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from viaspline.maps.faults import refusal
+from viaspline.maps.map_faults import refusal
 
 Mark: TypeAlias = tuple[int, int]
 

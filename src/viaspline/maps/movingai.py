@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.errors import MissionError
-from viaspline.maps.faults import check_size, refusal
-from viaspline.maps.files import read_bytes, read_text
 from viaspline.maps.grid import Grid
+from viaspline.maps.map_faults import check_size, refusal
+from viaspline.maps.map_files import read_bytes, read_text
 from viaspline.maps.reading import Reading
 
 _FREE: Final = b".GS"
@@ -82,7 +82,7 @@ def _wrong_row(path: Path, cells: bytes, width: int, line: int) -> MissionError:
 
 
 @dataclass(frozen=True)
-class Problem:
+class BenchmarkProblem:
     """A way to find in a map.
 
     Attributes:
@@ -101,7 +101,7 @@ class Problem:
     optimal: float
 
 
-def read_problems(path: str | Path, resolution: float = 1.0) -> tuple[Problem, ...]:
+def read_problems(path: str | Path, resolution: float = 1.0) -> tuple[BenchmarkProblem, ...]:
     """Read a ``.scen``: the problems of a map.
 
     Args:
@@ -120,7 +120,7 @@ def read_problems(path: str | Path, resolution: float = 1.0) -> tuple[Problem, .
     return tuple(_problem(file, number, line, resolution) for number, line in numbered)
 
 
-def _problem(path: Path, number: int, line: str, resolution: float) -> Problem:
+def _problem(path: Path, number: int, line: str, resolution: float) -> BenchmarkProblem:
     fields = line.split("\t") if "\t" in line else line.split()
     try:
         if len(fields) != _FIELDS:
@@ -135,4 +135,4 @@ def _problem(path: Path, number: int, line: str, resolution: float) -> Problem:
     def middle(x: int, y: int) -> tuple[float, float]:
         return (x + 0.5) * resolution, (height - y - 0.5) * resolution
 
-    return Problem(bucket, fields[1], middle(x0, y0), middle(x1, y1), optimal * resolution)
+    return BenchmarkProblem(bucket, fields[1], middle(x0, y0), middle(x1, y1), optimal * resolution)

@@ -12,6 +12,8 @@ a map that is negated. Then, by the map's mode:
 
 See http://wiki.ros.org/map_server for the rules, and nav2_map_server's map_io for what they leave
 open: opacity, raw values, equality.
+
+Tested through ``maps/test_map_server``, beside Nav2's rules pixel by pixel.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 A map of a hundred million squares is an everyday thing: nothing as large as the whole picture is
 made beside the picture itself.
+
+Tested through ``maps/test_map_server``.
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ from numpy.typing import NDArray
 
 Pixels: TypeAlias = NDArray[np.unsignedinteger[Any]]
 
-BAND = 1 << 20
+BAND_PIXELS = 1 << 20
 """About so many pixels are in a band."""
 
 
@@ -40,7 +42,7 @@ class Picture:
 
     def bands(self) -> Iterator[tuple[slice, Pixels]]:
         """Rows from the top down, and which they are."""
-        step = max(BAND // self.width, 1)
+        step = max(BAND_PIXELS // self.width, 1)
         for first in range(0, self.height, step):
             last = min(first + step, self.height)
             yield slice(first, last), self.rows(first, last)

@@ -1,4 +1,7 @@
-"""How a map was read from its file."""
+"""How a map was read from its file.
+
+Tested through ``maps/test_map_server``.
+"""
 
 from __future__ import annotations
 

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from viaspline.kernels.arrays import Flags
 from viaspline.maps.grid import Grid
 
-FINE: Final = 256
+MOST_CELLS_DRAWN: Final = 256
 """Squares aside from which on the ground of a window is drawn coarser than it is."""
 
-_FIRST_LOOK: Final = 8.0  # squares
+_FIRST_REACH_CELLS: Final = 8.0  # squares
 
 
 def signed_distance(grid: Grid, place: Sequence[float], reach: float) -> float:
@@ -43,7 +43,7 @@ def signed_distance(grid: Grid, place: Sequence[float], reach: float) -> float:
     if outside > 0:
         return outside * grid.resolution
     to_edge: float = max(min(u, grid.width - u, v, grid.height - v), 0.0)
-    look = _FIRST_LOOK
+    look = _FIRST_REACH_CELLS
     while (way_out := _nearest(grid.blocked, False, u, v, look)) > look < to_edge:
         look *= 2
     return -min(way_out, to_edge) * grid.resolution
@@ -102,7 +102,7 @@ def blocked_ground(grid: Grid, box: Sequence[float]) -> Any:
     if left >= right or bottom >= top:
         return shapely.GeometryCollection()
     window = grid.blocked[bottom:top, left:right]
-    size = -(-max(window.shape) // FINE)
+    size = -(-max(window.shape) // MOST_CELLS_DRAWN)
     rows, starts, ends = _runs(_coarser(window, size))
     low = np.column_stack((left + starts * size, bottom + rows * size))
     high = np.column_stack((left + ends * size, bottom + (rows + 1) * size))

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field
 
-from viaspline.maps.grid import COARSEST
+from viaspline.maps.grid import LARGEST_CELL_M
 from viaspline.maps.reading import Unknown
 from viaspline.mission.fields import (
     FAR,
@@ -52,7 +52,7 @@ class MapSpec(Value):
 
     map: Annotated[Name, BeforeValidator(as_text)]
     unknown: Unknown | None = None
-    resolution_m: Annotated[Positive, Field(le=COARSEST)] | None = None
+    resolution_m: Annotated[Positive, Field(le=LARGEST_CELL_M)] | None = None
     name: Name | None = None
     pass_on: Side | None = None
     never_pass_on: Side | None = None

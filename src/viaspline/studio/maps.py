@@ -13,8 +13,8 @@ import numpy as np
 from pydantic import ValidationError
 
 from viaspline.errors import Fault, MissionError
-from viaspline.maps.files import read_text
 from viaspline.maps.grid import Grid
+from viaspline.maps.map_files import read_text
 from viaspline.maps.map_server_keys import MapServerKeys
 from viaspline.mission.parts import MapSpec
 from viaspline.mission.resolve_files import obstacles_of

@@ -1,11 +1,14 @@
-"""Map files as bytes and texts, or why they can't be read."""
+"""Map files as bytes and texts, or why they can't be read.
+
+Tested through ``maps/test_map_server``.
+"""
 
 from __future__ import annotations
 
 import codecs
 from pathlib import Path
 
-from viaspline.maps.faults import refusal
+from viaspline.maps.map_faults import refusal
 
 
 def read_bytes(path: Path) -> bytes:

@@ -1,4 +1,7 @@
-"""Faults in map files."""
+"""Faults in map files.
+
+Tested through ``maps/test_map_server``, ``maps/test_movingai`` and ``maps/test_svg``.
+"""
 
 from __future__ import annotations
 
