@@ -21,7 +21,7 @@ from viaspline.kernels.world.corner_fans import (
     supports,
 )
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.rounded_ring import rings_gap
+from viaspline.kernels.world.ring_distance import rings_gap
 from viaspline.kernels.world.segment import inner_segment, mark_near_segment
 from viaspline.kernels.world.shape import obstacle_corners, obstacle_segment
 

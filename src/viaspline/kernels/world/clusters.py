@@ -12,7 +12,7 @@ from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.grid_gap import grid_gap, grids_gap
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.plane import box_gap
-from viaspline.kernels.world.rounded_ring import rings_gap
+from viaspline.kernels.world.ring_distance import rings_gap
 from viaspline.kernels.world.shape import is_ring
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.rounded_ring import is_disc, radius_of
+from viaspline.kernels.world.ring_distance import is_disc, radius_of
 
 # columns of a corner
 X, Y, CENTER_X, CENTER_Y, RADIUS, NORMAL_X, NORMAL_Y, SLOPE = range(8)

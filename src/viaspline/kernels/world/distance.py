@@ -16,7 +16,7 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.plane import box_signed, squared_point_segment
-from viaspline.kernels.world.rounded_ring import crosses_eastwards
+from viaspline.kernels.world.ring_distance import crosses_eastwards
 from viaspline.kernels.world.shape import obstacle_signed
 
 

@@ -13,7 +13,7 @@ from viaspline.kernels.jit import inner
 from viaspline.kernels.world.grid_rows import entry, to_cells, to_world
 from viaspline.kernels.world.grid_segment import grid_segment
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.rounded_ring import radius_of
+from viaspline.kernels.world.ring_distance import radius_of
 from viaspline.kernels.world.shape import grid_of, is_ring, obstacle_signed
 
 

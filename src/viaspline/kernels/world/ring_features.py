@@ -12,7 +12,7 @@ import math
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
 from viaspline.kernels.world.packed import PackedWorld
-from viaspline.kernels.world.rounded_ring import is_disc, radius_of
+from viaspline.kernels.world.ring_distance import is_disc, radius_of
 
 # columns of a feature: centre and radius [m] (0: a corner), and the unit vector from a corner
 # into the open (0, 0 for a disc)

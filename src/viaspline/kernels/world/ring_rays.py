@@ -15,7 +15,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.plane import box_signed
-from viaspline.kernels.world.rounded_ring import is_disc, radius_of
+from viaspline.kernels.world.ring_distance import is_disc, radius_of
 
 SLIP_RAD = 1e-9  # beams are tried a little beyond the angle that a ring covers
 

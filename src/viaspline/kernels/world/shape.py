@@ -17,9 +17,9 @@ from viaspline.kernels.world.grid_rows import grid_signed
 from viaspline.kernels.world.grid_segment import grid_segment
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.plane import covers
+from viaspline.kernels.world.ring_distance import is_disc, mark_disc, ring_segment, ring_signed
 from viaspline.kernels.world.ring_features import ring_features
 from viaspline.kernels.world.ring_rays import cast_ring
-from viaspline.kernels.world.rounded_ring import is_disc, mark_disc, ring_segment, ring_signed
 
 
 @inlined

@@ -1,4 +1,11 @@
-"""Sparse quadratic programmes whose constraints may be broken at a price."""
+"""Sparse quadratic programmes whose constraints may be broken at a price.
+
+Why by our own method: PIQP 0.7 solves these programmes in 0.6 of the time, clarabel 0.11 in 2 to 4
+times as long. But lines settle where the optimum lies on their margin, and the proof then moves
+the margin to and fro: with either, 2 of 75 lines on race tracks with other margins were refused
+that are found now, laps got 0.1 % slower in sum, and the peak of the curvature of one rose from
+1.05 to 1.10 of the best line known. What stops a little early is the better line here.
+"""
 
 from __future__ import annotations
 
