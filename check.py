@@ -3,6 +3,8 @@
 
     python3 check.py            set up .venv if need be, then format, lint, types, layers, tests
     python3 check.py --fix      let ruff mend what it can first
+    python3 check.py --quick    for the edit loop, less than a minute: of the tests those of the
+                                files that differ from the last commit, and the house's own
 
 Run from a checkout; the environment it makes is a developer's environment as well.
 """
@@ -10,6 +12,7 @@ Run from a checkout; the environment it makes is a developer's environment as we
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 import venv
@@ -43,11 +46,37 @@ def set_up() -> None:
     run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-e", ".[dev]")
 
 
+def changed() -> list[Path]:
+    """The Python files that differ from the last commit, or that git doesn't know yet."""
+    words = ["git", "status", "--porcelain", "--untracked-files=all", "--", "src", "tests"]
+    told = subprocess.run(words, cwd=ROOT, check=False, capture_output=True, text=True).stdout
+    names = [line[3:].split(" -> ")[-1].strip('"') for line in told.splitlines()]
+    return [Path(name) for name in names if name.endswith(".py") and (ROOT / name).exists()]
+
+
+def tests_of(paths: list[Path]) -> list[str]:
+    """The tests of some files: their own, those that they say they are tested through, examples."""
+    found = {"tests/test_house.py"}
+    for path in paths:
+        if path.parts[0] == "tests":
+            found |= {str(path)} if path.name.startswith("test_") else set()
+            continue
+        text = (ROOT / path).read_text(encoding="utf-8")
+        room = Path("tests", *path.parts[2:-1])
+        names = [room / f"test_{path.name}"]
+        for said in re.findall(r"Tested through ((?:``[\w/]+``(?:,| and)?\s*)+)", text):
+            names += [Path("tests", f"{name}.py") for name in re.findall(r"``([\w/]+)``", said)]
+        found |= {str(name) for name in names if (ROOT / name).exists()}
+        found |= {str(path)} if ">>> " in text else set()
+    return sorted(found)
+
+
 def main() -> None:
     """Set up, then every check in turn, the quick ones first."""
     if sys.version_info < (3, 11):  # noqa: UP036  (this file runs before anything is installed)
         sys.exit(f"viaspline needs Python 3.11 or newer; this is {sys.version.split()[0]}")
-    set_up()
+    if "--quick" not in sys.argv or not BIN.exists():
+        set_up()
     if "--fix" in sys.argv:
         run(BIN / "ruff", "check", "--fix", *CODE)
         run(BIN / "ruff", "format", *CODE)
@@ -55,7 +84,11 @@ def main() -> None:
     run(BIN / "ruff", "check", *CODE)
     run(BIN / "lint-imports")
     run(BIN / "mypy")
-    run(BIN / "python", "-m", "pytest", "-n", "2")
+    if "--quick" in sys.argv:
+        chosen = tests_of(changed())
+        run(BIN / "python", "-m", "pytest", "-x", "-m", "not slow", *chosen)
+    else:
+        run(BIN / "python", "-m", "pytest", "-n", "2")
 
 
 if __name__ == "__main__":
