@@ -85,6 +85,26 @@ def _take_literals_as_values(dispatcher: Any) -> None:
     dispatcher.get_call_template = template
 
 
+def _is_of_ours(signature: Any) -> bool:
+    """Whether every tuple among the arguments is of a class of this package."""
+    classes = [
+        getattr(kind, "instance_class", None) for kind in getattr(signature, "args", signature)
+    ]
+    return all(one is None or one.__module__.startswith("viaspline.") for one in classes)
+
+
+def _keep_ours_alone(dispatcher: Any) -> None:
+    """Don't keep on disk what was compiled for somebody's own packed world.
+
+    Its class may stand in a script that another program can't import, and then numba can't read
+    the index of the kernel any more.
+    """
+    cache = dispatcher._cache
+    save, load = cache.save_overload, cache.load_overload
+    cache.save_overload = lambda sig, data: save(sig, data) if _is_of_ours(sig) else None
+    cache.load_overload = lambda sig, target: load(sig, target) if _is_of_ours(sig) else None
+
+
 def _compile(function: _Function, **options: Any) -> _Function:
     settings: Any = config  # numba makes its settings as it reads them
     kept = settings.CACHE_DIR
@@ -100,6 +120,7 @@ def _compile(function: _Function, **options: Any) -> _Function:
         settings.CACHE_DIR = kept
     if hasattr(compiled, "get_call_template"):  # else the JIT is off
         _take_literals_as_values(compiled)
+        _keep_ours_alone(compiled)
     return compiled
 
 

@@ -17,43 +17,72 @@ from collections.abc import Callable
 from functools import singledispatch
 from typing import Any, TypeVar
 
-from numba.core.types import BaseNamedTuple
-from numba.extending import overload
+from numba.core import types
+from numba.core.typing.templates import AbstractTemplate, builtin_registry
 
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inlined
 from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import nearest_to_segment
 
-INTO_THE_CALLER: Any = {"forceinline": True, "_nrt": False, "error_model": "numpy", "nogil": True}
-"""A world is a hundred words long: handing it on once more than need be costs a quarter."""
-
 _Answer = TypeVar("_Answer", bound=Callable[..., Any])
 
 
-@singledispatch
+def _question(function: Callable[..., Any]) -> Any:
+    """A function that is another one for each packed type of its first argument.
+
+    In Python it is chosen when it is called, in kernels when they are compiled: there the answer
+    goes right into its caller, for a world is a hundred words long and handing it on costs a
+    quarter of a certificate's time.
+    """
+    question: Any = singledispatch(function)
+    question.compiled = {}
+    registry: Any = builtin_registry
+
+    class Chosen(AbstractTemplate):
+        key = question
+
+        def generic(self, args: Any, kws: Any) -> Any:
+            answer = question.compiled.get(getattr(args[0], "instance_class", None))
+            if answer is None:
+                return None
+            return types.Dispatcher(answer).get_call_type(self.context, args, kws)
+
+        def get_impl_key(self, sig: Any) -> Any:
+            return types.Dispatcher(question.compiled[sig.args[0].instance_class]).get_impl_key(sig)
+
+    registry.register_global(question, types.Function(Chosen))
+    return question
+
+
+def _no_world(world: Any) -> TypeError:
+    return TypeError(f"{type(world).__name__} is no world for a certificate; see world_protocol")
+
+
+@_question
 def dimension(world: Any) -> int:
     """How many coordinates a place has."""
-    raise TypeError(f"{type(world).__name__} is no world for a certificate; see world_protocol")
+    raise _no_world(world)
 
 
-@singledispatch
+@_question
 def pace(world: Any) -> float:
     """By how much the distance at a place may change in time, at most [m/s]; 0 if nothing moves."""
-    raise TypeError(f"{type(world).__name__} is no world for a certificate; see world_protocol")
+    raise _no_world(world)
 
 
-@singledispatch
+@_question
 def distance_at(world: Any, place: Floats, instant: float, limit: float) -> tuple[float, int]:
     """Signed distance of a place (d,) from the world at an instant [s], and what is nearest.
 
     Returns:
         (distance [m], index): the limit and -1 where nothing is nearer than the limit.
     """
-    raise TypeError(f"{type(world).__name__} is no world for a certificate; see world_protocol")
+    raise _no_world(world)
 
 
-@singledispatch
+@_question
 def chord_distance(
     world: Any, first: Floats, last: Floats, instant: float, limit: float
 ) -> tuple[float, int]:
@@ -62,11 +91,11 @@ def chord_distance(
     Returns:
         (distance [m], index): not above 0 where it touches something; see ``distance_at``.
     """
-    raise TypeError(f"{type(world).__name__} is no world for a certificate; see world_protocol")
+    raise _no_world(world)
 
 
 def answers(question: Any, packed: type) -> Callable[[_Answer], _Answer]:
-    """Let a function answer a question for one packed type, compiled into the kernels that ask.
+    """Let a function answer a question for one packed type.
 
     Args:
         question: ``dimension``, ``pace``, ``distance_at`` or ``chord_distance``.
@@ -75,12 +104,7 @@ def answers(question: Any, packed: type) -> Callable[[_Answer], _Answer]:
 
     def register(answer: _Answer) -> _Answer:
         question.register(packed, answer)
-
-        def chosen(world: Any, *_: Any) -> Any:
-            mine = isinstance(world, BaseNamedTuple)
-            return answer if mine and getattr(world, "instance_class", None) is packed else None
-
-        overload(question, jit_options=INTO_THE_CALLER, strict=False)(chosen)
+        question.compiled[packed] = inlined(answer)
         return answer
 
     return register
