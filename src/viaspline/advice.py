@@ -10,7 +10,7 @@ import numpy as np
 from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.clearance.disc import tightest
+from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.kernels.curve.measure import length_and_curvature
 from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
@@ -152,7 +152,7 @@ def _laid(sequence: ViaSequence, tensions: Floats) -> Floats:
 def _measured(span: Floats, world: World, requirements: Requirements) -> tuple[float, float, float]:
     """Length, proven clearance of the body and peak curvature of a span's cubics."""
     span = np.ascontiguousarray(span)
-    lower, upper = tightest(world.packed, span, CLEARANCE_TOLERANCE_M)[:2]
+    lower, upper = tightest(world.packed, span, STILL, CLEARANCE_TOLERANCE_M)[:2]
     length, peak = length_and_curvature(span)
     gap = lower if np.isfinite(lower) else upper
     return float(length), float(gap) - requirements.radius, float(peak)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.kernels.clearance import disc as kernels
+from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.world.outline import outline
 
 PROOF_TOLERANCE_M = 1e-3  # between the proven bound and the true clearance [m]
@@ -155,7 +155,7 @@ def _bounder(
     """From a tolerance to bounds of the distance between the body and the world."""
     spans = np.array(curve.spans)  # numba compiles read-only arrays once more
     if footprint is None:
-        return lambda tolerance: _Bounds(*kernels.tightest(world.packed, spans, tolerance))
+        return lambda tolerance: _Bounds(*tightest(world.packed, spans, STILL, tolerance))
     from viaspline.kernels.clearance.footprint_walk import body_tightest, end_direction
 
     body = outline(footprint)

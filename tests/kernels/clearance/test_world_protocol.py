@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.clearance.disc import conflicts, tightest, tightest_in_time
+from viaspline.kernels.clearance.disc import STILL, conflicts, tightest
 from viaspline.kernels.clearance.world_protocol import (
     answers,
     chord_distance,
@@ -122,7 +122,7 @@ def test_a_curve_among_balls_in_space_is_bounded_from_both_sides(seed: int) -> N
     rng = np.random.default_rng(seed)
     balls = np.column_stack((rng.uniform(-10, 10, (6, 3)), rng.uniform(0.1, 2, 6)))
     spans = spans_through(rng, 3)
-    lower, upper, _, _, index = tightest(Balls(balls), spans, TOLERANCE)
+    lower, upper, _, _, index = tightest(Balls(balls), spans, STILL, TOLERANCE)
     at, _ = places(spans, 400)
     gaps = np.linalg.norm(at[:, None] - balls[:, :3], axis=2) - balls[:, 3]
     assert lower <= gaps.min() + 1e-9
@@ -140,7 +140,7 @@ def test_a_robot_among_moving_discs_is_bounded_over_continuous_time(seed: int) -
                              rng.uniform(0.1, 1, 6)))  # fmt: skip
     spans = spans_through(rng, 2)
     instants = np.cumsum(rng.uniform(0.5, 5, len(spans) + 1))
-    lower, upper, _, _, _ = tightest_in_time(MovingDiscs(discs), spans, instants, 0.01)
+    lower, upper, _, _, _ = tightest(MovingDiscs(discs), spans, instants, 0.01)
     at, u = places(spans, 2000)
     span = np.minimum(u.astype(int), len(spans) - 1)
     t = instants[span] + (u - span) * np.diff(instants)[span]
@@ -155,8 +155,8 @@ def test_something_that_moves_is_not_taken_for_standing() -> None:
     # it is far away when the robot sets off, and on its way when the robot comes
     disc = MovingDiscs(np.array([[5.0, 20.0, 0.0, -2.0, 0.5]]))
     spans = np.array([[[0, 0], [10 / 3, 0], [20 / 3, 0], [10, 0]]], np.float64)
-    still, *_ = tightest(disc, spans, TOLERANCE)
-    moving, *_ = tightest_in_time(disc, spans, np.array([0.0, 20.0]), TOLERANCE)
+    still, *_ = tightest(disc, spans, STILL, TOLERANCE)
+    moving, *_ = tightest(disc, spans, np.array([0.0, 20.0]), TOLERANCE)
     assert still == pytest.approx(19.5, abs=TOLERANCE)
     assert moving == pytest.approx(-0.5, abs=2 * TOLERANCE)
 

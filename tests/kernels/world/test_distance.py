@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from viaspline.kernels.clearance.disc import conflicts, tightest
+from viaspline.kernels.clearance.disc import STILL, conflicts, tightest
 from viaspline.kernels.curve.measure import length_and_curvature
 from viaspline.kernels.world.box_tree import box_tree, hilbert_keys, ring_boxes
 from viaspline.kernels.world.clusters import group_labels
@@ -199,14 +199,14 @@ def test_labels_are_the_smallest_index_of_a_group() -> None:
 
 
 def test_the_tightest_place_of_a_straight_span_is_beside_the_obstacle() -> None:
-    lower, upper, span, w, index = tightest(world(disc(1.2, 3, 1)), STRAIGHT, 1e-6)
+    lower, upper, span, w, index = tightest(world(disc(1.2, 3, 1)), STRAIGHT, STILL, 1e-6)
     assert 2.0 - 1e-6 <= lower <= 2.0 <= upper <= 2.0 + 1e-6
     assert (span, index) == (0, 0)
     assert w == pytest.approx(0.4, abs=1e-2)
 
 
 def test_nothing_is_infinitely_far_away() -> None:
-    lower, upper, *_, index = tightest(world(), STRAIGHT, 1e-3)
+    lower, upper, *_, index = tightest(world(), STRAIGHT, STILL, 1e-3)
     assert lower == upper == np.inf
     assert index == -1
 

@@ -25,6 +25,9 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.clearance.world_protocol import chord_distance, dimension, distance_at, pace
 from viaspline.kernels.jit import inlined, inner, kernel
 
+STILL: Floats = np.empty(0)
+"""The instants of a drive in a world that stands still."""
+
 MAX_DEPTH = 64  # halvings of a span
 MAX_PIECES = 2_000_000  # that a bound may take
 
@@ -87,34 +90,47 @@ def _reach(piece: Floats, d: int, middle: Floats) -> float:
     return math.sqrt(squared)
 
 
-@inlined
-def _aside(piece: Floats, d: int, k: int) -> float:
-    """Distance of control point k from the chord."""
+@inner
+def _sag(piece: Floats, d: int) -> float:
+    """Bound of the distance between a piece and its chord."""
     squared = 0.0
-    along = 0.0
     for axis in range(d):
         chord = piece[3 * d + axis] - piece[axis]
         squared += chord * chord
-        along += (piece[k * d + axis] - piece[axis]) * chord
-    w = min(1.0, max(0.0, along / squared)) if squared > 0.0 else 0.0
-    apart = 0.0
-    for axis in range(d):
-        gap = piece[k * d + axis] - piece[axis] - w * (piece[3 * d + axis] - piece[axis])
-        apart += gap * gap
-    return math.sqrt(apart)
+    farthest = 0.0
+    for k in range(1, 3):
+        along = 0.0
+        for axis in range(d):
+            chord = piece[3 * d + axis] - piece[axis]
+            along += (piece[k * d + axis] - piece[axis]) * chord
+        w = min(1.0, max(0.0, along / squared)) if squared > 0.0 else 0.0
+        apart = 0.0
+        for axis in range(d):
+            gap = piece[k * d + axis] - piece[axis] - w * (piece[3 * d + axis] - piece[axis])
+            apart += gap * gap
+        farthest = max(farthest, apart)
+    return 0.75 * math.sqrt(farthest)
 
 
-@inlined
-def _sag(piece: Floats, d: int) -> float:
-    """Bound of the distance between a piece and its chord."""
-    return 0.75 * max(_aside(piece, d, 1), _aside(piece, d, 2))
-
-
-@inner
-def _tightest(
+@kernel
+def tightest(
     world: Any, spans: Floats, instants: Floats, tolerance: float
 ) -> tuple[float, float, int, float, int]:
-    """See ``tightest_in_time``; without instants, all of it at instant 0."""
+    """The smallest distance between what moves along a curve and a world, from both sides.
+
+    Args:
+        world: A packed world; see ``world_protocol``.
+        spans: Bézier control polygons, (m, 4, e), of at least as many coordinates as the world.
+        instants: When each span begins, and the last one ends [s], (m + 1,); within a span time
+            goes evenly with the parameter: cut spans where it doesn't. In a world that stands
+            still none, (0,): see ``STILL``.
+        tolerance: How far apart the two bounds may be [m].
+
+    Returns:
+        (lower, upper, span, w, index): the bounds [m], where the upper one is reached, and what is
+        nearest there. Both are infinite in an empty world. The lower one is minus infinity where
+        so small a tolerance takes too many pieces: kilometres deep inside of something.
+    """
     d = dimension(world)
     moves = pace(world)
     timed = instants.size > 0
@@ -171,42 +187,6 @@ def _tightest(
                 _halve(stack, top, d)
                 top += 1
     return min(lower, upper), upper, span_at, w_at, index_at
-
-
-@kernel
-def tightest(world: Any, spans: Floats, tolerance: float) -> tuple[float, float, int, float, int]:
-    """The smallest distance between a curve and a world that stands still, from both sides.
-
-    Args:
-        world: A packed world; see ``world_protocol``.
-        spans: Bézier control polygons, (m, 4, e), of at least as many coordinates as the world.
-        tolerance: How far apart the two bounds may be [m].
-
-    Returns:
-        (lower, upper, span, w, index): the bounds [m], where the upper one is reached, and what is
-        nearest there. Both are infinite in an empty world. The lower one is minus infinity where
-        so small a tolerance takes too many pieces: kilometres deep inside of something.
-    """
-    return _tightest(world, spans, np.empty(0), tolerance)
-
-
-@kernel
-def tightest_in_time(
-    world: Any, spans: Floats, instants: Floats, tolerance: float
-) -> tuple[float, float, int, float, int]:
-    """The smallest distance between what moves along a curve and a world that may move too.
-
-    Args:
-        world: A packed world; see ``world_protocol``.
-        spans: Bézier control polygons, (m, 4, e).
-        instants: When each span begins, and the last one ends [s], (m + 1,). Within a span time
-            goes evenly with the parameter: cut spans where it doesn't.
-        tolerance: How far apart the two bounds may be [m].
-
-    Returns:
-        As ``tightest``.
-    """
-    return _tightest(world, spans, instants, tolerance)
 
 
 @kernel

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.clearance.disc import tightest
+from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.kernels.curve.measure import length_and_curvature
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.requirements import Requirements
@@ -32,7 +32,7 @@ def measure(spans: Floats, world: World, requirements: Requirements) -> Candidat
         world: The known world.
         requirements: What it keeps.
     """
-    lower = float(tightest(world.packed, spans, TOLERANCE)[0])
+    lower = float(tightest(world.packed, spans, STILL, TOLERANCE)[0])
     length, sharpest = length_and_curvature(spans)
     return CandidateCost(
         float(length), max(lower - requirements.radius, requirements.kept), float(sharpest)

@@ -12,7 +12,7 @@ from viaspline.curve.certificate import certify
 from viaspline.curve.path import GUIDE, Path, PathVia, ViaKind
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.clearance.disc import tightest
+from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import SplineSpec
 from viaspline.mission.strip import Strip, rings_of, strip_of
@@ -154,7 +154,7 @@ def proven(line: Line, task: StripProblem, world: World) -> Line:
             return line
         extra = line.extra.copy()
         for span in close.tolist():
-            lower = tightest(world.packed, spans[span : span + 1], FINER)[0]
+            lower = tightest(world.packed, spans[span : span + 1], STILL, FINER)[0]
             at = np.arange(PER_SPAN * span, PER_SPAN * (span + 1) + 1)
             at = at % extra.size if line.knots.closed else at
             extra[at] += BEYOND * max(task.margin - lower, 0.0) + FINER
