@@ -23,7 +23,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.clearance.world_protocol import chord_distance, dimension, distance_at, pace
-from viaspline.kernels.jit import inlined, inner, kernel
+from viaspline.kernels.jit import inlined, kernel
 
 STILL: Floats = np.empty(0)
 """The instants of a drive in a world that stands still."""
@@ -90,7 +90,7 @@ def _reach(piece: Floats, d: int, middle: Floats) -> float:
     return math.sqrt(squared)
 
 
-@inner
+@inlined
 def _sag(piece: Floats, d: int) -> float:
     """Bound of the distance between a piece and its chord."""
     squared = 0.0
