@@ -15,6 +15,7 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot import simulator
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Run
+from viaspline.robot.simulation import exact_drive
 from viaspline.robot.simulator import simulate
 from viaspline.robot.state import RobotState
 
@@ -195,9 +196,9 @@ def test_a_body_that_starts_in_something_unseen_has_touched_it(
 def test_a_drive_that_does_not_end_is_broken_off(
     mission_of: Make, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(simulator, "PATIENCE", 0.1)
-    monkeypatch.setattr(simulator, "GRACE", 0.0)
-    monkeypatch.setattr(simulator, "BLOCK", 20)
+    monkeypatch.setattr(simulator, "MAX_DURATION_RATIO", 0.1)
+    monkeypatch.setattr(simulator, "MAX_DELAY_S", 0.0)
+    monkeypatch.setattr(exact_drive, "MAX_QUIET_STEPS", 20)
     run = simulate(mission_of([0, 0], [50, 0]))
     assert not run.reached
     assert run.reason is not None
