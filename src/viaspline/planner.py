@@ -25,11 +25,14 @@ from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
-MAX_TRIAL_ROUNDS = 6  # of planning and trial drives
-ALLOWANCE_GROWTH = 1.1  # by which an allowance grows that was measured once already
-TURN_RESERVE = (
-    1.2  # of a turning circle, where steering at its stop leaves too little to correct with
-)
+MAX_TRIAL_ROUNDS = 6
+"""Rounds of planning and trial drives."""
+
+ALLOWANCE_GROWTH = 1.1
+"""By which an allowance grows that was measured once already."""
+
+TURN_RESERVE = 1.2
+"""Of a turning circle, where steering at its stop leaves too little to correct with."""
 
 
 @dataclass(frozen=True)
@@ -135,7 +138,7 @@ def _as_driven(first: Plan) -> Plan:
 
 
 def _with_reserve(mission: Mission) -> Mission:
-    """The same with a wider turning circle, so that there is steering left to correct with."""
+    """The mission with a wider turning circle, so that there is steering left to correct with."""
     radius = mission.robot.turn_radius
     assert radius is not None  # steered robots have one
     eased = mission.robot.model_copy(update={"min_turn_radius_m": TURN_RESERVE * radius})
