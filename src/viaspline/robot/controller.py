@@ -1,4 +1,7 @@
-"""The controller of a robot with a drive: what it remembers from step to step."""
+"""The controller of a robot with a drive: what it remembers from step to step.
+
+Tested through test_machine_drive.
+"""
 
 from __future__ import annotations
 

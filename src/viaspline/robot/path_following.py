@@ -1,4 +1,7 @@
-"""The command that follows a path: from progress along it to what the robot is to do."""
+"""The command that follows a path: from progress along it to what the robot is to do.
+
+Tested through test_navigator.
+"""
 
 from __future__ import annotations
 

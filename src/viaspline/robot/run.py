@@ -1,4 +1,7 @@
-"""What was driven: the result of a simulation."""
+"""What was driven: the result of a simulation.
+
+Tested through test_simulator.
+"""
 
 from __future__ import annotations
 

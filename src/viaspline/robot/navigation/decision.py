@@ -1,4 +1,7 @@
-"""What a robot decides to do about what it has perceived."""
+"""What a robot decides to do about what it has perceived.
+
+Tested through test_log.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What is asked of a drive, the same from its start to its end."""
+"""What is asked of a drive, the same from its start to its end.
+
+Tested through test_arrivals.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What a navigator hands on from step to step."""
+"""What a navigator hands on from step to step.
+
+Tested through test_navigator.
+"""
 
 from __future__ import annotations
 

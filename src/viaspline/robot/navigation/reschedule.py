@@ -1,4 +1,7 @@
-"""A new trajectory for what lies ahead, as far as the robot has seen it, with the stops to come."""
+"""A new trajectory for what lies ahead, as far as the robot has seen it, with the stops to come.
+
+Tested through test_navigator and test_sight_limit.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The looks round that a robot remembers, and how far it can go inside of what they show."""
+"""The looks round that a robot remembers, and how far it can go inside of what they show.
+
+Tested through test_belief.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Points that beams have hit: kept while confirmed, dropped when beams see through them."""
+"""Points that beams have hit: kept while confirmed, dropped when beams see through them.
+
+Tested through test_belief.
+"""
 
 from __future__ import annotations
 

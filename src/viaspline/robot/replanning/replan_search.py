@@ -1,4 +1,7 @@
-"""A new path for a robot under way: from the least change of the old one to the greatest."""
+"""A new path for a robot under way: from the least change of the old one to the greatest.
+
+Tested through test_navigator and test_decide.
+"""
 
 from __future__ import annotations
 

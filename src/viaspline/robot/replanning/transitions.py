@@ -1,4 +1,7 @@
-"""What a robot goes over to: a new path, or a stop for good."""
+"""What a robot goes over to: a new path, or a stop for good.
+
+Tested through test_simulator and test_decide.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""When a driven body touches something."""
+"""When a driven body touches something.
+
+Tested through test_machine_drive and test_exact_drive.
+"""
 
 from __future__ import annotations
 

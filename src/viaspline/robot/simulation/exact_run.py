@@ -1,4 +1,7 @@
-"""The run of a robot that follows its path exactly: the part of it that was driven."""
+"""The run of a robot that follows its path exactly: the part of it that was driven.
+
+Tested through test_simulator.
+"""
 
 from __future__ import annotations
 

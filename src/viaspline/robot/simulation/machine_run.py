@@ -1,4 +1,7 @@
-"""The run of a machine: the curve that it truly drove, and what is proven of it."""
+"""The run of a machine: the curve that it truly drove, and what is proven of it.
+
+Tested through test_machine_drive.
+"""
 
 from __future__ import annotations
 

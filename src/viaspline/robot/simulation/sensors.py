@@ -1,4 +1,7 @@
-"""The sensors of a robot in the whole world."""
+"""The sensors of a robot in the whole world.
+
+Tested through test_simulator.
+"""
 
 from __future__ import annotations
 
