@@ -1,6 +1,6 @@
 """The controller of a robot with a drive: what it remembers from step to step.
 
-Tested through test_machine_drive.
+Tested through ``robot/simulation/test_machine_drive``.
 """
 
 from __future__ import annotations

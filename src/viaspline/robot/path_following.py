@@ -1,6 +1,6 @@
 """The command that follows a path: from progress along it to what the robot is to do.
 
-Tested through test_navigator.
+Tested through ``robot/test_navigator``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What was driven: the result of a simulation.
 
-Tested through test_simulator.
+Tested through ``robot/test_simulator``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What passes between a robot and its navigator.
 
-Tested through test_navigator.
+Tested through ``robot/test_navigator``.
 """
 
 from __future__ import annotations

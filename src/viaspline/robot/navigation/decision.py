@@ -1,6 +1,6 @@
 """What a robot decides to do about what it has perceived.
 
-Tested through test_log.
+Tested through ``robot/navigation/test_log``.
 """
 
 from __future__ import annotations

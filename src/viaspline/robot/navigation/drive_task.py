@@ -1,6 +1,6 @@
 """What is asked of a drive, the same from its start to its end.
 
-Tested through test_arrivals.
+Tested through ``robot/navigation/test_arrivals``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What a navigator hands on from step to step.
 
-Tested through test_navigator.
+Tested through ``robot/test_navigator``.
 """
 
 from __future__ import annotations

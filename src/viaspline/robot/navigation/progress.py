@@ -1,6 +1,6 @@
 """How far a robot has come.
 
-Tested through test_track_path.
+Tested through ``robot/navigation/test_track_path``.
 """
 
 from __future__ import annotations

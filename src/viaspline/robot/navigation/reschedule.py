@@ -1,6 +1,6 @@
 """A new trajectory for what lies ahead, as far as the robot has seen it, with the stops to come.
 
-Tested through test_navigator and test_sight_limit.
+Tested through ``robot/test_navigator`` and ``robot/replanning/test_sight_limit``.
 """
 
 from __future__ import annotations

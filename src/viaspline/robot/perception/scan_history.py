@@ -1,6 +1,6 @@
 """The looks round that a robot remembers, and how far it can go inside of what they show.
 
-Tested through test_belief.
+Tested through ``robot/perception/test_belief``.
 """
 
 from __future__ import annotations

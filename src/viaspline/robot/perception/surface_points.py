@@ -1,6 +1,6 @@
 """Points that beams have hit: kept while confirmed, dropped when beams see through them.
 
-Tested through test_belief.
+Tested through ``robot/perception/test_belief``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """A new path for a robot under way: from the least change of the old one to the greatest.
 
-Tested through test_navigator and test_decide.
+Tested through ``robot/test_navigator`` and ``robot/replanning/test_decide``.
 """
 
 from __future__ import annotations

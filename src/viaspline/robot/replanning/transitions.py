@@ -1,6 +1,6 @@
 """What a robot goes over to: a new path, or a stop for good.
 
-Tested through test_simulator and test_decide.
+Tested through ``robot/test_simulator`` and ``robot/replanning/test_decide``.
 """
 
 from __future__ import annotations

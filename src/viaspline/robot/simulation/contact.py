@@ -1,6 +1,6 @@
 """When a driven body touches something.
 
-Tested through test_machine_drive and test_exact_drive.
+Tested through ``robot/simulation/test_machine_drive`` and ``robot/simulation/test_exact_drive``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The run of a robot that follows its path exactly: the part of it that was driven.
 
-Tested through test_simulator.
+Tested through ``robot/test_simulator``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The run of a machine: the curve that it truly drove, and what is proven of it.
 
-Tested through test_machine_drive.
+Tested through ``robot/simulation/test_machine_drive``.
 """
 
 from __future__ import annotations

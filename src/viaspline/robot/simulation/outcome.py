@@ -1,6 +1,6 @@
 """How a drive ended: its events and visits as they were in the end.
 
-Tested through test_decide and test_exact_drive.
+Tested through ``robot/replanning/test_decide`` and ``robot/simulation/test_exact_drive``.
 """
 
 from __future__ import annotations

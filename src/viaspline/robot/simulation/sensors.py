@@ -1,6 +1,6 @@
 """The sensors of a robot in the whole world.
 
-Tested through test_simulator.
+Tested through ``robot/test_simulator``.
 """
 
 from __future__ import annotations
