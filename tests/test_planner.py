@@ -268,3 +268,44 @@ def test_a_via_point_inside_a_clearance_is_refused_with_moves_that_serve(at: Any
         clearance = float(error.remedy.split("at most ")[1])
         robot = {"radius_m": 0.5, "clearance_m": clearance}
         vs.plan(mission([0, 0], list(at), [100, 0], known=[tank], robot=robot))
+
+
+@pytest.mark.parametrize("sensor", [None, {"range_m": 20}])
+def test_the_known_world_is_built_once(monkeypatch: pytest.MonkeyPatch, sensor: Any) -> None:
+    asked = vs.Mission.model_validate(
+        {
+            "world": {"known": [disc(30, 1, 4)]},
+            "robot": {
+                "sensor": sensor, "drive": {"differential": {"track_m": 0.5}, "delay_s": 0.1},
+            },
+            "route": {
+                "start": [0, 0], "via": [[40, 5], [20, -5]], "goal": [60, 0], "order": "shortest",
+            },
+            "spline": {"tension": "auto"},
+        }
+    )  # fmt: skip
+    built: list[vs.World] = []
+
+    def known(mission: vs.Mission) -> vs.World:
+        spec = mission.world
+        built.append(vs.World(spec.known, bounds=spec.bounds, fences=spec.fences))
+        return built[-1]
+
+    monkeypatch.setattr(vs.World, "known", staticmethod(known))
+    plan = vs.plan(asked)
+    assert built == [plan.world]
+
+
+def test_a_corridor_runs_along_the_via_points_in_the_order_that_was_found() -> None:
+    asked = vs.Mission.model_validate(
+        {
+            "route": {
+                "start": [0, 0], "via": [[40, 0], [20, 8]], "goal": [60, 0], "order": "shortest",
+                "corridor": {"left_m": 6, "right_m": 6},
+            },
+        }
+    )  # fmt: skip
+    plan = vs.plan(asked)
+    assert plan.mission.route.via[0].at == (20.0, 8.0)
+    assert plan.world.corridor == vs.World.known(plan.mission).corridor
+    assert plan.world.corridor != vs.World.known(asked).corridor

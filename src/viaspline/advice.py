@@ -71,12 +71,15 @@ class TensionAdvice:
     turn_radius: float | None
 
 
-def advise_tension(mission: Mission, tensions: Sequence[float] = TRIED_TENSIONS) -> TensionAdvice:
+def advise_tension(
+    mission: Mission, tensions: Sequence[float] = TRIED_TENSIONS, *, world: World | None = None
+) -> TensionAdvice:
     """Try tensions on a mission, all spans at once and span by span.
 
     Args:
         mission: Whatever its own tension is.
         tensions: At most 1, in order.
+        world: What the mission has on its map, if it is there already.
 
     Example:
         >>> mission = Mission.model_validate({
@@ -89,11 +92,8 @@ def advise_tension(mission: Mission, tensions: Sequence[float] = TRIED_TENSIONS)
     """
     plain = mission.spline.model_copy(update={"tension": 0.0, "slack": None})
     mission = mission.model_copy(update={"spline": plain})
-    sequence, world, requirements = (
-        via_sequence_of(mission),
-        World.known(mission),
-        Requirements.of(mission),
-    )
+    world = World.known(mission) if world is None else world
+    sequence, requirements = via_sequence_of(mission), Requirements.of(mission)
     limits = limits_of(mission.robot)
     tried = np.array(tensions, np.float64)
     curves = np.array([_laid(sequence, np.full(len(sequence.legs), t)) for t in tried])
@@ -128,15 +128,20 @@ def advise_tension(mission: Mission, tensions: Sequence[float] = TRIED_TENSIONS)
     )  # fmt: skip
 
 
-def with_advice(mission: Mission) -> Mission:
-    """The mission with numbers where its tension is ``auto``."""
+def with_advice(mission: Mission, world: World) -> Mission:
+    """The mission with numbers where its tension is ``auto``.
+
+    Args:
+        mission: What is asked for.
+        world: What it has on its map.
+    """
     if mission.spline.tension != "auto":
         return mission
     corridor = mission.route.corridor
     if corridor is not None and corridor.line is not None:
         tension: float | tuple[float, ...] = 0.0  # the corridor's line has no tension
     else:
-        tension = tuple(advise_tension(mission).suggested.tolist())
+        tension = tuple(advise_tension(mission, world=world).suggested.tolist())
     spline = mission.spline.model_copy(update={"tension": tension})
     return mission.model_copy(update={"spline": spline})
 

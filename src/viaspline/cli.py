@@ -195,9 +195,10 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
     ):
         with watch.stage("advise", "trying tensions"):
             from viaspline.advice import advise_tension
-            from viaspline.planning.routing.visit_order import ordered
+            from viaspline.planner import in_order
 
-            advice = advise_tension(ordered(asked))
+            served, world = in_order(asked)
+            advice = advise_tension(served, world=world)
         with watch.stage("report", "drawing and writing"):
             from viaspline.report.tension_picture import tension_picture
 

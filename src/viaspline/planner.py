@@ -25,11 +25,14 @@ from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
-MAX_TRIAL_ROUNDS = 6  # of planning and trial drives
-ALLOWANCE_GROWTH = 1.1  # by which an allowance grows that was measured once already
-TURN_RESERVE = (
-    1.2  # of a turning circle, where steering at its stop leaves too little to correct with
-)
+MAX_TRIAL_ROUNDS = 6
+"""Rounds of planning and trial drives."""
+
+ALLOWANCE_GROWTH = 1.1
+"""By which an allowance grows that was measured once already."""
+
+TURN_RESERVE = 1.2
+"""Of a turning circle, where steering at its stop leaves too little to correct with."""
 
 
 @dataclass(frozen=True)
@@ -84,8 +87,9 @@ def plan(mission: Mission) -> Plan:
         >>> result.certificate.holds, round(result.path.length, 1), result.ledger[0].chosen.side
         (True, 50.8, 'right')
     """
-    mission = with_advice(ordered(mission))
-    world, robot = World.known(mission), mission.robot
+    mission, world = in_order(mission)
+    mission = with_advice(mission, world)
+    robot = mission.robot
     error = robot.tracking_error_m or 0.0
     if robot.tracking_error_m is None and robot.sensor is not None and is_driven(robot):
         error = allowance_on_bends(robot, Requirements.of(mission).required)
@@ -99,6 +103,19 @@ def plan(mission: Mission) -> Plan:
             with suppress(NoPathError, GeometryError):
                 return _as_driven(_with_error(_with_reserve(mission), world, error))
         raise
+
+
+def in_order(mission: Mission) -> tuple[Mission, World]:
+    """The mission with its via points in the order in which they are served, and its known world.
+
+    The world is built once, and again only where it has a corridor that runs along the via points
+    in another order now.
+    """
+    world = World.known(mission)
+    served = ordered(mission, world)
+    if served is not mission and mission.route.corridor is not None:
+        world = World.known(served)
+    return served, world
 
 
 def _as_driven(first: Plan) -> Plan:
@@ -121,7 +138,7 @@ def _as_driven(first: Plan) -> Plan:
 
 
 def _with_reserve(mission: Mission) -> Mission:
-    """The same with a wider turning circle, so that there is steering left to correct with."""
+    """The mission with a wider turning circle, so that there is steering left to correct with."""
     radius = mission.robot.turn_radius
     assert radius is not None  # steered robots have one
     eased = mission.robot.model_copy(update={"min_turn_radius_m": TURN_RESERVE * radius})

@@ -33,6 +33,8 @@ def test_the_plan_is_told_in_figures(planned: Plan) -> None:
 def test_the_run_is_told_in_figures(driven: Run) -> None:
     text = _text(run_tables(driven, "yard"))
     assert all(word in text for word in ("yes", "4 of 4", "crate", "reflex"))
+    assert "reflex: under way, only the blocked spans are laid anew" in text
+    assert "from_rest: " not in text
 
 
 def test_a_run_that_failed_says_so_with_names_as_they_are() -> None:

@@ -9,13 +9,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from viaspline.errors import NoPathError
+from viaspline.errors import GeometryError, NoPathError
 from viaspline.mission.model import Mission
+from viaspline.mission.robot_parts import Lidar
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.robot.navigator import Navigator
+from viaspline.robot.perception.lidar import LidarSensor
+from viaspline.robot.simulator import simulate
 from viaspline.robot.state import RobotState
 
 Make = Callable[..., Mission]
@@ -210,3 +213,40 @@ def test_a_route_in_space_is_driven_along_its_ground_track(mission_of: Make) -> 
     assert len(command.position) == 3
     command, _ = nav.step(nav.reference(15.0), [], 15.0)
     assert command.curvature < 0  # it turns right
+
+
+def test_a_thing_seen_after_the_end_changes_nothing(mission_of: Make) -> None:
+    nav = Navigator(mission_of([0, 0], [5, 0]))
+    _, nav = nav.step(nav.reference(0.0), [], 0.0)
+    _, nav = nav.step(nav.reference(60.0), [], 60.0)
+    assert nav.reached
+    late = Obstacle(circle=Circle(center=(5, 0), radius=1.0))
+    command, after = nav.step(nav.reference(61.0), [late], 61.0)
+    assert after.reached
+    assert after.events == nav.events
+    assert command.stopped
+
+
+def test_a_state_that_is_not_finite_or_in_the_past_is_refused(mission_of: Make) -> None:
+    nav = Navigator(mission_of([0, 0], [50, 0]))
+    with pytest.raises(GeometryError, match="2 finite coordinates"):
+        nav.step(RobotState((0.0, float("nan")), 0.0, 0.0), [], 0.0)
+    with pytest.raises(GeometryError, match="2 finite coordinates"):
+        nav.step(RobotState((0.0, 0.0, 0.0), 0.0, 0.0), [], 0.0)
+    _, nav = nav.step(RobotState((0.0, 0.0), 0.0, 0.0), [], 5.0)
+    with pytest.raises(GeometryError, match="before the last step's"):
+        nav.step(RobotState((0.0, 0.0), 0.0, 0.0), [], 4.0)
+    with pytest.raises(GeometryError, match="reaction is 0"):
+        Navigator(mission_of([0, 0], [50, 0]), reaction=0.0)
+
+
+def test_a_sight_inside_the_body_is_refused(mission_of: Make) -> None:
+    with pytest.raises(GeometryError, match="not past the robot's own body"):
+        simulate(mission_of([0, 0], [50, 0], sensor={"range_m": 0.4}))
+
+
+def test_a_scan_for_a_robot_without_a_lidar_is_refused(mission_of: Make) -> None:
+    nav = Navigator(mission_of([0, 0], [20, 0]))
+    scan = LidarSensor([], Lidar(range_m=5)).scan((0.0, 0.0), 0.0)
+    with pytest.raises(GeometryError, match="has no lidar"):
+        nav.step(nav.reference(0.0), scan, 0.0)

@@ -17,7 +17,7 @@ from viaspline.report.style import without_folder
 from viaspline.report.summary import map_words
 from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
 from viaspline.report.words import deafen
-from viaspline.robot.run import Run
+from viaspline.robot.run import MODES, Run
 
 LINES = 12  # of a long list, before the rest is only counted
 
@@ -164,7 +164,9 @@ def run_tables(run: Run, name: str) -> RenderableType:
         )  # fmt: skip
     if len(run.replans) > LINES:
         table.add_row(f"… and {len(run.replans) - LINES} more in run.json")
-    return Group(facts, table)
+    used = {replan.mode for replan in run.replans}
+    modes = [f"{mode}: {words}" for mode, words in MODES.items() if mode in used]
+    return Group(facts, table, *modes)
 
 
 def _facts(title: str) -> Table:

@@ -17,7 +17,7 @@ from viaspline.report import style
 from viaspline.report.drawing import outline, shape_of
 from viaspline.report.map_ground import MapGround, Tone
 from viaspline.report.sheet import Sheet
-from viaspline.robot.perception.belief import ON_MAP
+from viaspline.robot.perception.belief import ON_MAP_M
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.run import Run
 
@@ -114,7 +114,7 @@ class _Beams(Sight):
         self._fan.set_xy(np.vstack([[place], ends]))
         hits = scan.hits
         if len(self._map) and len(hits):
-            hits = hits[self._map.distance(hits) > ON_MAP]
+            hits = hits[self._map.distance(hits) > ON_MAP_M]
         dots = np.round(np.vstack([self._points, hits]) / self._grain)
         self._points = np.unique(dots, axis=0) * self._grain
         self._dots.set_data(*self._points.T)

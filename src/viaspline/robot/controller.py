@@ -1,4 +1,7 @@
-"""The controller of a robot with a drive: what it remembers from step to step."""
+"""The controller of a robot with a drive: what it remembers from step to step.
+
+Tested through ``robot/simulation/test_machine_drive``.
+"""
 
 from __future__ import annotations
 
@@ -30,9 +33,9 @@ class Controller:
         machine: What it drives.
         period: From one step to the next, as planned [s].
         path: What is followed.
-        reference: The same, as points.
-        trajectory: When.
-        profile: The same, for kernels.
+        reference: The path as points, for kernels.
+        trajectory: When the robot is to be where.
+        profile: The trajectory for kernels.
         memory: Of the control kernel, shape (MEMORY,).
         given: The commands of the last steps, as far back as some are still on their way: time,
             speed and turn of each, shape (k, 3).
@@ -51,7 +54,7 @@ class Controller:
 
     @classmethod
     def of(cls, machine: Machine, period: float, path: Path, trajectory: Trajectory) -> Controller:
-        """A pilot that has not given any command yet."""
+        """A controller that has not given any command yet."""
         memory, note = np.zeros(control_law.MEMORY), np.zeros(control_law.NOTES)
         memory[control_law.THEN] = -math.inf
         reference, profile = reference_path_of(path), speed_profile_of(trajectory)
@@ -65,7 +68,7 @@ class Controller:
         return self.machine.delay
 
     def on(self, path: Path, trajectory: Trajectory) -> Controller:
-        """The same on this path, by this time law."""
+        """The controller on this path, by this trajectory."""
         controller = self
         if path is not controller.path:
             controller = replace(controller, path=path, reference=reference_path_of(path))
@@ -76,7 +79,7 @@ class Controller:
         return controller
 
     def step(self, state: RobotState, time: float) -> Controller:
-        """The pilot after it has decided what to do, by what was measured at a time [s].
+        """The controller after it has decided what to do, by what was measured at a time [s].
 
         Where it is too far behind, ``late`` says for how long its clock has to wait.
         """
@@ -102,7 +105,7 @@ class Controller:
         return float(self.note[control_law.TO_SPEED]), float(self.note[control_law.TO_TURN])
 
     def gave(self, time: float) -> Controller:
-        """The same when its command has been given at a time [s]; its clock has waited."""
+        """The controller when its command was given at a time [s]; its clock has waited."""
         memory = self.memory.copy()
         memory[control_law.LATE] = 0.0
         on_their_way = self.given[:, 0] >= time - self.ahead - 2.0 * self.period

@@ -1,7 +1,8 @@
-"""The navigator: sense, decide, steer; state in, state out."""
+"""The navigator: sense, decide, schedule, command; state in, state out."""
 
 from __future__ import annotations
 
+import time as clock
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -13,23 +14,31 @@ from viaspline.machine.machine import PERIOD, is_driven, machine_of
 from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.planner import Plan, plan
-from viaspline.robot.advance import advance, commanded, happened
+from viaspline.planner import Plan
+from viaspline.planner import plan as plan_mission
 from viaspline.robot.controller import Controller
-from viaspline.robot.journey import NavigationState, trajectory_on
+from viaspline.robot.navigation.arrivals import note_arrivals
+from viaspline.robot.navigation.drive_task import DriveTask, requirements_under_way
+from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.log import Log
+from viaspline.robot.navigation.navigation_state import NavigationState
+from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.reschedule import caught_up, rescheduled
+from viaspline.robot.navigation.schedule import Schedule, vias_after
+from viaspline.robot.navigation.track_path import track, with_command
+from viaspline.robot.path_following import command_for
 from viaspline.robot.perception.belief import Belief
 from viaspline.robot.perception.lidar import Scan
-from viaspline.robot.perception.perceive import look
-from viaspline.robot.replanning.reroute import notice
+from viaspline.robot.perception.perceive import perceive
+from viaspline.robot.replanning.decide import decide
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
-from viaspline.robot.steer import steer
-from viaspline.robot.visits import visits_of
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
-ROUNDING = 1e-12  # of times
+TIME_ROUNDING = 1e-12
+"""Part of a time by which one that is not before it may look earlier."""
 
 
 class Navigator:
@@ -97,23 +106,14 @@ class Navigator:
         if not 0.0 < reaction < float("inf"):
             raise GeometryError(f"reaction is {reaction}; give a time above 0")
         limits = limits_of(mission.robot, reaction)
-        self._plan = _planned(mission) if plan is None else plan
-        journey = NavigationState(
-            # with the tension that was advised
-            mission=mission.model_copy(update={"spline": self._plan.mission.spline}),
-            limits=limits,
-            reaction=reaction,
-            world=self._plan.world,
-            seen=frozenset(self._plan.world.obstacles),
-            plan_path=self._plan.path,
-            path=self._plan.path,
-            laid=self._plan.world,
-            trajectory=self._plan.trajectory,
-            time=0.0,
-            tracking_error=self._plan.tracking_error,
-        )
-        journey = replace(journey, belief=_belief(journey), controller=_controller(journey, period))
-        self._journey = replace(journey, trajectory=trajectory_on(journey, speed=0.0, time=0.0))
+        plan = plan_mission(mission) if plan is None else plan
+        # with the tension that was advised
+        mission = mission.model_copy(update={"spline": plan.mission.spline})
+        machine = machine_of(mission.robot, period) if is_driven(mission.robot) else None
+        requirements = requirements_under_way(mission, plan.tracking_error)
+        self._plan = plan
+        self._task = DriveTask(mission, requirements, limits, reaction, machine)
+        self._state = _at_start(self._task, plan, period)
 
     def step(
         self, state: RobotState, sensed: Iterable[Obstacle] | Scan, time: float
@@ -133,35 +133,41 @@ class Navigator:
             GeometryError: When time runs backwards, the state is not finite or has the wrong
                 dimension, or a scan is given to a robot that has no lidar.
         """
-        journey = self._journey
-        _check(state, time, journey)
-        if not journey.events:
-            journey = _started(journey, time)
-        before = journey
-        if not journey.finished or journey.controller is not None:
-            journey = advance(journey, state, time)
-        if isinstance(sensed, Scan):
-            if journey.belief is None:
-                raise GeometryError(
-                    "a scan was given, but the mission's robot has no lidar; give it one by "
-                    "robot.sensor.lidar"
-                )
-            journey = happened(look(journey, sensed))
-        else:
-            new = tuple(dict.fromkeys(o for o in sensed if o not in journey.seen))
-            if new and not journey.finished:
-                journey = happened(notice(journey, new))
-        journey = commanded(before, journey, state, time)
-        return steer(journey, state), self._with(journey)
+        _check(state, time, self._state)
+        task, measured = self._task, state
+        before = self._state if self._state.log.events else _set_off(self._state, time)
+        progress, knowledge = before.progress, before.knowledge
+        schedule, log = before.schedule, before.log
+        # how far has the robot come?
+        if not progress.finished or progress.controller is not None:
+            progress, schedule = track(progress, schedule, measured, time)
+            progress, log = note_arrivals(task, progress, schedule, log)
+            schedule = caught_up(task, progress, knowledge, schedule, measured.speed)
+        # what does it perceive? after the end only a lidar goes on
+        sighting = None
+        if not progress.finished or isinstance(sensed, Scan):
+            knowledge, sighting = perceive(knowledge, sensed)
+        # what does it do about that?
+        if sighting is not None:
+            began = clock.perf_counter()
+            decision = decide(task, progress, knowledge, schedule, sighting)
+            log = log.with_decision(decision, clock.perf_counter() - began)
+            schedule = decision.schedule
+            progress, log = note_arrivals(task, progress, schedule, log)
+        # what is it to do now?
+        controller = before.progress.controller
+        progress, schedule = with_command(controller, progress, schedule, measured, time)
+        command = command_for(progress, schedule, measured)
+        return command, self._with(NavigationState(progress, knowledge, schedule, log))
 
-    def _with(self, journey: NavigationState) -> Navigator:
+    def _with(self, state: NavigationState) -> Navigator:
         navigator = object.__new__(Navigator)
-        navigator._plan, navigator._journey = self._plan, journey
+        navigator._plan, navigator._task, navigator._state = self._plan, self._task, state
         return navigator
 
     def reference(self, time: float) -> RobotState:
         """Where a robot that follows exactly will be at a time, if nothing new is seen [s]."""
-        distance, speed, _ = self._journey.trajectory.state_at(time)
+        distance, speed, _ = self._state.schedule.trajectory.state_at(time)
         u = self.path.parameter(float(distance))
         place = np.asarray(self.path.evaluate(u))
         return RobotState(tuple(place.tolist()), float(self.path.heading(u)), float(speed))
@@ -169,12 +175,12 @@ class Navigator:
     @property
     def controller(self) -> Controller | None:
         """The controller of a robot with a drive; None if it follows exactly."""
-        return self._journey.controller
+        return self._state.progress.controller
 
     @property
     def mission(self) -> Mission:
         """What was asked for."""
-        return self._journey.mission
+        return self._task.mission
 
     @property
     def plan(self) -> Plan:
@@ -184,91 +190,98 @@ class Navigator:
     @property
     def world(self) -> World:
         """All that is known by now."""
-        return self._journey.world
+        return self._state.knowledge.world
 
     @property
     def path(self) -> Path:
         """The path; all that was driven is its beginning."""
-        return self._journey.path
+        return self._state.schedule.path
 
     @property
     def trajectory(self) -> Trajectory:
         """The time law along the path, from the last change on."""
-        return self._journey.trajectory
+        return self._state.schedule.trajectory
 
     @property
     def distance(self) -> float:
         """Progress along the path at the last step [m]."""
-        return self._journey.distance
+        return self._state.progress.distance
 
     @property
     def finished(self) -> bool:
         """Whether the drive is over."""
-        return self._journey.finished
+        return self._state.progress.finished
 
     @property
     def reached(self) -> bool:
         """Whether it is over and ended at the goal."""
-        return self._journey.reached
+        return self.finished and self.reason is None
 
     @property
     def reason(self) -> str | None:
         """Why the robot won't reach its goal; None if it will, as far as is known."""
-        return self._journey.giving_up
+        return self._state.schedule.giving_up
 
     @property
     def visits(self) -> tuple[Visit, ...]:
         """How each point of the route was served so far, in order."""
-        return visits_of(self._journey)
+        route = [via for via, _ in vias_after(self._plan.path, -1)]
+        return self._state.log.visits(route, self.reason or "the robot has not come so far")
 
     @property
     def events(self) -> tuple[Event, ...]:
         """Everything that happened so far."""
-        return self._journey.events
+        return self._state.log.events
 
     @property
     def replans(self) -> tuple[Replan, ...]:
         """Every new path so far."""
-        return self._journey.replans
+        return self._state.log.replans
 
     @property
     def compute_times(self) -> tuple[float, ...]:
         """How long each re-plan took, by the clock on the wall [s]."""
-        return self._journey.compute_times
+        return self._state.log.compute_times
 
 
-_planned = plan
+def _at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
+    """A robot that stands at the start, with its plan."""
+    robot, world = task.mission.robot, plan.world
+    has_lidar = robot.sensor is not None and robot.sensor.lidar is not None
+    belief = Belief.at_start(world, robot) if has_lidar else None
+    controller = None
+    if task.machine is not None:
+        controller = Controller.of(task.machine, period, plan.path, plan.trajectory)
+    progress = Progress(time=0.0, controller=controller)
+    knowledge = Knowledge(world, frozenset(world.obstacles), belief)
+    schedule = Schedule(plan.path, plan.trajectory, laid_in=world)
+    schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
+    return NavigationState(progress, knowledge, schedule, Log())
 
 
-def _belief(journey: NavigationState) -> Belief | None:
-    robot = journey.mission.robot
-    if robot.sensor is None or robot.sensor.lidar is None:
-        return None
-    return Belief.at_start(journey.world, robot)
+def _set_off(state: NavigationState, time: float) -> NavigationState:
+    """The state at its first step, at a time [s]."""
+    progress, schedule = state.progress, state.schedule
+    if progress.controller is not None:
+        time += progress.controller.ahead
+    words = f"sets off on a path of {schedule.path.length:.1f} m"
+    return replace(
+        state,
+        progress=replace(progress, time=time),
+        schedule=replace(schedule, trajectory=schedule.trajectory.delayed(time)),
+        log=state.log.with_events(Event("started", time, schedule.place(0.0), words)),
+    )
 
 
-def _controller(journey: NavigationState, period: float) -> Controller | None:
-    robot = journey.mission.robot
-    if not is_driven(robot):
-        return None
-    return Controller.of(machine_of(robot, period), period, journey.path, journey.trajectory)
-
-
-def _started(journey: NavigationState, time: float) -> NavigationState:
-    if journey.controller is not None:
-        time += journey.controller.ahead
-    journey = replace(journey, time=time, trajectory=journey.trajectory.delayed(time))
-    length = f"sets off on a path of {journey.path.length:.1f} m"
-    return journey.noted(Event("started", time, journey.place(0.0), length))
-
-
-def _check(state: RobotState, time: float, journey: NavigationState) -> None:
-    last = journey.time - (0.0 if journey.controller is None else journey.controller.ahead)
-    if journey.events and time < last - ROUNDING * (1.0 + abs(last)):
+def _check(measured: RobotState, time: float, state: NavigationState) -> None:
+    """Refuse what can't have been measured after the last step."""
+    progress, dimension = state.progress, state.schedule.path.dimension
+    last = progress.time - (0.0 if progress.controller is None else progress.controller.ahead)
+    if state.log.events and time < last - TIME_ROUNDING * (1.0 + abs(last)):
         raise GeometryError(f"time {time} s is before the last step's, {last} s")
-    numbers = (*state.position, state.heading, state.speed, time)
-    if len(state.position) != journey.path.dimension or not np.isfinite(numbers).all():
+    numbers = (*measured.position, measured.heading, measured.speed, time)
+    if len(measured.position) != dimension or not np.isfinite(numbers).all():
         raise GeometryError(
-            f"the state {state} at {time} s needs {journey.path.dimension} finite coordinates, "
+            f"the state {measured} at {time} s needs {dimension} finite coordinates, "
             "a finite heading, speed and time"
         )

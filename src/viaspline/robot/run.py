@@ -1,9 +1,13 @@
-"""What was driven: the result of a simulation."""
+"""What was driven: the result of a simulation.
+
+Tested through ``robot/test_simulator``.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
@@ -20,6 +24,15 @@ EventKind = Literal[
     "reached", "contact",
 ]  # fmt: skip
 Mode = Literal["reflex", "planned", "from_rest"]
+
+MODES: Mapping[Mode, str] = MappingProxyType(
+    {
+        "reflex": "under way, only the blocked spans are laid anew",
+        "planned": "under way, everything ahead is laid anew",
+        "from_rest": "the robot stops, and everything ahead is laid anew from there",
+    }
+)
+"""What the modes of a re-plan are; the first two are the words of the paper."""
 
 
 @dataclass(frozen=True)
@@ -58,11 +71,16 @@ class Visit:
 class Replan:
     """A path that took the place of another under way.
 
+    The modes are tried in the order of how much they change. ``reflex`` leads only the blocked
+    spans ahead round what is in their way; ``planned`` lays everything ahead anew while the robot
+    rolls on; ``from_rest`` has it stop first, so that it may turn on the spot. The first two are
+    the words of the paper for what a robot does by reflex and what by plan.
+
     Attributes:
         time: When [s].
         at: Where the new path leaves the old one [m].
-        distance: The same along the path [m].
-        mode: How it was found.
+        distance: Where that is along the path [m].
+        mode: How it was found: ``reflex``, ``planned`` or ``from_rest``.
         changed_from: Distance [m] along the path from which it differs.
         rejoins_at: Distance along the new path from which it is the old one again; None if never.
         obstacles: What was seen that made it necessary.
@@ -111,6 +129,7 @@ class Run:
         compute_times: Wall-clock time of every re-plan [s]; it differs from run to run.
         known: What the robot knew at the end: its map, then what its sensor had shown; None: just
             its map.
+        tracking: How well a robot with a drive followed its path; None for others.
     """
 
     plan: Plan

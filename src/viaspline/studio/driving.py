@@ -12,7 +12,7 @@ import numpy as np
 from viaspline.mission.robot_parts import Lidar
 from viaspline.planner import Plan
 from viaspline.report.plain import plain
-from viaspline.robot.perception.belief import ON_MAP
+from viaspline.robot.perception.belief import ON_MAP_M
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
@@ -129,7 +129,7 @@ def _beams(run: Run, spec: Lidar) -> dict[str, Any]:
         fans.append(rounded(scan.free, 2))
         points = scan.hits
         if len(run.plan.world) and len(points):
-            points = points[run.plan.world.distance(points) > ON_MAP]
+            points = points[run.plan.world.distance(points) > ON_MAP_M]
         for cell in map(tuple, np.round(points / grain).astype(int).tolist()):
             if cell not in known:
                 known.add(cell)

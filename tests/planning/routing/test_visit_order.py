@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.planning.routing.visit_order import lengths_between, ordered
+from viaspline.world.world import World
 
 seeds = st.integers(0, 100_000)
 
@@ -18,6 +19,10 @@ def mission(places: Any, *, closed: bool = False, **world: Any) -> vs.Mission:
     if not closed:
         route["goal"] = route["via"].pop()
     return vs.Mission.model_validate({"world": world, "route": route})
+
+
+def in_order(asked: vs.Mission) -> vs.Mission:
+    return ordered(asked, World.known(asked))
 
 
 def length(route: Any, *, closed: bool) -> float:
@@ -36,14 +41,14 @@ def test_few_via_points_come_in_the_best_of_all_orders(seed: int, count: int, cl
         length(asked.route.model_copy(update={"via": via}), closed=closed)
         for via in permutations(asked.route.via)
     )
-    assert length(ordered(asked).route, closed=closed) == pytest.approx(best)
+    assert length(in_order(asked).route, closed=closed) == pytest.approx(best)
 
 
 @settings(max_examples=10)
 @given(seeds)
 def test_among_many_no_exchange_of_two_makes_the_round_shorter(seed: int) -> None:
     places = np.random.default_rng(seed).uniform(0, 100, (20, 2))
-    route = ordered(mission(places, closed=True)).route
+    route = in_order(mission(places, closed=True)).route
     found = length(route, closed=True)
     assert found <= length(mission(places, closed=True).route, closed=True) + 1e-9
     for i in range(len(route.via)):
@@ -59,10 +64,10 @@ def test_among_many_no_exchange_of_two_makes_the_round_shorter(seed: int) -> Non
 def test_what_stands_between_counts() -> None:
     wall = {"polygon": [[4, -50], [6, -50], [6, 3], [4, 3]]}
     asked = mission([[0, 0], [8, 0], [2, 9], [3, 20]], known=[wall], bounds=[-60, -49, 60, 60])
-    lengths = lengths_between(asked)
+    lengths = lengths_between(asked, World.known(asked))
     assert lengths[0, 1] > 8.0
     assert lengths == pytest.approx(lengths.T)
-    assert [via.name for via in ordered(asked).route.via] == ["via 1", "via 2"]
+    assert [via.name for via in in_order(asked).route.via] == ["via 1", "via 2"]
 
 
 def test_the_plan_serves_the_via_points_in_the_order_that_was_found() -> None:
@@ -75,9 +80,9 @@ def test_the_plan_serves_the_via_points_in_the_order_that_was_found() -> None:
 
 def test_a_mission_that_gives_its_order_is_left_alone() -> None:
     asked = vs.Mission.model_validate({"route": {"start": [0, 0], "via": [[9, 0], [1, 0]]}})
-    assert ordered(asked) is asked
+    assert in_order(asked) is asked
 
 
 def test_one_point_alone_and_none_at_all_are_in_order() -> None:
-    assert ordered(mission([[0, 0], [5, 0], [9, 0]])).route.via[0].at == (5.0, 0.0)
-    assert ordered(mission([[0, 0], [9, 0]])).route.via == ()
+    assert in_order(mission([[0, 0], [5, 0], [9, 0]])).route.via[0].at == (5.0, 0.0)
+    assert in_order(mission([[0, 0], [9, 0]])).route.via == ()

@@ -35,7 +35,7 @@ def nothing(lidar: Lidar = LIDAR, world: World | None = None) -> Belief:
 
 def certain(belief: Belief, path: Path, start: float) -> float:
     """How far a body of 0.3 m can go for certain, as a distance along a path."""
-    seen = belief.seen_until(path, start, min(start + belief.ahead, path.length), 0.3)
+    seen = belief.seen_until(path, start, min(start + belief.lookahead, path.length), 0.3)
     return belief.clear_until(path, start, seen, 0.3)
 
 
@@ -64,16 +64,16 @@ def test_every_hit_lies_in_a_disc_whose_middle_is_a_hit(
         assert not len(belief.world)
         return
     assert belief.world.distance(seen).max() <= 1e-9
-    places = belief.echoes.places
+    places = belief.surfaces.places
     assert max(np.hypot(*(seen - place).T).min() for place in places) <= 1e-9
     gaps = shapely.distance(shapely.points(places)[:, None], shapely.points(places)[None, :])
-    assert gaps[~np.eye(len(places), dtype=bool)].min(initial=9.0) > belief.echoes.cell_size
+    assert gaps[~np.eye(len(places), dtype=bool)].min(initial=9.0) > belief.surfaces.cell_size
 
 
 def test_a_scan_of_what_was_seen_already_is_no_news() -> None:
     sensor, belief = LidarSensor([POST, BOX], LIDAR), nothing()
     belief, news = belief.with_scan(sensor.scan((0.0, 0.0), 0.0))
-    assert len(news.new) == len(belief.echoes) > 0
+    assert len(news.new) == len(belief.surfaces) > 0
     again, news = belief.with_scan(sensor.scan((0.0, 0.0), 0.0))
     assert news.new == ()
     assert news.gone == 0
@@ -93,12 +93,12 @@ def test_a_thing_that_has_gone_is_forgotten_after_some_scans_and_not_at_once() -
     belief = nothing()
     for _ in range(20):
         belief, _ = belief.with_scan(LidarSensor([POST, BOX], LIDAR).scan((0.0, 0.0), 0.0))
-    seen = len(belief.echoes)
+    seen = len(belief.surfaces)
     belief, news = belief.with_scan(LidarSensor([BOX], LIDAR).scan((0.0, 0.0), 0.0))
     assert news.gone == 0
     for _ in range(20):
         belief, _ = belief.with_scan(LidarSensor([BOX], LIDAR).scan((0.0, 0.0), 0.0))
-    assert 0 < len(belief.echoes) <= seen
+    assert 0 < len(belief.surfaces) <= seen
     assert belief.world.distance((3.0, 0.0)) == pytest.approx(1.0, abs=0.1)  # the box's face
 
 
@@ -126,11 +126,11 @@ def test_with_noise_the_places_come_to_lie_on_the_surface() -> None:
     errors = []
     for k in range(80):
         belief, _ = belief.with_scan(sensor.scan((0.0, 0.0), 0.0, k))
-        errors.append(np.abs(belief.echoes.places[:, 0] - 2.0))
+        errors.append(np.abs(belief.surfaces.places[:, 0] - 2.0))
     assert np.sqrt(np.mean(errors[0] ** 2)) == pytest.approx(0.02, rel=0.3)
     assert np.sqrt(np.mean(errors[-1] ** 2)) < 0.012
     assert np.max(errors[-1]) < 0.05
-    assert belief.echoes.cell_size > 0.02 + nothing().echoes.cell_size - 1e-12
+    assert belief.surfaces.cell_size > 0.02 + nothing().surfaces.cell_size - 1e-12
 
 
 def test_a_body_can_go_where_beams_have_been_on_all_of_its_front() -> None:

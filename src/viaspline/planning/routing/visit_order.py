@@ -23,25 +23,29 @@ EXACT = 9  # via points up to which all orders are compared
 SLIGHT = 1e-9  # shorter by less is not shorter [m]
 
 
-def ordered(mission: Mission) -> Mission:
+def ordered(mission: Mission, world: World) -> Mission:
     """The mission with its via points in the order that makes the round short.
 
     A mission that asks for ``order: given`` is returned as it is. Via points without a name get
     the one that they had in the given order, so that they are still known by it.
+
+    Args:
+        mission: What is asked for.
+        world: What it has on its map.
 
     Example:
         >>> mission = Mission.model_validate({"route": {
         ...     "start": [0, 0], "via": [[30, 0], [10, 0], [20, 0]], "goal": [40, 0],
         ...     "order": "shortest",
         ... }})
-        >>> [(via.name, via.at[0]) for via in ordered(mission).route.via]
+        >>> [(via.name, via.at[0]) for via in ordered(mission, World.known(mission)).route.via]
         [('via 2', 10.0), ('via 3', 20.0), ('via 1', 30.0)]
     """
     route = mission.route
     if route.order == "given":
         return mission
     vias = tuple(_named(via, i) for i, via in enumerate(route.via))
-    order = _shortest_order(lengths_between(mission), len(vias), closed=route.closed)
+    order = _shortest_order(lengths_between(mission, world), len(vias), closed=route.closed)
     changed = {"via": tuple(vias[i] for i in order), "order": "given"}
     return mission.model_copy(update={"route": route.model_copy(update=changed)})
 
@@ -50,13 +54,13 @@ def _named(via: ViaPoint, place: int) -> ViaPoint:
     return via if via.name else via.model_copy(update={"name": f"via {place + 1}"})
 
 
-def lengths_between(mission: Mission) -> Floats:
+def lengths_between(mission: Mission, world: World) -> Floats:
     """Lengths of the shortest ways between all points of the route [m], shape (n, n).
 
     Start first, then the via points, then the goal if there is one; infinite where there is none.
     """
     at = np.array([point.at[:2] for _, point in mission.route.points()])
-    world, required = World.known(mission), Requirements.of(mission).required
+    required = Requirements.of(mission).required
     router = Router(world, required, at)
     lengths = np.zeros((len(at), len(at)))
     for i, j in combinations(range(len(at)), 2):

@@ -16,18 +16,35 @@ from viaspline.robot.perception.scan_history import ScanHistory
 from viaspline.robot.perception.surface_points import SurfacePoints
 from viaspline.world.world import World
 
-GRAIN = 1.0 / 20.0  # radius of the discs on surfaces, of the distance that the path keeps
-FINEST, COARSEST = 0.005, 0.1  # and its limits [m]
-LEAST_ROOM = 4.0 * FINEST
+DISC_RATIO = 1.0 / 20.0
+"""Radius of the discs on surfaces, of the distance that the path keeps."""
+
+MIN_DISC_RADIUS_M, MAX_DISC_RADIUS_M = 0.005, 0.1
+"""Its limits [m]."""
+
+MIN_SURFACE_DISTANCE_M = 4.0 * MIN_DISC_RADIUS_M
 """Distance that even a point without clearance keeps from surfaces that it sees [m]."""
 
-AHEAD = 1.3  # distances to stop in that a robot looks ahead
-LATEST = 64  # surfaces beyond which all of them are packed anew
-GAP = 1.0  # from place to place that has to have been seen, of the discs' radius
-INSIDE = 0.8  # of that radius: so far into a disc places can be seen for certain
-RIM = 0.3  # by which the body is taken for larger where it has to be seen free, of the same
-SLACK = 1e-4  # by which samples of a path may miss the distance that it was proven to keep [m]
-ON_MAP = 1e-6  # a hit nearer than this to what is on the map shows just that [m]
+LOOKAHEAD_RATIO = 1.3
+"""How far a robot looks ahead, of the distance in which it stops."""
+
+MAX_LOOSE_DISCS = 64
+"""Surfaces beyond which all of them are packed anew."""
+
+PLACE_SPACING_RATIO = 1.0
+"""From place to place that has to have been seen, of the discs' radius."""
+
+VISIBLE_DEPTH_RATIO = 0.8
+"""So far into a disc places can be seen for certain, of its radius."""
+
+BODY_RIM_RATIO = 0.3
+"""By which the body is taken for larger where it has to be seen free, of the same radius."""
+
+SAMPLE_SLACK_M = 1e-4
+"""By which samples of a path may miss the distance that it was proven to keep [m]."""
+
+ON_MAP_M = 1e-6
+"""A hit nearer than this to what is on the map shows just that [m]."""
 
 
 @dataclass(frozen=True)
@@ -50,20 +67,20 @@ class Belief:
     Attributes:
         map: What is known without being seen: it stays, whatever the beams say.
         settled: The map and the surfaces but for the latest, packed once for many scans.
-        echoes: The surfaces that beams have hit.
-        views: The looks round that are remembered.
+        surfaces: The surfaces that beams have hit.
+        scans: The looks round that are remembered.
         body: The robot's radius [m].
-        ahead: How far along its path the robot looks [m]: as far as it needs to stop from its full
-            speed, and a little more.
+        lookahead: How far along its path the robot looks [m]: as far as it needs to stop from its
+            full speed, and a little more.
         world: The map and the surfaces.
     """
 
     map: World
     settled: World
-    echoes: SurfacePoints
-    views: ScanHistory
+    surfaces: SurfacePoints
+    scans: ScanHistory
     body: float
-    ahead: float
+    lookahead: float
     world: World
 
     @classmethod
@@ -76,35 +93,42 @@ class Belief:
         assert robot.sensor is not None and robot.sensor.lidar is not None  # noqa: PT018
         lidar = robot.sensor.lidar
         required = robot.outer_radius + robot.clearance_m
-        cell_size = float(np.clip(GRAIN * required, FINEST, COARSEST)) + lidar.noise_m
+        disc = float(np.clip(DISC_RATIO * required, MIN_DISC_RADIUS_M, MAX_DISC_RADIUS_M))
+        cell_size = disc + lidar.noise_m
         stop = robot.max_speed_mps**2 / (2.0 * (robot.max_brake_mps2 or robot.max_accel_mps2))
-        ahead = AHEAD * stop + 2.0 * required
-        views = ScanHistory(
-            near=2.0 * ahead, apart=max(required, 4.0 * cell_size), noise=lidar.noise_m
+        lookahead = LOOKAHEAD_RATIO * stop + 2.0 * required
+        scans = ScanHistory(
+            near=2.0 * lookahead, apart=max(required, 4.0 * cell_size), noise=lidar.noise_m
         )
-        echoes = SurfacePoints.none(cell_size, lidar.noise_m)
-        return cls(world, world, echoes, views, robot.outer_radius, ahead, world)
+        surfaces = SurfacePoints.none(cell_size, lidar.noise_m)
+        return cls(world, world, surfaces, scans, robot.outer_radius, lookahead, world)
+
+    @property
+    def cell_size(self) -> float:
+        """Size of the smallest thing that counts: the radius of the discs on surfaces [m]."""
+        return self.surfaces.cell_size
 
     def with_scan(self, scan: Scan) -> tuple[Belief, News]:
         """What is known after one more scan, and what is new about it."""
-        hits, before = scan.hits, self.echoes.hits
-        echoes = self.echoes
+        hits, before = scan.hits, self.surfaces.hits
+        surfaces = self.surfaces
         strange = np.ones(len(hits), np.bool_)
         if len(self.world) and len(hits):
             distance, index = self.world.nearest(hits)
             seen = index >= len(self.map)
-            strange = distance > np.where(seen, 0.0, ON_MAP) + echoes.tolerance
+            strange = distance > np.where(seen, 0.0, ON_MAP_M) + surfaces.tolerance
             known = seen & ~strange
-            echoes = echoes.confirmed(scan, hits[known], index[known] - len(self.map))
-        echoes, moved = echoes.put_right(before)
-        echoes, new = echoes.with_hits(hits[strange])
-        echoes, gone = echoes.without_seen_through(scan)
-        belief = replace(self, echoes=echoes, views=self.views.with_scan(scan))
+            surfaces = surfaces.confirmed(scan, hits[known], index[known] - len(self.map))
+        surfaces, moved = surfaces.put_right(before)
+        surfaces, new = surfaces.with_hits(hits[strange])
+        surfaces, gone = surfaces.without_seen_through(scan)
+        belief = replace(self, surfaces=surfaces, scans=self.scans.with_scan(scan))
         latest = len(self.world) - len(self.settled) + len(new)
-        if moved or gone or latest > LATEST:
+        if moved or gone or latest > MAX_LOOSE_DISCS:
             belief = belief._packed()
         elif new:
-            belief = replace(belief, world=self.settled.with_obstacles(echoes.obstacles[-latest:]))
+            loose = surfaces.obstacles[-latest:]
+            belief = replace(belief, world=self.settled.with_obstacles(loose))
         return belief, News(moved + new, gone)
 
     def seen_until(self, path: Path, start: float, end: float, floor: float) -> float:
@@ -123,8 +147,11 @@ class Belief:
         places = np.asarray(path.evaluate(u))[:, :2]
         tangents = np.asarray(path.tangent(u))[:, :2]
         # beams end at surfaces, which lie inside of the discs that the path keeps clear of
-        rim = min(self.body + RIM * self.echoes.cell_size, floor + INSIDE * self.echoes.cell_size)
-        count = self.views.count(places, tangents, rim, GAP * self.echoes.cell_size)
+        rim = min(
+            self.body + BODY_RIM_RATIO * self.cell_size,
+            floor + VISIBLE_DEPTH_RATIO * self.cell_size,
+        )
+        count = self.scans.count(places, tangents, rim, PLACE_SPACING_RATIO * self.cell_size)
         return float(along[count - 1]) if count else start
 
     def clear_until(self, path: Path, start: float, end: float, floor: float) -> float:
@@ -139,21 +166,21 @@ class Belief:
         if not len(self.world) or end <= start:
             return end
         along = self._along(path, start, end)
-        near = np.flatnonzero(self.world.distance(path.at_distance(along)) < floor - SLACK)
+        near = np.flatnonzero(self.world.distance(path.at_distance(along)) < floor - SAMPLE_SLACK_M)
         if not near.size:
             return end
         return float(along[near[0] - 1]) if near[0] else start
 
     def _along(self, path: Path, start: float, end: float) -> Floats:
         """Places along a path, the same for every start: multiples of a length, and the end."""
-        step = GAP * self.echoes.cell_size
+        step = PLACE_SPACING_RATIO * self.cell_size
         places = step * np.arange(np.ceil(start / step), np.ceil(end / step))
         return np.append(places[places < end], end)
 
-    def told(self, obstacles: Iterable[Obstacle]) -> Belief:
-        """The same with more obstacles on the map."""
+    def with_obstacles(self, obstacles: Iterable[Obstacle]) -> Belief:
+        """What is known with more obstacles on the map."""
         return replace(self, map=self.map.with_obstacles(obstacles))._packed()
 
     def _packed(self) -> Belief:
-        settled = self.map.with_obstacles(self.echoes.obstacles)
+        settled = self.map.with_obstacles(self.surfaces.obstacles)
         return replace(self, settled=settled, world=settled)

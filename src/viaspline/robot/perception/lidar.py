@@ -16,7 +16,7 @@ from viaspline.mission.robot_parts import Lidar
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
 
-WILDEST = 3.0
+MAX_NOISE_SIGMAS = 3.0
 """No measurement is farther off than so many standard deviations."""
 
 
@@ -133,7 +133,7 @@ class LidarSensor:
         )  # fmt: skip
         if spec.noise_m > 0.0:
             noise = np.random.default_rng((self.seed, number)).standard_normal(spec.beams)
-            ranges += spec.noise_m * np.clip(noise, -WILDEST, WILDEST)
+            ranges += spec.noise_m * np.clip(noise, -MAX_NOISE_SIGMAS, MAX_NOISE_SIGMAS)
             np.maximum(ranges, 0.0, out=ranges)
         return Scan(
             tuple(position), heading, self._first, self._step, spec.range_m, np.asarray(ranges)

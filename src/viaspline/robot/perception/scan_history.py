@@ -1,4 +1,7 @@
-"""The looks round that a robot remembers, and how far it can go inside of what they show."""
+"""The looks round that a robot remembers, and how far it can go inside of what they show.
+
+Tested through ``robot/perception/test_belief``.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,8 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.sensing.visible_region import seen_ahead
 from viaspline.robot.perception.lidar import Scan
 
-TURNED = math.radians(20.0)  # a look at the same place tells more if it was turned by so much
+MIN_TURN_RAD = math.radians(20.0)
+"""A look at the same place tells more if it was turned by so much [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,9 +33,9 @@ class ScanHistory:
 
     Example:
         >>> scan = Scan((0.0, 0.0), 0.0, -2.0, 0.01, 9.0, np.full(401, 2.0))
-        >>> views = ScanHistory(near=5.0, apart=0.5).with_scan(scan)
+        >>> history = ScanHistory(near=5.0, apart=0.5).with_scan(scan)
         >>> places, ahead = np.array([(x, 0.0) for x in range(4)]), np.array([(1.0, 0.0)] * 4)
-        >>> views.count(places, ahead, radius=0.5, gap=0.1)
+        >>> history.count(places, ahead, radius=0.5, gap=0.1)
         2
     """
 
@@ -41,7 +45,7 @@ class ScanHistory:
     scans: tuple[Scan, ...] = ()
 
     def with_scan(self, scan: Scan) -> ScanHistory:
-        """The same with one more look."""
+        """The history with one more look."""
         latest, older = self.scans[:1], self.scans[1:]
         if any(self._is_like(latest[0], other) for other in older):
             latest = ()
@@ -54,7 +58,7 @@ class ScanHistory:
 
     def _is_like(self, one: Scan, other: Scan) -> bool:
         turned = abs(math.remainder(one.heading - other.heading, math.tau))
-        return _gap(one, other) < self.apart and turned < TURNED
+        return _gap(one, other) < self.apart and turned < MIN_TURN_RAD
 
     def count(self, places: Floats, ahead: Floats, radius: float, gap: float) -> int:
         """How many places of a disc's way it can take, from the first on, inside of what was seen.

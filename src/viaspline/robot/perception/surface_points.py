@@ -1,4 +1,7 @@
-"""Points that beams have hit: kept while confirmed, dropped when beams see through them."""
+"""Points that beams have hit: kept while confirmed, dropped when beams see through them.
+
+Tested through ``robot/perception/test_belief``.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +15,16 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.sensing import visible_region
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.robot.perception.lidar import WILDEST, Scan
+from viaspline.robot.perception.lidar import MAX_NOISE_SIGMAS, Scan
 
-BELIEVED = 2  # scans that have to see through a point that was hit once
-CERTAIN = 10  # and through one that was hit again and again
-LEVELS = (4, 16, 64)  # hits of a point at which its place is put right
+NEW_TRUST_SCANS = 2
+"""Scans that have to see through a point that was hit once."""
+
+MAX_TRUST_SCANS = 10
+"""Scans that have to see through one that was hit again and again."""
+
+RECENTRE_HITS = (4, 16, 64)
+"""Hits of a point at which its place is put right."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +62,7 @@ class SurfacePoints:
     @property
     def tolerance(self) -> float:
         """How far off a surface it may be measured [m]."""
-        return WILDEST * self.noise
+        return MAX_NOISE_SIGMAS * self.noise
 
     @property
     def places(self) -> Floats:
@@ -62,7 +70,7 @@ class SurfacePoints:
         return np.array([_center(obstacle) for obstacle in self.obstacles]).reshape(-1, 2)
 
     def confirmed(self, scan: Scan, hits: Floats, index: Ints) -> SurfacePoints:
-        """The same after some hits of a scan, shape (k, 2), each near the disc ``index``, (k,)."""
+        """The points after hits of a scan, shape (k, 2), each near the disc ``index``, (k,)."""
         trust = self.trust.copy()
         trust[np.unique(index)] += 1
         if self.noise > 0.0:
@@ -75,7 +83,7 @@ class SurfacePoints:
                 [np.bincount(index, hits[:, axis], minlength=len(self)) for axis in range(2)]
             )
             means = means + (sums - count[:, None] * means) / total[:, None]
-        return replace(self, means=means, hits=total, trust=np.minimum(trust, CERTAIN))
+        return replace(self, means=means, hits=total, trust=np.minimum(trust, MAX_TRUST_SCANS))
 
     def _beside(self, scan: Scan, hits: Floats, index: Ints) -> Ints:
         """For each hit the disc in whose direction it was, if that is as near as noise allows.
@@ -90,10 +98,10 @@ class SurfacePoints:
         return np.where(apart <= self.cell_size + 2.0 * self.tolerance, near, index)
 
     def put_right(self, before: Ints) -> tuple[SurfacePoints, tuple[Obstacle, ...]]:
-        """The same with the discs moved whose hits, ``before`` so many, have become enough.
+        """The points with those discs moved whose hits, ``before`` so many, have become enough.
 
         Returns:
-            (echoes, the discs in their new places).
+            (points, the discs in their new places).
         """
         if self.noise <= 0.0:
             return self, ()
@@ -105,10 +113,10 @@ class SurfacePoints:
         return replace(self, obstacles=tuple(obstacles)), moved
 
     def with_hits(self, hits: Floats) -> tuple[SurfacePoints, tuple[Obstacle, ...]]:
-        """The same with new discs that cover some hits [m], shape (k, 2), each the first there.
+        """The points with new discs that cover some hits [m], shape (k, 2), each the first there.
 
         Returns:
-            (echoes, the new discs).
+            (points, the new discs).
         """
         points = np.ascontiguousarray(hits)
         points = points[visible_region.beam_spread(points, self.cell_size)]
@@ -119,18 +127,18 @@ class SurfacePoints:
             obstacles=self.obstacles + new,
             means=np.concatenate((self.means, points)),
             hits=np.concatenate((self.hits, ones)),
-            trust=np.concatenate((self.trust, BELIEVED * ones)),
+            trust=np.concatenate((self.trust, NEW_TRUST_SCANS * ones)),
         )
         return grown, new
 
     def without_seen_through(self, scan: Scan) -> tuple[SurfacePoints, int]:
-        """The same without the points that scans have seen through often enough.
+        """The points without those that scans have seen through often enough.
 
         A scan sees through a point if the beams on either side of it go on well beyond it, and
         are not farther apart there than the disc is wide.
 
         Returns:
-            (echoes, how many points have gone).
+            (points, how many points have gone).
         """
         if not len(self):
             return self, 0
@@ -162,7 +170,7 @@ def _seen_from(scan: Scan, points: Floats) -> Floats:
 
 
 def _level(hits: Ints) -> Ints:
-    return np.searchsorted(np.array(LEVELS), hits, side="right")
+    return np.searchsorted(np.array(RECENTRE_HITS), hits, side="right")
 
 
 def _disc(point: Floats, radius: float) -> Obstacle:

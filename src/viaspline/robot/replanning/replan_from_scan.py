@@ -1,173 +1,158 @@
-"""Another path for a robot with a lidar: the old one is blocked, or a better one has opened."""
+"""A robot with a lidar: it goes on inside of what it has seen, round what is in its way.
+
+Two things keep it safe, and neither waits for the other. The trajectory ends, at rest, where the
+robot is not certain to be free any more: so it stops in time even if there is no way on. And where
+the path ahead comes too close to what has been seen, far away or near, a new one is sought.
+"""
 
 from __future__ import annotations
 
 import math
-import time as clock
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 
 from viaspline.errors import NoPathError
 from viaspline.planning.alternatives.fit import too_close
-from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.route_refusals import BlockedLegError
-from viaspline.robot.journey import SAME_PLACE_M, NavigationState, ReducedClearance, Wait
-from viaspline.robot.records import give_up, take
-from viaspline.robot.replanning.escape import relieved, way_out
-from viaspline.robot.replanning.kept_sides import is_better
-from viaspline.robot.replanning.replan_context import ReplanContext, replan_context_of, speed_now
-from viaspline.robot.replanning.reroute import Answer, answer
-from viaspline.robot.replanning.ways_on import anew
-from viaspline.robot.run import Event
+from viaspline.robot.navigation.decision import Decision
+from viaspline.robot.navigation.schedule import ReducedClearance, Wait
+from viaspline.robot.replanning.better_path import better_path, with_spare
+from viaspline.robot.replanning.recovery import restore_clearance, way_out
+from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
+from viaspline.robot.replanning.replan_search import ReplanResult, search
+from viaspline.robot.replanning.sight_limit import within_sight
+from viaspline.robot.replanning.transitions import braked, stop_for_good, take_over
+from viaspline.world.world import World
 
-SPARE = 0.1
-"""What a new path keeps beyond what is required where there is room for it, of that distance: so
-that what shows a little more of itself later does not block it again."""
+MIN_REPLAN_INTERVAL_S = 0.25
+"""A path that is blocked far ahead is laid anew no more often than this [s]."""
 
-EVERY = 0.25  # a path that is blocked far ahead is laid anew no more often than this [s]
-AGAIN = 0.5  # after it has found no way, a robot tries again so much later [s]
-REVIEW = 1.0  # whether a better way has opened is asked no more often than this [s]
-PATIENCE = 5.0  # a robot gives up if it has stood so long without a way [s]
-TOUCH = 1e-3  # by which a robot that has come too close may come closer yet [m]
+RETRY_INTERVAL_S = 0.5
+"""After it has found no way, a robot tries again so much later [s]."""
 
+MAX_STAND_S = 5.0
+"""A robot gives up if it has stood so long without a way [s]."""
 
-def way_round(journey: NavigationState, free: float) -> NavigationState:
-    """Round what the path comes too close to, ``free`` metres along it at the soonest."""
-    if _may_wait(journey, free):
-        return journey
-    began = clock.perf_counter()
-    context, found = _answer(journey, free)
-    if found.choice is not None:
-        journey = replace(take(context, found.choice, found.skip), wait=None)
-    else:
-        journey = _hold(journey, context, _plain(found.refusal))
-    return _timed(journey, began)
+MAX_APPROACH_M = 1e-3
+"""By which a robot that has come too close may come closer yet [m]."""
 
 
-def better(journey: NavigationState, *, opened: bool) -> NavigationState:
-    """A path that is clearly shorter than the one that is driven, if there may be one.
+def replan_from_scan(context: ReplanContext, *, opened: bool) -> Decision:
+    """How a robot under way goes on after one more scan.
 
     Args:
-        journey: With nothing in its way.
+        context: The robot; its drive is not over yet.
         opened: Whether something that was seen before has gone.
     """
-    tight = journey.close is not None and journey.close.until > journey.distance
-    if not (opened or tight) or journey.time < journey.reviewed + REVIEW or journey.dwell:
-        return journey
-    rest = journey.path.length - journey.distance
-    if not tight and not is_better(_straight(journey), rest):
-        return journey
-    began = clock.perf_counter()
-    journey = replace(journey, reviewed=journey.time)
-    context = replan_context_of(
-        journey, journey.world, (), journey.path.length, _spared(journey.requirements)
+    schedule = context.schedule
+    free = context.free_until(context.knowledge.world)
+    if free is not None:
+        blocked = replace(context, schedule=replace(schedule, probed_until=0.0))
+        decision = _round_obstruction(blocked, free)
+    else:
+        unblocked = replace(schedule, wait=None) if schedule.is_blocked else schedule
+        decision = better_path(replace(context, schedule=unblocked), opened=opened)
+    if decision.schedule.giving_up is not None:
+        return decision
+    seen = within_sight(
+        context.task, context.progress, context.knowledge, decision.schedule, context.speed
     )
-    freed = replace(context, journey=replace(journey, close=None))
-    try:
-        choice = anew(freed, journey.world)
-    except NoPathError:
-        return _timed(journey, began)
-    if tight or is_better(choice.found.path.length - journey.distance, rest):
-        journey = take(freed, choice, {})
-    return _timed(journey, began)
+    return replace(decision, schedule=seen)
 
 
-def _timed(journey: NavigationState, began: float) -> NavigationState:
-    spent = clock.perf_counter() - began
-    return replace(journey, compute_times=(*journey.compute_times, spent))
+def _round_obstruction(context: ReplanContext, free: float) -> Decision:
+    """Round what the path comes too close to, ``free`` metres along it at the soonest."""
+    if _may_wait(context, free):
+        return Decision(context.schedule)
+    world = context.knowledge.world
+    indices = _obstructing(context, world)
+    names = tuple(world.name(index) for index in indices)
+    blocked = replace(
+        context,
+        schedule=replace(context.schedule, reduced=None),
+        obstruction=Obstruction(world, names, free),
+        floor=context.requirements.required,
+    )
+    result = _way_round(blocked)
+    if result.candidate is None:
+        return replace(_hold(context, _plain(result.refusal)), searched=True)
+    decision = take_over(blocked, result.candidate, result.skip)
+    detected = tuple(context.detection(world, index) for index in indices)
+    return replace(
+        decision,
+        schedule=replace(decision.schedule, wait=None),
+        events=detected + decision.events,
+        searched=True,
+    )
 
 
-def _may_wait(journey: NavigationState, free: float) -> bool:
+def _may_wait(context: ReplanContext, free: float) -> bool:
     """Whether a blocked path is not to be laid anew yet: it was just now, or it was in vain."""
-    wait = journey.wait
-    if wait is not None and wait.reason is not None:
-        return journey.time < wait.again
-    if not journey.replans or journey.time >= journey.replans[-1].time + EVERY:
+    progress, schedule = context.progress, context.schedule
+    if schedule.wait is not None and schedule.wait.reason is not None:
+        return progress.time < schedule.wait.again
+    if progress.time >= schedule.laid_at + MIN_REPLAN_INTERVAL_S:
         return False
-    return (
-        free > journey.distance + EVERY * speed_now(journey) + 2.0 * journey.requirements.required
-    )
+    near = MIN_REPLAN_INTERVAL_S * context.speed + 2.0 * context.requirements.required
+    return free > progress.distance + near
 
 
-def _straight(journey: NavigationState) -> float:
-    """Length of the way on if nothing were in it [m]."""
-    stops = [journey.place(journey.distance), *(via.at for via, _ in journey.ahead)]
-    return sum(math.dist(a, b) for a, b in pairwise(stops))
+def _obstructing(context: ReplanContext, world: World) -> list[int]:
+    """Indices of what the path ahead comes too close to, one for each cluster of discs."""
+    close: list[int] = []
+    for _, _, part, floor in context.parts_ahead():
+        close += too_close(world, part.spans, floor).tolist()
+    found, last = [], (math.inf, math.inf)
+    for index in dict.fromkeys(index for index in close if index >= 0):
+        circle = world.obstacles[index].circle
+        if circle is not None:
+            if math.dist(circle.center, last) < 2.0 * context.requirements.required:
+                continue
+            last = circle.center
+        found.append(index)
+    return found
 
 
-def _spared(requirements: Requirements) -> Requirements:
-    return replace(requirements, clearance=requirements.clearance + SPARE * requirements.required)
-
-
-def _answer(journey: NavigationState, free: float) -> tuple[ReplanContext, Answer]:
+def _way_round(context: ReplanContext) -> ReplanResult:
     """A way on that keeps something to spare; if there is none, one that keeps what it must.
 
     A robot that has come too close already leaves at the distance that it has, as long as what
     it is close to has not been hit within its body.
     """
-    names, journey = _detected(journey)
-    requirements, world = journey.requirements, journey.world
-    journey = replace(journey, close=None)
-    context = replan_context_of(journey, world, names, free, requirements)
-    room = _room(context)
+    requirements, belief = context.task.requirements, context.knowledge.belief
+    assert belief is not None
+    cell_size, spared = belief.cell_size, with_spare(requirements)
+    room = _room(context, cell_size)
     if room >= requirements.required:
-        found = answer(replace(context, requirements=_spared(requirements)), world)
-        return context, answer(context, world) if found.choice is None else found
-    floor = max(room - TOUCH, requirements.radius - journey.cell_size)
-    if requirements.required - room > journey.cell_size:
-        out = way_out(context, world, _spared(requirements), floor) or way_out(
-            context, world, requirements, floor
-        )
+        found = search(replace(context, requirements=spared))
+        return search(context) if found.candidate is None else found
+    floor = max(room - MAX_APPROACH_M, requirements.radius - cell_size)
+    if requirements.required - room > cell_size:
+        out = way_out(context, spared, floor) or way_out(context, requirements, floor)
         if out is not None:
-            return out[0], Answer(out[1])
-    context = replace(
-        context, journey=replace(journey, close=ReducedClearance(math.inf, floor)), floor=floor
+            return ReplanResult(out)
+    clearance = floor - requirements.radius - requirements.tracking_error
+    close = replace(
+        context,
+        schedule=replace(context.schedule, reduced=ReducedClearance(math.inf, floor)),
+        requirements=replace(requirements, clearance=clearance),
+        floor=floor,
     )
-    eased = replace(
-        requirements, clearance=floor - requirements.radius - requirements.tracking_error
-    )
-    found = answer(replace(context, requirements=eased), world)
-    if found.choice is None:
-        return context, found
-    context, choice = relieved(context, found.choice, world, _spared(requirements), set(found.skip))
-    return context, replace(found, choice=choice)
+    found = search(close)
+    if found.candidate is None:
+        return found
+    skip = frozenset(found.skip)
+    candidate = restore_clearance(close, found.candidate, spared, floor, cell_size, skip)
+    return replace(found, candidate=candidate)
 
 
-def _room(context: ReplanContext) -> float:
+def _room(context: ReplanContext, spacing: float) -> float:
     """Smallest distance to anything up to where the robot can stop [m]."""
-    journey = context.journey
-    count = 2 + int((context.stop - journey.distance) / journey.cell_size)
-    places = journey.path.at_distance(np.linspace(journey.distance, context.stop, count))
-    return float(np.min(context.against.distance(places)))
-
-
-def _detected(journey: NavigationState) -> tuple[tuple[str, ...], NavigationState]:
-    """Names of what is in the way, one for each cluster of it, and the journey with its events."""
-    path, world = journey.path, journey.world
-    close: list[int] = []
-    for start, end, floor in journey.stretches(path.length):
-        if end - start > SAME_PLACE_M:
-            part = path.section(*np.asarray(path.parameter(np.array([start, end]))).tolist())
-            close += too_close(world, part.spans, floor).tolist()
-    here = journey.place(journey.distance)
-    names: list[str] = []
-    events: list[Event] = []
-    last = (math.inf, math.inf)
-    for index in dict.fromkeys(index for index in close if index >= 0):
-        circle = world.obstacles[index].circle
-        if (
-            circle is not None
-            and math.dist(circle.center, last) < 2.0 * journey.requirements.required
-        ):
-            continue
-        last = last if circle is None else circle.center
-        name, gap = world.name(index), float(world.distances_to(index, here))
-        names.append(name)
-        message = f"sees '{name}' {gap:.1f} m away"
-        events.append(Event("detected", journey.time, here, message, {"name": name}))
-    return tuple(names), journey.noted(*events)
+    here = context.progress.distance
+    count = 2 + int((context.stop - here) / spacing)
+    places = context.schedule.path.at_distance(np.linspace(here, context.stop, count))
+    return float(np.min(context.obstruction.world.distance(places)))
 
 
 def _plain(refusal: NoPathError | str) -> str:
@@ -177,14 +162,12 @@ def _plain(refusal: NoPathError | str) -> str:
     return str(refusal)
 
 
-def _hold(journey: NavigationState, context: ReplanContext, reason: str) -> NavigationState:
+def _hold(context: ReplanContext, reason: str) -> Decision:
     """Stay on the path as far as it is clear; give up after a long stand."""
-    since = journey.time if journey.wait is None else journey.wait.since
-    if context.speed > 0.0:
-        since = journey.time
-        if journey.wait is None:
-            here = journey.place(journey.distance)
-            journey = journey.noted(Event("braked", journey.time, here, f"brakes: {reason}"))
-    if journey.time - since >= PATIENCE:
-        return give_up(journey, context.speed, reason)
-    return replace(journey, wait=Wait(since, journey.time + AGAIN, reason))
+    time, wait = context.progress.time, context.schedule.wait
+    since = time if wait is None or context.speed > 0.0 else wait.since
+    if time - since >= MAX_STAND_S:
+        return stop_for_good(context, reason)
+    events = (braked(context, reason),) if context.speed > 0.0 and wait is None else ()
+    waiting = Wait(since, time + RETRY_INTERVAL_S, reason)
+    return Decision(replace(context.schedule, wait=waiting), events)

@@ -1,4 +1,4 @@
-"""The way out for a robot that has come closer to something than it should."""
+"""Recovery of a robot that has come closer to something than it should: out, and on from there."""
 
 from __future__ import annotations
 
@@ -14,94 +14,105 @@ from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning import replan
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.robot.journey import ReducedClearance
+from viaspline.robot.navigation.schedule import ReducedClearance
 from viaspline.robot.replanning.replan_context import ReplanContext
-from viaspline.robot.replanning.ways_on import Choice, timed
+from viaspline.robot.replanning.replan_search import PathCandidate, timed
 from viaspline.world.world import World
 
-DIRECTIONS = 48  # that are tried
-REACHES = 12  # and lengths in each,
-FARTHEST = 2.0  # up to so many required distances
-PLACES = 9  # on the way where the distance is looked at
+ESCAPE_DIRECTIONS = 48
+"""Directions that are tried,"""
+
+ESCAPE_LENGTHS = 12
+"""and lengths in each,"""
+
+MAX_ESCAPE_RATIO = 2.0
+"""up to so many required distances."""
+
+ESCAPE_SAMPLES = 9
+"""Places on the straight way out where the distance is looked at."""
 
 
 def way_out(
-    context: ReplanContext, world: World, requirements: Requirements, floor: float
-) -> tuple[ReplanContext, Choice] | None:
+    context: ReplanContext, requirements: Requirements, floor: float
+) -> PathCandidate | None:
     """From where the robot stops straight to the nearest place with room, and on from there.
 
     It turns on the spot at either end.
 
     Args:
         context: The robot under way.
-        world: What is known.
         requirements: What the path keeps from that place on.
         floor: What it keeps on the way there [m].
 
     Returns:
-        The scene with what is kept where, and the way; None if there is none.
+        The path, with what it keeps where; None if there is none.
     """
-    journey, path = context.journey, context.journey.path
-    here = np.asarray(path.at_distance(context.stop))
+    world, stop = context.knowledge.world, context.stop
+    here = np.asarray(context.schedule.path.at_distance(stop))
     place = _roomy_place(world, here, requirements.required, floor)
     if place is None:
         return None
-    straight = _straight_on(context, place)
-    at = context.stop + math.dist(here, place)
+    straight = _straight_to(context, place)
+    at = stop + math.dist(here, place)
     try:
         found = replan.from_rest(straight, at, world, requirements)
     except NoPathError:
         return None
-    context = replace(context, journey=replace(journey, close=ReducedClearance(at, floor)))
-    choice = timed(context, "from_rest", replace(found, changed_from=context.stop), (at,))
-    return None if choice is None else (context, choice)
+    return timed(
+        _reduced(context, at, floor), "from_rest", replace(found, changed_from=stop), (at,)
+    )
 
 
-def relieved(
+def restore_clearance(
     context: ReplanContext,
-    choice: Choice,
-    world: World,
+    candidate: PathCandidate,
     requirements: Requirements,
+    floor: float,
+    spacing: float,
     skip: Collection[int],
-) -> tuple[ReplanContext, Choice]:
-    """A way that keeps less than it should, but only as far as it must.
+) -> PathCandidate:
+    """A path that keeps less than it should, but only as far as it must.
 
     From the first place on that has enough room it is laid anew.
 
     Args:
-        context: The robot under way, with what the whole way keeps.
-        choice: The way.
-        world: What is known.
+        context: The robot under way, with what the whole path keeps.
+        candidate: The path.
         requirements: What it should keep.
+        floor: What it keeps [m].
+        spacing: From each place at which that is looked at to the next [m].
         skip: Points of the route that are left out.
 
     Returns:
-        The scene with what is kept where, and the way; the same if there is no other.
+        The path, with what it keeps where; the one that there was if there is no other.
     """
-    journey, path, start = context.journey, choice.found.path, choice.found.changed_from
-    assert journey.close is not None
-    places = np.arange(start, path.length, journey.cell_size)
+    path, start = candidate.solution.path, candidate.solution.changed_from
+    world = context.knowledge.world
+    places = np.arange(start, path.length, spacing)
     roomy = np.flatnonzero(world.distance(path.at_distance(places)) >= requirements.required)
     if not roomy.size:
-        return context, choice
+        return candidate
     at = float(places[roomy[0]])
     try:
         found = replan.planned(path, at, world, requirements, skip)
     except NoPathError:
-        return context, choice
-    freed = replace(
-        context, journey=replace(journey, close=ReducedClearance(at, journey.close.floor))
-    )
-    again = timed(freed, choice.mode, replace(found, changed_from=start))
-    return (context, choice) if again is None else (freed, again)
+        return candidate
+    again = timed(_reduced(context, at, floor), candidate.mode, replace(found, changed_from=start))
+    return candidate if again is None else again
+
+
+def _reduced(context: ReplanContext, until: float, floor: float) -> ReplanContext:
+    """A context in which the path keeps less up to a distance along it [m]."""
+    reduced = ReducedClearance(until, floor)
+    return replace(context, schedule=replace(context.schedule, reduced=reduced))
 
 
 def _roomy_place(world: World, here: Floats, required: float, floor: float) -> Floats | None:
     """The nearest place that keeps ``required``, with ``floor`` kept on the straight way there."""
-    angles = np.linspace(0.0, 2.0 * np.pi, DIRECTIONS, endpoint=False)
+    angles = np.linspace(0.0, 2.0 * np.pi, ESCAPE_DIRECTIONS, endpoint=False)
     rays = np.column_stack((np.cos(angles), np.sin(angles)))
-    share = np.linspace(0.0, 1.0, PLACES)[:, None, None]
-    for reach in FARTHEST * required * np.arange(1, REACHES + 1) / REACHES:
+    share = np.linspace(0.0, 1.0, ESCAPE_SAMPLES)[:, None, None]
+    for reach in MAX_ESCAPE_RATIO * required * np.arange(1, ESCAPE_LENGTHS + 1) / ESCAPE_LENGTHS:
         ends = here[None, :2] + reach * rays
         rooms = world.distance(here[None, None, :2] + share * (ends - here[:2])[None])
         free = np.flatnonzero((rooms[-1] >= required) & (rooms.min(axis=0) >= floor))
@@ -111,12 +122,12 @@ def _roomy_place(world: World, here: Floats, required: float, floor: float) -> F
     return None
 
 
-def _straight_on(context: ReplanContext, place: Floats) -> Path:
+def _straight_to(context: ReplanContext, place: Floats) -> Path:
     """The driven path up to the stop, then straight to a place, then to the via points ahead."""
-    path = context.journey.path
-    u = float(path.parameter(context.stop))
+    path, stop = context.schedule.path, context.stop
+    u = float(path.parameter(stop))
     head = path.section(0.0, u).spans if u > 0.0 else np.empty((0, 4, path.dimension))
-    ahead = [via for via, at in context.journey.ahead if at > context.stop]
+    ahead = [via for via, at in context.vias_ahead if at > stop]
     corners = [np.asarray(path.evaluate(u)), place, *(np.array(via.at) for via in ahead)]
     share = np.arange(4.0)[:, None] / 3.0
     lines = [a + share * (b - a) for a, b in itertools.pairwise(corners)]

@@ -1,4 +1,7 @@
-"""How a drive ended: its events and visits as they were in the end."""
+"""How a drive ended: its events and visits as they were in the end.
+
+Tested through ``robot/replanning/test_decide`` and ``robot/simulation/test_exact_drive``.
+"""
 
 from __future__ import annotations
 

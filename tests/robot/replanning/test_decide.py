@@ -8,15 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.robot import simulator
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
-from viaspline.robot.state import RobotState
 
 Make = Callable[..., Mission]
 Shape = Callable[..., dict[str, Any]]
@@ -128,11 +125,6 @@ def test_a_sight_inside_the_clearance_stops_it_before_it_touches(
     assert "inside the clearance of 0.5 m" in run.reason
 
 
-def test_a_sight_inside_the_body_is_refused(mission_of: Make) -> None:
-    with pytest.raises(GeometryError, match="not past the robot's own body"):
-        simulate(mission_of([0, 0], [50, 0], sensor={"range_m": 0.4}))
-
-
 def test_an_obstacle_that_appears_inside_the_braking_distance_is_braked_for(
     mission_of: Make,
 ) -> None:
@@ -167,64 +159,3 @@ def test_an_unseen_obstacle_at_the_start_keeps_the_robot_there(
     assert run.path.length == 0.0
     assert run.reason is not None
     assert "stands 0.30 m from 'near'" in run.reason
-
-
-def test_a_robot_without_a_sensor_touches_what_it_can_not_see(mission_of: Make) -> None:
-    mission = mission_of([0, 0], [50, 0])
-    blind = mission.robot.model_copy(update={"sensor": None})
-    rock = Obstacle(circle=Circle(center=(25, 0), radius=3), name="rock")
-    world = mission.world.model_copy(update={"unseen": (rock,)})
-    mission = mission.model_copy(update={"robot": blind, "world": world})
-    run = simulate(mission)
-    assert not run.reached
-    assert run.reason == "the robot touched 'rock'"
-    assert kinds(run)[-1] == "contact"
-    assert run.positions[-1][0] == pytest.approx(25 - 3 - 0.5, abs=0.02)
-    assert run.certificate.clearance == pytest.approx(0.0, abs=0.02)
-    assert run.visits[-1].status == "failed"
-
-
-def test_a_body_that_starts_in_something_unseen_has_touched_it(
-    mission_of: Make, disc_at: Shape
-) -> None:
-    run = simulate(mission_of([0, 0], [50, 0], unseen=[disc_at(1, 0, 1.2)]))
-    assert run.reason == "the robot touched 'obstacle 1'"
-    assert run.duration == 0.0
-
-
-def test_a_drive_that_does_not_end_is_broken_off(
-    mission_of: Make, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(simulator, "PATIENCE", 0.1)
-    monkeypatch.setattr(simulator, "GRACE", 0.0)
-    monkeypatch.setattr(simulator, "BLOCK", 20)
-    run = simulate(mission_of([0, 0], [50, 0]))
-    assert not run.reached
-    assert run.reason is not None
-    assert "broken off" in run.reason
-    assert run.visits[-1].reason == run.reason
-
-
-def test_a_thing_seen_after_the_end_changes_nothing(mission_of: Make) -> None:
-    nav = Navigator(mission_of([0, 0], [5, 0]))
-    _, nav = nav.step(nav.reference(0.0), [], 0.0)
-    _, nav = nav.step(nav.reference(60.0), [], 60.0)
-    assert nav.reached
-    late = Obstacle(circle=Circle(center=(5, 0), radius=1.0))
-    command, after = nav.step(nav.reference(61.0), [late], 61.0)
-    assert after.reached
-    assert after.events == nav.events
-    assert command.stopped
-
-
-def test_a_state_that_is_not_finite_or_in_the_past_is_refused(mission_of: Make) -> None:
-    nav = Navigator(mission_of([0, 0], [50, 0]))
-    with pytest.raises(GeometryError, match="2 finite coordinates"):
-        nav.step(RobotState((0.0, float("nan")), 0.0, 0.0), [], 0.0)
-    with pytest.raises(GeometryError, match="2 finite coordinates"):
-        nav.step(RobotState((0.0, 0.0, 0.0), 0.0, 0.0), [], 0.0)
-    _, nav = nav.step(RobotState((0.0, 0.0), 0.0, 0.0), [], 5.0)
-    with pytest.raises(GeometryError, match="before the last step's"):
-        nav.step(RobotState((0.0, 0.0), 0.0, 0.0), [], 4.0)
-    with pytest.raises(GeometryError, match="reaction is 0"):
-        Navigator(mission_of([0, 0], [50, 0]), reaction=0.0)

@@ -1,4 +1,7 @@
-"""The run of a machine: the curve that it truly drove, and what is proven of it."""
+"""The run of a machine: the curve that it truly drove, and what is proven of it.
+
+Tested through ``robot/simulation/test_machine_drive``.
+"""
 
 from __future__ import annotations
 
@@ -13,16 +16,19 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.machine.trace import trace
 from viaspline.mission.robot_parts import RobotSpec
-from viaspline.robot.driven import Driven
-from viaspline.robot.outcome import outcome
 from viaspline.robot.run import Run, Visit
+from viaspline.robot.simulation.machine_drive import MachineDrive
+from viaspline.robot.simulation.outcome import outcome
 from viaspline.world.world import World
 
-NEAR = 1.0  # a via point is passed within so much of its place along the path [m]
-CREEPS = 0.1  # a robot that is slower has no curvature to speak of [m/s]
+PASSING_WINDOW_M = 1.0
+"""A via point is passed within so much of its place along the path [m]."""
+
+MIN_CURVATURE_SPEED_MPS = 0.1
+"""A robot that is slower has no curvature to speak of [m/s]."""
 
 
-def run_of(drive: Driven, world: World, step: float) -> Run:
+def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     """The run of a drive that is over.
 
     Args:
@@ -39,7 +45,7 @@ def run_of(drive: Driven, world: World, step: float) -> Run:
     times = np.unique(np.concatenate((ticks, [event.time for event in events], [end])))
     times = times[times <= end]
     speeds, rates = (np.interp(times, rows[:, 0], rows[:, k]) for k in (4, 5))
-    headings = np.interp(times, rows[:, 0], rows[:, 3])
+    headings, least = np.interp(times, rows[:, 0], rows[:, 3]), MIN_CURVATURE_SPEED_MPS
     return Run(
         plan=nav.plan,
         world=world,
@@ -52,7 +58,7 @@ def run_of(drive: Driven, world: World, step: float) -> Run:
         positions=np.asarray(path.evaluate(np.interp(times, rows[:, 0], u))),
         headings=np.remainder(headings + np.pi, 2.0 * np.pi) - np.pi,
         speeds=speeds,
-        curvatures=np.where(speeds > CREEPS, rates / np.maximum(speeds, CREEPS), 0.0),
+        curvatures=np.where(speeds > least, rates / np.maximum(speeds, least), 0.0),
         visits=missed(drive, visits),
         events=events,
         replans=nav.replans,
@@ -69,7 +75,7 @@ def proven(path: PiecewiseCubic, world: World, robot: RobotSpec) -> Certificate:
     return certify(path, world, robot.clearance_m, footprint=robot.footprint)
 
 
-def driven_path(drive: Driven) -> tuple[Path, float, Floats]:
+def driven_path(drive: MachineDrive) -> tuple[Path, float, Floats]:
     """The curve of the true motion with the via points that were passed, and its bound [m].
 
     Returns:
@@ -87,19 +93,19 @@ def driven_path(drive: Driven) -> tuple[Path, float, Floats]:
     return Path(curve.spans, vias), bound, u
 
 
-def _passing(drive: Driven, via: PathVia, distance: float) -> int | None:
+def _passing(drive: MachineDrive, via: PathVia, distance: float) -> int | None:
     """The row at which the robot was nearest to a via point when it passed there."""
     progress = drive.tracking.progress
-    if progress[-1] < distance - NEAR:
+    if progress[-1] < distance - PASSING_WINDOW_M:
         return None
-    rows = np.flatnonzero(np.abs(progress - distance) <= NEAR)
+    rows = np.flatnonzero(np.abs(progress - distance) <= PASSING_WINDOW_M)
     if not rows.size:
         return None
     away = np.hypot(*(drive.rows[rows, 1:3] - np.array(via.at[:2])).T)
     return int(rows[int(away.argmin())])
 
 
-def missed(drive: Driven, visits: tuple[Visit, ...]) -> tuple[Visit, ...]:
+def missed(drive: MachineDrive, visits: tuple[Visit, ...]) -> tuple[Visit, ...]:
     """The visits with how near the true motion came to each via point."""
     places = {via.at: row for via, row in _passings(drive)}
     return tuple(
@@ -110,7 +116,7 @@ def missed(drive: Driven, visits: tuple[Visit, ...]) -> tuple[Visit, ...]:
     )
 
 
-def _passings(drive: Driven) -> list[tuple[PathVia, int]]:
+def _passings(drive: MachineDrive) -> list[tuple[PathVia, int]]:
     found = []
     for via, distance in zip(drive.nav.path.vias, drive.nav.path.via_distances, strict=True):
         row = _passing(drive, via, float(distance))

@@ -17,11 +17,14 @@ from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.obstacle import Obstacle, Side
 from viaspline.planning.routing.side_barrier import barriers_of
-from viaspline.robot.journey import points_after
+from viaspline.robot.navigation.schedule import vias_after
 from viaspline.world.world import World
 
-BETTER = 0.95  # of the other's length is what a path may have that changes sides, and
-SHORTER = 0.5  # so much less than it [m]
+MAX_LENGTH_RATIO = 0.95
+"""Of the other's length is what a path may have that changes sides,"""
+
+MIN_SAVING_M = 0.5
+"""and so much less than it [m]."""
 
 
 def is_better(length: float, other: float) -> bool:
@@ -30,7 +33,7 @@ def is_better(length: float, other: float) -> bool:
     >>> is_better(9.4, 10.0), is_better(9.6, 10.0), is_better(0.6, 1.0)
     (True, False, False)
     """
-    return length < min(BETTER * other, other - SHORTER)
+    return length < min(MAX_LENGTH_RATIO * other, other - MIN_SAVING_M)
 
 
 def changed_side(
@@ -77,11 +80,11 @@ def _legs(
     old: Path, new: Path, at: float, last: int, spacing: float
 ) -> Iterator[tuple[Floats, Floats]]:
     """Points along either path, from where they part on, for each leg that both have."""
-    stops = {via.index: place for via, place in points_after(old, last)}
+    stops = {via.index: place for via, place in vias_after(old, last)}
     common = [(at, at)]
     common += [
         (stops[via.index], place)
-        for via, place in points_after(new, last)
+        for via, place in vias_after(new, last)
         if via.index in stops and min(place, stops[via.index]) > at
     ]
     for (old_from, new_from), (old_to, new_to) in pairwise(common):

@@ -1,4 +1,7 @@
-"""From progress along a path to what the robot's wheels are to do."""
+"""The command that follows a path: from progress along it to what the robot is to do.
+
+Tested through ``robot/test_navigator``.
+"""
 
 from __future__ import annotations
 
@@ -6,43 +9,49 @@ import math
 
 import numpy as np
 
+from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.control_law import turn_law
 from viaspline.kernels.tracking.drive_model import ACKERMANN, DIFFERENTIAL, SKID_STEER, turning
-from viaspline.robot.advance import ON_PATH
 from viaspline.robot.controller import Controller
-from viaspline.robot.journey import NavigationState
+from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.navigation.track_path import ON_PATH_M
 from viaspline.robot.state import Command, RobotState
 
-NEAREST_AIM = 1.0  # a robot beside its path comes back to it over at least this distance [m]
-AIM_TIME = 1.0  # and over what it drives in this time [s]
+MIN_AIM_M = 1.0
+"""A robot beside its path comes back to it over at least this distance [m],"""
+
+AIM_TIME_S = 1.0
+"""and over what it drives in this time [s]."""
 
 
-def steer(journey: NavigationState, state: RobotState) -> Command:
-    """The command for a robot at this point of its journey.
+def command_for(progress: Progress, schedule: Schedule, measured: RobotState) -> Command:
+    """The command for a robot at this point of its path.
 
     On the path it is the path's own curvature; beside it the control law leads back. The same
-    law drives robots with a drive, whose pilot has decided already.
+    law drives robots with a drive, whose controller has decided already.
     """
-    distance, speed, acceleration = (float(x) for x in journey.trajectory.state_at(journey.time))
-    if journey.off > ON_PATH and journey.controller is None:
-        distance = journey.distance
-        speed = float(journey.trajectory.speed_at(distance))
-    path = journey.path
+    path, trajectory, controller = schedule.path, schedule.trajectory, progress.controller
+    distance, speed, acceleration = (float(x) for x in trajectory.state_at(progress.time))
+    beside = progress.cross_track > ON_PATH_M and controller is None
+    if beside:
+        distance = progress.distance
+        speed = float(trajectory.speed_at(distance))
     u = float(path.parameter(distance))
     position = np.asarray(path.evaluate(u))
     heading, curvature = float(path.heading(u)), float(path.curvature(u))
     if not math.isfinite(curvature):
         curvature = 0.0  # a cusp, where the robot turns on the spot
     if path.dimension > 2:
-        curvature = _ground_curvature(journey, u)
+        curvature = _ground_curvature(path, u)
     stopped = speed == 0.0 and acceleration == 0.0
     steered, wheels, rate = None, None, None
-    if journey.controller is not None:
-        speed, rate, steered, wheels = _driven(journey.controller)
+    if controller is not None:
+        speed, rate, steered, wheels = _driven(controller)
         curvature = rate / speed if speed > 0.0 else curvature
-    elif journey.off > ON_PATH:
-        curvature = _led_back(curvature, state, position, heading)
+    elif beside:
+        curvature = _led_back(curvature, measured, position, heading)
     return Command(
         speed=speed,
         acceleration=acceleration,
@@ -52,7 +61,7 @@ def steer(journey: NavigationState, state: RobotState) -> Command:
         heading=heading,
         distance=distance,
         stopped=stopped,
-        finished=journey.finished,
+        finished=progress.finished,
         steer=steered,
         wheels=wheels,
     )
@@ -76,13 +85,13 @@ def _led_back(curvature: float, state: RobotState, position: Floats, heading: fl
     aside = np.asarray(state.position)[:2] - position[:2]
     offset = float(aside[1] * math.cos(heading) - aside[0] * math.sin(heading))
     error = math.remainder(state.heading - heading, math.tau)
-    return turn_law(curvature, offset, error, max(NEAREST_AIM, AIM_TIME * state.speed))
+    return turn_law(curvature, offset, error, max(MIN_AIM_M, AIM_TIME_S * state.speed))
 
 
-def _ground_curvature(journey: NavigationState, u: float) -> float:
+def _ground_curvature(path: Path, u: float) -> float:
     """Curvature of the ground track of a curve in space, left is positive [1/m]."""
-    first = np.asarray(journey.path.evaluate(u, 1))[:2]
-    second = np.asarray(journey.path.evaluate(u, 2))[:2]
+    first = np.asarray(path.evaluate(u, 1))[:2]
+    second = np.asarray(path.evaluate(u, 2))[:2]
     speed = float(np.linalg.norm(first))
     cross = float(first[0] * second[1] - first[1] * second[0])
     return cross / speed**3 if speed > 0.0 else 0.0

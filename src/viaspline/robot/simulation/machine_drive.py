@@ -14,24 +14,24 @@ from viaspline.kernels.tracking.drive_motion import SUBSTEP, move
 from viaspline.machine.drive_noise import DriveNoise
 from viaspline.machine.tracking import Tracking
 from viaspline.machine.trial_drive import start_of
-from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.robot.contact import touched
 from viaspline.robot.navigator import Navigator
-from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.run import Event
+from viaspline.robot.simulation.contact import first_contact
+from viaspline.robot.simulation.sensors import sensors_of
 from viaspline.robot.state import RobotState
 from viaspline.world.world import World
 
-Sensed = tuple[Obstacle, ...] | Scan
-Sense = Callable[[tuple[float, float], float, int], Sensed]
-Told = Callable[[float, Navigator], None]
+Tell = Callable[[float, Navigator], None]
 
-HALT = 1e-3  # a robot that is slower stands [m/s]
-LINGER = 5.0  # it is waited for that after its drive at most [s]
+STANDSTILL_MPS = 1e-3
+"""A robot that is slower stands [m/s]."""
+
+MAX_LINGER_S = 5.0
+"""After the end of its drive it is waited for that at most so long [s]."""
 
 
 @dataclass(frozen=True, eq=False)
-class Driven:
+class MachineDrive:
     """A drive that is over.
 
     Attributes:
@@ -51,35 +51,38 @@ class Driven:
 
 
 def drive_machine(
-    nav: Navigator, world: World, step: float, seed: int, sense: Sense, tell: Told, limit: float
-) -> Driven:
+    nav: Navigator, world: World, step: float, seed: int, tell: Tell, limit: float
+) -> MachineDrive:
     """Drive until the navigator has finished and the robot stands.
 
     Args:
         nav: At the start.
         world: Everything that is there.
         step: From one look and one command to the next [s].
-        seed: Of the noise.
-        sense: What the sensor shows at the true place [m] and heading [rad] at a tick.
-        tell: Told the time and the navigator at every step.
+        seed: Of the noise of the drive, of the localisation and of a lidar.
+        tell: Called with the time and the navigator at every step.
         limit: The drive is broken off at this time [s].
     """
     controller = nav.controller
     assert controller is not None
+    lidar, sensor = sensors_of(nav.mission, world, seed)
     machine, faults = controller.machine, DriveNoise(nav.mission.robot, seed)
     substeps = max(math.ceil(step / SUBSTEP - 1e-9), 1)
     state = start_of(
         controller.reference.x[0], controller.reference.y[0], controller.reference.heading[0]
     )
     rows, notes = [np.array([[0.0, *state[:3], 0.0, 0.0]])], []
-    contact = touched(nav.mission.robot, world, rows[0])
+    contact = first_contact(nav.mission.robot, world, rows[0])
     overdue, tick = None, 0
     while contact is None:
         time = tick * step
         pose = state[:3] + faults.measured(1)[0]
         believed = RobotState((float(pose[0]), float(pose[1])), float(pose[2]), float(state[3]))
         place = float(state[0]), float(state[1])
-        _, nav = nav.step(believed, sense(place, float(state[2]), tick), time)
+        if lidar is not None:
+            _, nav = nav.step(believed, lidar.scan(place, float(state[2]), tick), time)
+        else:
+            _, nav = nav.step(believed, () if sensor is None else sensor.seen(place), time)
         controller = nav.controller
         assert controller is not None
         notes.append(controller.note)
@@ -93,16 +96,20 @@ def drive_machine(
             machine, state, time, step / substeps, controller.given[:, 0].copy(),
             controller.given[:, 1].copy(), controller.given[:, 2].copy(), faults.driven(substeps),
         )  # fmt: skip
-        contact = touched(nav.mission.robot, world, np.vstack((rows[-1][-1:], moved)))
+        contact = first_contact(nav.mission.robot, world, np.vstack((rows[-1][-1:], moved)))
         rows.append(moved)
         tick += 1
     track = np.concatenate(rows)
     if contact is not None:
         track = track[track[:, 0] <= contact.time + 1e-9]
     noted = np.array(notes) if notes else np.zeros((1, NOTES))
-    return Driven(nav, track, Tracking.of(controller.reference, noted, track), contact, overdue)
+    return MachineDrive(
+        nav, track, Tracking.of(controller.reference, noted, track), contact, overdue
+    )
 
 
 def _is_over(nav: Navigator, time: float, speed: float) -> bool:
     end = nav.trajectory.end_time
-    return nav.finished and time >= end and (abs(speed) < HALT or time >= end + LINGER)
+    return (
+        nav.finished and time >= end and (abs(speed) < STANDSTILL_MPS or time >= end + MAX_LINGER_S)
+    )

@@ -1,4 +1,7 @@
-"""When a driven body touches something."""
+"""When a driven body touches something.
+
+Tested through ``robot/simulation/test_machine_drive`` and ``robot/simulation/test_exact_drive``.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +12,11 @@ from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Event
 from viaspline.world.world import World
 
-DEPTH = 1e-9  # what touches by less doesn't [m]
+TOUCH_DEPTH_M = 1e-9
+"""What touches by less doesn't [m]."""
 
 
-def touched(robot: RobotSpec, world: World, rows: Floats) -> Event | None:
+def first_contact(robot: RobotSpec, world: World, rows: Floats) -> Event | None:
     """The first touch in some steps of a motion.
 
     The steps are so short that a body which is clear at their ends does not touch between them by
@@ -24,7 +28,7 @@ def touched(robot: RobotSpec, world: World, rows: Floats) -> Event | None:
         rows: Time, x, y, heading, …, shape (n, 6).
     """
     gaps, nearest = world.nearest(rows[:, 1:3])
-    inside = np.flatnonzero(gaps < robot.inner_radius - DEPTH)
+    inside = np.flatnonzero(gaps < robot.inner_radius - TOUCH_DEPTH_M)
     if robot.footprint is not None and not inside.size:
         close = np.flatnonzero(gaps < robot.outer_radius)
         bodies, those = world.body_nearest(rows[close, 1:3], rows[close, 3], robot.footprint)

@@ -1,0 +1,1 @@
+"""Where a robot is on its way, what it knows, what it means to do and what has happened."""

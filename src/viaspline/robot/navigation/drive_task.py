@@ -1,0 +1,48 @@
+"""What is asked of a drive, the same from its start to its end.
+
+Tested through ``robot/navigation/test_arrivals``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from viaspline.kernels.tracking.drive_model import Machine
+from viaspline.mission.model import Mission
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.robot.perception.belief import MIN_SURFACE_DISTANCE_M
+from viaspline.trajectory.limits import Limits
+
+
+@dataclass(frozen=True)
+class DriveTask:
+    """What a robot is to do, and what every path and every trajectory of it has to keep.
+
+    Attributes:
+        mission: What was asked for.
+        requirements: Of every path: the clearance, the body, the turning circle.
+        limits: Of every trajectory: speeds and accelerations, with what the sensor allows.
+        reaction: Longest time between two steps [s].
+        machine: The drive; None if the robot follows its path exactly.
+    """
+
+    mission: Mission
+    requirements: Requirements
+    limits: Limits
+    reaction: float
+    machine: Machine | None = None
+
+
+def requirements_under_way(mission: Mission, tracking_error: float) -> Requirements:
+    """What every path of a drive has to keep; with a lidar that is never nothing.
+
+    Args:
+        mission: What is asked for.
+        tracking_error: How far beside its path the robot may get [m].
+    """
+    requirements = Requirements.of(mission, tracking_error)
+    sensor = mission.robot.sensor
+    if sensor is None or sensor.lidar is None:
+        return requirements
+    least = MIN_SURFACE_DISTANCE_M - requirements.radius
+    return replace(requirements, clearance=max(requirements.clearance, least))

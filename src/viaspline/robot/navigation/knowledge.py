@@ -1,0 +1,54 @@
+"""What a robot knows of the world around it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot.perception.belief import Belief, News
+from viaspline.robot.perception.lidar import Scan
+from viaspline.world.world import World
+
+
+@dataclass(frozen=True)
+class Knowledge:
+    """All that is known at one moment: the map, what was told, and what a lidar has shown.
+
+    Attributes:
+        world: All of it.
+        told: The obstacles in that world that are on the map or were told one by one.
+        belief: What a lidar has shown; None without one.
+    """
+
+    world: World
+    told: frozenset[Obstacle]
+    belief: Belief | None = None
+
+    def with_obstacles(self, obstacles: Sequence[Obstacle]) -> tuple[Knowledge, World]:
+        """What is known with obstacles that were not told before.
+
+        Returns:
+            (what is known, the new obstacles alone, each by the name that it has in there).
+        """
+        if self.belief is None:
+            old, belief = len(self.world), None
+            world = self.world.with_obstacles(obstacles)
+        else:
+            old, belief = len(self.belief.map), self.belief.with_obstacles(obstacles)
+            world = belief.world
+        new = World(
+            obstacle.model_copy(update={"name": world.name(old + i)})
+            for i, obstacle in enumerate(obstacles)
+        )
+        return replace(self, world=world, told=self.told.union(obstacles), belief=belief), new
+
+    def with_scan(self, scan: Scan) -> tuple[Knowledge, News]:
+        """What is known after one more scan of a lidar, and what is new about it.
+
+        Raises:
+            AssertionError: When the robot has no lidar.
+        """
+        assert self.belief is not None
+        belief, news = self.belief.with_scan(scan)
+        return replace(self, belief=belief, world=belief.world), news

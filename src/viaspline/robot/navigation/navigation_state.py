@@ -1,0 +1,30 @@
+"""What a navigator hands on from step to step.
+
+Tested through ``robot/test_navigator``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.log import Log
+from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.schedule import Schedule
+
+
+@dataclass(frozen=True)
+class NavigationState:
+    """A robot's drive at one moment; a new one for every step.
+
+    Attributes:
+        progress: How far the robot has come.
+        knowledge: What it knows of the world.
+        schedule: What it means to do from now on.
+        log: What has happened.
+    """
+
+    progress: Progress
+    knowledge: Knowledge
+    schedule: Schedule
+    log: Log

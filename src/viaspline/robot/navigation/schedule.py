@@ -1,0 +1,119 @@
+"""What a robot means to do from now on."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.curve.path import Path, PathVia
+from viaspline.kernels.arrays import Floats
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.world import World
+
+
+@dataclass(frozen=True)
+class Wait:
+    """A robot that looks and doesn't know how to go on yet.
+
+    Attributes:
+        since: When it began [s].
+        again: When it tries again [s].
+        reason: Why it can't go on; None if it only sees too little.
+    """
+
+    since: float
+    again: float
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
+class ReducedClearance:
+    """A robot that has come closer to something than it should, and is on its way out.
+
+    Attributes:
+        until: Distance along the path up to which it keeps less [m].
+        floor: Distance that it keeps there from everything known [m].
+    """
+
+    until: float
+    floor: float
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """Where a robot means to be when: its path, its trajectory, and how far it trusts them.
+
+    Attributes:
+        path: The path; all that was driven is its beginning.
+        trajectory: The time law along it, from the last change on.
+        laid_in: What was known when the path was laid.
+        laid_at: When it was laid under way [s]; -inf before the first re-plan.
+        turns: Distances along the path where it has a corner to turn on the spot [m].
+        reduced: Where the path keeps less clearance than it should, if it does.
+        sighted_until: Up to this distance along the path the robot has seen where its body will
+            be [m].
+        probed_until: Up to this distance along the path the robot goes though it sees too little
+            [m].
+        reviewed_at: When it was last asked whether there is a better path [s].
+        wait: Since when and why the robot waits, if it does.
+        giving_up: Why the robot brakes for good, if it does.
+    """
+
+    path: Path
+    trajectory: Trajectory
+    laid_in: World
+    laid_at: float = -math.inf
+    turns: tuple[float, ...] = ()
+    reduced: ReducedClearance | None = None
+    sighted_until: float = 0.0
+    probed_until: float = 0.0
+    reviewed_at: float = -math.inf
+    wait: Wait | None = None
+    giving_up: str | None = None
+
+    @property
+    def is_blocked(self) -> bool:
+        """Whether the robot waits because no way on was found."""
+        return self.wait is not None and self.wait.reason is not None
+
+    def place(self, distance: float) -> tuple[float, ...]:
+        """The path's point at a distance along it [m]."""
+        return tuple(np.asarray(self.path.at_distance(distance)).tolist())
+
+    def kept(
+        self, start: float, end: float, required: float
+    ) -> tuple[tuple[float, float, float], ...]:
+        """What the path keeps on which stretch of it.
+
+        Args:
+            start: From this distance along the path on [m].
+            end: Up to this one [m].
+            required: Distance that the path keeps where it is not reduced [m].
+
+        Returns:
+            In order: from where, to where, and the distance kept from everything known [m].
+        """
+        if self.reduced is None or self.reduced.until <= start:
+            return ((start, end, required),)
+        until = min(self.reduced.until, end)
+        return ((start, until, self.reduced.floor), (until, end, required))
+
+
+def vias_after(path: Path, last_via: int) -> tuple[tuple[PathVia, float], ...]:
+    """The user's via points of a path that come after one of the route.
+
+    Args:
+        path: The path.
+        last_via: Index in the route of the last via point that was passed.
+
+    Returns:
+        Each with its distance along the path [m], in order.
+    """
+    distances: Floats = path.via_distances
+    return tuple(
+        (via, float(distance))
+        for via, distance in zip(path.vias, distances, strict=True)
+        if via.index is not None and via.index > last_via
+    )

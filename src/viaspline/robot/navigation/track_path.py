@@ -1,0 +1,113 @@
+"""Where on its path a robot is, by what was measured, and the trajectory that waits for it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from viaspline.curve.path import Path
+from viaspline.kernels.tracking.control_law import ASIDE
+from viaspline.robot.controller import Controller
+from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
+from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.state import RobotState
+
+ON_PATH_M = 1e-6
+"""Nearer than this the measured state is the planned one [m]."""
+
+MAX_ALONG_TRACK_M = 0.05
+"""Farther than this along the path from where it should be, a robot gets a new trajectory [m]."""
+
+
+def track(
+    progress: Progress, schedule: Schedule, measured: RobotState, time: float
+) -> tuple[Progress, Schedule]:
+    """How far the robot has come at a later time [s], and its schedule then.
+
+    Progress is a distance along the path. It is looked for near the place where the trajectory has
+    the robot, and never goes back, so a path that crosses or repeats itself makes no difference.
+    """
+    if progress.controller is not None:
+        return _controlled(progress, progress.controller, schedule, measured, time)
+    should = float(schedule.trajectory.state_at(time)[0])
+    on_time = replace(progress, time=time, distance=max(should, progress.distance), along_track=0.0)
+    place = np.asarray(schedule.path.at_distance(should))
+    gap = float(np.linalg.norm(np.asarray(measured.position) - place))
+    if gap <= ON_PATH_M:
+        return replace(on_time, cross_track=0.0), schedule
+    low = progress.distance
+    high = min(should + max(1.0, 2.0 * gap), schedule.trajectory.next_rest(max(should, low)))
+    distance, aside = project(schedule.path, measured.position, low, max(high, low))
+    if abs(distance - should) <= MAX_ALONG_TRACK_M or schedule.giving_up is not None:
+        return replace(on_time, cross_track=aside), schedule
+    adrift = replace(on_time, distance=distance, cross_track=aside, along_track=distance - should)
+    return adrift, schedule
+
+
+def _controlled(
+    progress: Progress,
+    controller: Controller,
+    schedule: Schedule,
+    measured: RobotState,
+    time: float,
+) -> tuple[Progress, Schedule]:
+    """The progress of a robot with a drive: its trajectory waits for it where it is too late."""
+    controller = controller.on(schedule.path, schedule.trajectory).step(measured, time)
+    if controller.late > 0.0:
+        schedule = replace(schedule, trajectory=schedule.trajectory.delayed(controller.late))
+    now = time + controller.ahead
+    return replace(
+        progress,
+        time=now,
+        distance=max(float(schedule.trajectory.distance_at(now)), progress.distance),
+        cross_track=abs(float(controller.note[ASIDE])),
+        controller=controller,
+    ), schedule
+
+
+def with_command(
+    before: Controller | None,
+    progress: Progress,
+    schedule: Schedule,
+    measured: RobotState,
+    time: float,
+) -> tuple[Progress, Schedule]:
+    """The robot when its controller has given its command, by the schedule that there is now.
+
+    Args:
+        before: The controller before this step.
+        progress: With the controller after it has decided by the schedule before this step.
+        schedule: What the robot means to do now: if that is new, the controller decides again.
+        measured: Where the robot is.
+        time: When that was measured [s].
+    """
+    controller = progress.controller
+    if controller is None or before is None:
+        return progress, schedule
+    if schedule.path is not controller.path or schedule.trajectory is not controller.trajectory:
+        waited = controller.late > 0.0
+        controller = before.on(schedule.path, schedule.trajectory).step(measured, time)
+        if controller.late > 0.0 and not waited:
+            schedule = replace(schedule, trajectory=schedule.trajectory.delayed(controller.late))
+    return replace(progress, controller=controller.gave(time)), schedule
+
+
+def project(
+    path: Path, position: tuple[float, ...], low: float, high: float
+) -> tuple[float, float]:
+    """The nearest place of a path between two distances, and how far it is away [m].
+
+    Example:
+        >>> path = Path([[[0, 0], [3, 0], [6, 0], [9, 0]]], vias=[])
+        >>> [round(value, 6) for value in project(path, (4.0, 0.5), 0.0, 9.0)]
+        [4.0, 0.5]
+    """
+    point = np.asarray(position)
+    while True:
+        places = np.linspace(low, high, 33)
+        gaps = np.linalg.norm(np.asarray(path.at_distance(places)) - point, axis=1)
+        k = int(gaps.argmin())
+        if high - low <= SAME_PLACE_M:
+            return float(places[k]), float(gaps[k])
+        low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, 32)])

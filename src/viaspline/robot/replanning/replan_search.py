@@ -1,0 +1,243 @@
+"""A new path for a robot under way: from the least change of the old one to the greatest.
+
+Tested through ``robot/test_navigator`` and ``robot/replanning/test_decide``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from viaspline.errors import GeometryError, NoPathError
+from viaspline.planning import replan
+from viaspline.planning.alternatives.solution import Solution
+from viaspline.robot.navigation.progress import SAME_PLACE_M
+from viaspline.robot.navigation.reschedule import trajectory_within_sight
+from viaspline.robot.navigation.schedule import ReducedClearance
+from viaspline.robot.replanning.passing_sides import changed_side, is_better
+from viaspline.robot.replanning.replan_context import ReplanContext
+from viaspline.robot.run import Mode
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.world import World
+
+TURN_BACK_SAMPLES = 129
+"""Places along a path at which it is seen whether it leads back."""
+
+PATH_END_U = 1e-9
+"""A via point whose parameter is nearer than this to the path's end is the goal."""
+
+
+@dataclass(frozen=True)
+class PathCandidate:
+    """A new path that the robot could go over to.
+
+    Attributes:
+        mode: How it was found; see ``Replan``.
+        solution: The path, and from where on it is new.
+        turns: Distances along it where the robot turns on the spot [m].
+        trajectory: The time law along it, from here and now on.
+        reduced: Where it keeps less clearance than it should, if it does.
+    """
+
+    mode: Mode
+    solution: Solution
+    turns: tuple[float, ...]
+    trajectory: Trajectory
+    reduced: ReducedClearance | None
+
+
+@dataclass(frozen=True)
+class ReplanResult:
+    """What a search for a new path came to.
+
+    Attributes:
+        candidate: The path; None if there is none.
+        refusal: Why there is none.
+        skip: Indices of points of the route that are given up for it, each with the reason.
+    """
+
+    candidate: PathCandidate | None
+    refusal: NoPathError | str = ""
+    skip: Mapping[int, str] = field(default_factory=dict)
+
+
+def search(context: ReplanContext) -> ReplanResult:
+    """A path on, past points of the route that can't be reached any more, or why there is none."""
+    if not context.is_clear(context.stop):
+        return ReplanResult(None, _too_late(context))
+    skip, reason = _covered(context)
+    if reason is not None:
+        return ReplanResult(None, reason)
+    while True:
+        try:
+            return ReplanResult(_on_kept_sides(context, frozenset(skip)), skip=skip)
+        except NoPathError as error:
+            lost = _lost(context, skip, error)
+            if lost is None:
+                return ReplanResult(None, error)
+            skip[lost] = error.reason
+
+
+def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandidate:
+    """The first candidate, unless it passes something on another side than the path so far.
+
+    Nothing that the robot knew is passed on another side than it meant to, unless that is clearly
+    better.
+
+    Raises:
+        NoPathError: If there is no way to the goal.
+    """
+    world, schedule = context.knowledge.world, context.schedule
+    candidate = first_candidate(context, world, skip)
+    changed = changed_side(
+        schedule.path, candidate.solution.path, candidate.solution.changed_from,
+        context.progress.last_via, schedule.laid_in, context.requirements.required,
+    )  # fmt: skip
+    if changed is None:
+        return candidate
+    place, side = changed
+    now = int(world.nearest(place)[1])
+    if now < 0 or world.obstacles[now].forced_side is not None:
+        return candidate
+    try:
+        kept = first_candidate(context, world.with_side(now, side), skip)
+    except NoPathError:
+        return candidate
+    here = context.progress.distance
+    rest, other = (c.solution.path.length - here for c in (candidate, kept))
+    return candidate if is_better(rest, other) else kept
+
+
+def first_candidate(
+    context: ReplanContext,
+    world: World,
+    skip: Collection[int] = (),
+    modes: tuple[Mode, ...] = ("reflex", "planned"),
+) -> PathCandidate:
+    """The first way on that the robot can take: in these modes under way, then from rest.
+
+    A robot under way doesn't turn back on the spot: a path that leads behind it is left for a
+    robot that has come to rest.
+
+    Args:
+        context: The robot under way.
+        world: What the path keeps clear of.
+        skip: Points of the route that are left out; the spans to them can't stay as they are.
+        modes: In this order.
+
+    Raises:
+        NoPathError: If there is no way to the goal.
+    """
+    path, requirements = context.schedule.path, context.requirements
+    leaves = context.clear_leaves()
+    for mode in ("planned",) if skip else modes:
+        for leave in leaves:
+            try:
+                if mode == "reflex":
+                    solution = replan.reflex(path, leave, world, requirements)
+                else:
+                    solution = replan.planned(path, leave, world, requirements, skip=skip)
+            except NoPathError:
+                continue  # a robot that leaves later, or that stands, may find a way
+            candidate = timed(context, mode, solution)
+            if candidate is not None and not _turns_back(context, solution):
+                return candidate
+    solution = replan.from_rest(path, context.stop, world, requirements, skip=skip)
+    candidate = timed(context, "from_rest", solution)
+    assert candidate is not None  # a robot that stands can go any way on
+    return candidate
+
+
+def timed(
+    context: ReplanContext, mode: Mode, solution: Solution, turns: tuple[float, ...] = ()
+) -> PathCandidate | None:
+    """A path with its trajectory; None if the robot is too fast to go over to it.
+
+    Args:
+        context: The robot under way.
+        mode: How the path was found; from rest the robot turns where it stops.
+        solution: The path.
+        turns: More distances along it where the robot turns, from rest [m].
+    """
+    schedule, leave = context.schedule, solution.changed_from
+    corners = tuple(turn for turn in schedule.turns if turn <= leave + SAME_PLACE_M)
+    stands = mode == "from_rest"
+    if stands:
+        corners = (*corners, context.stop, *turns)
+    try:
+        trajectory = trajectory_within_sight(
+            context.task,
+            context.progress,
+            context.knowledge,
+            schedule,
+            context.speed,
+            path=solution.path,
+            turns=corners,
+            shared=leave,
+            at_least=context.stop if stands else 0.0,
+        )
+    except GeometryError:
+        return None  # it could not stop within what it has seen of it
+    if trajectory.over_limit_until is not None and not stands:
+        return None
+    return PathCandidate(mode, solution, corners, trajectory, schedule.reduced)
+
+
+def _turns_back(context: ReplanContext, solution: Solution) -> bool:
+    """Whether a path leads farther behind the place where it begins than the old one does."""
+    at, old, new = solution.changed_from, context.schedule.path, solution.path
+    place, ahead = np.asarray(old.at_distance(at)), old.tangent(float(old.parameter(at)))
+    samples = (np.linspace(at, line.length, TURN_BACK_SAMPLES) for line in (old, new))
+    depths = [
+        float(((line.at_distance(along) - place) @ ahead).min())
+        for line, along in zip((old, new), samples, strict=True)
+    ]
+    return depths[1] < depths[0] - context.requirements.required
+
+
+def _too_late(context: ReplanContext) -> str:
+    """Why a robot that comes too close before it stands can't go on."""
+    world, required = context.obstruction.world, context.task.requirements
+    distance, nearest = world.nearest(context.schedule.path.at_distance(context.stop))
+    name, gap = world.name(int(nearest)), f"{float(distance) - required.radius:.2f} m"
+    inside = f"inside the clearance of {required.kept:g} m that it has to keep"
+    if context.speed == 0.0:
+        return f"the robot stands {gap} from '{name}', {inside}"
+    return (
+        f"'{name}' appeared inside the braking distance; the robot comes to stand {gap} from it, "
+        f"{inside}"
+    )
+
+
+def _covered(context: ReplanContext) -> tuple[dict[int, str], str | None]:
+    """The points still to come that what is in the way covers; a reason if the goal is one."""
+    path, world = context.schedule.path, context.obstruction.world
+    required = context.task.requirements
+    ahead = [(via, at) for via, at in context.vias_ahead if at > context.stop + SAME_PLACE_M]
+    if not ahead:
+        return {}, None
+    distances, nearest = world.nearest(np.array([via.at[:2] for via, _ in ahead]))
+    covered: dict[int, str] = {}
+    for k in np.flatnonzero(distances < context.floor).tolist():
+        via, name = ahead[k][0], world.name(int(nearest[k]))
+        free = float(distances[k]) - required.radius
+        why = f"'{name}' leaves {free:.2f} m there, {required.kept:g} m are needed"
+        if free < 0.0:
+            why = f"'{name}' covers it"
+        if via.u >= path.domain[1] - PATH_END_U:
+            return {}, f"the goal '{via.name}' can't be reached any more: {why}"
+        assert via.index is not None
+        covered[via.index] = why
+    return covered, None
+
+
+def _lost(context: ReplanContext, skip: Mapping[int, str], error: NoPathError) -> int | None:
+    """Index of the point that an error says can't be reached, if the robot may go on without."""
+    end = context.schedule.path.domain[1]
+    for via, at in context.vias_ahead:
+        is_goal = via.u >= end - PATH_END_U
+        if via.name == error.via and at > context.stop + SAME_PLACE_M and not is_goal:
+            return via.index if via.index not in skip else None
+    return None

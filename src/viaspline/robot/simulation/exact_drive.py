@@ -1,0 +1,120 @@
+"""The simulated drive of a robot that follows its path exactly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.perception.range_sensor import RangeSensor
+from viaspline.robot.run import Event
+from viaspline.robot.simulation.contact import TOUCH_DEPTH_M
+from viaspline.robot.simulation.machine_drive import Tell
+from viaspline.robot.simulation.sensors import sensors_of
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.world import World
+
+MAX_QUIET_STEPS = 1000
+"""Steps in which nothing changes that are looked at together."""
+
+
+@dataclass(frozen=True)
+class ExactDrive:
+    """A drive that is over.
+
+    Attributes:
+        nav: The navigator at its end.
+        trajectories: Each time law that was driven and when its part began [s].
+        ticks: Steps of the drive.
+        end: When it ended [s].
+        touched: The contact that ended it.
+        overdue: Why it was broken off.
+    """
+
+    nav: Navigator
+    trajectories: tuple[tuple[float, Trajectory], ...]
+    ticks: int
+    end: float
+    touched: Event | None
+    overdue: str | None
+
+
+def drive_exactly(
+    nav: Navigator, world: World, step: float, seed: int, tell: Tell, limit: float
+) -> ExactDrive:
+    """Drive until the navigator has finished; the robot is always where it should be.
+
+    Args:
+        nav: At the start.
+        world: Everything that is there.
+        step: From one look and one command to the next [s].
+        seed: Of the lidar's noise.
+        tell: Called with the time and the navigator at every step that is not left out.
+        limit: The drive is broken off at this time [s].
+    """
+    lidar, sensor = sensors_of(nav.mission, world, seed)
+    trajectories: list[tuple[float, Trajectory]] = []
+    known: frozenset[Obstacle] = frozenset()
+    tick = 0
+    touched = _contact(nav, world, np.zeros(1))
+    while touched is None:
+        time = tick * step
+        state = nav.reference(time)
+        if lidar is not None:
+            _, nav = nav.step(state, lidar.scan(state.position, state.heading, tick), time)
+        else:
+            sensed = () if sensor is None else sensor.seen(state.position)
+            known = known.union(sensed)
+            _, nav = nav.step(state, sensed, time)
+        if not trajectories or nav.trajectory is not trajectories[-1][1]:
+            trajectories.append((time, nav.trajectory))
+        tell(time, nav)
+        if nav.finished:
+            return ExactDrive(nav, tuple(trajectories), tick, nav.trajectory.end_time, None, None)
+        if time > limit:
+            reason = f"the drive was broken off after {time:.0f} s, its limit"
+            return ExactDrive(nav, tuple(trajectories), tick, time, None, reason)
+        skipped = 1 if lidar is not None else _quiet(nav, sensor, known, tick, step)
+        touched = _contact(nav, world, step * np.arange(tick, tick + skipped + 1, dtype=float))
+        tick += skipped
+    return ExactDrive(nav, tuple(trajectories), tick, touched.time, touched, None)
+
+
+def _quiet(
+    nav: Navigator, sensor: RangeSensor | None, known: frozenset[Obstacle], tick: int, step: float
+) -> int:
+    """Number of steps until the next one that can change anything.
+
+    The robot follows exactly, so a step in which the sensor shows nothing new and the drive is
+    not over gives the same navigator whether it is made or left out.
+    """
+    to_end = int(np.ceil((nav.trajectory.end_time - tick * step) / step))
+    most = min(max(to_end, 1), MAX_QUIET_STEPS)
+    if sensor is None:
+        return most
+    times = step * np.arange(tick + 1, tick + most + 1)
+    places = np.asarray(nav.path.at_distance(nav.trajectory.distance_at(times)))
+    first = sensor.first_sight(places, known)
+    return most if first is None else first + 1
+
+
+def _contact(nav: Navigator, world: World, times: Floats) -> Event | None:
+    """The first touch of the body while it follows its path over some times [s]."""
+    radius = nav.mission.robot.outer_radius
+    distances = np.asarray(nav.trajectory.distance_at(times))
+    gaps = world.distance(nav.path.at_distance(distances)) - radius
+    steps = np.diff(distances, prepend=distances[0])
+    for k in np.flatnonzero(gaps <= steps).tolist():
+        fine = np.linspace(times[max(k - 1, 0)], times[k], 33)
+        places = np.asarray(nav.path.at_distance(nav.trajectory.distance_at(fine)))
+        depths, nearest = world.nearest(places)
+        inside = np.flatnonzero(depths < radius - TOUCH_DEPTH_M)
+        if inside.size:
+            i = int(inside[0])
+            name = world.name(int(nearest[i]))
+            where = tuple(places[i].tolist())
+            return Event("contact", float(fine[i]), where, f"touches '{name}'", {"name": name})
+    return None

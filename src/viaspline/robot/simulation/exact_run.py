@@ -1,0 +1,80 @@
+"""The run of a robot that follows its path exactly: the part of it that was driven.
+
+Tested through ``robot/test_simulator``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.curve.certificate import certify
+from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
+from viaspline.robot.run import Event, Run
+from viaspline.robot.simulation.exact_drive import ExactDrive
+from viaspline.robot.simulation.outcome import outcome
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.world import World
+
+
+def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
+    """The run of a drive that is over.
+
+    Args:
+        drive: The drive.
+        world: Everything that was there.
+        step: From one sample to the next [s].
+    """
+    nav = drive.nav
+    reason, events, visits = outcome(nav, drive.end, drive.touched, drive.overdue)
+    times = _sample_times(drive, step, events)
+    distances, speeds = _along(drive.trajectories, times)
+    path = driven_part(nav.path, float(distances[-1]))
+    u = np.asarray(path.parameter(np.minimum(distances, path.length)))
+    robot = nav.mission.robot
+    return Run(
+        plan=nav.plan,
+        world=world,
+        reached=nav.reached and reason is None,
+        reason=reason,
+        duration=drive.end,
+        path=path,
+        certificate=certify(path, world, robot.clearance_m, radius=robot.outer_radius),
+        times=times,
+        positions=np.asarray(path.evaluate(u)),
+        headings=np.asarray(path.heading(u)),
+        speeds=speeds,
+        curvatures=np.asarray(path.curvature(u)),
+        visits=visits,
+        events=events,
+        replans=nav.replans,
+        compute_times=nav.compute_times,
+        known=nav.world,
+    )
+
+
+def _sample_times(drive: ExactDrive, step: float, events: tuple[Event, ...]) -> Floats:
+    """Every step and every event, up to the end."""
+    ticks = step * np.arange(drive.ticks + 1)
+    times = np.concatenate((ticks, [event.time for event in events], [drive.end]))
+    return np.unique(times[times <= drive.end])
+
+
+def _along(
+    trajectories: tuple[tuple[float, Trajectory], ...], times: Floats
+) -> tuple[Floats, Floats]:
+    """Distances [m] and speeds [m/s] at times; each law holds from its beginning to the next."""
+    distances, speeds = np.zeros(times.shape), np.zeros(times.shape)
+    for begin, trajectory in trajectories:
+        later = times >= begin
+        distances[later], speeds[later], _ = trajectory.state_at(times[later])
+    return distances, speeds
+
+
+def driven_part(path: Path, distance: float) -> Path:
+    """The exact beginning of a path, with the via points that lie on it."""
+    u = float(path.parameter(min(distance, path.length)))
+    if u <= 0.0:
+        return Path(np.repeat(path.spans[:1, :1], 4, axis=1), path.vias[:1])
+    spans = path.section(0.0, u).spans
+    return Path(spans, [via for via in path.vias if via.u <= u])

@@ -1,0 +1,36 @@
+"""What is new about one more look."""
+
+from __future__ import annotations
+
+import pytest
+
+from viaspline.errors import GeometryError
+from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.perception.lidar import LidarSensor
+from viaspline.robot.perception.perceive import perceive
+from viaspline.world.world import World
+
+TANK = Obstacle.model_validate({"circle": {"center": (9, 0), "radius": 1}, "name": "tank"})
+ROCK = Obstacle.model_validate({"circle": {"center": (3, 0), "radius": 1}, "name": "rock"})
+MAP = Knowledge(World([TANK]), frozenset([TANK]))
+
+
+def test_what_is_on_the_map_is_nothing_new() -> None:
+    assert perceive(MAP, [TANK, TANK]) == (MAP, None)
+    assert perceive(MAP, []) == (MAP, None)
+
+
+def test_what_is_told_twice_at_once_is_one_thing() -> None:
+    knowledge, sighting = perceive(MAP, iter([ROCK, TANK, ROCK]))
+    assert isinstance(sighting, World)
+    assert sighting.names == ("rock",)
+    assert knowledge.world.names == ("tank", "rock")
+    assert perceive(knowledge, [ROCK]) == (knowledge, None)
+
+
+def test_a_scan_for_a_robot_without_a_lidar_is_refused() -> None:
+    scan = LidarSensor([ROCK], Lidar(range_m=5)).scan((0.0, 0.0), 0.0)
+    with pytest.raises(GeometryError, match=r"has no lidar; give it one by robot\.sensor\.lidar"):
+        perceive(MAP, scan)

@@ -1,0 +1,131 @@
+"""A robot with a lidar stops inside of what it has seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from viaspline.mission.model import Mission
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.simulator import simulate
+
+Make = Callable[..., Mission]
+Shape = Callable[..., dict[str, Any]]
+Drive = Callable[..., tuple[Navigator, list[Navigator]]]
+ShapeOf = Callable[[Obstacle], shapely.Geometry]
+LIDAR = {"range_m": 6.0, "fov_deg": 270.0, "beams": 541}
+ROBOT = {"radius_m": 0.3, "clearance_m": 0.1, "sensor": {"lidar": LIDAR}}
+STEP = 0.05
+
+
+@pytest.mark.parametrize("view", [(90.0, 181), (360.0, 60)])
+def test_a_narrow_or_a_coarse_lidar_takes_longer_but_gets_there(
+    mission_of: Make, disc_at: Shape, view: tuple[float, int]
+) -> None:
+    lidar = {**LIDAR, "fov_deg": view[0], "beams": view[1]}
+    mission = mission_of(
+        [0, 0], [12, 0], unseen=[disc_at(5, 0.2, 0.8), disc_at(8, -0.6, 0.5)],
+        **{**ROBOT, "sensor": {"lidar": lidar}},
+    )  # fmt: skip
+    run = simulate(mission)
+    assert run.reached, run.reason
+    assert run.certificate.clearance > 0.0
+
+
+def test_without_a_scan_it_stays_where_it_is(mission_of: Make) -> None:
+    nav = Navigator(mission_of([0, 0], [12, 0], **ROBOT))
+    for time in (0.0, 1.0, 2.0):
+        command, nav = nav.step(nav.reference(time), [], time)
+    assert nav.distance == 0.0
+    assert command.stopped
+    assert not nav.finished
+
+
+obstacles = st.lists(
+    st.tuples(st.floats(2, 16), st.floats(-3, 3), st.floats(0.1, 1.0), st.booleans()),
+    min_size=1, max_size=8,
+)  # fmt: skip
+
+
+def field(found: list[tuple[float, float, float, bool]], disc: Shape, box: Shape) -> list[Any]:
+    return [
+        box(x - r, y - 0.3 * r, x + r, y + 0.3 * r, f"box {k}") if square else disc(x, y, r)
+        for k, (x, y, r, square) in enumerate(found)
+    ]
+
+
+def free_ends(
+    shape_of: ShapeOf, unseen: Sequence[Obstacle], ends: Sequence[tuple[float, float]]
+) -> bool:
+    return all(shape_of(o).distance(shapely.Point(end)) > 0.5 for o in unseen for end in ends)
+
+
+@given(obstacles, st.sampled_from([None, 0.8]), st.sampled_from([0.0, 0.01]), st.integers(0, 99))
+@settings(deadline=None, max_examples=12)
+def test_it_never_touches_what_its_lidar_could_have_shown(
+    shape_of: ShapeOf, mission_of: Make, disc_at: Shape, box_at: Shape,
+    found: list[tuple[float, float, float, bool]], lateral: float | None, noise: float, seed: int,
+) -> None:  # fmt: skip
+    mission = mission_of(
+        [0, 0], [18, 0], unseen=field(found, disc_at, box_at), max_lateral_accel_mps2=lateral,
+        **{**ROBOT, "sensor": {"lidar": {**LIDAR, "noise_m": noise}}},
+    )  # fmt: skip
+    assume(free_ends(shape_of, mission.world.unseen, [(0, 0), (18, 0)]))
+    run = simulate(mission, seed=seed)
+    assert run.certificate.clearance > 0.0, run.reason
+    assert "contact" not in [event.kind for event in run.events]
+    assert run.reached == (run.reason is None)
+    assert np.all(run.speeds <= 2.0 + 1e-9)
+    acceleration = np.abs(np.diff(run.speeds)) / np.diff(run.times)
+    assert np.all(acceleration[np.diff(run.times) > 1e-6] <= 1.0 + 1e-6)
+    for replan in run.replans:
+        assert replan.position_jump < 1e-6
+        if replan.mode != "from_rest":
+            assert replan.heading_jump < 1e-6
+            assert replan.curvature_jump < 1e-6
+
+
+@given(obstacles)
+@settings(deadline=None, max_examples=5)
+def test_it_is_never_faster_than_lets_it_stop_inside_of_what_it_has_seen(
+    drive: Drive,
+    shape_of: ShapeOf,
+    mission_of: Make,
+    disc_at: Shape,
+    box_at: Shape,
+    found: list[tuple[float, float, float, bool]],
+) -> None:
+    mission = mission_of([0, 0], [18, 0], unseen=field(found, disc_at, box_at), **ROBOT)
+    assume(free_ends(shape_of, mission.world.unseen, [(0, 0), (18, 0)]))
+    shapes = shapely.union_all([shape_of(o) for o in mission.world.unseen])
+    shapely.prepare(shapes)
+    _, states = drive(mission, lambda _: mission.world.unseen, until=25.0)
+    poses: list[tuple[float, float, float]] = []
+    angles = np.linspace(-math.pi, math.pi, 24, endpoint=False)
+    rim = 0.29 * np.column_stack((np.cos(angles), np.sin(angles)))
+    for tick, nav in enumerate(states):
+        state = nav.reference(tick * STEP)
+        poses.insert(0, (*state.position, state.heading))
+        stop = nav.distance + state.speed**2 / 2.0
+        body = np.asarray(nav.path.at_distance(min(stop, nav.path.length))) + rim
+        unseen = body[np.hypot(*(body - state.position).T) > 0.3]
+        for x, y, heading in poses:
+            if not len(unseen):
+                break
+            away = unseen - (x, y)
+            bearing = np.arctan2(away[:, 1], away[:, 0]) - heading
+            within = np.abs((bearing + math.pi) % math.tau - math.pi) <= math.radians(135)
+            lines = shapely.linestrings([[(x, y), point] for point in unseen.tolist()])
+            hidden = shapely.intersects(shapes, lines) | ~within
+            unseen = unseen[hidden | (np.hypot(*away.T) > 6.0)]
+        ways = [np.hypot(*(unseen - place[:2]).T) for place in poses]
+        driven = np.min(ways, axis=0) if len(unseen) else np.zeros(0)
+        assert np.all(driven <= 0.3 + 1e-6), (tick, unseen)

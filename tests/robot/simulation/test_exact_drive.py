@@ -1,0 +1,59 @@
+"""A drive along the path exactly ends at its end, at a contact, or when it takes too long."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from viaspline.mission.model import Mission
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot import simulator
+from viaspline.robot.run import Run
+from viaspline.robot.simulation import exact_drive
+from viaspline.robot.simulator import simulate
+
+Make = Callable[..., Mission]
+Shape = Callable[..., dict[str, Any]]
+
+
+def kinds(run: Run) -> list[str]:
+    return [event.kind for event in run.events]
+
+
+def test_a_robot_without_a_sensor_touches_what_it_can_not_see(mission_of: Make) -> None:
+    mission = mission_of([0, 0], [50, 0])
+    blind = mission.robot.model_copy(update={"sensor": None})
+    rock = Obstacle(circle=Circle(center=(25, 0), radius=3), name="rock")
+    world = mission.world.model_copy(update={"unseen": (rock,)})
+    mission = mission.model_copy(update={"robot": blind, "world": world})
+    run = simulate(mission)
+    assert not run.reached
+    assert run.reason == "the robot touched 'rock'"
+    assert kinds(run)[-1] == "contact"
+    assert run.positions[-1][0] == pytest.approx(25 - 3 - 0.5, abs=0.02)
+    assert run.certificate.clearance == pytest.approx(0.0, abs=0.02)
+    assert run.visits[-1].status == "failed"
+
+
+def test_a_body_that_starts_in_something_unseen_has_touched_it(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    run = simulate(mission_of([0, 0], [50, 0], unseen=[disc_at(1, 0, 1.2)]))
+    assert run.reason == "the robot touched 'obstacle 1'"
+    assert run.duration == 0.0
+
+
+def test_a_drive_that_does_not_end_is_broken_off(
+    mission_of: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(simulator, "MAX_DURATION_RATIO", 0.1)
+    monkeypatch.setattr(simulator, "MAX_DELAY_S", 0.0)
+    monkeypatch.setattr(exact_drive, "MAX_QUIET_STEPS", 20)
+    run = simulate(mission_of([0, 0], [50, 0]))
+    assert not run.reached
+    assert run.reason is not None
+    assert "broken off" in run.reason
+    assert run.visits[-1].reason == run.reason
