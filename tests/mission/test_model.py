@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from viaspline.errors import Fault, MissionError
 from viaspline.mission.model import Mission
-from viaspline.mission.robot_parts import Lidar, Sensor
+from viaspline.mission.sensor_spec import Lidar, Sensor
 
 Make: TypeAlias = Callable[..., dict[str, Any]]
 

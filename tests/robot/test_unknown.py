@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
-from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.lidar import LidarSensor

@@ -14,7 +14,7 @@ from viaspline.formats.local_frame import REACH, LocalFrame
 from viaspline.formats.losses import losses
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import ViaPoint
+from viaspline.mission.route_spec import ViaPoint
 
 WAYPOINT: Final = 16
 OVER_HOME: Final = 3

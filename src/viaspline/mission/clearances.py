@@ -11,8 +11,8 @@ from viaspline.maps.squares import is_unknown
 from viaspline.mission.corridors import CORRIDOR, corridor_of
 from viaspline.mission.freespace import FreeSpace
 from viaspline.mission.partial_mission import Corners, PartialMission, obstacle_label
-from viaspline.mission.parts import ViaPoint
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.route_spec import ViaPoint
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
 
@@ -20,23 +20,23 @@ TOLERANCE = 1e-9
 """A point may be this much too near [m]: round-off, not a fault."""
 
 
-def clearance_flaws(draft: PartialMission, misshapen: Collection[Path]) -> list[UnplacedFault]:
+def clearance_faults(partial: PartialMission, misshapen: Collection[Path]) -> list[UnplacedFault]:
     """Points of the route too near to an obstacle, to the bounds or to a fence.
 
     Args:
-        draft: The parts of the mission that are sound.
+        partial: The parts of the mission that are sound.
         misshapen: Paths of obstacles and fences that have no usable shape.
     """
-    points = [(path, point) for path, point in draft.points if point is not None]
+    points = [(path, point) for path, point in partial.points if point is not None]
     # A robot that makes no sense itself: ask only whether points are inside of something.
-    robot = draft.robot if draft.robot is not None else RobotSpec(radius_m=0, clearance_m=0)
-    known = [(path, obstacle) for path, obstacle in draft.known if path not in misshapen]
-    fences = [(path, ring) for path, ring in draft.fences if path not in misshapen]
-    bounds = draft.bounds
+    robot = partial.robot if partial.robot is not None else RobotSpec(radius_m=0, clearance_m=0)
+    known = [(path, obstacle) for path, obstacle in partial.known if path not in misshapen]
+    fences = [(path, ring) for path, ring in partial.fences if path not in misshapen]
+    bounds = partial.bounds
     if bounds is not None and (bounds[0] >= bounds[2] or bounds[1] >= bounds[3]):
         bounds = None
     rings: list[tuple[Path, tuple[Corners, ...]]] = [(path, (ring,)) for path, ring in fences]
-    rings += corridor_of(draft)
+    rings += corridor_of(partial)
     if not points or not (known or rings or bounds):
         return []
     margin = robot.inner_radius + robot.clearance_m
@@ -46,7 +46,7 @@ def clearance_flaws(draft: PartialMission, misshapen: Collection[Path]) -> list[
             (*points[i][0], "at"), _problem(points[i], near, margin), remedy, changes=changes
         )
         for i, nears in _too_near(
-            space, points, known, [path for path, _ in rings], draft.edge
+            space, points, known, [path for path, _ in rings], partial.edge
         ).items()
         for remedy, changes in [_remedy(*points[i], nears, robot, space)]
         for near in nears

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 from viaspline.mission.partial_mission import Corners
-from viaspline.mission.polygon_checks import polygon_flaws
+from viaspline.mission.polygon_checks import polygon_faults
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
 PATH: Path = ("robot", "footprint")
 
 
-def footprint_flaw(corners: Corners) -> UnplacedFault | None:
+def footprint_fault(corners: Corners) -> UnplacedFault | None:
     """Why corners [m] are no body about the reference point (0, 0), or None.
 
-    >>> footprint_flaw([(-1, -1), (1, -1), (1, 1), (-1, 1)])
-    >>> print(footprint_flaw([(1, -1), (3, -1), (3, 1), (1, 1)]).problem)
+    >>> footprint_fault([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    >>> print(footprint_fault([(1, -1), (3, -1), (3, 1), (1, 1)]).problem)
     the body does not contain its reference point (0, 0), which lies 1 m outside
     """
     if len(corners) < 3:
         problem = f"the body has {len(corners)} corners, which enclose nothing"
         return UnplacedFault(PATH, problem, "give three or more, [[x, y], [x, y], [x, y]]")
-    unsound = polygon_flaws([PATH], [(corners, ())])
+    unsound = polygon_faults([PATH], [(corners, ())])
     if unsound:
         return unsound[0]
     import shapely

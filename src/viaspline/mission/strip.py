@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.mission.parts import Route
+from viaspline.mission.route_spec import Route
 
 if TYPE_CHECKING:
     import shapely

@@ -28,21 +28,21 @@ class Document:
     Attributes:
         source: The file.
         data: Mappings, lists, texts, numbers, truth values and None.
-        flaws: Duplicate keys, tags and the like.
+        faults: Duplicate keys, tags and the like.
     """
 
     def __init__(self, source: str, root: Node) -> None:
         self.source = source
         self._root = root
         self._keys: dict[tuple[int, str], Node] = {}
-        self._flaws: list[UnplacedFault] = []
+        self._faults: list[UnplacedFault] = []
         self._made: dict[int, Any] = {}
         self.data = self._value(root, ())
 
     @property
-    def flaws(self) -> tuple[UnplacedFault, ...]:
+    def faults(self) -> tuple[UnplacedFault, ...]:
         """What was found wrong before there was data."""
-        return tuple(self._flaws)
+        return tuple(self._faults)
 
     def mark(self, path: Path, *, at_key: bool) -> Mark:
         """The place of the value (or its key) at ``path``, or of the nearest thing around it."""
@@ -70,7 +70,7 @@ class Document:
         # Until it is done, so that an alias inside of what it stands for ends here.
         self._made[id(node)] = None
         if not str(node.tag).startswith(_TAG):
-            self._flaws.append(_tagged(node, path))
+            self._faults.append(_tagged(node, path))
         value: Any = None
         if isinstance(node, SequenceNode):
             value = [self._value(item, (*path, i)) for i, item in enumerate(node.value)]
@@ -92,7 +92,7 @@ class Document:
             else:
                 problem = f"duplicate key; it stands in line {_mark(first).line} already"
                 remedy = "keep one of the two"
-                self._flaws.append(
+                self._faults.append(
                     UnplacedFault((*path, key), problem, remedy, mark=_mark(key_node))
                 )
         return data
@@ -105,13 +105,13 @@ class Document:
         remedy = "keys are words such as route"
         if str(node.tag) == _TAG + "merge":
             problem, remedy = "merge keys (<<) aren't supported", "write the keys out"
-        self._flaws.append(UnplacedFault(path, problem, remedy, mark=_mark(node)))
+        self._faults.append(UnplacedFault(path, problem, remedy, mark=_mark(node)))
         return None
 
     def _scalar(self, node: ScalarNode, path: Path) -> Any:
         tag, text = str(node.tag), str(node.value)
         if not tag.startswith(_TAG):
-            self._flaws.append(_tagged(node, path))
+            self._faults.append(_tagged(node, path))
         return plain_scalar(tag.removeprefix(_TAG), text)
 
 

@@ -13,8 +13,8 @@ from typing import Any, Final
 from viaspline.errors import OutputError
 from viaspline.mission.map_edge import edge_of
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import WorldSpec
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.world_spec import WorldSpec
 
 _WORD: Final = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _RESERVED: Final = frozenset({"true", "false", "null", "yes", "no", "on", "off", "y", "n"})

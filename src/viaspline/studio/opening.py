@@ -57,8 +57,8 @@ def _opened(path: Path) -> Opened:
     origin: LatLon | None = None
     if path.suffix.lower() in (".yaml", ".yml"):
         found = read_document(path)
-        if found.flaws:  # a key that stands there twice would be lost on saving
-            raise MissionError(located(list(found.flaws), found.data, found))
+        if found.faults:  # a key that stands there twice would be lost on saving
+            raise MissionError(located(list(found.faults), found.data, found))
         document: Document = found.data
     else:
         document, notes, origin = _understood(path)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import ClassVar
 
-from pydantic import Field
-
-from viaspline.mission.fields import FAR, Point2, Positive, Value
+from viaspline.mission.fields import Length, Point2
 from viaspline.mission.shapes.rounded_ring import RoundedRing
+from viaspline.mission.value import Value
 
 
 class Circle(Value):
@@ -18,8 +17,10 @@ class Circle(Value):
         radius: Its radius [m].
     """
 
+    expected: ClassVar[str] = "{center: [x, y], radius: 5}"
+
     center: Point2
-    radius: Annotated[Positive, Field(le=FAR)]
+    radius: Length
 
     def ring(self) -> RoundedRing:
         """One vertex with a radius."""

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, InstanceOf
 from pydantic.json_schema import SkipJsonSchema
 
 from viaspline.maps.grid import Grid
 from viaspline.maps.reading import Reading
-from viaspline.mission.fields import Name, Ring, Value
+from viaspline.mission.fields import Name, Ring, Rings
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.rounded_ring import RoundedRing
+from viaspline.mission.value import Value
 
 Side = Literal["left", "right"]
 
@@ -44,9 +45,13 @@ class Obstacle(Value):
         never_pass_on: The side that is forbidden; forbidding one is forcing the other.
     """
 
+    expected: ClassVar[str] = "an obstacle such as {circle: {center: [x, y], radius: 5}}"
+    exactly_one: ClassVar[tuple[str, ...]] = SHAPES
+    needing: ClassVar[Mapping[str, str]] = {"holes": "polygon"}
+
     circle: Circle | None = None
     polygon: Ring | None = None
-    holes: tuple[Ring, ...] = ()
+    holes: Rings = ()
     grid: Annotated[SkipJsonSchema[InstanceOf[Grid] | None], BeforeValidator(_as_grid)] = None
     name: Name | None = None
     pass_on: Side | None = None
