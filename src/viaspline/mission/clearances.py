@@ -8,15 +8,16 @@ from typing import NamedTuple
 
 from viaspline.errors import Change
 from viaspline.maps.squares import is_unknown
-from viaspline.mission.corridors import CORRIDOR, corridor_of
+from viaspline.mission.corridors import CORRIDOR_PATH, corridor_of
+from viaspline.mission.fields import Corners
 from viaspline.mission.freespace import FreeSpace
-from viaspline.mission.partial_mission import Corners, PartialMission, obstacle_label
+from viaspline.mission.partial_mission import PartialMission, obstacle_label
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.route_spec import ViaPoint
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
 
-TOLERANCE = 1e-9
+ROUND_OFF_M = 1e-9
 """A point may be this much too near [m]: round-off, not a fault."""
 
 
@@ -81,14 +82,14 @@ def _too_near(
     found: dict[int, list[_Near]] = {}
 
     def note(i: int, near: _Near) -> None:
-        if near.distance < space.margin - TOLERANCE:
+        if near.distance < space.margin - ROUND_OFF_M:
             found.setdefault(i, []).append(near)
 
     for i, distance in space.near_bounds(places):
         note(i, _Near(_edge_label(("world", "bounds"), edge, "the bounds"), distance, "outside"))
     for i, j, distance in space.near_fences(places):
         path = fences[j]
-        label = "the corridor" if path == CORRIDOR else f"fence {spell(path)}"
+        label = "the corridor" if path == CORRIDOR_PATH else f"fence {spell(path)}"
         note(i, _Near(_edge_label(path, edge, label), distance, "outside"))
     for i, j, distance in space.near_obstacles(places):
         path, obstacle = known[j]

@@ -8,12 +8,13 @@ from typing import Final
 import numpy as np
 
 from viaspline.mission.corridor_spec import Corridor
-from viaspline.mission.partial_mission import Corners, PartialMission
-from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
+from viaspline.mission.fields import Corners
+from viaspline.mission.partial_mission import PartialMission
+from viaspline.mission.unplaced_faults import MAX_REPORTED_FAULTS, Path, UnplacedFault, number
 
-CORRIDOR: Final[Path] = ("route", "corridor")
-SAME_PLACE = 1e-6  # rows nearer to each other than this are one place [m]
-MAX_REPORTED_FAULTS = 5  # of one line that are told
+CORRIDOR_PATH: Final[Path] = ("route", "corridor")
+SAME_ROW_M: Final = 1e-6
+"""Rows nearer to each other than this are one place."""
 
 
 def corridor_faults(partial: PartialMission) -> list[UnplacedFault]:
@@ -25,10 +26,12 @@ def corridor_faults(partial: PartialMission) -> list[UnplacedFault]:
     line = next((key for key in ("csv", "line") if getattr(corridor, key) is not None), None)
     if line is not None and widths:
         problem = f"the corridor has {line} and {widths[0]}, which exclude each other"
-        return [UnplacedFault((*CORRIDOR, widths[0]), problem, "keep one of the two", at_key=True)]
+        return [
+            UnplacedFault((*CORRIDOR_PATH, widths[0]), problem, "keep one of the two", at_key=True)
+        ]
     if line is None and len(widths) < 2:
         problem = f"the corridor has {widths[0]} only" if widths else "the corridor has no width"
-        return [UnplacedFault(CORRIDOR, problem, "give left_m and right_m, or line, or csv")]
+        return [UnplacedFault(CORRIDOR_PATH, problem, "give left_m and right_m, or line, or csv")]
     return _line_faults(corridor, closed=bool(partial.closed)) if corridor.line is not None else []
 
 
@@ -38,7 +41,7 @@ def _line_faults(corridor: Corridor, *, closed: bool) -> list[UnplacedFault]:
     rows = np.array(corridor.line)
     following = np.roll(rows, -1, axis=0) if closed else rows[1:]
     steps = np.linalg.norm(following[:, :2] - rows[: len(following), :2], axis=1)
-    repeated = np.flatnonzero(steps < SAME_PLACE)
+    repeated = np.flatnonzero(steps < SAME_ROW_M)
     faults = []
     for row in repeated.tolist():
         then = (row + 1) % len(rows)
@@ -62,7 +65,7 @@ def _line_faults(corridor: Corridor, *, closed: bool) -> list[UnplacedFault]:
 
 
 def _at(corridor: Corridor, row: int) -> Path:
-    return (*CORRIDOR, "line", row) if corridor.csv is None else (*CORRIDOR, "csv")
+    return (*CORRIDOR_PATH, "line", row) if corridor.csv is None else (*CORRIDOR_PATH, "csv")
 
 
 def corridor_of(partial: PartialMission) -> list[tuple[Path, tuple[Corners, ...]]]:
@@ -73,11 +76,11 @@ def corridor_of(partial: PartialMission) -> list[tuple[Path, tuple[Corners, ...]
     if corridor is None:
         return []
     if corridor.line is not None:
-        return [(CORRIDOR, rings_of(Strip.of_rows(corridor.line, closed=closed).area))]
+        return [(CORRIDOR_PATH, rings_of(Strip.of_rows(corridor.line, closed=closed).area))]
     places = [point.at[:2] for _, point in partial.points if point is not None]
     whole = len(places) == len(partial.points) and len(places) > 1
     apart = all(a != b for a, b in pairwise(places))
     if corridor.left_m is None or corridor.right_m is None or not (whole and apart):
         return []
     area = around(places, corridor.right_m, corridor.left_m, closed=closed)
-    return [(CORRIDOR, rings_of(area))]
+    return [(CORRIDOR_PATH, rings_of(area))]

@@ -40,6 +40,8 @@ Duration: TypeAlias = Annotated[NotNegative, SECONDS]
 Heading: TypeAlias = Annotated[Number, HEADING_DEGREES]
 
 Name: TypeAlias = Annotated[str, Field(strict=True, min_length=1)]
+Corners: TypeAlias = tuple[tuple[float, float], ...]
+"""A polygon's corners [m]; no last one repeats the first."""
 
 
 def plain(value: Any) -> Any:
@@ -47,7 +49,7 @@ def plain(value: Any) -> Any:
     return value.tolist() if hasattr(value, "tolist") else value
 
 
-def _opened(ring: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+def _opened(ring: Corners) -> Corners:
     """Drop a last point that repeats the first, as other formats write rings."""
     return ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring
 

@@ -17,7 +17,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.maps.squares import blocked_ground, signed_distance
-from viaspline.mission.partial_mission import Corners
+from viaspline.mission.fields import Corners
 from viaspline.mission.polygon_checks import Geometries, polygons_of
 from viaspline.mission.shapes.obstacle import Obstacle
 

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from typing import NamedTuple, TypeAlias
 
 from viaspline.maps.grid import Grid
+from viaspline.mission.fields import Corners
 
 Bounds: TypeAlias = tuple[float, float, float, float]
-Fence: TypeAlias = tuple[tuple[float, float], ...]
 
 
 class MapEdge(NamedTuple):
@@ -21,7 +21,7 @@ class MapEdge(NamedTuple):
     """
 
     bounds: Bounds | None = None
-    fence: Fence | None = None
+    fence: Corners | None = None
 
 
 def edge_of(grids: Sequence[Grid]) -> MapEdge:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias
+from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
 from viaspline.mission.corridor_spec import Corridor
-from viaspline.mission.fields import Ring
+from viaspline.mission.fields import Corners, Ring
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.resolve_files import ResolvedFiles
 from viaspline.mission.robot_parts import RobotSpec
@@ -22,8 +22,6 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.spline_spec import SplineSpec
 from viaspline.mission.unplaced_faults import Path, children, list_items, spell
 from viaspline.mission.world_spec import WorldSpec
-
-Corners: TypeAlias = tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from viaspline.mission.partial_mission import Corners, PartialMission
+from viaspline.mission.fields import Corners
+from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 

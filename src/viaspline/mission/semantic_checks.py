@@ -6,14 +6,15 @@ import math
 from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
+from typing import Final
 
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.route_spec import ViaPoint
-from viaspline.mission.spline_spec import SplineSpec
+from viaspline.mission.spline_spec import POLYLINE_SLACK, POLYLINE_TENSION, SplineSpec
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
 
-SAME_PLACE = 1e-6
-"""Points nearer to each other than this are one point [m]."""
+SAME_POINT_M: Final = 1e-6
+"""Points of the route nearer to each other than this are one point."""
 
 
 def semantic_faults(partial: PartialMission) -> list[UnplacedFault]:
@@ -123,7 +124,7 @@ def _footprint(partial: PartialMission) -> list[UnplacedFault]:
 def _route(partial: PartialMission) -> list[UnplacedFault]:
     faults = []
     if partial.closed and partial.has_goal:
-        ends_at_start = _distance(partial.points[0][1], partial.points[-1][1]) < SAME_PLACE
+        ends_at_start = _distance(partial.points[0][1], partial.points[-1][1]) < SAME_POINT_M
         what = "which is its start again" if ends_at_start else "but a closed route ends at start"
         faults.append(
             UnplacedFault(
@@ -151,11 +152,11 @@ def _route(partial: PartialMission) -> list[UnplacedFault]:
 def _same_places(partial: PartialMission) -> list[UnplacedFault]:
     faults = []
     for (before, a), (path, b) in pairwise(partial.points):
-        if (gap := _distance(a, b)) < SAME_PLACE:
+        if (gap := _distance(a, b)) < SAME_POINT_M:
             faults.append(_same_place(path, before, gap))
     if partial.closed and not partial.has_goal and len(partial.points) > 1:
         (start, a), (path, b) = partial.points[0], partial.points[-1]
-        if (gap := _distance(a, b)) < SAME_PLACE and len(partial.points) > 2:
+        if (gap := _distance(a, b)) < SAME_POINT_M and len(partial.points) > 2:
             problem = f"is the same place as {spell(start)}, to which a closed route returns anyway"
             faults.append(UnplacedFault((*path, "at"), problem, "leave it out"))
     return faults
@@ -229,10 +230,10 @@ def _tensions(
             faults.append(UnplacedFault(path, problem, remedy))
     for i, value in enumerate(values if isinstance(values, tuple) else (values,)):
         where = (*path, i) if isinstance(values, tuple) else path
-        if key == "tension" and value > 1:
+        if key == "tension" and value > POLYLINE_TENSION:
             problem = f"{number(value, 6)} is more than 1, which is already the polyline"
             faults.append(UnplacedFault(where, problem, "it should be at most 1; 0 is Catmull-Rom"))
-        if key == "slack" and value < 0:
+        if key == "slack" and value < POLYLINE_SLACK:
             problem = f"{number(value, 6)} is less than 0, which is already the polyline"
             faults.append(
                 UnplacedFault(where, problem, "it should be 0 or more; 0.5 is Catmull-Rom")

@@ -7,11 +7,10 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from viaspline.mission.fields import MAX_LENGTH_M
-from viaspline.mission.unplaced_faults import Path, UnplacedFault, children
+from viaspline.mission.unplaced_faults import MAX_REPORTED_FAULTS, Path, UnplacedFault, children
 
-COLUMNS = "x, y, right, left"
-AT: Path = ("route", "corridor", "csv")
-MAX_REPORTED_FAULTS = 5  # of one file that are told
+ROW_WORDS = "x, y, right, left"
+CSV_PATH: Path = ("route", "corridor", "csv")
 
 
 def resolve_corridor(data: Any, folder: FilePath) -> tuple[Any, list[UnplacedFault]]:
@@ -48,10 +47,10 @@ def read_track(path: FilePath) -> tuple[list[list[float]], list[UnplacedFault]]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
-        return [], [_fault(f"{path}: is no text", f"give a file with rows {COLUMNS}")]
+        return [], [_fault(f"{path}: is no text", f"give a file with rows {ROW_WORDS}")]
     except OSError as error:
         problem = f"{path}: {(error.strerror or str(error)).lower()}"
-        return [], [_fault(problem, f"give the path of a file with rows {COLUMNS}")]
+        return [], [_fault(problem, f"give the path of a file with rows {ROW_WORDS}")]
     rows: list[list[float]] = []
     faults: list[UnplacedFault] = []
     for number, line in enumerate(text.splitlines(), start=1):
@@ -62,14 +61,14 @@ def read_track(path: FilePath) -> tuple[list[list[float]], list[UnplacedFault]]:
         if wrong is not None:
             if not rows and not faults and not any(map(_is_number, cells)):
                 continue  # the names of the columns
-            faults.append(_fault(f"{path}:{number}: {wrong}", f"a row is {COLUMNS} in metres"))
+            faults.append(_fault(f"{path}:{number}: {wrong}", f"a row is {ROW_WORDS} in metres"))
         rows.append(row)
     if len(rows) < 2 and not faults:
         problem = f"{path}: has {len(rows)} rows, but a line needs two at least"
-        faults.append(_fault(problem, f"give rows {COLUMNS} in metres"))
+        faults.append(_fault(problem, f"give rows {ROW_WORDS} in metres"))
     more = len(faults) - MAX_REPORTED_FAULTS
     if more > 0:
-        rest = _fault(f"{path}: {more} more rows are wrong", f"a row is {COLUMNS} in metres")
+        rest = _fault(f"{path}: {more} more rows are wrong", f"a row is {ROW_WORDS} in metres")
         faults = [*faults[:MAX_REPORTED_FAULTS], rest]
     return rows, faults
 
@@ -99,7 +98,7 @@ def _is_number(cell: str) -> bool:
 
 
 def _fault(problem: str, remedy: str) -> UnplacedFault:
-    return UnplacedFault(AT, problem, remedy, at_key=True)
+    return UnplacedFault(CSV_PATH, problem, remedy, at_key=True)
 
 
 def given_twice(data: Any) -> list[UnplacedFault]:
@@ -109,4 +108,4 @@ def given_twice(data: Any) -> list[UnplacedFault]:
     if corridor.get("line") is None or corridor.get("csv") is None:
         return []
     problem = "corridor has line and csv, which exclude each other"
-    return [UnplacedFault(AT, problem, "keep one of line and csv", at_key=True)]
+    return [UnplacedFault(CSV_PATH, problem, "keep one of line and csv", at_key=True)]

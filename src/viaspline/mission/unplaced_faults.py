@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple, Protocol, TypeAlias
+from typing import Any, Final, NamedTuple, Protocol, TypeAlias
 
 from viaspline.errors import Change, Fault
 
 Path: TypeAlias = tuple[str | int, ...]
 """Keys and indices from the mission down, e.g. ``("route", "via", 2, "at")``."""
+
+MAX_REPORTED_FAULTS: Final = 5
+"""How many faults of one list of rows are told."""
 
 
 class Mark(NamedTuple):

@@ -6,7 +6,6 @@ The document is composed to nodes, not loaded: nodes have marks, and what loadin
 
 from __future__ import annotations
 
-import codecs
 from pathlib import Path as FilePath
 from typing import Any, Final
 
@@ -16,6 +15,7 @@ from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from ruamel.yaml.reader import ReaderError
 
 from viaspline.errors import Fault, MissionError
+from viaspline.formats.file_text import read_text
 from viaspline.mission.unplaced_faults import Mark, Path, UnplacedFault, describe
 
 _TAG: Final = "tag:yaml.org,2002:"
@@ -148,13 +148,24 @@ def _tagged(node: Node, path: Path) -> UnplacedFault:
 
 
 def read_document(path: str | FilePath) -> Document:
-    """Read one YAML document.
+    """The YAML document of a file.
 
     Raises:
         MissionError: There is no such file, or it isn't one YAML document in UTF-8.
     """
-    source = str(path)
-    text = read_text(path)
+    return yaml_document(read_text(path), str(path))
+
+
+def yaml_document(text: str, source: str) -> Document:
+    """The one YAML document of a text.
+
+    Args:
+        text: What the file holds.
+        source: The file.
+
+    Raises:
+        MissionError: It isn't one YAML document with a mapping.
+    """
     yaml = YAML(typ="safe", pure=True)
     try:
         nodes = list(yaml.compose_all(text))
@@ -181,41 +192,6 @@ def read_document(path: str | FilePath) -> Document:
         problem = f"the file holds {describe(document.data)}"
         raise _fault(source, _mark(nodes[0]), problem, _YAML)
     return document
-
-
-LARGEST = 40_000_000
-"""Largest mission file [bytes]: half a million obstacles, minutes of reading."""
-
-
-def read_text(path: str | FilePath) -> str:
-    """The text of a file in UTF-8, with or without a byte order mark.
-
-    Raises:
-        MissionError: There is no such file, it can't be read, or it isn't UTF-8.
-    """
-    source = str(path)
-    remedy = "give the path of a mission file that can be read"
-    try:
-        size = FilePath(path).stat().st_size
-        if size > LARGEST:
-            problem = f"has {size / 1e6:.0f} MB, more than the {LARGEST / 1e6:.0f} MB that are read"
-            remedy = "build so large a mission in Python: vs.Mission.model_validate({...})"
-            raise _fault(source, None, problem, remedy)
-        data = FilePath(path).read_bytes()
-    except FileNotFoundError:
-        raise _fault(source, None, "there is no such file", remedy) from None
-    except IsADirectoryError:
-        raise _fault(source, None, "is a folder", remedy) from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise _fault(source, None, f"can't be read: {reason.lower()}", remedy) from None
-    try:
-        return data.removeprefix(codecs.BOM_UTF8).decode("utf-8")
-    except UnicodeDecodeError as error:
-        line_start = data.rfind(b"\n", 0, error.start) + 1
-        mark = Mark(data.count(b"\n", 0, error.start) + 1, error.start - line_start + 1)
-        problem = f"the byte 0x{data[error.start]:02X} is not UTF-8"
-        raise _fault(source, mark, problem, "save the file as UTF-8") from None
 
 
 def _is_empty(node: Node) -> bool:
