@@ -1,4 +1,4 @@
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 import pytest
 from pydantic import Field
@@ -83,15 +83,16 @@ def test_a_key_in_the_wrong_place_is_sent_to_where_it_belongs(
     assert suggestion(key, path)[0] == remedy
 
 
-class Beacon(Value):
+class Beacon(
+    Value,
+    expected="a beacon",
+):
     """A light.
 
     Attributes:
         height_m: Over the ground [m].
         turn_deg: How far it is turned [deg].
     """
-
-    expected: ClassVar[str] = "a beacon"
 
     height_m: Length
     turn_deg: Annotated[Number, DEGREES, Field(gt=-90, lt=90)] = 0.0

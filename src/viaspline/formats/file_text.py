@@ -1,4 +1,7 @@
-"""The text of a mission file of any kind."""
+"""The text of a mission file of any kind.
+
+Tested through ``formats/test_mission_yaml``.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from viaspline.formats.items import Place
 MAX_FILE_BYTES: Final = 40_000_000
 """The largest mission file: half a million obstacles, minutes of reading."""
 
-_WHOLE: Final = Place("")
+_WHOLE_FILE: Final = Place("")
 
 
 def read_text(path: str | Path) -> str:
@@ -29,15 +32,15 @@ def read_text(path: str | Path) -> str:
             most = f"{MAX_FILE_BYTES / 1e6:.0f} MB"
             problem = f"has {size / 1e6:.0f} MB, more than the {most} that are read"
             remedy = "build so large a mission in Python: vs.Mission.model_validate({...})"
-            raise refusal(source, _WHOLE, problem, remedy)
+            raise refusal(source, _WHOLE_FILE, problem, remedy)
         data = Path(path).read_bytes()
     except FileNotFoundError:
-        raise refusal(source, _WHOLE, "there is no such file", remedy) from None
+        raise refusal(source, _WHOLE_FILE, "there is no such file", remedy) from None
     except IsADirectoryError:
-        raise refusal(source, _WHOLE, "is a folder", remedy) from None
+        raise refusal(source, _WHOLE_FILE, "is a folder", remedy) from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise refusal(source, _WHOLE, f"can't be read: {reason.lower()}", remedy) from None
+        raise refusal(source, _WHOLE_FILE, f"can't be read: {reason.lower()}", remedy) from None
     try:
         return data.removeprefix(codecs.BOM_UTF8).decode("utf-8")
     except UnicodeDecodeError as error:

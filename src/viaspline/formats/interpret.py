@@ -1,4 +1,7 @@
-"""From an itinerary in degrees to a mission in metres."""
+"""From an itinerary in degrees to a mission in metres.
+
+Tested through ``formats/test_qgc_plan``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""One way in for every kind of mission file."""
+"""One way in for every kind of mission file.
+
+Tested through ``formats/test_format_registry``.
+"""
 
 from __future__ import annotations
 

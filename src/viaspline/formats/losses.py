@@ -1,4 +1,7 @@
-"""What of a mission files of way points and fences can't carry: named, not dropped."""
+"""What of a mission files of way points and fences can't carry: named, not dropped.
+
+Tested through ``formats/test_waypoint_format``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What a kind of mission file is: something that is recognised, read and written."""
+"""What a kind of mission file is: something that is recognised, read and written.
+
+Tested through ``formats/test_format_registry``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""From a mission in metres to an itinerary in degrees: the way back of ``interpret``."""
+"""From a mission in metres to an itinerary in degrees: the way back of ``interpret``.
+
+Tested through ``formats/test_waypoint_format``.
+"""
 
 from __future__ import annotations
 

@@ -25,11 +25,11 @@ from viaspline.mission.robot_parts import RobotSpec
 _HEADER: Final = re.compile(r"QGC\s+WPL\s+(\S+)")
 _VERSIONS: Final = ("110", "120")
 _FIELD: Final = re.compile(r"\S+")
-_NAMES: Final = (
+_COLUMNS: Final = (
     "number", "current", "frame", "command", "param1", "param2", "param3", "param4",
     "latitude", "longitude", "altitude", "autocontinue",
 )  # fmt: skip
-_WHOLE: Final = frozenset({"number", "current", "frame", "command", "autocontinue"})
+_WHOLE_NUMBERS: Final = frozenset({"number", "current", "frame", "command", "autocontinue"})
 
 
 class QgcWpl(WaypointFormat):
@@ -106,18 +106,20 @@ class QgcWpl(WaypointFormat):
 def _item(source: str, line_number: int, line: str) -> Item | list[Fault]:
     """One line: an item, or what is wrong with it."""
     fields = list(_FIELD.finditer(line))
-    if len(fields) != len(_NAMES):
+    if len(fields) != len(_COLUMNS):
         place = Place("", line_number, 1)
-        problem = f"the line has {len(fields)} fields instead of {len(_NAMES)}"
-        return [fault_at(source, place, problem, "the fields are " + ", ".join(_NAMES))]
+        problem = f"the line has {len(fields)} fields instead of {len(_COLUMNS)}"
+        return [fault_at(source, place, problem, "the fields are " + ", ".join(_COLUMNS))]
     values: dict[str, float] = {}
     faults: list[Fault] = []
-    for name, found in zip(_NAMES, fields, strict=True):
+    for name, found in zip(_COLUMNS, fields, strict=True):
         value = _number(found[0])
         is_whole = value is not None and math.isfinite(value) and value == int(value)
-        if value is None or math.isinf(value) or (name in _WHOLE and not is_whole):
+        if value is None or math.isinf(value) or (name in _WHOLE_NUMBERS and not is_whole):
             place = Place(name, line_number, found.start() + 1)
-            remedy = "it should be a whole number" if name in _WHOLE else "it should be a number"
+            remedy = (
+                "it should be a whole number" if name in _WHOLE_NUMBERS else "it should be a number"
+            )
             faults.append(fault_at(source, place, f'found "{found[0]}"', remedy))
         else:
             values[name] = value

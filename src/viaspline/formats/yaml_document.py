@@ -2,6 +2,8 @@
 
 The document is composed to nodes, not loaded: nodes have marks, and what loading would hide
 (duplicate keys, tags, dates) can be told to the user.
+
+Tested through ``formats/test_mission_yaml``.
 """
 
 from __future__ import annotations
@@ -19,7 +21,6 @@ from viaspline.formats.file_text import read_text
 from viaspline.mission.unplaced_faults import Mark, Path, UnplacedFault, describe
 
 _TAG: Final = "tag:yaml.org,2002:"
-_YAML = "it should be a YAML mapping with the keys world, robot, route and spline"
 
 
 class Document:
@@ -175,11 +176,11 @@ def yaml_document(text: str, source: str) -> Document:
         raise _fault(source, _place(text, error.position), *_character(error)) from None
     except RecursionError:
         problem = "lists or mappings are nested too deeply"
-        raise _fault(source, Mark(1, 1), problem, _YAML) from None
+        raise _fault(source, Mark(1, 1), problem, _expected()) from None
     except (YAMLError, ValueError) as error:
-        raise _fault(source, Mark(1, 1), f"is not YAML: {error}", _YAML) from None
+        raise _fault(source, Mark(1, 1), f"is not YAML: {error}", _expected()) from None
     if not nodes or nodes[0] is None or _is_empty(nodes[0]):
-        raise _fault(source, Mark(1, 1), "the file is empty", _YAML)
+        raise _fault(source, Mark(1, 1), "the file is empty", _expected())
     if len(nodes) > 1:
         problem, remedy = "a second document starts here", "a mission is one document: split it"
         raise _fault(source, _mark(nodes[1]), problem, remedy)
@@ -187,11 +188,17 @@ def yaml_document(text: str, source: str) -> Document:
         document = Document(source, nodes[0])
     except RecursionError:
         problem = "lists or mappings are nested too deeply"
-        raise _fault(source, Mark(1, 1), problem, _YAML) from None
+        raise _fault(source, Mark(1, 1), problem, _expected()) from None
     if not isinstance(document.data, dict):
         problem = f"the file holds {describe(document.data)}"
-        raise _fault(source, _mark(nodes[0]), problem, _YAML)
+        raise _fault(source, _mark(nodes[0]), problem, _expected())
     return document
+
+
+def _expected() -> str:
+    from viaspline.mission.key_words import expectation
+
+    return "it should be " + expectation(()).replace("a mapping", "a YAML mapping")
 
 
 def _is_empty(node: Node) -> bool:

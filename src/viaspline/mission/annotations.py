@@ -1,6 +1,8 @@
 """What the annotation of a field says beside its type: a unit, words, a limit held elsewhere.
 
 Pydantic passes over them; messages and the JSON Schema are made of them, see ``key_words``.
+
+Tested through ``mission/test_key_words``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Can the robot stand at every point of the route, and where is the nearest place if not?"""
+"""Can the robot stand at every point of the route, and where is the nearest place if not?
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 

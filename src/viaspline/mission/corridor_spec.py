@@ -1,8 +1,11 @@
-"""A strip that the path of a mission stays inside of."""
+"""A strip that the path of a mission stays inside of.
+
+Tested through ``mission/test_corridors``.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, TypeAlias
+from typing import Annotated, TypeAlias
 
 from pydantic import BeforeValidator, Field
 
@@ -24,7 +27,10 @@ CorridorLine: TypeAlias = Annotated[
 ]
 
 
-class Corridor(Value):
+class Corridor(
+    Value,
+    expected="{left_m: 2, right_m: 2}, or {csv: track.csv} with rows x, y, right, left",
+):
     """A strip that the path stays inside of: a lane, a race track, the strip along a pipeline.
 
     Widths alone are a bound: the path is laid through the route's points as ever. Along a line of
@@ -40,10 +46,6 @@ class Corridor(Value):
         csv: In place of ``line``, a file with its rows, relative to the mission's. When the mission
             is read, ``line`` gets the rows and this becomes the file's absolute path.
     """
-
-    expected: ClassVar[str] = (
-        "{left_m: 2, right_m: 2}, or {csv: track.csv} with rows x, y, right, left"
-    )
 
     left_m: Length | None = None
     right_m: Length | None = None

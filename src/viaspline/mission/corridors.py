@@ -69,7 +69,7 @@ def _at(corridor: Corridor, row: int) -> Path:
 
 
 def corridor_of(partial: PartialMission) -> list[tuple[Path, tuple[Corners, ...]]]:
-    """The area of a partial's corridor, if it has one that makes sense: outer ring and holes."""
+    """The area of a corridor, if there is one that makes sense: outer ring and holes."""
     from viaspline.mission.strip import Strip, around, rings_of
 
     corridor, closed = partial.corridor, bool(partial.closed)

@@ -1,4 +1,7 @@
-"""What the fields of a mission are made of: numbers with units and limits, points, rings, names."""
+"""What the fields of a mission are made of: numbers with units and limits, points, rings, names.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 

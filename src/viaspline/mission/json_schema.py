@@ -43,13 +43,14 @@ def describe_keys(model: type[Value], schema: dict[str, Any]) -> None:
         prop = schema["properties"].get(key_name(name, field))
         if prop is not None and name in documented:
             prop["description"] = documented[name]
-    if model.exactly_one:
-        told = [key for key in model.exactly_one if key in schema["properties"]]
+    rules = model.key_rules
+    if "exactly_one" in rules:
+        told = [key for key in rules["exactly_one"] if key in schema["properties"]]
         schema["oneOf"] = [{"required": [key]} for key in told]
-    if model.excluding:
-        schema["not"] = {"anyOf": [{"required": list(pair)} for pair in model.excluding]}
-    if model.needing:
-        schema["dependentRequired"] = {key: [other] for key, other in model.needing.items()}
+    if "excluding" in rules:
+        schema["not"] = {"anyOf": [{"required": list(pair)} for pair in rules["excluding"]]}
+    if "needing" in rules:
+        schema["dependentRequired"] = {key: [other] for key, other in rules["needing"]}
 
 
 def documentation(model: type) -> dict[str, str]:

@@ -7,14 +7,15 @@ from collections.abc import Iterator
 from types import NoneType, UnionType
 from typing import Annotated, Any, NamedTuple, TypeAlias, Union, cast, get_args, get_origin
 
-from pydantic import BaseModel, BeforeValidator
+from pydantic import BeforeValidator
 from pydantic.fields import FieldInfo
 from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import PydanticUndefined
 
 from viaspline.mission.unplaced_faults import Path
+from viaspline.mission.value import Value
 
-Model: TypeAlias = type[BaseModel]
+Model: TypeAlias = type[Value]
 
 
 class Option(NamedTuple):
@@ -33,7 +34,7 @@ class Option(NamedTuple):
     @property
     def model(self) -> Model | None:
         """The model, if it is a mapping."""
-        is_model = isinstance(self.kind, type) and issubclass(self.kind, BaseModel)
+        is_model = isinstance(self.kind, type) and issubclass(self.kind, Value)
         return cast(Model, self.kind) if is_model else None
 
 

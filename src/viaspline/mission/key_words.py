@@ -37,8 +37,8 @@ def _expected(option: Option) -> str:
     if words:
         return words[-1]
     if option.model is not None:
-        keys = keys_of(option.model)
-        return getattr(option.model, "expected", "") or f"a mapping with the keys {_list(keys)}"
+        keys = f"a mapping with the keys {_list(keys_of(option.model))}"
+        return option.model.key_rules.get("expected", keys)
     if get_origin(option.kind) is Literal:
         return _list(get_args(option.kind), "or")
     if option.kind in (int, float):

@@ -1,4 +1,7 @@
-"""Maps for those who build their world in Python."""
+"""Maps for those who build their world in Python.
+
+Tested through ``mission/test_resolve_files``.
+"""
 
 from __future__ import annotations
 

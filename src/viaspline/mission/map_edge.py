@@ -1,4 +1,7 @@
-"""Where maps end: the bounds that they bring along."""
+"""Where maps end: the bounds that they bring along.
+
+Tested through ``mission/test_resolve_files``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Obstacles that have a file of their own, as a mission asks for them."""
+"""Obstacles that have a file of their own, as a mission asks for them.
+
+Tested through ``mission/test_resolve_files``.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 Lengths are metres, angles in files are degrees (the key says so), the frame is ENU: x east,
 y north, headings anticlockwise from x. What one part means to another is held in ``model``.
+
+Tested through ``mission/test_model``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,9 @@
 """The parts of a mission that are structurally sound, each with its path.
 
-A sound mission is a partial in which nothing is missing. If something is, the semantic checks still
-run on the rest, so that the user hears of every fault at once.
+A sound mission is a partial one in which nothing is missing. If something is, the semantic checks
+still run on the rest, so that the user hears of every fault at once.
+
+Tested through ``mission/test_model``.
 """
 
 from __future__ import annotations
@@ -65,7 +67,7 @@ class PartialMission:
 
     @classmethod
     def of(cls, mission: MissionParts, resolved: ResolvedFiles) -> PartialMission:
-        """A whole mission as a partial; obstacles of maps have the path of their map."""
+        """A whole mission as a partial one; obstacles of maps have the path of their map."""
         world, route = mission.world, mission.route
         points: list[tuple[Path, ViaPoint | None]] = [(("route", "start"), route.start)]
         points += [(("route", "via", i), via) for i, via in enumerate(route.via)]

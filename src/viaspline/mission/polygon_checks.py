@@ -1,4 +1,7 @@
-"""Are the polygons polygons? Asked for all of them at once, however many there are."""
+"""Are the polygons polygons? Asked for all of them at once, however many there are.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 

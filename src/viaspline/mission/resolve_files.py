@@ -72,10 +72,10 @@ def resolve_maps(data: Any, folder: FilePath) -> ResolvedFiles:
     for key, items in lists.items():
         places[key], resolved[key] = [], []
         for i, item in enumerate(items):
-            obstacles, faulty = _of_item(item, ("world", key, i), folder, taken)
+            obstacles, found = _of_item(item, ("world", key, i), folder, taken)
             places[key] += [i] * len(obstacles)
             resolved[key] += obstacles
-            faults += faulty
+            faults += found
     edge = frozenset[Path]() if faults else _bring_edge(resolved)
     return ResolvedFiles({**top, "world": resolved}, tuple(faults), places, edge)
 

@@ -1,9 +1,12 @@
-"""The robot of a mission: its body, its drive and its limits."""
+"""The robot of a mission: its body, its drive and its limits.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, ClassVar, Final, Literal, TypeAlias
+from typing import Annotated, Any, Final, Literal, TypeAlias
 
 from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
@@ -25,7 +28,7 @@ from viaspline.mission.fields import (
     Speed,
 )
 from viaspline.mission.sensor_spec import Sensor
-from viaspline.mission.value import Choice, Value, two_of
+from viaspline.mission.value import OneOf, Value, two_of
 
 MAX_DELAY_S: Final = 60.0
 """The longest delay and the slowest lag of a drive."""
@@ -33,7 +36,10 @@ MAX_DELAY_S: Final = 60.0
 ShortDuration: TypeAlias = Annotated[Duration, Field(le=MAX_DELAY_S)]
 
 
-class Differential(Value):
+class Differential(
+    Value,
+    expected="a mapping such as {track_m: 0.5}",
+):
     """Two driven wheels on one axle.
 
     Attributes:
@@ -41,13 +47,14 @@ class Differential(Value):
         max_wheel_speed_mps: The greatest speed of either wheel [m/s]. None: no limit.
     """
 
-    expected: ClassVar[str] = "a mapping such as {track_m: 0.5}"
-
     track_m: Length
     max_wheel_speed_mps: Speed | None = None
 
 
-class Ackermann(Value):
+class Ackermann(
+    Value,
+    expected="a mapping such as {wheelbase_m: 2.5, max_steer_deg: 35}",
+):
     """Steered front wheels, as a bicycle; the reference point is the middle of the rear axle.
 
     Attributes:
@@ -55,8 +62,6 @@ class Ackermann(Value):
         max_steer_deg: The greatest angle of the front wheels [deg].
         max_steer_rate_degps: How fast they turn [deg/s]. None: no limit.
     """
-
-    expected: ClassVar[str] = "a mapping such as {wheelbase_m: 2.5, max_steer_deg: 35}"
 
     wheelbase_m: Length
     max_steer_deg: Annotated[Positive, DEGREES, Field(lt=90)]
@@ -72,7 +77,10 @@ class Ackermann(Value):
         return self.wheelbase_m / math.tan(math.radians(self.max_steer_deg))
 
 
-class SkidSteer(Value):
+class SkidSteer(
+    Value,
+    expected="a mapping such as {track_m: 0.8, slip: 0.2}",
+):
     """Wheels or tracks on either side that slip when the robot turns.
 
     Attributes:
@@ -81,14 +89,16 @@ class SkidSteer(Value):
         max_wheel_speed_mps: The greatest speed of either side [m/s]. None: no limit.
     """
 
-    expected: ClassVar[str] = "a mapping such as {track_m: 0.8, slip: 0.2}"
-
     track_m: Length
     slip: Annotated[NotNegative, Field(lt=1)] = 0.0
     max_wheel_speed_mps: Speed | None = None
 
 
-class Drive(Choice):
+class Drive(
+    OneOf,
+    expected="a mapping such as {ackermann: {wheelbase_m: 2.5, max_steer_deg: 35}, delay_s: 0.1}",
+    exactly_one=("differential", "ackermann", "skid_steer"),
+):
     """What moves the robot, and how far from perfect that is in the simulator.
 
     Attributes:
@@ -101,11 +111,6 @@ class Drive(Choice):
         yaw_rate_noise_degps: Standard deviation of the yaw rate that is driven [deg/s].
     """
 
-    expected: ClassVar[str] = (
-        "a mapping such as {ackermann: {wheelbase_m: 2.5, max_steer_deg: 35}, delay_s: 0.1}"
-    )
-    exactly_one: ClassVar[tuple[str, ...]] = ("differential", "ackermann", "skid_steer")
-
     differential: Differential | None = None
     ackermann: Ackermann | None = None
     skid_steer: SkidSteer | None = None
@@ -115,15 +120,16 @@ class Drive(Choice):
     yaw_rate_noise_degps: Annotated[NotNegative, DEGREES_PER_SECOND] = 0.0
 
 
-class Localization(Value):
+class Localization(
+    Value,
+    expected="a mapping such as {position_noise_m: 0.02, heading_noise_deg: 0.5}",
+):
     """How well the robot knows where it is, in the simulator.
 
     Attributes:
         position_noise_m: Standard deviation of each coordinate that is measured [m].
         heading_noise_deg: Standard deviation of the heading that is measured [deg].
     """
-
-    expected: ClassVar[str] = "a mapping such as {position_noise_m: 0.02, heading_noise_deg: 0.5}"
 
     position_noise_m: Distance = 0.0
     heading_noise_deg: Annotated[NotNegative, DEGREES, Field(le=180)] = 0.0
@@ -132,7 +138,11 @@ class Localization(Value):
 TurnOnSpot = Literal["never", "stations", "vias"]
 
 
-class RobotSpec(Value):
+class RobotSpec(
+    Value,
+    expected="a mapping such as {radius_m: 0.5, clearance_m: 0.5, max_speed_mps: 2}",
+    excluding=(("radius_m", "footprint"),),
+):
     """The robot's body, its drive, its limits and its sensor.
 
     Attributes:
@@ -160,11 +170,6 @@ class RobotSpec(Value):
             more. None: as far as it gets on a trial drive; nothing if it follows exactly.
         sensor: What finds the obstacles that are not on the map.
     """
-
-    expected: ClassVar[str] = (
-        "a mapping such as {radius_m: 0.5, clearance_m: 0.5, max_speed_mps: 2}"
-    )
-    excluding: ClassVar[tuple[tuple[str, str], ...]] = (("radius_m", "footprint"),)
 
     radius_m: Distance = 0.5
     footprint: (

@@ -1,9 +1,12 @@
-"""The route of a mission: the points that its path runs through, in order."""
+"""The route of a mission: the points that its path runs through, in order.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, ClassVar, Final, Literal, TypeAlias
+from typing import Annotated, Any, Final, Literal, TypeAlias
 
 from pydantic import BeforeValidator, Field
 
@@ -22,7 +25,10 @@ def _as_mapping(value: Any) -> Any:
     return {"at": value} if isinstance(value, list | tuple) else value
 
 
-class ViaPoint(Value):
+class ViaPoint(
+    Value,
+    expected="[x, y] or {at: [x, y], name: ..., dwell_s: ...}",
+):
     """A place that the path runs through, exactly; a station if it has a dwell.
 
     Attributes:
@@ -30,8 +36,6 @@ class ViaPoint(Value):
         name: What it is called in reports and errors.
         dwell_s: How long the robot stands there [s].
     """
-
-    expected: ClassVar[str] = "[x, y] or {at: [x, y], name: ..., dwell_s: ...}"
 
     at: Point
     name: Name | None = None

@@ -1,4 +1,7 @@
-"""The structural errors that pydantic finds, said in the user's words."""
+"""The structural errors that pydantic finds, said in the user's words.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What types can't say: the semantic checks, all of them, on whatever parts are sound."""
+"""What types can't say: the semantic checks, all of them, on whatever parts are sound.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 

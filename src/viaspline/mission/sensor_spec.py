@@ -1,19 +1,25 @@
-"""What finds the obstacles that are not on the map."""
+"""What finds the obstacles that are not on the map.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Final
+from typing import Annotated, Final
 
 from pydantic import Field
 
 from viaspline.mission.fields import DEGREES, Distance, Length, Positive
-from viaspline.mission.value import Choice, Value
+from viaspline.mission.value import OneOf, Value
 
 MAX_BEAMS: Final = 100_000
 """How many beams a lidar can have at most."""
 
 
-class Lidar(Value):
+class Lidar(
+    Value,
+    expected="a mapping such as {range_m: 5, fov_deg: 270, beams: 720, noise_m: 0.01}",
+):
     """A scanner that measures the distance along each of its beams.
 
     Attributes:
@@ -24,17 +30,17 @@ class Lidar(Value):
         noise_m: The standard deviation of a measured distance [m].
     """
 
-    expected: ClassVar[str] = (
-        "a mapping such as {range_m: 5, fov_deg: 270, beams: 720, noise_m: 0.01}"
-    )
-
     range_m: Length
     fov_deg: Annotated[Positive, DEGREES, Field(le=360)] = 360.0
     beams: Annotated[int, Field(strict=True, ge=1, le=MAX_BEAMS)] = 360
     noise_m: Distance = 0.0
 
 
-class Sensor(Choice):
+class Sensor(
+    OneOf,
+    expected="{range_m: 40} or {lidar: {range_m: 5}}",
+    exactly_one=("range_m", "lidar"),
+):
     """What finds the obstacles that are not on the map: a range sensor or a lidar.
 
     Attributes:
@@ -45,9 +51,6 @@ class Sensor(Choice):
     >>> Sensor(range_m=40).reach, Sensor(lidar={"range_m": 5}).reach
     (40.0, 5.0)
     """
-
-    expected: ClassVar[str] = "{range_m: 40} or {lidar: {range_m: 5}}"
-    exactly_one: ClassVar[tuple[str, ...]] = ("range_m", "lidar")
 
     range_m: Length | None = None
     lidar: Lidar | None = None

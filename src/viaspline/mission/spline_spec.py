@@ -1,8 +1,11 @@
-"""The shape of a mission's curve."""
+"""The shape of a mission's curve.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Final, Literal, TypeAlias
+from typing import Annotated, Final, Literal, TypeAlias
 
 from pydantic import BeforeValidator
 
@@ -18,7 +21,11 @@ Tension: TypeAlias = Annotated[Number, Limit(le=POLYLINE_TENSION)]
 Slack: TypeAlias = Annotated[Number, Limit(ge=POLYLINE_SLACK)]
 
 
-class SplineSpec(Value):
+class SplineSpec(
+    Value,
+    expected="a mapping such as {tension: 0.1}",
+    excluding=(("tension", "slack"),),
+):
     """The curve's shape.
 
     Attributes:
@@ -30,9 +37,6 @@ class SplineSpec(Value):
         tangents: ``cardinal``, or ``continuous`` for continuous curvature. None: continuous if the
             robot has a drive, a turning circle or a footprint, else cardinal.
     """
-
-    expected: ClassVar[str] = "a mapping such as {tension: 0.1}"
-    excluding: ClassVar[tuple[tuple[str, str], ...]] = (("tension", "slack"),)
 
     tension: Annotated[
         Tension | Annotated[tuple[Tension, ...], BeforeValidator(plain)] | Literal["auto"] | None,

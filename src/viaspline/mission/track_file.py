@@ -1,4 +1,7 @@
-"""The file of a corridor: rows x, y, right, left in metres."""
+"""The file of a corridor: rows x, y, right, left in metres.
+
+Tested through ``mission/test_corridors``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Faults before they have a place in a file: a path into the mission's data, and what is wrong."""
+"""Faults before they have a place in a file: a path into the mission's data, and what is wrong.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 

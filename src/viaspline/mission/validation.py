@@ -1,4 +1,7 @@
-"""From data to a mission, or to every fault that the data has."""
+"""From data to a mission, or to every fault that the data has.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
@@ -46,8 +49,8 @@ def sound_mission(
     folder = Path(origin.source).parent if origin is not None else Path()
     if origin is not None:
         faults += given_twice(data)
-    with_line, faulty = resolve_corridor(data, folder)
-    faults += faulty
+    with_line, of_corridor = resolve_corridor(data, folder)
+    faults += of_corridor
     resolved = resolve_maps(with_line, folder)
     faults += resolved.faults
     mission: Sound | None = None

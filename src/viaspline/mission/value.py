@@ -2,12 +2,13 @@
 
 A key is declared once, where its field is: the type holds its limits and its unit, the class's
 docstring what it means. Messages (``key_words``) and the JSON Schema are derived from that.
+
+Tested through ``mission/test_model``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
 
 from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
@@ -16,25 +17,44 @@ if TYPE_CHECKING:
     from typing import Self
 
     from pydantic import GetJsonSchemaHandler
+    from typing_extensions import Unpack
 
 
-class Value(BaseModel):
-    """A frozen value that refuses keys it does not know.
+class KeyRules(TypedDict, total=False):
+    """What a class says of its keys together, as keywords of the class; all may be left out.
 
     Attributes:
-        expected: What would be right where one is asked for, in words; empty: a mapping with its
-            keys.
+        expected: What would be right where the class is asked for, in words; by default a mapping
+            with its keys.
         exactly_one: Keys of which exactly one has to be given.
         excluding: Pairs of keys of which one at most may be given.
         needing: Keys that make sense beside another only.
     """
 
+    expected: str
+    exactly_one: tuple[str, ...]
+    excluding: tuple[tuple[str, str], ...]
+    needing: tuple[tuple[str, str], ...]
+
+
+class Value(BaseModel):
+    """A frozen value that refuses keys it does not know.
+
+    >>> class Wheel(Value, expected="a wheel such as {radius_m: 0.2}"):
+    ...     radius_m: float
+    >>> Wheel.key_rules["expected"]
+    'a wheel such as {radius_m: 0.2}'
+    """
+
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    expected: ClassVar[str] = ""
-    exactly_one: ClassVar[tuple[str, ...]] = ()
-    excluding: ClassVar[tuple[tuple[str, str], ...]] = ()
-    needing: ClassVar[Mapping[str, str]] = {}
+    if TYPE_CHECKING:  # an annotation would be evaluated once more for each class
+        key_rules: ClassVar[KeyRules]
+
+    def __init_subclass__(cls, **rules: Unpack[KeyRules]) -> None:
+        """Take the class's `KeyRules`; those that it doesn't give are those of its base."""
+        super().__init_subclass__()
+        cls.key_rules = {**getattr(cls, "key_rules", KeyRules()), **rules}
 
     @classmethod
     def __get_pydantic_json_schema__(
@@ -48,7 +68,7 @@ class Value(BaseModel):
         return schema
 
 
-class Choice(Value):
+class OneOf(Value):
     """A value of which exactly one of the keys ``exactly_one`` is given, e.g. the kind of a drive.
 
     The others among them are None.
@@ -56,9 +76,10 @@ class Choice(Value):
 
     @model_validator(mode="after")
     def _is_one(self) -> Self:
-        given = [key for key in self.exactly_one if getattr(self, key) is not None]
+        keys = self.key_rules["exactly_one"]
+        given = [key for key in keys if getattr(self, key) is not None]
         if not given:
-            raise PydanticCustomError("none_of", "give one of them", {"keys": self.exactly_one})
+            raise PydanticCustomError("none_of", "give one of them", {"keys": keys})
         if len(given) > 1:
             raise two_of(*given)
         return self

@@ -1,8 +1,11 @@
-"""The world of a mission: how far it reaches, what stands in it, where to go slowly."""
+"""The world of a mission: how far it reaches, what stands in it, where to go slowly.
+
+Tested through ``mission/test_resolve_files``.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 from pydantic import BeforeValidator
 
@@ -34,7 +37,10 @@ Bounds4: TypeAlias = Annotated[
 ]
 
 
-class SpeedZone(Value):
+class SpeedZone(
+    Value,
+    expected="a zone such as {polygon: [[x, y], ...], max_speed_mps: 0.5}",
+):
     """An area in which the robot drives more slowly.
 
     Attributes:
@@ -42,8 +48,6 @@ class SpeedZone(Value):
         max_speed_mps: The greatest speed of the reference point inside of it [m/s].
         name: What it is called in reports and errors.
     """
-
-    expected: ClassVar[str] = "a zone such as {polygon: [[x, y], ...], max_speed_mps: 0.5}"
 
     polygon: Ring
     max_speed_mps: Speed

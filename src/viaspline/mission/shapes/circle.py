@@ -1,23 +1,25 @@
-"""A disc."""
+"""A disc.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
-
-from typing import ClassVar
 
 from viaspline.mission.fields import Length, Point2
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.mission.value import Value
 
 
-class Circle(Value):
+class Circle(
+    Value,
+    expected="{center: [x, y], radius: 5}",
+):
     """A disc.
 
     Attributes:
         center: Its middle, ``[x, y]`` [m].
         radius: Its radius [m].
     """
-
-    expected: ClassVar[str] = "{center: [x, y], radius: 5}"
 
     center: Point2
     radius: Length

@@ -1,9 +1,12 @@
-"""An obstacle of a mission: one shape, a name, and the side on which to pass it."""
+"""An obstacle of a mission: one shape, a name, and the side on which to pass it.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, InstanceOf
 from pydantic.json_schema import SkipJsonSchema
@@ -30,7 +33,12 @@ def _as_grid(value: Any) -> Any:
     return Grid(**{**parts, "reading": None if reading is None else Reading(**reading)})
 
 
-class Obstacle(Value):
+class Obstacle(
+    Value,
+    expected="an obstacle such as {circle: {center: [x, y], radius: 5}}",
+    exactly_one=SHAPES,
+    needing=(("holes", "polygon"),),
+):
     """Something to keep clear of: a circle, a polygon that may have holes, or a map's squares.
 
     Attributes:
@@ -44,10 +52,6 @@ class Obstacle(Value):
             the obstacle on the robot's right. It counts wherever the obstacle is in the way.
         never_pass_on: The side that is forbidden; forbidding one is forcing the other.
     """
-
-    expected: ClassVar[str] = "an obstacle such as {circle: {center: [x, y], radius: 5}}"
-    exactly_one: ClassVar[tuple[str, ...]] = SHAPES
-    needing: ClassVar[Mapping[str, str]] = {"holes": "polygon"}
 
     circle: Circle | None = None
     polygon: Ring | None = None
