@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     from viaspline.maps.grid import Grid
     from viaspline.mission.load_map import load_map
     from viaspline.mission.model import Mission
-    from viaspline.mission.parts import SpeedZone
     from viaspline.mission.shapes.obstacle import Obstacle
+    from viaspline.mission.world_spec import SpeedZone
     from viaspline.planner import Plan, plan
     from viaspline.robot.navigator import Navigator
     from viaspline.robot.run import Run
@@ -70,7 +70,7 @@ _HOMES = {
     "Plan": "planner",
     "RobotState": "robot.state",
     "Run": "robot.run",
-    "SpeedZone": "mission.parts",
+    "SpeedZone": "mission.world_spec",
     "Station": "trajectory.limits",
     "Trajectory": "trajectory.trajectory",
     "ViasplineError": "errors",

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from viaspline.errors import MissionError, MissionWarning
 from viaspline.formats.interpret import mission_of
 from viaspline.formats.load import load
-from viaspline.formats.qgc_plan import parse_qgc_plan
+from viaspline.formats.qgc_plan import QgcPlan
 
 DATA = Path(__file__).parent / "data"
 
@@ -34,7 +34,7 @@ def plan(**changes: Any) -> dict[str, Any]:
 
 
 def loaded(data: Any) -> Any:
-    return mission_of(parse_qgc_plan(json.dumps(data), "x.plan"))
+    return mission_of(QgcPlan().parse(json.dumps(data), "x.plan"))
 
 
 def test_a_plan_of_a_real_vehicle_becomes_a_mission() -> None:

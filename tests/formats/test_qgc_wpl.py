@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from viaspline.errors import MissionError, MissionWarning
 from viaspline.formats.load import load
-from viaspline.formats.qgc_wpl import parse_qgc_wpl
+from viaspline.formats.qgc_wpl import QgcWpl
 from viaspline.mission.model import Mission
 
 DATA = Path(__file__).parent / "data"
@@ -183,7 +183,7 @@ def test_any_table_is_a_mission_or_a_mission_error(rows: list[tuple[int, float, 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MissionWarning)
         try:
-            mission = mission_of(parse_qgc_wpl(text, "t"))
+            mission = mission_of(QgcWpl().parse(text, "t"))
         except MissionError:
             return
     assert mission.route.start.at

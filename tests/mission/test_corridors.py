@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from viaspline.errors import MissionError
+from viaspline.formats.load import load
+from viaspline.formats.mission_yaml import write_yaml
 from viaspline.mission.model import Mission
-from viaspline.mission.yaml_reader import read_yaml
-from viaspline.mission.yaml_writer import write_yaml
 
 LINE = [[0, 0, 3, 3], [20, 0, 3, 3], [20, 20, 3, 3], [0, 20, 3, 3]]
 
@@ -33,7 +33,7 @@ def test_a_file_is_read_with_comments_names_and_any_separator(tmp_path: Path) ->
     (tmp_path / "m.yaml").write_text(
         "route: {start: [0, 0], goal: [40, 0], corridor: {csv: track.csv}}\n"
     )
-    corridor = read_yaml(tmp_path / "m.yaml").route.corridor
+    corridor = load(tmp_path / "m.yaml").route.corridor
     assert corridor is not None
     assert corridor.line == ((0, 0, 3, 3), (20, 0, 3, 3), (40, 0, 2, 3))
     assert corridor.csv == (tmp_path / "track.csv").as_posix()
@@ -45,14 +45,14 @@ def test_a_mission_with_a_file_is_written_with_its_name_and_read_the_same(tmp_pa
     first = mission({"csv": str(tmp_path / "a" / "track.csv")})
     write_yaml(first, tmp_path / "m.yaml")
     assert 'csv: "a/track.csv"' in (tmp_path / "m.yaml").read_text()
-    assert read_yaml(tmp_path / "m.yaml") == first
+    assert load(tmp_path / "m.yaml") == first
     assert Mission.model_validate(first.model_dump()) == first
 
 
 def test_a_mission_with_a_line_is_written_and_read_the_same(tmp_path: Path) -> None:
     first = mission({"line": [[0, 0, 3, 3], [40, 0.5, 3, 3]]}, laps=1)
     write_yaml(first, tmp_path / "m.yaml")
-    assert read_yaml(tmp_path / "m.yaml") == first
+    assert load(tmp_path / "m.yaml") == first
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_a_file_and_a_line_in_one_mission_file_exclude_each_other(tmp_path: Path
         "  corridor: {csv: t.csv, line: [[0, 0, 3, 3], [40, 0, 3, 3]]}\n"
     )
     with pytest.raises(MissionError, match="line and csv, which exclude each other"):
-        read_yaml(tmp_path / "m.yaml")
+        load(tmp_path / "m.yaml")
 
 
 @pytest.mark.parametrize(

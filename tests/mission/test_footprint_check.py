@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from viaspline.errors import MissionError
-from viaspline.mission.footprint_check import footprint_flaw
+from viaspline.mission.footprint_check import footprint_fault
 from viaspline.mission.model import Mission
 
 
@@ -31,22 +31,22 @@ def test_a_sound_footprint_is_taken() -> None:
 def test_what_is_no_body_is_a_flaw_that_names_the_remedy(
     footprint: list[tuple[float, float]], problem: str, remedy: str
 ) -> None:
-    flaw = footprint_flaw(footprint)
-    assert flaw is not None
-    assert flaw.path == ("robot", "footprint")
-    assert problem in flaw.problem
-    assert remedy in flaw.remedy
+    fault = footprint_fault(footprint)
+    assert fault is not None
+    assert fault.path == ("robot", "footprint")
+    assert problem in fault.problem
+    assert remedy in fault.remedy
     with pytest.raises((MissionError, ValueError), match=r"robot\.footprint"):
         mission(footprint)
 
 
 def test_the_remedy_is_a_body() -> None:
     ring = [(1, 0), (4, 0), (4, 3), (3, 3), (3, 1), (1, 1)]  # its centre may lie outside of it
-    flaw = footprint_flaw(ring)
-    assert flaw is not None
-    shifted = flaw.remedy.split("e.g. ")[1]
+    fault = footprint_fault(ring)
+    assert fault is not None
+    shifted = fault.remedy.split("e.g. ")[1]
     corners = [tuple(map(float, pair.split(", "))) for pair in shifted.strip("[]").split("], [")]
-    assert footprint_flaw(corners) is None  # type: ignore[arg-type]
+    assert footprint_fault(corners) is None  # type: ignore[arg-type]
 
 
 def test_a_mission_with_a_body_is_read_again_as_it_was_dumped() -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from viaspline.errors import Fault, MissionError
 from viaspline.mission.model import Mission
-from viaspline.mission.robot_parts import Lidar, Sensor
+from viaspline.mission.sensor_spec import Lidar, Sensor
 
 Make: TypeAlias = Callable[..., dict[str, Any]]
 
@@ -295,7 +295,7 @@ def test_a_mutation_gives_a_mission_or_a_mission_error(data: st.DataObject, good
 
 def test_importing_the_mission_loads_no_heavy_library() -> None:
     code = (
-        "import sys, viaspline.mission.model, viaspline.mission.yaml_reader\n"
+        "import sys, viaspline.mission.model, viaspline.formats.mission_yaml\n"
         "import viaspline.formats.load\n"
         "print([m for m in ('numba', 'scipy', 'matplotlib', 'shapely', 'pymap3d')"
         " if m in sys.modules])"

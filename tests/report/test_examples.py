@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 from viaspline.formats.load import load
-from viaspline.mission.yaml_reader import read_yaml
 from viaspline.planner import plan
 from viaspline.report.summary import summary
 
@@ -56,7 +55,7 @@ def test_a_piece_of_a_mission_in_the_readme_is_sound(
     if "route:" not in text:
         text += "route: {start: [2, 3], goal: [3, 8]}\n"
     (tmp_path / "m.yaml").write_text(text, encoding="utf-8")
-    read_yaml(tmp_path / "m.yaml")
+    load(tmp_path / "m.yaml")
 
 
 def test_every_file_that_the_readme_names_is_there() -> None:

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from viaspline.cli import cli
 from viaspline.formats.load import load, origin_of
-from viaspline.mission.yaml_document import read_document
+from viaspline.formats.yaml_document import read_document
 
 Start = Callable[..., Any]
 Visit = Callable[..., Any]

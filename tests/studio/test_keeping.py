@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from viaspline.mission.yaml_document import read_document
+from viaspline.formats.yaml_document import read_document
 from viaspline.studio.keeping import read, text_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

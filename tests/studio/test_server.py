@@ -16,8 +16,8 @@ import pytest
 from click.testing import CliRunner
 
 from viaspline.cli import cli
+from viaspline.formats.yaml_document import read_document
 from viaspline.mission.model import Mission
-from viaspline.mission.yaml_document import read_document
 from viaspline.planner import Plan, plan
 from viaspline.studio import planning
 from viaspline.studio.page_files import PAGE

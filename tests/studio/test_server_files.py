@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from viaspline.cli import cli
-from viaspline.mission.yaml_document import read_document
+from viaspline.formats.yaml_document import read_document
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 START = Any

@@ -13,7 +13,7 @@ from scipy.optimize import linprog
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.mission.parts import SpeedZone
+from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.coupled import Stage, System
 from viaspline.trajectory.limited_path import limited_path_of
 from viaspline.trajectory.limits import YAW_SETTLE_S, Limits, Station

@@ -13,7 +13,7 @@ from scipy.optimize import brentq, linprog
 
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.mission.parts import SpeedZone
+from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.mission.robot_parts import RobotSpec, Sensor
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.sensor_spec import Sensor
 from viaspline.trajectory.limits import Limits, Station, stopping_speed
 from viaspline.trajectory.retime import braking, retime
 

@@ -12,7 +12,7 @@ from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import SpeedZone
+from viaspline.mission.world_spec import SpeedZone
 from viaspline.planner import plan
 from viaspline.robot.simulator import simulate
 from viaspline.trajectory.limits import Limits, Station

@@ -1,1 +1,1 @@
-"""Other people's mission files: QGroundControl plans and QGC WPL texts."""
+"""Mission files, one file a kind: YAML, QGroundControl plans and QGC WPL texts."""

@@ -1,6 +1,8 @@
 """The MAV_CMDs that matter here, by what they mean for a path over the ground.
 
 Numbers and meanings: https://mavlink.io/en/messages/common.html
+
+Tested through ``formats/test_qgc_plan``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Fences, from a file's own list of them and from mission items that are fence corners."""
+"""Fences, from a file's own list of them and from mission items that are fence corners.
+
+Tested through ``formats/test_qgc_plan``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Faults in other people's files."""
+"""Faults in other people's files.
+
+Tested through ``formats/test_mission_yaml``.
+"""
 
 from __future__ import annotations
 

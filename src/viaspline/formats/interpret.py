@@ -1,4 +1,7 @@
-"""From an itinerary in degrees to a mission in metres."""
+"""From an itinerary in degrees to a mission in metres.
+
+Tested through ``formats/test_qgc_plan``.
+"""
 
 from __future__ import annotations
 
@@ -16,12 +19,12 @@ from viaspline.formats.fences import fence_areas
 from viaspline.formats.file_faults import fault_at, refusal
 from viaspline.formats.items import FenceArea, Itinerary, LatLon, Place
 from viaspline.formats.legs import Stop, stops_of
-from viaspline.formats.local_frame import REACH, LocalFrame
+from viaspline.formats.local_frame import MAX_REACH_M, LocalFrame
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 
-SAME: Final = 0.02
-"""Stops nearer than this are one [m]: the files resolve 1e-7 degree, about a centimetre."""
+SAME_STOP_M: Final = 0.02
+"""Stops nearer than this are one: the files resolve 1e-7 degree, about a centimetre."""
 
 _ROUTE_KEY: Final = re.compile(r"route\.(start|goal|via\[(\d+)\])")
 _WORLD_KEY: Final = re.compile(r"world\.(known|fences)\[(\d+)\]")
@@ -91,7 +94,7 @@ def _frame(itinerary: Itinerary, stops: Sequence[Stop]) -> LocalFrame:
 def _warn(source: str, notes: Sequence[tuple[str, str]]) -> None:
     for kind, where in notes:
         message = f"{source}: {where}: {kind}" if where else f"{source}: {kind}"
-        warnings.warn(f"{message} (can't be represented in a mission)", MissionWarning, 4)
+        warnings.warn(f"{message} (can't be represented in a mission)", MissionWarning, 5)
 
 
 def _aside(notes: Sequence[tuple[str, str]]) -> str:
@@ -114,8 +117,8 @@ def _check_coordinates(
             remedy = "latitudes are -90 to 90, longitudes -180 to 180 degrees"
             faults.append(fault_at(source, place, problem, remedy))
         # The plane folds back on the far side of the globe: ask the angle, not the metres.
-        elif abs(frame.latitude) <= 90 and frame.arc(latitude, longitude) > REACH:
-            problem = f"is more than {REACH / 1e3:g} km away from the start"
+        elif abs(frame.latitude) <= 90 and frame.arc(latitude, longitude) > MAX_REACH_M:
+            problem = f"is more than {MAX_REACH_M / 1e3:g} km away from the start"
             remedy = "a mission has one flat frame: split it, or correct the home position"
             faults.append(fault_at(source, place, problem, remedy))
     if faults:
@@ -136,7 +139,7 @@ def _merged(
     climbs: list[str] = []
     for stop, xy in zip(stops[1:], local[1:], strict=True):
         last = merged[-1]
-        if np.hypot(*(xy - corner)) >= SAME:
+        if np.hypot(*(xy - corner)) >= SAME_STOP_M:
             merged.append(stop)
             corner = xy
             continue

@@ -1,4 +1,7 @@
-"""What the MAVLink mission formats have in common: a list of items, a home, fences."""
+"""What the MAVLink mission formats have in common: a list of items, a home, fences.
+
+Tested through ``formats/test_qgc_plan``.
+"""
 
 from __future__ import annotations
 

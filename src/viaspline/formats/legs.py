@@ -1,4 +1,7 @@
-"""From mission items to stops: where the vehicle goes, how high, and how long it stays."""
+"""From mission items to stops: where the vehicle goes, how high, and how long it stays.
+
+Tested through ``formats/test_qgc_plan``.
+"""
 
 from __future__ import annotations
 

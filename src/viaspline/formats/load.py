@@ -1,19 +1,16 @@
-"""One way in for every kind of mission file."""
+"""One way in for every kind of mission file.
+
+Tested through ``formats/test_format_registry``.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Final
 
-from viaspline.formats.file_faults import refusal
-from viaspline.formats.items import Itinerary, LatLon, Place
+from viaspline.formats.file_text import read_text
+from viaspline.formats.format_registry import format_of
+from viaspline.formats.items import LatLon
 from viaspline.mission.model import Mission
-from viaspline.mission.yaml_document import read_text
-
-_UNDERSTOOD: Final = (
-    "understood are viaspline's YAML (.yaml, .yml), QGroundControl's plans (.plan, and .mission "
-    "in JSON) and texts that begin with QGC WPL 110 (.txt, .waypoints, .mission)"
-)
 
 
 def load(path: str | Path) -> Mission:
@@ -40,14 +37,8 @@ def load(path: str | Path) -> Mission:
     Traceback (most recent call last):
     viaspline.errors.MissionError: survey.kml: there is no such file; give the path of ...
     """
-    # Imported late, so that reading YAML doesn't wait for what the other formats need.
-    if _is_yaml(path):
-        from viaspline.mission.yaml_reader import read_yaml
-
-        return read_yaml(path)
-    from viaspline.formats.interpret import mission_of
-
-    return mission_of(_itinerary(path))
+    text = read_text(path)
+    return format_of(Path(path), text).read(text, str(path))
 
 
 def origin_of(path: str | Path) -> LatLon | None:
@@ -62,31 +53,9 @@ def origin_of(path: str | Path) -> LatLon | None:
     Raises:
         MissionError: The file can't be read.
 
-    >>> origin_of("patrol.yaml") is None
-    True
+    >>> origin_of("survey.plan")
+    Traceback (most recent call last):
+    viaspline.errors.MissionError: survey.plan: there is no such file; give the path of ...
     """
-    if _is_yaml(path):
-        return None
-    from viaspline.formats.interpret import origin_in
-
-    return origin_in(_itinerary(path))
-
-
-def _is_yaml(path: str | Path) -> bool:
-    return Path(path).suffix.lower() in (".yaml", ".yml")
-
-
-def _itinerary(path: str | Path) -> Itinerary:
-    """What a file with latitudes and longitudes holds."""
     text = read_text(path)
-    start = text.lstrip()[:16]
-    if start.startswith("QGC WPL"):
-        from viaspline.formats.qgc_wpl import parse_qgc_wpl
-
-        return parse_qgc_wpl(text, str(path))
-    if Path(path).suffix.lower() == ".plan" or start.startswith("{"):
-        from viaspline.formats.qgc_plan import parse_qgc_plan
-
-        return parse_qgc_plan(text, str(path))
-    problem = "is a kind of file that isn't understood" if start else "the file is empty"
-    raise refusal(str(path), Place(""), problem, _UNDERSTOOD)
+    return format_of(Path(path), text).origin(text, str(path))

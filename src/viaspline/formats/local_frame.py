@@ -10,8 +10,8 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 
-REACH: Final = 500e3
-"""How far from the origin a place may be [m]; farther off, a flat frame is no map any more."""
+MAX_REACH_M: Final = 500e3
+"""How far from the origin a place may be; farther off, a flat frame is no map any more."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,7 @@
-"""What of a mission files of way points and fences can't carry: named, not dropped."""
+"""What of a mission files of way points and fences can't carry: named, not dropped.
+
+Tested through ``formats/test_waypoint_format``.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,10 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any, Final
 
-from viaspline.formats.interpret import SAME
+from viaspline.formats.interpret import SAME_STOP_M
 from viaspline.mission.model import Mission
 
-_SHOWN: Final = 8
+_MAX_SHOWN: Final = 8
 _POINT: Final = frozenset({"at", "dwell_s"})
 _NUMBERED: Final = re.compile(r"exclusion \d+")
 _SHAPES: Final = frozenset({"circle", "polygon"})
@@ -38,8 +41,8 @@ def _listed(names: list[str]) -> str:
     >>> _listed(["a", "b"])
     'a, b'
     """
-    shown = ", ".join(filter(None, names[:_SHOWN]))
-    return f"{shown} and {len(names) - _SHOWN} more" if len(names) > _SHOWN else shown
+    shown = ", ".join(filter(None, names[:_MAX_SHOWN]))
+    return f"{shown} and {len(names) - _MAX_SHOWN} more" if len(names) > _MAX_SHOWN else shown
 
 
 def _found(mission: Mission) -> Iterator[tuple[str, str]]:
@@ -59,7 +62,7 @@ def _of_route(mission: Mission) -> Iterator[tuple[str, str]]:
     for key, point in route.points():
         yield from ((name, key) for name in _unsaid(point.model_dump(), _POINT))
     for (_, before), (key, point) in pairwise(route.points()):
-        if math.dist(before.at[:2], point.at[:2]) < 2 * SAME:
+        if math.dist(before.at[:2], point.at[:2]) < 2 * SAME_STOP_M:
             yield "points so near to the one before that they may be read as one", key
     if route.closed:
         yield "closed route, written as a way that ends at its start", ""

@@ -1,36 +1,27 @@
-"""From a mission in metres to an itinerary in degrees: the way back of ``interpret``."""
+"""From a mission in metres to an itinerary in degrees: the way back of ``interpret``.
+
+Tested through ``formats/test_waypoint_format``.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
 from viaspline.errors import OutputError
 from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
-from viaspline.formats.local_frame import REACH, LocalFrame
+from viaspline.formats.local_frame import MAX_REACH_M, LocalFrame
 from viaspline.formats.losses import losses
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import ViaPoint
+from viaspline.mission.route_spec import ViaPoint
 
 WAYPOINT: Final = 16
 OVER_HOME: Final = 3
 """MAV_FRAME_GLOBAL_RELATIVE_ALT."""
-
-
-class Written(NamedTuple):
-    """The text of a mission file.
-
-    Attributes:
-        text: What the file holds.
-        lost: What of the mission isn't in it, or not in the same form: a kind a line, with where.
-    """
-
-    text: str
-    lost: tuple[str, ...]
 
 
 def itinerary_of(mission: Mission, origin: LatLon | None) -> Itinerary:
@@ -119,8 +110,8 @@ def _circles(mission: Mission, frame: LocalFrame) -> Iterator[FenceArea]:
 
 def _places(frame: LocalFrame, local: Floats) -> tuple[LatLon, ...]:
     """Latitudes and longitudes [deg] of places in metres, shape (n, 2), to a tenth of a mm."""
-    if np.hypot(local[:, 0], local[:, 1]).max() > 0.9 * REACH:
-        problem = f"the mission reaches more than {0.9 * REACH / 1e3:g} km from its origin"
+    if np.hypot(local[:, 0], local[:, 1]).max() > 0.9 * MAX_REACH_M:
+        problem = f"the mission reaches more than {0.9 * MAX_REACH_M / 1e3:g} km from its origin"
         raise OutputError("<mission>", f"{problem}; a file of way points has one flat frame")
     latitudes, longitudes = frame.to_geodetic(local)
     pairs = zip(latitudes.round(10).tolist(), longitudes.round(10).tolist(), strict=True)

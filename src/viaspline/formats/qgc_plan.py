@@ -5,76 +5,129 @@ Format: https://docs.qgroundcontrol.com/master/en/qgc-dev-guide/file_formats/pla
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Final
+from typing import Any, ClassVar, Final
 
 from viaspline.errors import MissionError
-from viaspline.formats.interpret import mission_of
 from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
 from viaspline.formats.json_tree import Tree, json_tree
+from viaspline.formats.mission_format import Whereabouts, Written
+from viaspline.formats.outgoing import itinerary_of, lost_of
+from viaspline.formats.waypoint_format import WaypointFormat
 from viaspline.mission.model import Mission
 from viaspline.mission.unplaced_faults import describe
-from viaspline.mission.yaml_document import read_text
 
 _ROTORCRAFT: Final = frozenset({2, 3, 4, 13, 14, 15, 29, 35})
 """MAV_TYPEs that fly at hoverSpeed; all others go at cruiseSpeed."""
 
+ARDUPILOT: Final = 3
+GROUND_ROVER: Final = 10
 
-def read_qgc_plan(path: str | Path) -> Mission:
-    """Read a plan of QGroundControl's.
+
+class QgcPlan(WaypointFormat):
+    """QGroundControl's plans.
 
     The robot's greatest speed is ``hoverSpeed`` for rotorcraft and ``cruiseSpeed`` for all other
     vehicles. Surveys and corridor scans are the way points that they were resolved to.
-
-    Args:
-        path: The file.
-
-    Raises:
-        MissionError: The file can't be read or its mission has faults, each with its key.
-
-    Warns:
-        MissionWarning: One for each kind of thing that a mission can't represent.
     """
-    return mission_of(parse_qgc_plan(read_text(path), str(path)))
 
+    description: ClassVar[str] = "QGroundControl's plans (.plan, and .mission in JSON)"
+    endings: ClassVar[tuple[str, ...]] = (".plan", ".mission")
+    saved_endings: ClassVar[tuple[str, ...]] = (".plan",)
 
-def parse_qgc_plan(text: str, source: str) -> Itinerary:
-    """The items, home and fences of a plan.
+    def sniff(self, path: Path, text: str) -> bool:
+        """Whether it is JSON, or called a plan and no table of QGroundControl's."""
+        start = text.lstrip()[:7]
+        is_called_so = path.suffix.lower() == ".plan" and start != "QGC WPL"
+        return start.startswith("{") or is_called_so
 
-    Raises:
-        MissionError: It isn't JSON, no plan, or a plan with faults: all of them.
-    """
-    root = json_tree(text, source)
-    # Before there were plans, the file was what is now its mission.
-    is_plan = "fileType" in root or "mission" in root
-    mission = root["mission"] if is_plan else root
-    if is_plan:
-        _check_versions(root, mission)
-    elif "items" not in root:
-        root.fault(
-            "is no plan of QGroundControl: it has neither mission nor items",
-            'it should have "fileType": "Plan" and a mission',
+    def parse(self, text: str, source: str) -> Itinerary:
+        """The items, home and fences of a plan.
+
+        Raises:
+            MissionError: It isn't JSON, no plan, or a plan with faults: all of them.
+        """
+        root = json_tree(text, source)
+        # Before there were plans, the file was what is now its mission.
+        is_plan = "fileType" in root or "mission" in root
+        mission = root["mission"] if is_plan else root
+        if is_plan:
+            _check_versions(root, mission)
+        elif "items" not in root:
+            root.fault(
+                "is no plan of QGroundControl: it has neither mission nor items",
+                'it should have "fileType": "Plan" and a mission',
+            )
+        notes: dict[str, list[str]] = {}
+        items = tuple(_items(mission["items"], notes))
+        fences = tuple(_fences(root["geoFence"], notes))
+        for point in root["rallyPoints"]["points"].items():
+            notes.setdefault("rally point", []).append(point.key)
+        itinerary = Itinerary(
+            source=source,
+            items=items,
+            home=_home(mission["plannedHomePosition"]),
+            fences=fences,
+            speed=_speed(mission),
+            notes=tuple((kind, ", ".join(where)) for kind, where in notes.items()),
+            origin=_origin(root["viaspline"]["origin"]),
+            is_flat=root["viaspline"]["heights"].value is False,
         )
-    notes: dict[str, list[str]] = {}
-    items = tuple(_items(mission["items"], notes))
-    fences = tuple(_fences(root["geoFence"], notes))
-    for point in root["rallyPoints"]["points"].items():
-        notes.setdefault("rally point", []).append(point.key)
-    itinerary = Itinerary(
-        source=source,
-        items=items,
-        home=_home(mission["plannedHomePosition"]),
-        fences=fences,
-        speed=_speed(mission),
-        notes=tuple((kind, ", ".join(where)) for kind, where in notes.items()),
-        origin=_origin(root["viaspline"]["origin"]),
-        is_flat=root["viaspline"]["heights"].value is False,
-    )
-    if root.faults.found:
-        raise MissionError(root.faults.found)
-    return itinerary
+        if root.faults.found:
+            raise MissionError(root.faults.found)
+        return itinerary
+
+    def write(self, mission: Mission, where: Whereabouts) -> Written:
+        """A mission as a plan, for a rover.
+
+        Start, via points and goal are way points with their dwells as hold times; obstacles are
+        exclusion fences, fences and bounds inclusion fences; the greatest speed is both of the
+        plan's speeds. The origin, and whether heights are meant, stand under a key of viaspline's
+        own, which others pass over, so that reading the plan gives the same metres.
+
+        Args:
+            mission: The mission.
+            where: With the latitude and longitude of its 0, 0; `viaspline.formats.load.origin_of`
+                tells those of a file.
+
+        Raises:
+            OutputError: There is no origin, or the mission reaches too far from it.
+
+        >>> mission = Mission.model_validate({"route": {"start": [0, 0], "goal": [90, 0]}})
+        >>> text, lost = QgcPlan().write(mission, Whereabouts(origin=(47.0, 8.0)))
+        >>> QgcPlan().origin(text, "x.plan"), lost
+        ((47.0, 8.0), ())
+        """
+        itinerary = itinerary_of(mission, where.origin)
+        home, fences = itinerary.home, itinerary.fences
+        assert home is not None
+        plan = {
+            "fileType": "Plan",
+            "version": 1,
+            "groundStation": "viaspline",
+            "mission": {
+                "version": 2,
+                "firmwareType": ARDUPILOT,
+                "vehicleType": GROUND_ROVER,
+                "globalPlanAltitudeMode": 1,
+                "cruiseSpeed": itinerary.speed,
+                "hoverSpeed": itinerary.speed,
+                "plannedHomePosition": [home.latitude, home.longitude, home.altitude],
+                "items": [_item_json(item) for item in itinerary.items],
+            },
+            "geoFence": {
+                "version": 2,
+                "polygons": [_polygon_json(area) for area in fences if area.center is None],
+                "circles": [_circle_json(area) for area in fences if area.center is not None],
+            },
+            "rallyPoints": {"version": 2, "points": []},
+            "viaspline": {"origin": itinerary.origin, "heights": not itinerary.is_flat},
+        }
+        text = json.dumps(plan, indent=4, sort_keys=True, allow_nan=False)
+        return Written(text + "\n", lost_of(itinerary))
 
 
 def _check_versions(root: Tree, mission: Tree) -> None:
@@ -203,3 +256,27 @@ def _is_inclusion(area: Tree) -> bool:
 def _corners(tree: Tree) -> tuple[tuple[float, float], ...]:
     pairs = [corner.numbers(2, "[latitude, longitude]") for corner in tree.items()]
     return tuple((pair[0], pair[1]) for pair in pairs if pair)
+
+
+def _item_json(item: Item) -> dict[str, Any]:
+    params = [None if math.isnan(param) else param for param in item.params]
+    return {
+        "type": "SimpleItem",
+        "AMSLAltAboveTerrain": None,
+        "Altitude": item.altitude,
+        "AltitudeMode": 1,
+        "autoContinue": True,
+        "command": item.command,
+        "doJumpId": item.number,
+        "frame": item.frame,
+        "params": [*params, item.latitude, item.longitude, item.altitude],
+    }
+
+
+def _polygon_json(area: FenceArea) -> dict[str, Any]:
+    return {"inclusion": area.inclusion, "polygon": area.corners, "version": 1}
+
+
+def _circle_json(area: FenceArea) -> dict[str, Any]:
+    circle = {"center": area.center, "radius": area.radius}
+    return {"circle": circle, "inclusion": area.inclusion, "version": 1}

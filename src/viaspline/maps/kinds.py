@@ -1,6 +1,6 @@
 """Which kinds of map files there are: those of squares, and those of areas.
 
-Tested through ``mission/test_maps``.
+Tested through ``mission/test_resolve_files``.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""What the user asks for: types, YAML reader and writer, every fault of a mission at once."""
+"""What the user asks for: types that declare each key once, every fault of a mission at once."""

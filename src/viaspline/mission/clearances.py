@@ -1,4 +1,7 @@
-"""Can the robot stand at every point of the route, and where is the nearest place if not?"""
+"""Can the robot stand at every point of the route, and where is the nearest place if not?
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
@@ -8,35 +11,36 @@ from typing import NamedTuple
 
 from viaspline.errors import Change
 from viaspline.maps.squares import is_unknown
-from viaspline.mission.corridors import CORRIDOR, corridor_of
+from viaspline.mission.corridors import CORRIDOR_PATH, corridor_of
+from viaspline.mission.fields import Corners
 from viaspline.mission.freespace import FreeSpace
-from viaspline.mission.partial_mission import Corners, PartialMission, obstacle_label
-from viaspline.mission.parts import ViaPoint
+from viaspline.mission.partial_mission import PartialMission, obstacle_label
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.route_spec import ViaPoint
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
 
-TOLERANCE = 1e-9
+ROUND_OFF_M = 1e-9
 """A point may be this much too near [m]: round-off, not a fault."""
 
 
-def clearance_flaws(draft: PartialMission, misshapen: Collection[Path]) -> list[UnplacedFault]:
+def clearance_faults(partial: PartialMission, misshapen: Collection[Path]) -> list[UnplacedFault]:
     """Points of the route too near to an obstacle, to the bounds or to a fence.
 
     Args:
-        draft: The parts of the mission that are sound.
+        partial: The parts of the mission that are sound.
         misshapen: Paths of obstacles and fences that have no usable shape.
     """
-    points = [(path, point) for path, point in draft.points if point is not None]
+    points = [(path, point) for path, point in partial.points if point is not None]
     # A robot that makes no sense itself: ask only whether points are inside of something.
-    robot = draft.robot if draft.robot is not None else RobotSpec(radius_m=0, clearance_m=0)
-    known = [(path, obstacle) for path, obstacle in draft.known if path not in misshapen]
-    fences = [(path, ring) for path, ring in draft.fences if path not in misshapen]
-    bounds = draft.bounds
+    robot = partial.robot if partial.robot is not None else RobotSpec(radius_m=0, clearance_m=0)
+    known = [(path, obstacle) for path, obstacle in partial.known if path not in misshapen]
+    fences = [(path, ring) for path, ring in partial.fences if path not in misshapen]
+    bounds = partial.bounds
     if bounds is not None and (bounds[0] >= bounds[2] or bounds[1] >= bounds[3]):
         bounds = None
     rings: list[tuple[Path, tuple[Corners, ...]]] = [(path, (ring,)) for path, ring in fences]
-    rings += corridor_of(draft)
+    rings += corridor_of(partial)
     if not points or not (known or rings or bounds):
         return []
     margin = robot.inner_radius + robot.clearance_m
@@ -46,7 +50,7 @@ def clearance_flaws(draft: PartialMission, misshapen: Collection[Path]) -> list[
             (*points[i][0], "at"), _problem(points[i], near, margin), remedy, changes=changes
         )
         for i, nears in _too_near(
-            space, points, known, [path for path, _ in rings], draft.edge
+            space, points, known, [path for path, _ in rings], partial.edge
         ).items()
         for remedy, changes in [_remedy(*points[i], nears, robot, space)]
         for near in nears
@@ -81,14 +85,14 @@ def _too_near(
     found: dict[int, list[_Near]] = {}
 
     def note(i: int, near: _Near) -> None:
-        if near.distance < space.margin - TOLERANCE:
+        if near.distance < space.margin - ROUND_OFF_M:
             found.setdefault(i, []).append(near)
 
     for i, distance in space.near_bounds(places):
         note(i, _Near(_edge_label(("world", "bounds"), edge, "the bounds"), distance, "outside"))
     for i, j, distance in space.near_fences(places):
         path = fences[j]
-        label = "the corridor" if path == CORRIDOR else f"fence {spell(path)}"
+        label = "the corridor" if path == CORRIDOR_PATH else f"fence {spell(path)}"
         note(i, _Near(_edge_label(path, edge, label), distance, "outside"))
     for i, j, distance in space.near_obstacles(places):
         path, obstacle = known[j]

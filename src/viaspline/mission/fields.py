@@ -1,21 +1,50 @@
-"""What the fields of a mission are made of: numbers with limits, points, rings, names."""
+"""What the fields of a mission are made of: numbers with units and limits, points, rings, names.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
 import os
-from typing import Annotated, Any, Final, TypeAlias, TypeVar
+from typing import Annotated, Any, Final, TypeAlias
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
-from pydantic_core import PydanticCustomError
+from pydantic import AfterValidator, BeforeValidator, Field
 
-FAR: Final = 1e9
-"""The farthest coordinate and the greatest length [m]; beyond it a double loses the micrometre."""
+from viaspline.mission.annotations import Expects, Unit
+
+MAX_LENGTH_M: Final = 1e9
+"""The farthest coordinate and the greatest length; beyond it a double loses the micrometre."""
+
+METRES: Final = Unit("m", "metres")
+SECONDS: Final = Unit("s", "seconds")
+DEGREES: Final = Unit("deg", "degrees")
+HEADING_DEGREES: Final = Unit("deg, anticlockwise from x", "degrees, anticlockwise from x")
+DEGREES_PER_SECOND: Final = Unit("deg/s", "degrees per second")
+DEGREES_PER_SECOND2: Final = Unit("deg/s²", "degrees/s²")
+METRES_PER_SECOND: Final = Unit("m/s", "metres per second")
+METRES_PER_SECOND2: Final = Unit("m/s²", "m/s²")
+METRES_PER_SECOND3: Final = Unit("m/s³", "m/s³")
 
 Number: TypeAlias = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Coordinate: TypeAlias = Annotated[Number, Field(ge=-FAR, le=FAR)]
 Positive: TypeAlias = Annotated[Number, Field(gt=0)]
 NotNegative: TypeAlias = Annotated[Number, Field(ge=0)]
+
+Coordinate: TypeAlias = Annotated[Number, METRES, Field(ge=-MAX_LENGTH_M, le=MAX_LENGTH_M)]
+Length: TypeAlias = Annotated[Positive, METRES, Field(le=MAX_LENGTH_M)]
+"""A length that something has [m]."""
+Distance: TypeAlias = Annotated[NotNegative, METRES, Field(le=MAX_LENGTH_M)]
+"""A length that may be nothing [m]."""
+Speed: TypeAlias = Annotated[Positive, METRES_PER_SECOND]
+Acceleration: TypeAlias = Annotated[Positive, METRES_PER_SECOND2]
+Jerk: TypeAlias = Annotated[Positive, METRES_PER_SECOND3]
+AngularSpeed: TypeAlias = Annotated[Positive, DEGREES_PER_SECOND]
+AngularAcceleration: TypeAlias = Annotated[Positive, DEGREES_PER_SECOND2]
+Duration: TypeAlias = Annotated[NotNegative, SECONDS]
+Heading: TypeAlias = Annotated[Number, HEADING_DEGREES]
+
 Name: TypeAlias = Annotated[str, Field(strict=True, min_length=1)]
+Corners: TypeAlias = tuple[tuple[float, float], ...]
+"""A polygon's corners [m]; no last one repeats the first."""
 
 
 def plain(value: Any) -> Any:
@@ -23,7 +52,7 @@ def plain(value: Any) -> Any:
     return value.tolist() if hasattr(value, "tolist") else value
 
 
-def _opened(ring: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+def _opened(ring: Corners) -> Corners:
     """Drop a last point that repeats the first, as other formats write rings."""
     return ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring
 
@@ -33,38 +62,22 @@ def as_text(value: Any) -> Any:
     return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 
-Point2: TypeAlias = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(plain)]
+RING_WORDS: Final = "at least three points [[x, y], [x, y], [x, y]] in metres"
+
+Point2: TypeAlias = Annotated[
+    tuple[Coordinate, Coordinate], BeforeValidator(plain), Expects("[x, y] in metres")
+]
 Point: TypeAlias = Annotated[
-    tuple[Coordinate, ...], Field(min_length=2, max_length=3), BeforeValidator(plain)
+    tuple[Coordinate, ...],
+    Field(min_length=2, max_length=3),
+    BeforeValidator(plain),
+    Expects("[x, y] or [x, y, z] in metres"),
 ]
 Ring: TypeAlias = Annotated[
-    tuple[Point2, ...], Field(min_length=3), BeforeValidator(plain), AfterValidator(_opened)
+    tuple[Point2, ...],
+    Field(min_length=3),
+    BeforeValidator(plain),
+    AfterValidator(_opened),
+    Expects(RING_WORDS),
 ]
-
-
-class Value(BaseModel):
-    """A frozen value that refuses keys it does not know."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-Kind = TypeVar("Kind", bound=Value)
-
-
-def one_of(value: Kind, *keys: str) -> Kind:
-    """The value, if just one of some keys is given.
-
-    Raises:
-        PydanticCustomError: ``none_of`` or ``two_of``, with the keys in its context.
-    """
-    given = [key for key in keys if getattr(value, key) is not None]
-    if not given:
-        raise PydanticCustomError("none_of", "give one of them", {"keys": keys})
-    if len(given) > 1:
-        raise two_of(*given)
-    return value
-
-
-def two_of(*keys: str) -> PydanticCustomError:
-    """The error of keys that exclude each other."""
-    return PydanticCustomError("two_of", "give one of them", {"keys": keys})
+Rings: TypeAlias = Annotated[tuple[Ring, ...], Expects(f"a list of polygons, each {RING_WORDS}")]

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from viaspline.mission.partial_mission import Corners
-from viaspline.mission.polygon_checks import polygon_flaws
+from viaspline.mission.fields import Corners
+from viaspline.mission.polygon_checks import polygon_faults
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
-PATH: Path = ("robot", "footprint")
+FOOTPRINT_PATH: Path = ("robot", "footprint")
 
 
-def footprint_flaw(corners: Corners) -> UnplacedFault | None:
+def footprint_fault(corners: Corners) -> UnplacedFault | None:
     """Why corners [m] are no body about the reference point (0, 0), or None.
 
-    >>> footprint_flaw([(-1, -1), (1, -1), (1, 1), (-1, 1)])
-    >>> print(footprint_flaw([(1, -1), (3, -1), (3, 1), (1, 1)]).problem)
+    >>> footprint_fault([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    >>> print(footprint_fault([(1, -1), (3, -1), (3, 1), (1, 1)]).problem)
     the body does not contain its reference point (0, 0), which lies 1 m outside
     """
     if len(corners) < 3:
         problem = f"the body has {len(corners)} corners, which enclose nothing"
-        return UnplacedFault(PATH, problem, "give three or more, [[x, y], [x, y], [x, y]]")
-    unsound = polygon_flaws([PATH], [(corners, ())])
+        return UnplacedFault(
+            FOOTPRINT_PATH, problem, "give three or more, [[x, y], [x, y], [x, y]]"
+        )
+    unsound = polygon_faults([FOOTPRINT_PATH], [(corners, ())])
     if unsound:
         return unsound[0]
     import shapely
@@ -33,7 +35,7 @@ def footprint_flaw(corners: Corners) -> UnplacedFault | None:
     dx, dy = -round(centre.x, 3), -round(centre.y, 3)
     shifted = ", ".join(f"[{number(x + dx)}, {number(y + dy)}]" for x, y in corners)
     return UnplacedFault(
-        PATH,
+        FOOTPRINT_PATH,
         f"the body does not contain its reference point (0, 0), which {where}",
         "the point that follows the path is the origin of the corners, x forward and y left: "
         f"shift it so that it lies inside, e.g. [{shifted}]",

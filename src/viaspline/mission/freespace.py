@@ -2,6 +2,8 @@
 
 Distances are signed [m]: negative on the wrong side. Asked with arrays and trees, so that a
 million obstacles are no problem.
+
+Tested through ``mission/test_model``.
 """
 
 from __future__ import annotations
@@ -17,17 +19,21 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.maps.squares import blocked_ground, signed_distance
-from viaspline.mission.partial_mission import Corners
+from viaspline.mission.fields import Corners
 from viaspline.mission.polygon_checks import Geometries, polygons_of
 from viaspline.mission.shapes.obstacle import Obstacle
 
 Indices: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
 
-_CROWD = 2000  # Obstacles round a point beyond which no nearest free place is looked for.
-_QUARTER = 64  # Corners of a quarter circle where outlines are moved outwards.
-_OUTWARD = 1 / math.cos(math.pi / (4 * _QUARTER))  # Chords cut corners; so much farther, none.
-_COARSE = 8  # The same for squares, which have so many corners.
-_OUTWARD_COARSE = 1 / math.cos(math.pi / (4 * _COARSE))
+_MAX_OBSTACLES_AROUND = (
+    2000  # Obstacles round a point beyond which no nearest free place is looked for.
+)
+_QUARTER_CHORDS = 64  # Corners of a quarter circle where outlines are moved outwards.
+_CHORD_GROWTH = 1 / math.cos(
+    math.pi / (4 * _QUARTER_CHORDS)
+)  # Chords cut corners; so much farther, none.
+_GRID_QUARTER_CHORDS = 8  # Corners of a quarter circle round squares, which have so many.
+_GRID_CHORD_GROWTH = 1 / math.cos(math.pi / (4 * _GRID_QUARTER_CHORDS))
 
 
 class FreeSpace:
@@ -156,7 +162,7 @@ class FreeSpace:
             around = np.empty(0, dtype=np.intp)
             if len(self.boxes):
                 around = self._tree.query(_window(place, reach + 2 * self.margin))
-            if len(around) > _CROWD:
+            if len(around) > _MAX_OBSTACLES_AROUND:
                 return None
             free = self._free(_window(place, reach), around)
             if not free.is_empty:
@@ -180,7 +186,9 @@ class FreeSpace:
         for fence in self._inner_fences:
             window = shapely.intersection(window, fence)
         grown = shapely.buffer(
-            self.geometries[around], (self.radii[around] + margin) * _OUTWARD, quad_segs=_QUARTER
+            self.geometries[around],
+            (self.radii[around] + margin) * _CHORD_GROWTH,
+            quad_segs=_QUARTER_CHORDS,
         )
         free = shapely.difference(window, shapely.union_all(grown))
         for _, grid in self.grids:
@@ -197,15 +205,17 @@ class FreeSpace:
         reach = 2 * margin
         box = (x_min - reach, y_min - reach, x_max + reach, y_max + reach)
         return shapely.buffer(
-            blocked_ground(grid, box), margin * _OUTWARD_COARSE, quad_segs=_COARSE
+            blocked_ground(grid, box), margin * _GRID_CHORD_GROWTH, quad_segs=_GRID_QUARTER_CHORDS
         )
 
     @cached_property
     def _inner_fences(self) -> Geometries:
         import shapely
 
-        margin = (self.margin + 2 * self._step) * _OUTWARD
-        return np.asarray(shapely.buffer(self.fences, -margin, quad_segs=_QUARTER), dtype=object)
+        margin = (self.margin + 2 * self._step) * _CHORD_GROWTH
+        return np.asarray(
+            shapely.buffer(self.fences, -margin, quad_segs=_QUARTER_CHORDS), dtype=object
+        )
 
     @property
     def _step(self) -> float:

@@ -6,40 +6,9 @@ import inspect
 import re
 from typing import Any, Final
 
-from viaspline.mission.model import Mission
-from viaspline.mission.parts import (
-    Corridor,
-    EndPoint,
-    MapSpec,
-    Route,
-    SpeedZone,
-    SplineSpec,
-    ViaPoint,
-    WorldSpec,
-)
-from viaspline.mission.robot_parts import (
-    Ackermann,
-    Differential,
-    Drive,
-    Lidar,
-    Localization,
-    RobotSpec,
-    Sensor,
-    SkidSteer,
-)
-from viaspline.mission.shapes.circle import Circle
-from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.key_places import key_name
+from viaspline.mission.value import Value
 
-_DOCUMENTED: Final = (
-    Mission, WorldSpec, Obstacle, Circle, MapSpec, SpeedZone, RobotSpec, Drive, Differential,
-    Ackermann, SkidSteer, Localization, Sensor, Lidar, Route, ViaPoint, EndPoint, Corridor,
-    SplineSpec,
-)  # fmt: skip
-
-_ONE_OF: Final = {
-    "Sensor": ("range_m", "lidar"),
-    "Drive": ("differential", "ackermann", "skid_steer"),
-}
 _ATTRIBUTE: Final = re.compile(r"^    (\w+): (.*(?:\n        .*)*)", re.MULTILINE)
 
 
@@ -52,59 +21,51 @@ def json_schema() -> dict[str, Any]:
     >>> json_schema()["required"]
     ['route']
     """
-    schema = Mission.model_json_schema(mode="validation")
-    _add_maps(schema)
-    for model in _DOCUMENTED:
-        target = schema if model is Mission else schema["$defs"].get(model.__name__)
-        if target is not None:
-            _describe(target, model)
-    obstacle = schema["$defs"]["Obstacle"]
-    obstacle["oneOf"] = [{"required": ["circle"]}, {"required": ["polygon"]}]
-    obstacle["dependentRequired"] = {"holes": ["polygon"]}
-    for name, kinds in _ONE_OF.items():
-        schema["$defs"][name]["oneOf"] = [{"required": [key]} for key in kinds]
-    schema["$defs"]["RobotSpec"]["not"] = {"required": ["radius_m", "footprint"]}
-    spline = schema["$defs"]["SplineSpec"]
-    spline["not"] = {"required": ["tension", "slack"]}
-    _limit(spline["properties"]["tension"], {"maximum": 1})
-    _limit(spline["properties"]["slack"], {"minimum": 0})
+    from viaspline.mission.model import Mission
+
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        **schema,
+        **Mission.model_json_schema(mode="validation"),
         "title": "A mission of viaspline",
     }
 
 
-def _add_maps(schema: dict[str, Any]) -> None:
-    """Maps may stand where obstacles stand."""
-    schema["$defs"]["MapSpec"] = MapSpec.model_json_schema(mode="validation")
-    kinds = [{"$ref": "#/$defs/Obstacle"}, {"$ref": "#/$defs/MapSpec"}]
-    for key in ("known", "unseen"):
-        schema["$defs"]["WorldSpec"]["properties"][key]["items"] = {"anyOf": kinds}
+def describe_keys(model: type[Value], schema: dict[str, Any]) -> None:
+    """Put into a model's schema what its class says: descriptions, and which keys go together.
+
+    Args:
+        model: The class.
+        schema: What pydantic makes of it; changed.
+    """
+    documented = documentation(model)
+    schema["description"] = _plain(inspect.getdoc(model) or "").partition(". ")[0].rstrip(".") + "."
+    for name, field in model.model_fields.items():
+        prop = schema["properties"].get(key_name(name, field))
+        if prop is not None and name in documented:
+            prop["description"] = documented[name]
+    rules = model.key_rules
+    if "exactly_one" in rules:
+        told = [key for key in rules["exactly_one"] if key in schema["properties"]]
+        schema["oneOf"] = [{"required": [key]} for key in told]
+    if "excluding" in rules:
+        schema["not"] = {"anyOf": [{"required": list(pair)} for pair in rules["excluding"]]}
+    if "needing" in rules:
+        schema["dependentRequired"] = {key: [other] for key, other in rules["needing"]}
 
 
-def _limit(prop: dict[str, Any], limit: dict[str, float]) -> None:
-    """Limit the numbers of "one number, or a list of them"."""
-    for choice in prop["anyOf"]:
-        if choice.get("const"):
-            continue
-        if choice["type"] == "number":
-            choice.update(limit)
-        elif choice["type"] == "array":
-            choice["items"].update(limit)
+def documentation(model: type) -> dict[str, str]:
+    """What the docstrings of a class and of its bases say of each attribute, on one line.
 
-
-def _describe(schema: dict[str, Any], model: type) -> None:
-    """Put what a class's docstring says of its attributes beside the properties."""
+    >>> from viaspline.mission.sensor_spec import Lidar
+    >>> documentation(Lidar)["range_m"]
+    'The length of a beam [m].'
+    """
     documented: dict[str, str] = {}
     for base in reversed(model.__mro__):
         text = inspect.cleandoc(base.__dict__.get("__doc__") or "")
         attributes = text.partition("Attributes:\n")[2].partition("\n\n")[0]
         documented |= {name: _plain(words) for name, words in _ATTRIBUTE.findall(attributes)}
-    schema["description"] = _plain(inspect.getdoc(model) or "").partition(". ")[0].rstrip(".") + "."
-    for name, prop in schema["properties"].items():
-        if name in documented:
-            prop["description"] = documented[name]
+    return documented
 
 
 def _plain(text: str) -> str:

@@ -1,19 +1,26 @@
-"""Maps for those who build their world in Python."""
+"""Maps for those who build their world in Python.
+
+Tested through ``mission/test_resolve_files``.
+"""
 
 from __future__ import annotations
 
 import os
-from pathlib import Path
+from pathlib import Path as FilePath
+from typing import Final
 
 from pydantic import ValidationError
 
 from viaspline.errors import MissionError
 from viaspline.maps.reading import Unknown
-from viaspline.mission.parts import MapSpec
+from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.resolve_files import obstacles_of
-from viaspline.mission.schema_errors import structural_flaws
+from viaspline.mission.schema_errors import schema_faults
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.mission.unplaced_faults import located
+from viaspline.mission.unplaced_faults import Path, located
+
+_IN_A_MISSION: Final[Path] = ("world", "known", 0)
+"""Where a mission asks for a map: its keys are those of this place."""
 
 
 def load_map(
@@ -47,5 +54,7 @@ def load_map(
     try:
         spec = MapSpec.model_validate(asked)
     except ValidationError as error:
-        raise MissionError(located(structural_flaws(error), asked, None)) from None
-    return tuple(obstacles_of(spec, Path(), set()))
+        faults = schema_faults(error, at=_IN_A_MISSION)
+        own = [fault._replace(path=fault.path[len(_IN_A_MISSION) :]) for fault in faults]
+        raise MissionError(located(own, asked, None)) from None
+    return tuple(obstacles_of(spec, FilePath(), set()))

@@ -1,4 +1,7 @@
-"""Where maps end: the bounds that they bring along."""
+"""Where maps end: the bounds that they bring along.
+
+Tested through ``mission/test_resolve_files``.
+"""
 
 from __future__ import annotations
 
@@ -7,9 +10,9 @@ from collections.abc import Sequence
 from typing import NamedTuple, TypeAlias
 
 from viaspline.maps.grid import Grid
+from viaspline.mission.fields import Corners
 
 Bounds: TypeAlias = tuple[float, float, float, float]
-Fence: TypeAlias = tuple[tuple[float, float], ...]
 
 
 class MapEdge(NamedTuple):
@@ -21,7 +24,7 @@ class MapEdge(NamedTuple):
     """
 
     bounds: Bounds | None = None
-    fence: Fence | None = None
+    fence: Corners | None = None
 
 
 def edge_of(grids: Sequence[Grid]) -> MapEdge:

@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import ModelWrapValidatorHandler, ValidationInfo, model_validator
 
-from viaspline.mission.parts import MissionParts
+from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.validation import sound_mission
 
 

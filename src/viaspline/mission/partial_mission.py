@@ -1,33 +1,29 @@
 """The parts of a mission that are structurally sound, each with its path.
 
-A sound mission is a draft in which nothing is missing. If something is, the semantic checks still
-run on the rest, so that the user hears of every fault at once.
+A sound mission is a partial one in which nothing is missing. If something is, the semantic checks
+still run on the rest, so that the user hears of every fault at once.
+
+Tested through ``mission/test_model``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias
+from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from viaspline.mission.fields import Ring
-from viaspline.mission.parts import (
-    Corridor,
-    EndPoint,
-    MissionParts,
-    SplineSpec,
-    ViaPoint,
-    WorldSpec,
-)
+from viaspline.mission.corridor_spec import Corridor
+from viaspline.mission.fields import Corners, Ring
+from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.resolve_files import ResolvedFiles
 from viaspline.mission.robot_parts import RobotSpec
-from viaspline.mission.schema_errors import parts
+from viaspline.mission.route_spec import EndPoint, ViaPoint
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.mission.unplaced_faults import Path, children, spell
-
-Corners: TypeAlias = tuple[tuple[float, float], ...]
+from viaspline.mission.spline_spec import SplineSpec
+from viaspline.mission.unplaced_faults import Path, children, list_items, spell
+from viaspline.mission.world_spec import WorldSpec
 
 
 @dataclass(frozen=True)
@@ -70,8 +66,8 @@ class PartialMission:
         return bool(self.closed and self.corridor is not None and self.corridor.line is not None)
 
     @classmethod
-    def of(cls, mission: MissionParts, unfolded: ResolvedFiles) -> PartialMission:
-        """A whole mission as a draft; obstacles of maps have the path of their map."""
+    def of(cls, mission: MissionParts, resolved: ResolvedFiles) -> PartialMission:
+        """A whole mission as a partial one; obstacles of maps have the path of their map."""
         world, route = mission.world, mission.route
         points: list[tuple[Path, ViaPoint | None]] = [(("route", "start"), route.start)]
         points += [(("route", "via", i), via) for i, via in enumerate(route.via)]
@@ -80,22 +76,22 @@ class PartialMission:
         return cls(
             bounds=world.bounds,
             fences=[(("world", "fences", i), ring) for i, ring in enumerate(world.fences)],
-            known=_placed(enumerate(world.known), "known", unfolded),
-            unseen=_placed(enumerate(world.unseen), "unseen", unfolded),
+            known=_placed(enumerate(world.known), "known", resolved),
+            unseen=_placed(enumerate(world.unseen), "unseen", resolved),
             robot=mission.robot,
             points=points,
             closed=route.closed,
             has_goal=route.goal is not None,
             spline=mission.spline,
-            edge=unfolded.edge,
+            edge=resolved.edge,
             corridor=route.corridor,
             laps=route.laps,
         )
 
     @classmethod
-    def salvage(cls, unfolded: ResolvedFiles) -> PartialMission:
+    def salvage(cls, resolved: ResolvedFiles) -> PartialMission:
         """What is sound in data that is not."""
-        top = children(unfolded.data) or {}
+        top = children(resolved.data) or {}
         world = children(top.get("world")) or {}
         route = children(top.get("route")) or {}
         bounds = _attempt(WorldSpec, {"bounds": world.get("bounds")})
@@ -103,23 +99,23 @@ class PartialMission:
         points: list[tuple[Path, ViaPoint | None]] = [
             (("route", "start"), _point(_END, route.get("start")))
         ]
-        points += [(("route", "via", i), _point(_VIA, item)) for i, item in parts(via)]
+        points += [(("route", "via", i), _point(_VIA, item)) for i, item in list_items(via)]
         if route.get("goal") is not None:
             points.append((("route", "goal"), _point(_END, route["goal"])))
         closed = route.get("closed", False)
         laps = route.get("laps", 1)
         return cls(
             bounds=bounds.bounds if bounds is not None else None,
-            fences=_placed(_sound(TypeAdapter(Ring), world, "fences"), "fences", unfolded),
-            known=_placed(_sound(TypeAdapter(Obstacle), world, "known"), "known", unfolded),
-            unseen=_placed(_sound(TypeAdapter(Obstacle), world, "unseen"), "unseen", unfolded),
+            fences=_placed(_sound(TypeAdapter(Ring), world, "fences"), "fences", resolved),
+            known=_placed(_sound(TypeAdapter(Obstacle), world, "known"), "known", resolved),
+            unseen=_placed(_sound(TypeAdapter(Obstacle), world, "unseen"), "unseen", resolved),
             robot=_robot(top.get("robot", {})),
             points=points,
             closed=closed if isinstance(closed, bool) else None,
             has_goal=route.get("goal") is not None,
             has_route=bool(route) and (isinstance(via, list | tuple) or hasattr(via, "tolist")),
             spline=_attempt(SplineSpec, top.get("spline", {})),
-            edge=unfolded.edge,
+            edge=resolved.edge,
             corridor=_attempt(Corridor, route.get("corridor")),
             laps=laps if isinstance(laps, int) else 1,
         )
@@ -164,13 +160,13 @@ def _validated(adapter: TypeAdapter[Any], value: Any) -> Any:
 
 
 def _sound(adapter: TypeAdapter[Any], world: Any, key: str) -> Iterator[tuple[int, Any]]:
-    tried = ((i, _validated(adapter, item)) for i, item in parts(world.get(key)))
+    tried = ((i, _validated(adapter, item)) for i, item in list_items(world.get(key)))
     return ((i, value) for i, value in tried if value is not None)
 
 
-def _placed(items: Iterable[tuple[int, Any]], key: str, unfolded: ResolvedFiles) -> list[Any]:
+def _placed(items: Iterable[tuple[int, Any]], key: str, resolved: ResolvedFiles) -> list[Any]:
     """Items of a list under ``world``, each with its path in the mission as it was given."""
-    return [(unfolded.original(("world", key, i)), value) for i, value in items]
+    return [(resolved.original(("world", key, i)), value) for i, value in items]
 
 
 def obstacle_label(path: Path, obstacle: Obstacle) -> str:

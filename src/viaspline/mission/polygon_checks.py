@@ -1,4 +1,7 @@
-"""Are the polygons polygons? Asked for all of them at once, however many there are."""
+"""Are the polygons polygons? Asked for all of them at once, however many there are.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from viaspline.mission.partial_mission import Corners, PartialMission
+from viaspline.mission.fields import Corners
+from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
@@ -64,24 +68,24 @@ def _rings(rings: Sequence[Corners]) -> Geometries:
     return np.asarray(shapely.linearrings(corners, indices=owners), dtype=object)
 
 
-def shape_flaws(draft: PartialMission) -> list[UnplacedFault]:
+def shape_faults(partial: PartialMission) -> list[UnplacedFault]:
     """Obstacles without a shape or with two, polygons that cross themselves or have no area."""
-    obstacles = draft.known + draft.unseen
-    flaws = [flaw for path, obstacle in obstacles for flaw in _one_shape(path, obstacle)]
-    paths: list[Path] = [path for path, _ in draft.fences]
-    shapes: list[tuple[Corners, Sequence[Corners]]] = [(ring, ()) for _, ring in draft.fences]
+    obstacles = partial.known + partial.unseen
+    faults = [fault for path, obstacle in obstacles for fault in _one_shape(path, obstacle)]
+    paths: list[Path] = [path for path, _ in partial.fences]
+    shapes: list[tuple[Corners, Sequence[Corners]]] = [(ring, ()) for _, ring in partial.fences]
     for path, obstacle in obstacles:
         if obstacle.polygon is not None:
             paths.append((*path, "polygon"))
             shapes.append((obstacle.polygon, obstacle.holes))
-    return flaws + polygon_flaws(paths, shapes)
+    return faults + polygon_faults(paths, shapes)
 
 
 def _one_shape(path: Path, obstacle: Obstacle) -> list[UnplacedFault]:
-    flaws = []
+    faults = []
     given = [name for name in SHAPES if getattr(obstacle, name) is not None]
     if not given:
-        flaws.append(
+        faults.append(
             UnplacedFault(
                 path,
                 "the obstacle has no shape",
@@ -91,14 +95,14 @@ def _one_shape(path: Path, obstacle: Obstacle) -> list[UnplacedFault]:
         )
     if len(given) > 1:
         problem = f"the obstacle has two shapes, a {given[0]} and a {given[1]}"
-        flaws.append(UnplacedFault(path, problem, "keep one, or make it two obstacles"))
+        faults.append(UnplacedFault(path, problem, "keep one, or make it two obstacles"))
     if obstacle.holes and obstacle.polygon is None:
         problem = "there are holes, but no polygon that has them"
-        flaws.append(UnplacedFault((*path, "holes"), problem, "give polygon, or leave out holes"))
-    return flaws
+        faults.append(UnplacedFault((*path, "holes"), problem, "give polygon, or leave out holes"))
+    return faults
 
 
-def polygon_flaws(
+def polygon_faults(
     paths: Sequence[Path], shapes: Sequence[tuple[Corners, Sequence[Corners]]]
 ) -> list[UnplacedFault]:
     """Polygons that cross themselves or have no area, each at its path."""
@@ -109,17 +113,17 @@ def polygon_flaws(
     polygons = polygons_of(shapes)
     # A sound polygon can't have so little area unless its corners are on one line.
     thin = shapely.area(polygons) <= 1e-12 * shapely.length(polygons) ** 2
-    flaws = []
+    faults = []
     for i in np.flatnonzero(thin | ~shapely.is_valid(polygons)).tolist():
         hull = shapely.convex_hull(polygons[i])
         if hull.area <= 1e-12 * hull.length**2:
             problem = "the polygon has no area: its corners lie on one line"
-            flaws.append(
+            faults.append(
                 UnplacedFault(paths[i], problem, "move a corner off the line, or leave it out")
             )
         else:
-            flaws.append(_crossing(paths[i], shapely.is_valid_reason(polygons[i])))
-    return flaws
+            faults.append(_crossing(paths[i], shapely.is_valid_reason(polygons[i])))
+    return faults
 
 
 def _crossing(path: Path, reason: str) -> UnplacedFault:

@@ -17,8 +17,7 @@ from viaspline.errors import Fault, MissionError
 from viaspline.maps.grid import Grid
 from viaspline.maps.kinds import is_of_squares, read_areas, read_grid
 from viaspline.mission.map_edge import edge_of
-from viaspline.mission.parts import MapSpec
-from viaspline.mission.schema_errors import structural_flaws
+from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, children
 
@@ -29,14 +28,14 @@ class ResolvedFiles:
 
     Attributes:
         data: The data, with obstacles instead of maps.
-        flaws: What was wrong with the maps; those that couldn't be read are left out.
+        faults: What was wrong with the maps; those that couldn't be read are left out.
         places: For each obstacle under ``known`` and ``unseen``, the item that it came from; a
             list that has no map isn't there.
         edge: Paths of the bounds or the fence that the maps brought.
     """
 
     data: Any
-    flaws: tuple[UnplacedFault, ...] = ()
+    faults: tuple[UnplacedFault, ...] = ()
     places: Mapping[str, Sequence[int]] = field(default_factory=dict)
     edge: frozenset[Path] = frozenset()
 
@@ -51,7 +50,7 @@ class ResolvedFiles:
         return (*path[:2], places[i], *path[3:])
 
 
-def unfold_maps(data: Any, folder: FilePath) -> ResolvedFiles:
+def resolve_maps(data: Any, folder: FilePath) -> ResolvedFiles:
     """Read the maps of a mission.
 
     Args:
@@ -67,18 +66,18 @@ def unfold_maps(data: Any, folder: FilePath) -> ResolvedFiles:
     if not any(_is_map(item) or _grid_of(item) for items in lists.values() for item in items):
         return ResolvedFiles(data)
     taken = {_name_of(item) for items in lists.values() for item in items}
-    flaws: list[UnplacedFault] = []
+    faults: list[UnplacedFault] = []
     places: dict[str, list[int]] = {}
-    unfolded = dict(world)
+    resolved = dict(world)
     for key, items in lists.items():
-        places[key], unfolded[key] = [], []
+        places[key], resolved[key] = [], []
         for i, item in enumerate(items):
-            obstacles, faulty = _of_item(item, ("world", key, i), folder, taken)
+            obstacles, found = _of_item(item, ("world", key, i), folder, taken)
             places[key] += [i] * len(obstacles)
-            unfolded[key] += obstacles
-            flaws += faulty
-    edge = frozenset[Path]() if flaws else _bring_edge(unfolded)
-    return ResolvedFiles({**top, "world": unfolded}, tuple(flaws), places, edge)
+            resolved[key] += obstacles
+            faults += found
+    edge = frozenset[Path]() if faults else _bring_edge(resolved)
+    return ResolvedFiles({**top, "world": resolved}, tuple(faults), places, edge)
 
 
 def _is_list(value: Any) -> bool:
@@ -108,13 +107,15 @@ def _of_item(
     try:
         return obstacles_of(MapSpec.model_validate(dict(item)), folder, taken), ()
     except ValidationError as error:
-        return (), structural_flaws(error, path)
+        from viaspline.mission.schema_errors import schema_faults
+
+        return (), schema_faults(error, path)
     except MissionError as error:
-        return (), [_flaw(path, fault) for fault in error.faults]
+        return (), [_unplaced(path, fault) for fault in error.faults]
 
 
-def _flaw(path: Path, fault: Fault) -> UnplacedFault:
-    """A fault of a map as a flaw of the key that asks for it."""
+def _unplaced(path: Path, fault: Fault) -> UnplacedFault:
+    """A fault of a map as a fault of the key that asks for it."""
     if fault.line is None and fault.key in ("unknown", "resolution_m"):
         return UnplacedFault((*path, fault.key), fault.problem, fault.remedy, at_key=True)
     place = fault.source if fault.line is None else f"{fault.source}:{fault.line}:{fault.column}"

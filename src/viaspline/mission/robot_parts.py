@@ -1,66 +1,45 @@
-"""The robot of a mission: its body, its drive, its limits and its sensor."""
+"""The robot of a mission: its body, its drive and its limits.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, Final, Literal, TypeAlias
 
 from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
-from viaspline.mission.fields import FAR, NotNegative, Positive, Ring, Value, one_of, two_of
+from viaspline.mission.annotations import Expects
+from viaspline.mission.fields import (
+    DEGREES,
+    DEGREES_PER_SECOND,
+    METRES_PER_SECOND,
+    Acceleration,
+    AngularAcceleration,
+    AngularSpeed,
+    Distance,
+    Duration,
+    Jerk,
+    Length,
+    NotNegative,
+    Positive,
+    Ring,
+    Speed,
+)
+from viaspline.mission.sensor_spec import Sensor
+from viaspline.mission.value import OneOf, Value, two_of
 
-MOST_BEAMS: Final = 100_000
-"""The most beams of a lidar."""
-LONGEST_DELAY: Final = 60.0
-"""The longest delay and the slowest lag of a drive [s]."""
+MAX_DELAY_S: Final = 60.0
+"""The longest delay and the slowest lag of a drive."""
 
-
-class Lidar(Value):
-    """A scanner that measures the distance along each of its beams.
-
-    Attributes:
-        range_m: The length of a beam [m].
-        fov_deg: The angle that the beams are spread over, half of it to each side of the robot's
-            heading [deg].
-        beams: How many there are, equally spaced.
-        noise_m: The standard deviation of a measured distance [m].
-    """
-
-    range_m: Annotated[Positive, Field(le=FAR)]
-    fov_deg: Annotated[Positive, Field(le=360)] = 360.0
-    beams: Annotated[int, Field(strict=True, ge=1, le=MOST_BEAMS)] = 360
-    noise_m: Annotated[NotNegative, Field(le=FAR)] = 0.0
-
-
-class Sensor(Value):
-    """What finds the obstacles that are not on the map: a range sensor or a lidar.
-
-    Attributes:
-        range_m: It sees every obstacle of which a part is within this distance [m]. None for a
-            lidar.
-        lidar: It sees what its beams hit.
-
-    >>> Sensor(range_m=40).reach, Sensor(lidar={"range_m": 5}).reach
-    (40.0, 5.0)
-    """
-
-    range_m: Annotated[Positive, Field(le=FAR)] | None = None
-    lidar: Lidar | None = None
-
-    @model_validator(mode="after")
-    def _one_range(self) -> Sensor:
-        return one_of(self, "range_m", "lidar")
-
-    @property
-    def reach(self) -> float:
-        """How far it sees [m], whichever it is."""
-        if self.lidar is not None:
-            return self.lidar.range_m
-        assert self.range_m is not None
-        return self.range_m
+ShortDuration: TypeAlias = Annotated[Duration, Field(le=MAX_DELAY_S)]
 
 
-class Differential(Value):
+class Differential(
+    Value,
+    expected="a mapping such as {track_m: 0.5}",
+):
     """Two driven wheels on one axle.
 
     Attributes:
@@ -68,11 +47,14 @@ class Differential(Value):
         max_wheel_speed_mps: The greatest speed of either wheel [m/s]. None: no limit.
     """
 
-    track_m: Annotated[Positive, Field(le=FAR)]
-    max_wheel_speed_mps: Positive | None = None
+    track_m: Length
+    max_wheel_speed_mps: Speed | None = None
 
 
-class Ackermann(Value):
+class Ackermann(
+    Value,
+    expected="a mapping such as {wheelbase_m: 2.5, max_steer_deg: 35}",
+):
     """Steered front wheels, as a bicycle; the reference point is the middle of the rear axle.
 
     Attributes:
@@ -81,9 +63,9 @@ class Ackermann(Value):
         max_steer_rate_degps: How fast they turn [deg/s]. None: no limit.
     """
 
-    wheelbase_m: Annotated[Positive, Field(le=FAR)]
-    max_steer_deg: Annotated[Positive, Field(lt=90)]
-    max_steer_rate_degps: Positive | None = None
+    wheelbase_m: Length
+    max_steer_deg: Annotated[Positive, DEGREES, Field(lt=90)]
+    max_steer_rate_degps: AngularSpeed | None = None
 
     @property
     def turn_radius(self) -> float:
@@ -95,7 +77,10 @@ class Ackermann(Value):
         return self.wheelbase_m / math.tan(math.radians(self.max_steer_deg))
 
 
-class SkidSteer(Value):
+class SkidSteer(
+    Value,
+    expected="a mapping such as {track_m: 0.8, slip: 0.2}",
+):
     """Wheels or tracks on either side that slip when the robot turns.
 
     Attributes:
@@ -104,12 +89,16 @@ class SkidSteer(Value):
         max_wheel_speed_mps: The greatest speed of either side [m/s]. None: no limit.
     """
 
-    track_m: Annotated[Positive, Field(le=FAR)]
+    track_m: Length
     slip: Annotated[NotNegative, Field(lt=1)] = 0.0
-    max_wheel_speed_mps: Positive | None = None
+    max_wheel_speed_mps: Speed | None = None
 
 
-class Drive(Value):
+class Drive(
+    OneOf,
+    expected="a mapping such as {ackermann: {wheelbase_m: 2.5, max_steer_deg: 35}, delay_s: 0.1}",
+    exactly_one=("differential", "ackermann", "skid_steer"),
+):
     """What moves the robot, and how far from perfect that is in the simulator.
 
     Attributes:
@@ -125,17 +114,16 @@ class Drive(Value):
     differential: Differential | None = None
     ackermann: Ackermann | None = None
     skid_steer: SkidSteer | None = None
-    delay_s: Annotated[NotNegative, Field(le=LONGEST_DELAY)] = 0.0
-    lag_s: Annotated[NotNegative, Field(le=LONGEST_DELAY)] = 0.0
-    speed_noise_mps: NotNegative = 0.0
-    yaw_rate_noise_degps: NotNegative = 0.0
-
-    @model_validator(mode="after")
-    def _one_kind(self) -> Drive:
-        return one_of(self, "differential", "ackermann", "skid_steer")
+    delay_s: ShortDuration = 0.0
+    lag_s: ShortDuration = 0.0
+    speed_noise_mps: Annotated[NotNegative, METRES_PER_SECOND] = 0.0
+    yaw_rate_noise_degps: Annotated[NotNegative, DEGREES_PER_SECOND] = 0.0
 
 
-class Localization(Value):
+class Localization(
+    Value,
+    expected="a mapping such as {position_noise_m: 0.02, heading_noise_deg: 0.5}",
+):
     """How well the robot knows where it is, in the simulator.
 
     Attributes:
@@ -143,14 +131,18 @@ class Localization(Value):
         heading_noise_deg: Standard deviation of the heading that is measured [deg].
     """
 
-    position_noise_m: Annotated[NotNegative, Field(le=FAR)] = 0.0
-    heading_noise_deg: Annotated[NotNegative, Field(le=180)] = 0.0
+    position_noise_m: Distance = 0.0
+    heading_noise_deg: Annotated[NotNegative, DEGREES, Field(le=180)] = 0.0
 
 
 TurnOnSpot = Literal["never", "stations", "vias"]
 
 
-class RobotSpec(Value):
+class RobotSpec(
+    Value,
+    expected="a mapping such as {radius_m: 0.5, clearance_m: 0.5, max_speed_mps: 2}",
+    excluding=(("radius_m", "footprint"),),
+):
     """The robot's body, its drive, its limits and its sensor.
 
     Attributes:
@@ -179,21 +171,26 @@ class RobotSpec(Value):
         sensor: What finds the obstacles that are not on the map.
     """
 
-    radius_m: Annotated[NotNegative, Field(le=FAR)] = 0.5
-    footprint: Ring | None = None
-    clearance_m: Annotated[NotNegative, Field(le=FAR)] = 0.5
-    min_turn_radius_m: Annotated[Positive, Field(le=FAR)] | None = None
+    radius_m: Distance = 0.5
+    footprint: (
+        Annotated[
+            Ring, Expects("at least three corners [[x, y], ...] in metres, x forward and y left")
+        ]
+        | None
+    ) = None
+    clearance_m: Distance = 0.5
+    min_turn_radius_m: Length | None = None
     turn_on_spot: TurnOnSpot | None = None
-    max_speed_mps: Positive = 2.0
-    max_accel_mps2: Positive = 1.0
-    max_brake_mps2: Positive | None = None
-    max_lateral_accel_mps2: Positive | None = None
-    max_yaw_rate_degps: Positive | None = None
-    max_yaw_accel_degps2: Positive | None = None
-    max_jerk_mps3: Positive | None = None
+    max_speed_mps: Speed = 2.0
+    max_accel_mps2: Acceleration = 1.0
+    max_brake_mps2: Acceleration | None = None
+    max_lateral_accel_mps2: Acceleration | None = None
+    max_yaw_rate_degps: AngularSpeed | None = None
+    max_yaw_accel_degps2: AngularAcceleration | None = None
+    max_jerk_mps3: Jerk | None = None
     drive: Drive | None = None
     localization: Localization | None = None
-    tracking_error_m: Annotated[NotNegative, Field(le=FAR)] | None = None
+    tracking_error_m: Distance | None = None
     sensor: Sensor | None = None
 
     @model_validator(mode="after")

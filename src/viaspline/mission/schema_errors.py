@@ -1,21 +1,30 @@
-"""The structural errors that pydantic finds, said in the user's words."""
+"""The structural errors that pydantic finds, said in the user's words.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Final, Literal, get_args, get_origin
 
 from pydantic import ValidationError
 
-from viaspline.mission.key_words import expectation, field_of, suggestion
-from viaspline.mission.parts import MapSpec
+from viaspline.mission.fields import Point2
+from viaspline.mission.key_places import is_union, keys_of, options_at, path_of_error
+from viaspline.mission.key_words import expectation, field_of, keys_at, suggestion
+from viaspline.mission.map_spec import MapSpec
+from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, describe, number
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
 
-_LIMITS = {
+PAIR: Final = get_args(Point2)[0]
+"""The type of a place in the plane."""
+
+_LIMITS: Final = {
     "greater_than": ("gt", "greater than"),
     "greater_than_equal": ("ge", "not less than"),
     "less_than": ("lt", "less than"),
@@ -23,8 +32,8 @@ _LIMITS = {
 }
 
 
-def structural_flaws(error: ValidationError, at: Path = ()) -> list[UnplacedFault]:
-    """Every error of pydantic's as a flaw; one for each place and mistake.
+def schema_faults(error: ValidationError, at: Path = ()) -> list[UnplacedFault]:
+    """Every error of pydantic's as a fault; one for each place and mistake.
 
     Args:
         error: What pydantic says.
@@ -32,41 +41,37 @@ def structural_flaws(error: ValidationError, at: Path = ()) -> list[UnplacedFaul
     """
     details = error.errors(include_url=False)
     for detail in details:
-        detail["loc"] = (*at, *detail["loc"])
+        detail["loc"] = path_of_error((*at, *detail["loc"]), MissionParts)
     meant = {key for detail in details if (key := _meant(detail)) is not None}
-    flaws: dict[Path, UnplacedFault] = {}
+    faults: dict[Path, UnplacedFault] = {}
     short: set[Path] = set()
     for detail in details:
-        path = _path(detail["loc"])
+        path = detail["loc"]
         if detail["type"] == "missing" and path in meant:
             continue  # The mistyped key beside it says it all.
         if _is_other_branch(detail, path):
             continue
-        flaw = _flaw(detail, path)
-        flaws.setdefault(flaw.path, flaw)
+        fault = _fault(detail, path)
+        faults.setdefault(fault.path, fault)
         if detail["type"] == "too_short":
             short.add(path)
     # A list that lost its faulty items is called too short as well; it isn't.
-    around = {path[:i] for path in flaws for i in range(len(path))}
-    return [flaw for path, flaw in flaws.items() if path not in short or path not in around]
-
-
-def _path(loc: tuple[int | str, ...]) -> Path:
-    """Pydantic's location without the branches of unions, which are no keys."""
-    if len(loc) > 2 and loc[0] == "spline" and loc[1] in ("tension", "slack"):
-        return loc[:2] + tuple(part for part in loc[2:] if isinstance(part, int))
-    return loc
+    around = {path[:i] for path in faults for i in range(len(path))}
+    return [fault for path, fault in faults.items() if path not in short or path not in around]
 
 
 def _is_other_branch(detail: ErrorDetails, path: Path) -> bool:
     """Whether this is the error of the branch of "a number or a list" that wasn't meant."""
-    if path not in (("spline", "tension"), ("spline", "slack")):
+    allowed = options_at(path, MissionParts)
+    if not is_union(allowed):
         return False
+    found = detail["input"]
     if detail["type"] == "literal_error":
-        return not isinstance(detail["input"], str)
-    if isinstance(detail["input"], str):
-        return detail["type"] == "tuple_type" or path == ("spline", "tension")
-    found_list = isinstance(detail["input"], list | tuple) or hasattr(detail["input"], "tolist")
+        return not isinstance(found, str)
+    if isinstance(found, str):
+        has_words = any(get_origin(option.kind) is Literal for option in allowed)
+        return detail["type"] == "tuple_type" or has_words
+    found_list = isinstance(found, list | tuple) or hasattr(found, "tolist")
     return detail["type"] == ("float_type" if found_list else "tuple_type")
 
 
@@ -79,9 +84,9 @@ def _meant(detail: ErrorDetails) -> Path | None:
     return None if meant is None else (*parent, meant)
 
 
-def _flaw(detail: ErrorDetails, path: Path) -> UnplacedFault:
+def _fault(detail: ErrorDetails, path: Path) -> UnplacedFault:
     kind, found = detail["type"], detail["input"]
-    if kind == "extra_forbidden" or path[-1:] == ("grid",):
+    if kind == "extra_forbidden" or _is_hidden(path):
         return _unknown_key(path)
     if kind == "invalid_key":
         key = path[-1] if path else ""
@@ -108,6 +113,11 @@ def _flaw(detail: ErrorDetails, path: Path) -> UnplacedFault:
     return UnplacedFault(path, f"found {describe(found)}", _remedy(path, found))
 
 
+def _is_hidden(path: Path) -> bool:
+    """Whether a key isn't one of a file's, though the model has such a field."""
+    return not options_at(path, MissionParts) and path[-1] not in keys_at(path[:-1])
+
+
 def _one_of(path: Path, kind: str, keys: Sequence[str]) -> UnplacedFault:
     """None or several of keys of which one is to be given."""
     both = ", ".join(keys[:-1]) + " and " + keys[-1]
@@ -132,11 +142,11 @@ def _remedy(path: Path, found: Any) -> str:
 
 def _unknown_key(path: Path) -> UnplacedFault:
     parent, key = path[:-1], str(path[-1])
-    if field_of(parent) in ("known", "unseen"):
-        if key in MapSpec.model_fields:
+    if any(option.kind is MapSpec for option in options_at(parent, MissionParts)):
+        if key in keys_of(MapSpec):
             remedy = "give map, or leave it out"
             return UnplacedFault(path, "goes with a map only", remedy, at_key=True)
-        if key in Obstacle.model_fields and key != "grid":
+        if key in keys_of(Obstacle):
             remedy = "keep one of the two, or make it two obstacles"
             return UnplacedFault(path, "doesn't go with a map", remedy, at_key=True)
     return UnplacedFault(path, "unknown key", suggestion(key, parent)[0], at_key=True)
@@ -155,14 +165,8 @@ def _wrong_length(path: Path, found: Any) -> UnplacedFault:
     if found == "":
         return UnplacedFault(path, "is empty", f"it should be {expectation(path)}")
     remedy = f"it should be {expectation(path)}"
-    if field_of(path) == "center" and isinstance(found, list | tuple) and len(found) == 3:
+    is_flat = path[:2] in (("world", "known"), ("world", "unseen"))
+    is_pair = any(option.kind == PAIR for option in options_at(path, MissionParts))
+    if is_flat and is_pair and isinstance(found, list | tuple) and len(found) == 3:
         remedy += "; obstacles are flat in this version"
     return UnplacedFault(path, f"found {describe(found)}", remedy)
-
-
-def parts(value: Any) -> Iterator[tuple[int, Any]]:
-    """The items of a list with their indices; nothing if it is none."""
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, list | tuple):
-        yield from enumerate(value)

@@ -1,4 +1,7 @@
-"""What types can't say: the semantic checks, all of them, on whatever parts are sound."""
+"""What types can't say: the semantic checks, all of them, on whatever parts are sound.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
@@ -6,45 +9,47 @@ import math
 from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
+from typing import Final
 
 from viaspline.mission.partial_mission import PartialMission
-from viaspline.mission.parts import SplineSpec, ViaPoint
+from viaspline.mission.route_spec import ViaPoint
+from viaspline.mission.spline_spec import POLYLINE_SLACK, POLYLINE_TENSION, SplineSpec
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
 
-SAME_PLACE = 1e-6
-"""Points nearer to each other than this are one point [m]."""
+SAME_POINT_M: Final = 1e-6
+"""Points of the route nearer to each other than this are one point."""
 
 
-def semantic_flaws(draft: PartialMission) -> list[UnplacedFault]:
+def semantic_faults(partial: PartialMission) -> list[UnplacedFault]:
     """Everything that is wrong with the meaning of a mission."""
-    from viaspline.mission.clearances import clearance_flaws
-    from viaspline.mission.corridors import corridor_flaws
-    from viaspline.mission.polygon_checks import shape_flaws
+    from viaspline.mission.clearances import clearance_faults
+    from viaspline.mission.corridors import corridor_faults
+    from viaspline.mission.polygon_checks import shape_faults
 
-    flaws = _bounds(draft)
-    misshapen = shape_flaws(draft)
-    flaws += misshapen
-    flaws += _sides(draft)
-    flaws += _names(draft)
-    flaws += _sensor(draft)
-    flaws += _footprint(draft)
-    flaws += _route(draft)
-    flaws += _same_places(draft)
-    flaws += _dimensions(draft)
-    if draft.spline is not None:
-        flaws += _spline(draft, draft.spline)
-    strange = corridor_flaws(draft)
-    flaws += strange
+    faults = _bounds(partial)
+    misshapen = shape_faults(partial)
+    faults += misshapen
+    faults += _sides(partial)
+    faults += _names(partial)
+    faults += _sensor(partial)
+    faults += _footprint(partial)
+    faults += _route(partial)
+    faults += _same_places(partial)
+    faults += _dimensions(partial)
+    if partial.spline is not None:
+        faults += _spline(partial, partial.spline)
+    strange = corridor_faults(partial)
+    faults += strange
     if strange:
-        draft = replace(draft, corridor=None)
-    flaws += clearance_flaws(draft, {flaw.path[:3] for flaw in misshapen})
-    return flaws
+        partial = replace(partial, corridor=None)
+    faults += clearance_faults(partial, {fault.path[:3] for fault in misshapen})
+    return faults
 
 
-def _bounds(draft: PartialMission) -> list[UnplacedFault]:
-    if draft.bounds is None:
+def _bounds(partial: PartialMission) -> list[UnplacedFault]:
+    if partial.bounds is None:
         return []
-    x_min, y_min, x_max, y_max = draft.bounds
+    x_min, y_min, x_max, y_max = partial.bounds
     path: Path = ("world", "bounds")
     return [
         UnplacedFault(
@@ -57,32 +62,32 @@ def _bounds(draft: PartialMission) -> list[UnplacedFault]:
     ]
 
 
-def _sides(draft: PartialMission) -> list[UnplacedFault]:
-    flaws = [
+def _sides(partial: PartialMission) -> list[UnplacedFault]:
+    faults = [
         UnplacedFault((*path, key), "a map of squares has no sides", "leave it out", at_key=True)
-        for path, obstacle in draft.known + draft.unseen
+        for path, obstacle in partial.known + partial.unseen
         for key in ("pass_on", "never_pass_on")
         if obstacle.grid is not None and getattr(obstacle, key) is not None
     ]
-    return flaws + [
+    return faults + [
         UnplacedFault(
             (*path, "never_pass_on"),
             f"contradicts pass_on: {obstacle.pass_on}",
             "give one of pass_on and never_pass_on",
         )
-        for path, obstacle in draft.known + draft.unseen
+        for path, obstacle in partial.known + partial.unseen
         if obstacle.pass_on is not None and obstacle.pass_on == obstacle.never_pass_on
     ]
 
 
-def _names(draft: PartialMission) -> list[UnplacedFault]:
-    points = [(path, point.name) for path, point in draft.points if point is not None]
-    obstacles = [(path, obstacle.name) for path, obstacle in draft.known + draft.unseen]
+def _names(partial: PartialMission) -> list[UnplacedFault]:
+    points = [(path, point.name) for path, point in partial.points if point is not None]
+    obstacles = [(path, obstacle.name) for path, obstacle in partial.known + partial.unseen]
     return _repeated(points, "point") + _repeated(obstacles, "obstacle")
 
 
 def _repeated(named: list[tuple[Path, str | None]], kind: str) -> list[UnplacedFault]:
-    flaws = []
+    faults = []
     seen: dict[str, Path] = {}
     taken = Counter(name for _, name in named if name is not None)
     for path, name in named:
@@ -96,35 +101,35 @@ def _repeated(named: list[tuple[Path, str | None]], kind: str) -> list[UnplacedF
         )
         taken[free] += 1
         problem = f"the name '{name}' is taken by {spell(seen[name])}"
-        flaws.append(
+        faults.append(
             UnplacedFault((*path, "name"), problem, f"give each {kind} its own, e.g. '{free}'")
         )
-    return flaws
+    return faults
 
 
-def _sensor(draft: PartialMission) -> list[UnplacedFault]:
-    if not draft.unseen or draft.robot is None or draft.robot.sensor is not None:
+def _sensor(partial: PartialMission) -> list[UnplacedFault]:
+    if not partial.unseen or partial.robot is None or partial.robot.sensor is not None:
         return []
     problem = "there are unseen obstacles, but the robot has no sensor to find them"
     remedy = "give robot.sensor: {range_m: 40}, or put them under world.known"
     return [UnplacedFault(("world", "unseen"), problem, remedy, at_key=True)]
 
 
-def _footprint(draft: PartialMission) -> list[UnplacedFault]:
-    if draft.robot is None or draft.robot.footprint is None:
+def _footprint(partial: PartialMission) -> list[UnplacedFault]:
+    if partial.robot is None or partial.robot.footprint is None:
         return []
-    from viaspline.mission.footprint_check import footprint_flaw
+    from viaspline.mission.footprint_check import footprint_fault
 
-    flaw = footprint_flaw(draft.robot.footprint)
-    return [] if flaw is None else [flaw]
+    fault = footprint_fault(partial.robot.footprint)
+    return [] if fault is None else [fault]
 
 
-def _route(draft: PartialMission) -> list[UnplacedFault]:
-    flaws = []
-    if draft.closed and draft.has_goal:
-        ends_at_start = _distance(draft.points[0][1], draft.points[-1][1]) < SAME_PLACE
+def _route(partial: PartialMission) -> list[UnplacedFault]:
+    faults = []
+    if partial.closed and partial.has_goal:
+        ends_at_start = _distance(partial.points[0][1], partial.points[-1][1]) < SAME_POINT_M
         what = "which is its start again" if ends_at_start else "but a closed route ends at start"
-        flaws.append(
+        faults.append(
             UnplacedFault(
                 ("route", "goal"),
                 f"a closed route has a goal, {what}",
@@ -132,32 +137,32 @@ def _route(draft: PartialMission) -> list[UnplacedFault]:
                 at_key=True,
             )
         )
-    if draft.laps > 1 and draft.closed is False:
-        problem = f"an open route can't be driven {draft.laps} times over"
+    if partial.laps > 1 and partial.closed is False:
+        problem = f"an open route can't be driven {partial.laps} times over"
         remedy = "set closed: true, or leave out laps"
-        flaws.append(UnplacedFault(("route", "laps"), problem, remedy, at_key=True))
+        faults.append(UnplacedFault(("route", "laps"), problem, remedy, at_key=True))
     if (
-        draft.has_route
-        and len(draft.points) < 2
-        and not draft.is_line
-        and draft.points[0][1] is not None
+        partial.has_route
+        and len(partial.points) < 2
+        and not partial.is_line
+        and partial.points[0][1] is not None
     ):
         problem = "a route needs at least two distinct points; this one has only its start"
-        flaws.append(UnplacedFault(("route",), problem, "give goal: [x, y] or via: [[x, y], ...]"))
-    return flaws
+        faults.append(UnplacedFault(("route",), problem, "give goal: [x, y] or via: [[x, y], ...]"))
+    return faults
 
 
-def _same_places(draft: PartialMission) -> list[UnplacedFault]:
-    flaws = []
-    for (before, a), (path, b) in pairwise(draft.points):
-        if (gap := _distance(a, b)) < SAME_PLACE:
-            flaws.append(_same_place(path, before, gap))
-    if draft.closed and not draft.has_goal and len(draft.points) > 1:
-        (start, a), (path, b) = draft.points[0], draft.points[-1]
-        if (gap := _distance(a, b)) < SAME_PLACE and len(draft.points) > 2:
+def _same_places(partial: PartialMission) -> list[UnplacedFault]:
+    faults = []
+    for (before, a), (path, b) in pairwise(partial.points):
+        if (gap := _distance(a, b)) < SAME_POINT_M:
+            faults.append(_same_place(path, before, gap))
+    if partial.closed and not partial.has_goal and len(partial.points) > 1:
+        (start, a), (path, b) = partial.points[0], partial.points[-1]
+        if (gap := _distance(a, b)) < SAME_POINT_M and len(partial.points) > 2:
             problem = f"is the same place as {spell(start)}, to which a closed route returns anyway"
-            flaws.append(UnplacedFault((*path, "at"), problem, "leave it out"))
-    return flaws
+            faults.append(UnplacedFault((*path, "at"), problem, "leave it out"))
+    return faults
 
 
 def _same_place(path: Path, before: Path, gap: float) -> UnplacedFault:
@@ -177,8 +182,8 @@ def _distance(a: ViaPoint | None, b: ViaPoint | None) -> float:
     return math.dist(a.at, b.at)
 
 
-def _dimensions(draft: PartialMission) -> list[UnplacedFault]:
-    sound = [(path, point) for path, point in draft.points if point is not None]
+def _dimensions(partial: PartialMission) -> list[UnplacedFault]:
+    sound = [(path, point) for path, point in partial.points if point is not None]
     if not sound:
         return []
     counts = Counter(len(point.at) for _, point in sound)
@@ -197,10 +202,10 @@ def _dimensions(draft: PartialMission) -> list[UnplacedFault]:
     ]
 
 
-def _spline(draft: PartialMission, spline: SplineSpec) -> list[UnplacedFault]:
-    flaws = []
+def _spline(partial: PartialMission, spline: SplineSpec) -> list[UnplacedFault]:
+    faults = []
     if spline.tension is not None and spline.slack is not None:
-        flaws.append(
+        faults.append(
             UnplacedFault(
                 ("spline", "slack"),
                 "tension and slack are two names of one thing (slack = (1 - tension) / 2)",
@@ -210,30 +215,30 @@ def _spline(draft: PartialMission, spline: SplineSpec) -> list[UnplacedFault]:
         )
     for key, values in (("tension", spline.tension), ("slack", spline.slack)):
         if values is not None and values != "auto":
-            flaws += _tensions(draft, key, values)
-    return flaws
+            faults += _tensions(partial, key, values)
+    return faults
 
 
 def _tensions(
-    draft: PartialMission, key: str, values: float | tuple[float, ...]
+    partial: PartialMission, key: str, values: float | tuple[float, ...]
 ) -> list[UnplacedFault]:
-    flaws = []
+    faults = []
     path: Path = ("spline", key)
-    is_contradictory = draft.closed is None or (draft.closed and draft.has_goal)
-    if isinstance(values, tuple) and draft.has_route and not is_contradictory:
-        spans = len(draft.points) - (0 if draft.closed else 1)
+    is_contradictory = partial.closed is None or (partial.closed and partial.has_goal)
+    if isinstance(values, tuple) and partial.has_route and not is_contradictory:
+        spans = len(partial.points) - (0 if partial.closed else 1)
         if len(values) != spans and spans > 0:
             problem = f"has {len(values)} values for {spans} {'span' if spans == 1 else 'spans'}"
             remedy = "give one number for all, or one for each span between points of the route"
-            flaws.append(UnplacedFault(path, problem, remedy))
+            faults.append(UnplacedFault(path, problem, remedy))
     for i, value in enumerate(values if isinstance(values, tuple) else (values,)):
         where = (*path, i) if isinstance(values, tuple) else path
-        if key == "tension" and value > 1:
+        if key == "tension" and value > POLYLINE_TENSION:
             problem = f"{number(value, 6)} is more than 1, which is already the polyline"
-            flaws.append(UnplacedFault(where, problem, "it should be at most 1; 0 is Catmull-Rom"))
-        if key == "slack" and value < 0:
+            faults.append(UnplacedFault(where, problem, "it should be at most 1; 0 is Catmull-Rom"))
+        if key == "slack" and value < POLYLINE_SLACK:
             problem = f"{number(value, 6)} is less than 0, which is already the polyline"
-            flaws.append(
+            faults.append(
                 UnplacedFault(where, problem, "it should be 0 or more; 0.5 is Catmull-Rom")
             )
-    return flaws
+    return faults

@@ -5,21 +5,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.mission.parts import Route
+from viaspline.mission.fields import Corners
+from viaspline.mission.route_spec import Route
 
 if TYPE_CHECKING:
     import shapely
 
-Ring = tuple[tuple[float, float], ...]
-
-SLIVER = 1e-9  # holes of such an area are rounding [m²]
-FAN = 0.1  # from chord to chord round a corner [rad]
-MOST_ROWS = 200  # that are looked at before and after a place
+MAX_SLIVER_M2: Final = 1e-9
+"""Holes of such an area are rounding."""
+FAN_STEP_RAD: Final = 0.1
+"""From chord to chord round a corner."""
+MAX_WINDOW_ROWS: Final = 200
+"""How many rows before and after a place are looked at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +134,7 @@ class Strip:
         """The most rows that lie within a distance [m] of a row, to one side of it."""
         along = self.along
         after = np.searchsorted(along, along + distance, side="right") - np.arange(along.size)
-        return int(min(after.max() + 1, MOST_ROWS))
+        return int(min(after.max() + 1, MAX_WINDOW_ROWS))
 
     def follow(self, places: Floats, rows: Ints, window: int) -> Ints:
         """The row that is nearest to each place, not far from the row that was.
@@ -162,7 +164,7 @@ class Strip:
         return Strip(self.middle[rows], self.right[rows], self.left[rows], closed=False)
 
     def finer(self, step: float) -> Strip:
-        """The same strip with rows at most a step apart [m]."""
+        """The strip with rows at most a step apart [m]."""
         middle, right, left = (
             self._refined(edge, step) for edge in (self.middle, self.right, self.left)
         )
@@ -188,7 +190,7 @@ def _joined(parts: Sequence[shapely.Geometry]) -> shapely.Polygon:
     union = shapely.union_all(parts)
     areas = [part for part in shapely.get_parts(union) if part.geom_type == "Polygon"]
     whole = max(areas, key=_area)
-    holes = [ring for ring in whole.interiors if shapely.Polygon(ring).area > SLIVER]
+    holes = [ring for ring in whole.interiors if shapely.Polygon(ring).area > MAX_SLIVER_M2]
     return shapely.Polygon(whole.exterior, holes)
 
 
@@ -233,7 +235,7 @@ def around(points: object, right: float, left: float, *, closed: bool) -> shapel
         width, normal = (-right, across[k - 1]) if turn > 0.0 else (left, across[k - 1])
         if abs(turn) < 1e-12:
             continue
-        angles = np.linspace(0.0, turn, max(2, int(abs(turn) / FAN) + 2))[1:-1]
+        angles = np.linspace(0.0, turn, max(2, int(abs(turn) / FAN_STEP_RAD) + 2))[1:-1]
         turned = np.column_stack(
             (
                 np.cos(angles) * normal[0] - np.sin(angles) * normal[1],
@@ -270,13 +272,13 @@ def corridor_area(route: Route) -> shapely.Polygon | None:
     return around(points, corridor.right_m, corridor.left_m, closed=route.closed)
 
 
-def corridor_rings(route: Route) -> tuple[Ring, ...]:
+def corridor_rings(route: Route) -> tuple[Corners, ...]:
     """The outer ring of a route's corridor, then the holes in it [m]; nothing without one."""
     area = corridor_area(route)
     return () if area is None else rings_of(area)
 
 
-def rings_of(area: shapely.Polygon) -> tuple[Ring, ...]:
+def rings_of(area: shapely.Polygon) -> tuple[Corners, ...]:
     """The outer ring of an area, then its holes [m]; no last point repeats the first."""
     rings = (area.exterior, *area.interiors)
     return tuple(tuple((x, y) for x, y in ring.coords[:-1]) for ring in rings)

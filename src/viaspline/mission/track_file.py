@@ -1,4 +1,7 @@
-"""The file of a corridor: rows x, y, right, left in metres."""
+"""The file of a corridor: rows x, y, right, left in metres.
+
+Tested through ``mission/test_corridors``.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +9,14 @@ import math
 from pathlib import Path as FilePath
 from typing import Any
 
-from viaspline.mission.fields import FAR
-from viaspline.mission.unplaced_faults import Path, UnplacedFault, children
+from viaspline.mission.fields import MAX_LENGTH_M
+from viaspline.mission.unplaced_faults import MAX_REPORTED_FAULTS, Path, UnplacedFault, children
 
-COLUMNS = "x, y, right, left"
-AT: Path = ("route", "corridor", "csv")
-MOST_FLAWS = 5  # of one file that are told
+ROW_WORDS = "x, y, right, left"
+CSV_PATH: Path = ("route", "corridor", "csv")
 
 
-def unfold_corridor(data: Any, folder: FilePath) -> tuple[Any, list[UnplacedFault]]:
+def resolve_corridor(data: Any, folder: FilePath) -> tuple[Any, list[UnplacedFault]]:
     """Read the corridor's file of a mission.
 
     Args:
@@ -32,11 +34,11 @@ def unfold_corridor(data: Any, folder: FilePath) -> tuple[Any, list[UnplacedFaul
     if not isinstance(name, str | FilePath) or not str(name) or corridor.get("line") is not None:
         return data, []
     path = folder / name
-    rows, flaws = read_track(path)
-    unfolded = {**corridor, "csv": FilePath(path).resolve().as_posix(), "line": rows}
-    if flaws:
-        del unfolded["line"]
-    return {**top, "route": {**route, "corridor": unfolded}}, flaws
+    rows, faults = read_track(path)
+    resolved = {**corridor, "csv": FilePath(path).resolve().as_posix(), "line": rows}
+    if faults:
+        del resolved["line"]
+    return {**top, "route": {**route, "corridor": resolved}}, faults
 
 
 def read_track(path: FilePath) -> tuple[list[list[float]], list[UnplacedFault]]:
@@ -48,30 +50,30 @@ def read_track(path: FilePath) -> tuple[list[list[float]], list[UnplacedFault]]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
-        return [], [_flaw(f"{path}: is no text", f"give a file with rows {COLUMNS}")]
+        return [], [_fault(f"{path}: is no text", f"give a file with rows {ROW_WORDS}")]
     except OSError as error:
         problem = f"{path}: {(error.strerror or str(error)).lower()}"
-        return [], [_flaw(problem, f"give the path of a file with rows {COLUMNS}")]
+        return [], [_fault(problem, f"give the path of a file with rows {ROW_WORDS}")]
     rows: list[list[float]] = []
-    flaws: list[UnplacedFault] = []
+    faults: list[UnplacedFault] = []
     for number, line in enumerate(text.splitlines(), start=1):
         if not line.strip() or line.lstrip().startswith("#"):
             continue
         cells = line.replace(";", ",").replace(",", " ").split()
         row, wrong = _row(cells)
         if wrong is not None:
-            if not rows and not flaws and not any(map(_is_number, cells)):
+            if not rows and not faults and not any(map(_is_number, cells)):
                 continue  # the names of the columns
-            flaws.append(_flaw(f"{path}:{number}: {wrong}", f"a row is {COLUMNS} in metres"))
+            faults.append(_fault(f"{path}:{number}: {wrong}", f"a row is {ROW_WORDS} in metres"))
         rows.append(row)
-    if len(rows) < 2 and not flaws:
+    if len(rows) < 2 and not faults:
         problem = f"{path}: has {len(rows)} rows, but a line needs two at least"
-        flaws.append(_flaw(problem, f"give rows {COLUMNS} in metres"))
-    more = len(flaws) - MOST_FLAWS
+        faults.append(_fault(problem, f"give rows {ROW_WORDS} in metres"))
+    more = len(faults) - MAX_REPORTED_FAULTS
     if more > 0:
-        rest = _flaw(f"{path}: {more} more rows are wrong", f"a row is {COLUMNS} in metres")
-        flaws = [*flaws[:MOST_FLAWS], rest]
-    return rows, flaws
+        rest = _fault(f"{path}: {more} more rows are wrong", f"a row is {ROW_WORDS} in metres")
+        faults = [*faults[:MAX_REPORTED_FAULTS], rest]
+    return rows, faults
 
 
 def _row(cells: list[str]) -> tuple[list[float], str | None]:
@@ -83,7 +85,7 @@ def _row(cells: list[str]) -> tuple[list[float], str | None]:
             return [], f"'{cell[:20]}' is not a number"
     row = [float(cell) for cell in cells]
     for name, value in zip(("x", "y", "right", "left"), row, strict=True):
-        if not abs(value) <= FAR:
+        if not abs(value) <= MAX_LENGTH_M:
             return [], f"{name} is {'NaN' if math.isnan(value) else 'out of range'}"
         if value < 0.0 and name in ("right", "left"):
             return [], f"the width to the {name} is negative: {value:g}"
@@ -98,8 +100,8 @@ def _is_number(cell: str) -> bool:
     return True
 
 
-def _flaw(problem: str, remedy: str) -> UnplacedFault:
-    return UnplacedFault(AT, problem, remedy, at_key=True)
+def _fault(problem: str, remedy: str) -> UnplacedFault:
+    return UnplacedFault(CSV_PATH, problem, remedy, at_key=True)
 
 
 def given_twice(data: Any) -> list[UnplacedFault]:
@@ -109,4 +111,4 @@ def given_twice(data: Any) -> list[UnplacedFault]:
     if corridor.get("line") is None or corridor.get("csv") is None:
         return []
     problem = "corridor has line and csv, which exclude each other"
-    return [UnplacedFault(AT, problem, "keep one of line and csv", at_key=True)]
+    return [UnplacedFault(CSV_PATH, problem, "keep one of line and csv", at_key=True)]

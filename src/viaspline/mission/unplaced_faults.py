@@ -1,15 +1,21 @@
-"""A flaw is a fault before it has a place: a path into the mission's data, and what is wrong."""
+"""Faults before they have a place in a file: a path into the mission's data, and what is wrong.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any, NamedTuple, Protocol, TypeAlias
+from collections.abc import Iterator, Mapping
+from typing import Any, Final, NamedTuple, Protocol, TypeAlias
 
 from viaspline.errors import Change, Fault
 
 Path: TypeAlias = tuple[str | int, ...]
 """Keys and indices from the mission down, e.g. ``("route", "via", 2, "at")``."""
+
+MAX_REPORTED_FAULTS: Final = 5
+"""How many faults of one list of rows are told."""
 
 
 class Mark(NamedTuple):
@@ -48,7 +54,7 @@ class Origin(Protocol):
         ...
 
     @property
-    def flaws(self) -> tuple[UnplacedFault, ...]:
+    def faults(self) -> tuple[UnplacedFault, ...]:
         """What was found wrong before there was data."""
         ...
 
@@ -72,27 +78,29 @@ def spell(path: Path) -> str:
     return text
 
 
-def located(flaws: list[UnplacedFault], data: Any, origin: Origin | None) -> list[Fault]:
-    """The flaws as faults, in the order of the file (or of the data, where there is no file)."""
+def located(faults: list[UnplacedFault], data: Any, origin: Origin | None) -> list[Fault]:
+    """The faults with their places, in the order of the file (or of the data if there is none)."""
     if origin is None:
-        ordered = sorted(flaws, key=lambda flaw: _rank(data, flaw.path))
+        ordered = sorted(faults, key=lambda fault: _rank(data, fault.path))
         return [
-            Fault(spell(flaw.path), flaw.problem, flaw.remedy, changes=flaw.changes)
-            for flaw in ordered
+            Fault(spell(fault.path), fault.problem, fault.remedy, changes=fault.changes)
+            for fault in ordered
         ]
-    placed = [(flaw.mark or origin.mark(flaw.path, at_key=flaw.at_key), flaw) for flaw in flaws]
+    placed = [
+        (fault.mark or origin.mark(fault.path, at_key=fault.at_key), fault) for fault in faults
+    ]
     placed.sort(key=lambda pair: pair[0])
     return [
         Fault(
-            spell(flaw.path),
-            flaw.problem,
-            flaw.remedy,
+            spell(fault.path),
+            fault.problem,
+            fault.remedy,
             origin.source,
             mark.line,
             mark.column,
-            flaw.changes,
+            fault.changes,
         )
-        for mark, flaw in placed
+        for mark, fault in placed
     ]
 
 
@@ -100,9 +108,17 @@ def children(value: Any) -> Mapping[Any, Any] | None:
     """The keys and values of a mapping or a model; None for anything else."""
     if isinstance(value, Mapping):
         return value
-    from pydantic import BaseModel  # a mission file without flaws is read without it
+    from pydantic import BaseModel  # a mission file without faults is read without it
 
     return dict(value) if isinstance(value, BaseModel) else None
+
+
+def list_items(value: Any) -> Iterator[tuple[int, Any]]:
+    """The items of a list with their indices; nothing if it is none."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        yield from enumerate(value)
 
 
 def _rank(data: Any, path: Path) -> tuple[int, ...]:

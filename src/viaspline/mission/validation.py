@@ -1,4 +1,7 @@
-"""From data to a mission, or to every fault that the data has."""
+"""From data to a mission, or to every fault that the data has.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +11,11 @@ from typing import Any, TypeVar, cast
 from pydantic import ModelWrapValidatorHandler, ValidationError
 
 from viaspline.errors import MissionError
+from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.partial_mission import PartialMission
-from viaspline.mission.parts import MissionParts
-from viaspline.mission.resolve_files import unfold_maps
-from viaspline.mission.schema_errors import structural_flaws
-from viaspline.mission.semantic_checks import semantic_flaws
-from viaspline.mission.track_file import given_twice, unfold_corridor
+from viaspline.mission.resolve_files import resolve_maps
+from viaspline.mission.semantic_checks import semantic_faults
+from viaspline.mission.track_file import given_twice, resolve_corridor
 from viaspline.mission.unplaced_faults import Origin, UnplacedFault, located
 
 Sound = TypeVar("Sound", bound=MissionParts)
@@ -43,25 +45,28 @@ def sound_mission(
     if isinstance(data, MissionParts):
         return cast(Sound, data)
     origin = context.origin if isinstance(context, Context) else None
-    flaws: list[UnplacedFault] = list(origin.flaws) if origin is not None else []
+    faults: list[UnplacedFault] = list(origin.faults) if origin is not None else []
     folder = Path(origin.source).parent if origin is not None else Path()
     if origin is not None:
-        flaws += given_twice(data)
-    with_line, faulty = unfold_corridor(data, folder)
-    flaws += faulty
-    unfolded = unfold_maps(with_line, folder)
-    flaws += unfolded.flaws
+        faults += given_twice(data)
+    with_line, of_corridor = resolve_corridor(data, folder)
+    faults += of_corridor
+    resolved = resolve_maps(with_line, folder)
+    faults += resolved.faults
     mission: Sound | None = None
     try:
-        mission = _validated(unfolded.data, handler)
-        draft = PartialMission.of(mission, unfolded)
+        mission = _validated(resolved.data, handler)
+        partial = PartialMission.of(mission, resolved)
     except ValidationError as error:
-        found = structural_flaws(error)
-        flaws += (flaw._replace(path=unfolded.original(flaw.path)) for flaw in found)
-        draft = PartialMission.salvage(unfolded)
-    flaws += semantic_flaws(draft)
-    if flaws or mission is None:
-        raise MissionError(located(flaws, data, origin)) from None
+        # Imported late: a sound mission needs no words for what is wrong.
+        from viaspline.mission.schema_errors import schema_faults
+
+        found = schema_faults(error)
+        faults += (fault._replace(path=resolved.original(fault.path)) for fault in found)
+        partial = PartialMission.salvage(resolved)
+    faults += semantic_faults(partial)
+    if faults or mission is None:
+        raise MissionError(located(faults, data, origin)) from None
     return mission
 
 

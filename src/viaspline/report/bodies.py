@@ -13,8 +13,8 @@ from matplotlib.patches import Circle, PathPatch, Polygon, Rectangle
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.curve.sweep import footprints_along, placed, swept_area
-from viaspline.mission.parts import SpeedZone
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.world_spec import SpeedZone
 from viaspline.report import style
 from viaspline.report.drawing import outline
 from viaspline.report.labels import Labels

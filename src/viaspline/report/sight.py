@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch, PathPatch, Polygon, Rectangle
 
 from viaspline.kernels.arrays import Floats
-from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.report import style
 from viaspline.report.drawing import outline, shape_of

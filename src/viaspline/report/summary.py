@@ -9,9 +9,10 @@ from itertools import pairwise
 from pathlib import Path
 
 from viaspline.maps.grid import Grid
+from viaspline.mission.corridor_spec import Corridor
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import Corridor
-from viaspline.mission.robot_parts import RobotSpec, Sensor
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.sensor_spec import Sensor
 from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
 from viaspline.report.units import metres
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.sensor_spec import Lidar
 from viaspline.planner import Plan
 from viaspline.report.plain import plain
 from viaspline.robot.perception.belief import ON_MAP_M

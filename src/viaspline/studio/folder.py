@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Final
 
 from viaspline.errors import OutputError
+from viaspline.formats.format_registry import formats
 from viaspline.report.result_files import write
 from viaspline.studio.refused import RefusedError
 from viaspline.studio.saving import SAVED
 
-MISSIONS: Final = (".yaml", ".yml", ".plan", ".mission", ".waypoints", ".txt")
+MISSIONS: Final = tuple(dict.fromkeys(ending for each in formats() for ending in each.endings))
 MAPS: Final = (".map", ".svg", ".geojson")
 DEEPEST: Final = 3
 MOST_FILES: Final = 500

@@ -11,7 +11,7 @@ _PART: Final = re.compile(r"\[(\d+)\]|([^.\[\]]+)")
 
 
 def path_of(key: str) -> Path:
-    """A key as the way to it; the inverse of ``mission.flaws.spell``.
+    """A key as the way to it; the inverse of ``mission.unplaced_faults.spell``.
 
     >>> path_of("route.via[2].at"), path_of("")
     (('route', 'via', 2, 'at'), ())

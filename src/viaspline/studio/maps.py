@@ -16,9 +16,9 @@ from viaspline.errors import Fault, MissionError
 from viaspline.maps.grid import Grid
 from viaspline.maps.map_files import read_text
 from viaspline.maps.map_server_keys import MapServerKeys
-from viaspline.mission.parts import MapSpec
+from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.resolve_files import obstacles_of
-from viaspline.mission.schema_errors import structural_flaws
+from viaspline.mission.schema_errors import schema_faults
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.unplaced_faults import located
 from viaspline.studio.document import Document
@@ -112,7 +112,7 @@ class Maps:
         except ValidationError as error:
             path: tuple[str | int, ...] = ("world", key.split(".")[1].split("[")[0])
             index = int(key.split("[")[1][:-1])
-            raise MissionError(located(structural_flaws(error, (*path, index)), {}, None)) from None
+            raise MissionError(located(schema_faults(error, (*path, index)), {}, None)) from None
         try:
             files = self._files(spec, base)
             stamp = tuple(_stamp(file) for file in files)

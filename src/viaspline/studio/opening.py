@@ -9,10 +9,11 @@ from pathlib import Path
 
 from viaspline.errors import Fault, MissionError
 from viaspline.formats.items import LatLon
+from viaspline.formats.yaml_document import read_document
 from viaspline.mission.unplaced_faults import located
-from viaspline.mission.yaml_document import read_document
 from viaspline.studio import keeping
 from viaspline.studio.document import Document, check_size
+from viaspline.studio.saving import is_yaml
 
 
 @dataclass(frozen=True)
@@ -55,10 +56,10 @@ def opened(path: Path) -> Opened:
 def _opened(path: Path) -> Opened:
     notes: tuple[str, ...] = ()
     origin: LatLon | None = None
-    if path.suffix.lower() in (".yaml", ".yml"):
+    if is_yaml(path):
         found = read_document(path)
-        if found.flaws:  # a key that stands there twice would be lost on saving
-            raise MissionError(located(list(found.flaws), found.data, found))
+        if found.faults:  # a key that stands there twice would be lost on saving
+            raise MissionError(located(list(found.faults), found.data, found))
         document: Document = found.data
     else:
         document, notes, origin = _understood(path)
@@ -73,7 +74,7 @@ def _opened(path: Path) -> Opened:
 
 def _understood(path: Path) -> tuple[Document, tuple[str, ...], LatLon | None]:
     from viaspline.formats.load import load, origin_of
-    from viaspline.mission.yaml_writer import yaml_text
+    from viaspline.formats.mission_yaml import yaml_text
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")

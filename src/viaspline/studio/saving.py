@@ -7,36 +7,34 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from viaspline.errors import OutputError
+from viaspline.formats.format_registry import format_to_save, formats
 from viaspline.formats.items import LatLon
+from viaspline.formats.mission_format import Whereabouts, Written
+from viaspline.formats.mission_yaml import MissionYaml
 from viaspline.studio.refused import RefusedError
 
 if TYPE_CHECKING:
-    from viaspline.formats.outgoing import Written
     from viaspline.mission.model import Mission
 
-YAML: Final = (".yaml", ".yml")
-PLANS: Final = (".plan",)
-TABLES: Final = (".waypoints", ".txt")
-SAVED: Final = YAML + PLANS + TABLES
+SAVED: Final = tuple(ending for each in formats() for ending in each.saved_endings)
+"""The endings by which missions are saved."""
 
 
 def is_yaml(path: Path) -> bool:
     """Whether a file holds the document itself, not way points with latitudes and longitudes."""
-    return path.suffix.lower() in YAML
+    return path.suffix.lower() in MissionYaml.endings
 
 
 def waypoints_of(mission: Mission, path: Path, origin: LatLon | None) -> Written:
-    """A mission as the text of a plan or a table of way points, and what isn't in it.
+    """A mission as the text of a file of way points, and what isn't in it.
 
     Raises:
         RefusedError: There is no origin, or the mission reaches too far from it.
     """
-    from viaspline.formats.write_plan import plan_text
-    from viaspline.formats.write_wpl import wpl_text
-
-    write = plan_text if path.suffix.lower() in PLANS else wpl_text
+    kind = format_to_save(path)
+    assert kind is not None, path
     try:
-        return write(mission, origin)
+        return kind.write(mission, Whereabouts(path.parent, origin))
     except OutputError as error:
         raise RefusedError(str(error).removeprefix("<mission>: ")) from None
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from viaspline.mission.parts import SpeedZone
+from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.curvature_limited import Cubic
 from viaspline.trajectory.interior_point import Seam
 from viaspline.trajectory.limits import Limits, Station

@@ -13,7 +13,7 @@ import numpy as np
 
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
-from viaspline.mission.parts import SpeedZone
+from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.cells import (
     MIN_SAMPLES,
     Cells,

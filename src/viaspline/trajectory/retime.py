@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from viaspline.errors import GeometryError
-from viaspline.mission.parts import SpeedZone
+from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.cells import Evaluable
 from viaspline.trajectory.coupled import Stage
 from viaspline.trajectory.curvature_limited import Cubic

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
-from viaspline.mission.parts import SpeedZone
+from viaspline.mission.world_spec import SpeedZone
 
 ZONE_EDGE_M = 1e-6
 """What is nearer to a zone than this counts as inside [m]."""

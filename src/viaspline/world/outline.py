@@ -46,7 +46,7 @@ def outline(footprint: ArrayLike) -> NDArray[np.float64]:
 
 @lru_cache(maxsize=64)
 def _fault(corners: tuple[tuple[float, float], ...]) -> str | None:
-    from viaspline.mission.footprint_check import footprint_flaw
+    from viaspline.mission.footprint_check import footprint_fault
 
-    flaw = footprint_flaw(corners)
-    return None if flaw is None else f"{flaw.problem}; {flaw.remedy}"
+    fault = footprint_fault(corners)
+    return None if fault is None else f"{fault.problem}; {fault.remedy}"

@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.path import Path
-from viaspline.mission.robot_parts import Lidar, RobotSpec, Sensor
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.sensor_spec import Lidar, Sensor
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.belief import Belief

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
 from viaspline.maps.grid import Grid
-from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.lidar import LidarSensor, Scan

@@ -1,16 +1,19 @@
-"""A disc."""
+"""A disc.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from pydantic import Field
-
-from viaspline.mission.fields import FAR, Point2, Positive, Value
+from viaspline.mission.fields import Length, Point2
 from viaspline.mission.shapes.rounded_ring import RoundedRing
+from viaspline.mission.value import Value
 
 
-class Circle(Value):
+class Circle(
+    Value,
+    expected="{center: [x, y], radius: 5}",
+):
     """A disc.
 
     Attributes:
@@ -19,7 +22,7 @@ class Circle(Value):
     """
 
     center: Point2
-    radius: Annotated[Positive, Field(le=FAR)]
+    radius: Length
 
     def ring(self) -> RoundedRing:
         """One vertex with a radius."""

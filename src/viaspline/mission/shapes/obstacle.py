@@ -1,4 +1,7 @@
-"""An obstacle of a mission: one shape, a name, and the side on which to pass it."""
+"""An obstacle of a mission: one shape, a name, and the side on which to pass it.
+
+Tested through ``mission/test_model``.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +13,10 @@ from pydantic.json_schema import SkipJsonSchema
 
 from viaspline.maps.grid import Grid
 from viaspline.maps.reading import Reading
-from viaspline.mission.fields import Name, Ring, Value
+from viaspline.mission.fields import Name, Ring, Rings
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.rounded_ring import RoundedRing
+from viaspline.mission.value import Value
 
 Side = Literal["left", "right"]
 
@@ -29,7 +33,12 @@ def _as_grid(value: Any) -> Any:
     return Grid(**{**parts, "reading": None if reading is None else Reading(**reading)})
 
 
-class Obstacle(Value):
+class Obstacle(
+    Value,
+    expected="an obstacle such as {circle: {center: [x, y], radius: 5}}",
+    exactly_one=SHAPES,
+    needing=(("holes", "polygon"),),
+):
     """Something to keep clear of: a circle, a polygon that may have holes, or a map's squares.
 
     Attributes:
@@ -46,7 +55,7 @@ class Obstacle(Value):
 
     circle: Circle | None = None
     polygon: Ring | None = None
-    holes: tuple[Ring, ...] = ()
+    holes: Rings = ()
     grid: Annotated[SkipJsonSchema[InstanceOf[Grid] | None], BeforeValidator(_as_grid)] = None
     name: Name | None = None
     pass_on: Side | None = None

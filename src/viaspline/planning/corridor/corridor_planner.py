@@ -14,7 +14,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import SplineSpec
+from viaspline.mission.spline_spec import SplineSpec
 from viaspline.mission.strip import Strip, rings_of, strip_of
 from viaspline.planning.alternatives.fit import CLEAR, too_close
 from viaspline.planning.alternatives.solution import Solution

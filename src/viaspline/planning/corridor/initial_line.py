@@ -7,7 +7,7 @@ import numpy as np
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.mission.parts import SplineSpec
+from viaspline.mission.spline_spec import SplineSpec
 from viaspline.mission.strip import Strip, rings_of
 from viaspline.planning.alternatives.fit import CLEAR, too_close
 from viaspline.planning.alternatives.lay_clear import lay_clear

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import SplineSpec, Tangents
 from viaspline.mission.robot_parts import TurnOnSpot
+from viaspline.mission.spline_spec import SplineSpec, Tangents
 
 LEAST = 1e-5  # what even a point without clearance keeps, so that touching is not crossing [m]
 

@@ -12,7 +12,7 @@ from viaspline.curve.tangents import ALPHA, PIECES, RULES
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import SplineSpec, Tangents
+from viaspline.mission.spline_spec import SplineSpec, Tangents
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import ViaPoint
+from viaspline.mission.route_spec import ViaPoint
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.router import NO_BARRIERS, Router, on_the_line
 from viaspline.world.world import World

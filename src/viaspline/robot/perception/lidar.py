@@ -12,7 +12,7 @@ import numpy as np
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.sensing.raycast import cast
-from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
 

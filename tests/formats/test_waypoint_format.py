@@ -15,12 +15,12 @@ from hypothesis import strategies as st
 
 from viaspline.errors import MissionError, OutputError
 from viaspline.formats.interpret import mission_of, origin_in
+from viaspline.formats.items import LatLon
 from viaspline.formats.load import load, origin_of
 from viaspline.formats.local_frame import LocalFrame
-from viaspline.formats.qgc_plan import parse_qgc_plan
-from viaspline.formats.qgc_wpl import parse_qgc_wpl
-from viaspline.formats.write_plan import plan_text
-from viaspline.formats.write_wpl import wpl_text
+from viaspline.formats.mission_format import Whereabouts, Written
+from viaspline.formats.qgc_plan import QgcPlan
+from viaspline.formats.qgc_wpl import QgcWpl
 from viaspline.mission.model import Mission
 
 DATA = Path(__file__).parent / "data"
@@ -38,6 +38,15 @@ YARD: dict[str, Any] = {
     "robot": {"max_speed_mps": 1.5},
     "route": {"start": [0, 0], "via": [{"at": [50, 25], "dwell_s": 12}], "goal": [100, 0]},
 }
+
+
+def plan_text(mission: Mission, origin: LatLon | None) -> Written:
+    return QgcPlan().write(mission, Whereabouts(origin=origin))
+
+
+def wpl_text(mission: Mission, origin: LatLon | None) -> Written:
+    return QgcWpl().write(mission, Whereabouts(origin=origin))
+
 
 coordinate = st.floats(-2000, 2000)
 origins = st.tuples(st.floats(-80, 80), st.floats(-180, 180)).filter(
@@ -109,7 +118,7 @@ def check_same(read: Mission, written: Mission) -> None:
 def test_any_plan_is_read_again_in_the_same_metres(
     mission: Mission, origin: tuple[float, float]
 ) -> None:
-    itinerary = parse_qgc_plan(plan_text(mission, origin).text, "x.plan")
+    itinerary = QgcPlan().parse(plan_text(mission, origin).text, "x.plan")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         read = mission_of(itinerary)
@@ -123,7 +132,7 @@ def test_any_plan_is_read_again_in_the_same_metres(
 def test_any_table_of_way_points_is_read_again_in_the_same_metres(
     mission: Mission, origin: tuple[float, float]
 ) -> None:
-    itinerary = parse_qgc_wpl(wpl_text(mission, origin).text, "x.txt")
+    itinerary = QgcWpl().parse(wpl_text(mission, origin).text, "x.txt")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         read = mission_of(itinerary)
@@ -148,7 +157,7 @@ def test_a_table_whose_start_is_not_the_origin_has_the_same_places_on_earth(
     text, lost = wpl_text(mission, origin)
     assert any(line.startswith("place of the origin") for line in lost)
     frame = LocalFrame(*origin)
-    items = [i for i in parse_qgc_wpl(text, "x.txt").items if i.command == 16]
+    items = [i for i in QgcWpl().parse(text, "x.txt").items if i.command == 16]
     for (_, point), item in zip(mission.route.points(), items, strict=True):
         near(frame.to_local(item.latitude, item.longitude), point.at[:2])
 
@@ -184,7 +193,7 @@ def test_a_mission_of_others_is_written_about_the_origin_that_it_was_read_with()
     source = EXAMPLES / "fence-survey.plan"
     mission = load(source)
     text, _ = plan_text(mission, origin_of(source))
-    check_same(mission_of(parse_qgc_plan(text, "x.plan")), mission)
+    check_same(mission_of(QgcPlan().parse(text, "x.plan")), mission)
 
 
 def test_what_can_not_be_written_is_named() -> None:
@@ -232,7 +241,7 @@ def test_what_can_not_be_written_is_named() -> None:
     table = wpl_text(mission, ORIGIN)
     assert set(table.lost) > common
     assert "robot: max_speed_mps" in table.lost
-    read = mission_of(parse_qgc_plan(written.text, "x.plan"))
+    read = mission_of(QgcPlan().parse(written.text, "x.plan"))
     assert read.route.goal is not None
     near(read.route.goal.at, [1, 0])
 
@@ -271,11 +280,11 @@ def test_an_origin_that_can_not_be_meant_is_a_fault_of_the_plan(origin: Any) -> 
     plan = json.loads(plan_text(Mission.model_validate(YARD), ORIGIN).text)
     plan["viaspline"]["origin"] = origin
     with pytest.raises(MissionError, match=r"viaspline\.origin"):
-        parse_qgc_plan(json.dumps(plan), "x.plan")
+        QgcPlan().parse(json.dumps(plan), "x.plan")
 
 
 @pytest.mark.parametrize("beside", [None, "text", 3, [], {}, {"origin": None}])
 def test_without_an_origin_of_its_own_a_plan_begins_at_its_home(beside: Any) -> None:
     plan = json.loads(plan_text(Mission.model_validate(YARD), ORIGIN).text)
     plan["viaspline"] = beside
-    assert origin_in(parse_qgc_plan(json.dumps(plan), "x.plan")) == pytest.approx(ORIGIN)
+    assert origin_in(QgcPlan().parse(json.dumps(plan), "x.plan")) == pytest.approx(ORIGIN)

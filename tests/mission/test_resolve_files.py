@@ -14,14 +14,14 @@ from hypothesis.extra import numpy as arrays
 
 import viaspline as vs
 from viaspline.errors import MissionError, OutputError
+from viaspline.formats.load import load
+from viaspline.formats.mission_yaml import write_yaml, yaml_text
 from viaspline.maps.grid import Grid
 from viaspline.maps.squares import signed_distance
 from viaspline.mission.json_schema import json_schema
 from viaspline.mission.load_map import load_map
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.mission.yaml_reader import read_yaml
-from viaspline.mission.yaml_writer import write_yaml, yaml_text
 
 Site: TypeAlias = Callable[..., Path]
 
@@ -323,8 +323,8 @@ def test_a_mission_with_maps_is_the_same_when_it_was_written_elsewhere(
     mission = vs.load(mission_in(folder, *items, route="{start: [0.3, 0.5], goal: [2, 0.7]}"))
     (folder / "out").mkdir()
     write_yaml(mission, folder / "out" / "m.yaml")
-    assert read_yaml(folder / "out" / "m.yaml") == mission
-    assert hash(read_yaml(folder / "out" / "m.yaml")) == hash(mission)
+    assert load(folder / "out" / "m.yaml") == mission
+    assert hash(load(folder / "out" / "m.yaml")) == hash(mission)
     for again in (copy.deepcopy(mission), pickle.loads(pickle.dumps(mission))):
         assert again == mission
     assert Mission.model_validate(mission.model_dump()) == mission

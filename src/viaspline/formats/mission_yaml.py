@@ -1,4 +1,7 @@
-"""Missions to YAML files, in the form that people write them."""
+"""viaspline's own mission files: YAML, read with every fault in its place.
+
+The document itself, with the place of everything in it, is in ``yaml_document``.
+"""
 
 from __future__ import annotations
 
@@ -8,17 +11,44 @@ import re
 import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, ClassVar, Final
 
 from viaspline.errors import OutputError
+from viaspline.formats.mission_format import MissionFormat, Whereabouts, Written
+from viaspline.formats.yaml_document import yaml_document
 from viaspline.mission.map_edge import edge_of
 from viaspline.mission.model import Mission
-from viaspline.mission.parts import WorldSpec
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.validation import Context
+from viaspline.mission.world_spec import WorldSpec
 
 _WORD: Final = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _RESERVED: Final = frozenset({"true", "false", "null", "yes", "no", "on", "off", "y", "n"})
 _ONE_PER_LINE: Final = frozenset({"known", "unseen", "fences", "speed_zones", "via"})
+
+
+class MissionYaml(MissionFormat):
+    """viaspline's own format."""
+
+    description: ClassVar[str] = "viaspline's YAML (.yaml, .yml)"
+    endings: ClassVar[tuple[str, ...]] = (".yaml", ".yml")
+    saved_endings: ClassVar[tuple[str, ...]] = endings
+
+    def sniff(self, path: Path, text: str) -> bool:
+        """Whether the file is called so: what is wrong with a text is told as a fault of YAML."""
+        return path.suffix.lower() in self.endings
+
+    def read(self, text: str, source: str) -> Mission:
+        """The mission that a text describes; each of its faults has its line and column."""
+        document = yaml_document(text, source)
+        return Mission.model_validate(document.data, context=Context(document))
+
+    def origin(self, text: str, source: str) -> None:
+        """Places are metres: where on earth they are isn't said."""
+
+    def write(self, mission: Mission, where: Whereabouts) -> Written:
+        """All of a mission; what has its default value is left out."""
+        return Written(yaml_text(mission, where.folder), ())
 
 
 def write_yaml(mission: Mission, path: str | Path) -> None:
@@ -37,8 +67,8 @@ def write_yaml(mission: Mission, path: str | Path) -> None:
     target = Path(path)
     text = yaml_text(mission, target.parent)
     try:
-        with _replacing(target) as draft:
-            draft.write_text(text, encoding="utf-8", newline="\n")
+        with _replacing(target) as temporary:
+            temporary.write_text(text, encoding="utf-8", newline="\n")
     except OSError as error:
         raise OutputError(path, (error.strerror or str(error)).lower()) from error
 
@@ -161,14 +191,14 @@ def _replacing(target: Path) -> Iterator[Path]:
     """A file beside the target that takes its place if all goes well, and goes away if not."""
     handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
     os.close(handle)
-    draft = Path(name)
+    temporary = Path(name)
     try:
-        yield draft
+        yield temporary
         # A temporary file is for its owner only; a mission is an ordinary file.
         mask = os.umask(0)
         os.umask(mask)
-        draft.chmod(0o666 & ~mask)
-        draft.replace(target)
+        temporary.chmod(0o666 & ~mask)
+        temporary.replace(target)
     except BaseException:
-        draft.unlink(missing_ok=True)
+        temporary.unlink(missing_ok=True)
         raise

@@ -2,11 +2,12 @@
 
 The document is composed to nodes, not loaded: nodes have marks, and what loading would hide
 (duplicate keys, tags, dates) can be told to the user.
+
+Tested through ``formats/test_mission_yaml``.
 """
 
 from __future__ import annotations
 
-import codecs
 from pathlib import Path as FilePath
 from typing import Any, Final
 
@@ -16,10 +17,10 @@ from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from ruamel.yaml.reader import ReaderError
 
 from viaspline.errors import Fault, MissionError
+from viaspline.formats.file_text import read_text
 from viaspline.mission.unplaced_faults import Mark, Path, UnplacedFault, describe
 
 _TAG: Final = "tag:yaml.org,2002:"
-_YAML = "it should be a YAML mapping with the keys world, robot, route and spline"
 
 
 class Document:
@@ -28,21 +29,21 @@ class Document:
     Attributes:
         source: The file.
         data: Mappings, lists, texts, numbers, truth values and None.
-        flaws: Duplicate keys, tags and the like.
+        faults: Duplicate keys, tags and the like.
     """
 
     def __init__(self, source: str, root: Node) -> None:
         self.source = source
         self._root = root
         self._keys: dict[tuple[int, str], Node] = {}
-        self._flaws: list[UnplacedFault] = []
+        self._faults: list[UnplacedFault] = []
         self._made: dict[int, Any] = {}
         self.data = self._value(root, ())
 
     @property
-    def flaws(self) -> tuple[UnplacedFault, ...]:
+    def faults(self) -> tuple[UnplacedFault, ...]:
         """What was found wrong before there was data."""
-        return tuple(self._flaws)
+        return tuple(self._faults)
 
     def mark(self, path: Path, *, at_key: bool) -> Mark:
         """The place of the value (or its key) at ``path``, or of the nearest thing around it."""
@@ -70,7 +71,7 @@ class Document:
         # Until it is done, so that an alias inside of what it stands for ends here.
         self._made[id(node)] = None
         if not str(node.tag).startswith(_TAG):
-            self._flaws.append(_tagged(node, path))
+            self._faults.append(_tagged(node, path))
         value: Any = None
         if isinstance(node, SequenceNode):
             value = [self._value(item, (*path, i)) for i, item in enumerate(node.value)]
@@ -92,7 +93,7 @@ class Document:
             else:
                 problem = f"duplicate key; it stands in line {_mark(first).line} already"
                 remedy = "keep one of the two"
-                self._flaws.append(
+                self._faults.append(
                     UnplacedFault((*path, key), problem, remedy, mark=_mark(key_node))
                 )
         return data
@@ -105,13 +106,13 @@ class Document:
         remedy = "keys are words such as route"
         if str(node.tag) == _TAG + "merge":
             problem, remedy = "merge keys (<<) aren't supported", "write the keys out"
-        self._flaws.append(UnplacedFault(path, problem, remedy, mark=_mark(node)))
+        self._faults.append(UnplacedFault(path, problem, remedy, mark=_mark(node)))
         return None
 
     def _scalar(self, node: ScalarNode, path: Path) -> Any:
         tag, text = str(node.tag), str(node.value)
         if not tag.startswith(_TAG):
-            self._flaws.append(_tagged(node, path))
+            self._faults.append(_tagged(node, path))
         return plain_scalar(tag.removeprefix(_TAG), text)
 
 
@@ -148,13 +149,24 @@ def _tagged(node: Node, path: Path) -> UnplacedFault:
 
 
 def read_document(path: str | FilePath) -> Document:
-    """Read one YAML document.
+    """The YAML document of a file.
 
     Raises:
         MissionError: There is no such file, or it isn't one YAML document in UTF-8.
     """
-    source = str(path)
-    text = read_text(path)
+    return yaml_document(read_text(path), str(path))
+
+
+def yaml_document(text: str, source: str) -> Document:
+    """The one YAML document of a text.
+
+    Args:
+        text: What the file holds.
+        source: The file.
+
+    Raises:
+        MissionError: It isn't one YAML document with a mapping.
+    """
     yaml = YAML(typ="safe", pure=True)
     try:
         nodes = list(yaml.compose_all(text))
@@ -164,11 +176,11 @@ def read_document(path: str | FilePath) -> Document:
         raise _fault(source, _place(text, error.position), *_character(error)) from None
     except RecursionError:
         problem = "lists or mappings are nested too deeply"
-        raise _fault(source, Mark(1, 1), problem, _YAML) from None
+        raise _fault(source, Mark(1, 1), problem, _expected()) from None
     except (YAMLError, ValueError) as error:
-        raise _fault(source, Mark(1, 1), f"is not YAML: {error}", _YAML) from None
+        raise _fault(source, Mark(1, 1), f"is not YAML: {error}", _expected()) from None
     if not nodes or nodes[0] is None or _is_empty(nodes[0]):
-        raise _fault(source, Mark(1, 1), "the file is empty", _YAML)
+        raise _fault(source, Mark(1, 1), "the file is empty", _expected())
     if len(nodes) > 1:
         problem, remedy = "a second document starts here", "a mission is one document: split it"
         raise _fault(source, _mark(nodes[1]), problem, remedy)
@@ -176,46 +188,17 @@ def read_document(path: str | FilePath) -> Document:
         document = Document(source, nodes[0])
     except RecursionError:
         problem = "lists or mappings are nested too deeply"
-        raise _fault(source, Mark(1, 1), problem, _YAML) from None
+        raise _fault(source, Mark(1, 1), problem, _expected()) from None
     if not isinstance(document.data, dict):
         problem = f"the file holds {describe(document.data)}"
-        raise _fault(source, _mark(nodes[0]), problem, _YAML)
+        raise _fault(source, _mark(nodes[0]), problem, _expected())
     return document
 
 
-LARGEST = 40_000_000
-"""Largest mission file [bytes]: half a million obstacles, minutes of reading."""
+def _expected() -> str:
+    from viaspline.mission.key_words import expectation
 
-
-def read_text(path: str | FilePath) -> str:
-    """The text of a file in UTF-8, with or without a byte order mark.
-
-    Raises:
-        MissionError: There is no such file, it can't be read, or it isn't UTF-8.
-    """
-    source = str(path)
-    remedy = "give the path of a mission file that can be read"
-    try:
-        size = FilePath(path).stat().st_size
-        if size > LARGEST:
-            problem = f"has {size / 1e6:.0f} MB, more than the {LARGEST / 1e6:.0f} MB that are read"
-            remedy = "build so large a mission in Python: vs.Mission.model_validate({...})"
-            raise _fault(source, None, problem, remedy)
-        data = FilePath(path).read_bytes()
-    except FileNotFoundError:
-        raise _fault(source, None, "there is no such file", remedy) from None
-    except IsADirectoryError:
-        raise _fault(source, None, "is a folder", remedy) from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise _fault(source, None, f"can't be read: {reason.lower()}", remedy) from None
-    try:
-        return data.removeprefix(codecs.BOM_UTF8).decode("utf-8")
-    except UnicodeDecodeError as error:
-        line_start = data.rfind(b"\n", 0, error.start) + 1
-        mark = Mark(data.count(b"\n", 0, error.start) + 1, error.start - line_start + 1)
-        problem = f"the byte 0x{data[error.start]:02X} is not UTF-8"
-        raise _fault(source, mark, problem, "save the file as UTF-8") from None
+    return "it should be " + expectation(()).replace("a mapping", "a YAML mapping")
 
 
 def _is_empty(node: Node) -> bool:

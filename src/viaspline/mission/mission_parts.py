@@ -1,0 +1,40 @@
+"""All parts of a mission, before it is known whether they go together.
+
+Lengths are metres, angles in files are degrees (the key says so), the frame is ENU: x east,
+y north, headings anticlockwise from x. What one part means to another is held in ``model``.
+
+Tested through ``mission/test_model``.
+"""
+
+from __future__ import annotations
+
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.route_spec import Route
+from viaspline.mission.spline_spec import SplineSpec, Tangents
+from viaspline.mission.value import Value
+from viaspline.mission.world_spec import WorldSpec
+
+
+class MissionParts(Value):
+    """All parts of a mission, each sound by itself.
+
+    Attributes:
+        world: The known map, and what is there but not on the map.
+        robot: The robot's body, limits and sensor.
+        route: The points that the path runs through.
+        spline: The curve's shape.
+    """
+
+    world: WorldSpec = WorldSpec()
+    robot: RobotSpec = RobotSpec()
+    route: Route
+    spline: SplineSpec = SplineSpec()
+
+    @property
+    def tangents(self) -> Tangents:
+        """Those of the spline, as it says or as the robot asks for."""
+        if self.spline.tangents is not None:
+            return self.spline.tangents
+        robot = self.robot
+        steers = robot.drive is not None or robot.turn_radius is not None
+        return "continuous" if steers or robot.footprint is not None else "cardinal"

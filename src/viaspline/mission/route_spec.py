@@ -1,0 +1,95 @@
+"""The route of a mission: the points that its path runs through, in order.
+
+Tested through ``mission/test_model``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, Final, Literal, TypeAlias
+
+from pydantic import BeforeValidator, Field
+
+from viaspline.mission.annotations import Expects
+from viaspline.mission.corridor_spec import Corridor
+from viaspline.mission.fields import Duration, Heading, Name, Point, plain
+from viaspline.mission.value import Value
+
+MAX_LAPS: Final = 1000
+"""How often a closed route can be driven at most."""
+
+
+def _as_mapping(value: Any) -> Any:
+    """The short form ``[x, y]`` of ``{at: [x, y]}``."""
+    value = plain(value)
+    return {"at": value} if isinstance(value, list | tuple) else value
+
+
+class ViaPoint(
+    Value,
+    expected="[x, y] or {at: [x, y], name: ..., dwell_s: ...}",
+):
+    """A place that the path runs through, exactly; a station if it has a dwell.
+
+    Attributes:
+        at: The place, ``[x, y]`` or ``[x, y, z]`` [m].
+        name: What it is called in reports and errors.
+        dwell_s: How long the robot stands there [s].
+    """
+
+    at: Point
+    name: Name | None = None
+    dwell_s: Duration = 0.0
+
+
+class EndPoint(ViaPoint):
+    """The start or the goal.
+
+    Attributes:
+        heading_deg: The heading of the path there [deg, anticlockwise from x]. None: free.
+    """
+
+    heading_deg: Heading | None = None
+
+
+Via: TypeAlias = Annotated[
+    ViaPoint, BeforeValidator(_as_mapping, json_schema_input_type=Point | ViaPoint)
+]
+End: TypeAlias = Annotated[
+    EndPoint, BeforeValidator(_as_mapping, json_schema_input_type=Point | EndPoint)
+]
+Vias: TypeAlias = Annotated[
+    tuple[Via, ...], Expects("a list of points such as [[10, 20], {at: [30, 40], dwell_s: 5}]")
+]
+
+
+class Route(Value):
+    """Start, via points in order, goal.
+
+    Attributes:
+        start: Where the robot stands at first.
+        via: The places that the path runs through, in this order unless ``order`` says otherwise.
+        goal: Where it ends. None: at the last via point, or at the start if the route is closed.
+        closed: Whether the path comes back to its start; then there is no goal.
+        order: ``given``, or ``shortest``: the via points are served in the order that makes the
+            round short.
+        laps: How often a closed route is driven, without a halt between laps. The path is that of
+            the whole drive, and every lap visits every point.
+        corridor: A strip that the path stays inside of.
+    """
+
+    start: End
+    via: Vias = ()
+    goal: End | None = None
+    closed: Annotated[bool, Field(strict=True)] = False
+    order: Literal["given", "shortest"] = "given"
+    laps: Annotated[int, Field(strict=True, ge=1, le=MAX_LAPS)] = 1
+    corridor: Corridor | None = None
+
+    def points(self) -> Iterator[tuple[str, ViaPoint]]:
+        """Every point of the route in order, with its key in the mission file."""
+        yield "route.start", self.start
+        for i, via in enumerate(self.via):
+            yield f"route.via[{i}]", via
+        if self.goal is not None:
+            yield "route.goal", self.goal

@@ -1,0 +1,50 @@
+"""The shape of a mission's curve.
+
+Tested through ``mission/test_model``.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Final, Literal, TypeAlias
+
+from pydantic import BeforeValidator
+
+from viaspline.mission.annotations import Expects, Limit
+from viaspline.mission.fields import Number, plain
+from viaspline.mission.value import Value
+
+POLYLINE_TENSION: Final = 1.0
+POLYLINE_SLACK: Final = 0.0
+
+Tangents: TypeAlias = Literal["cardinal", "continuous"]
+Tension: TypeAlias = Annotated[Number, Limit(le=POLYLINE_TENSION)]
+Slack: TypeAlias = Annotated[Number, Limit(ge=POLYLINE_SLACK)]
+
+
+class SplineSpec(
+    Value,
+    expected="a mapping such as {tension: 0.1}",
+    excluding=(("tension", "slack"),),
+):
+    """The curve's shape.
+
+    Attributes:
+        tension: Eq. (7)'s t: 1 is the polyline, 0 Catmull-Rom, -1 loose. One number, or one for
+            each span between the points of the route, or ``auto`` for what is advised.
+        slack: The tension by its other name, s = (1 - t) / 2. Give one of the two.
+        knots: How far apart the points are in parameter: equally, by the root of their distance,
+            by their distance.
+        tangents: ``cardinal``, or ``continuous`` for continuous curvature. None: continuous if the
+            robot has a drive, a turning circle or a footprint, else cardinal.
+    """
+
+    tension: Annotated[
+        Tension | Annotated[tuple[Tension, ...], BeforeValidator(plain)] | Literal["auto"] | None,
+        Expects("one number up to 1, a list with one for each span, or auto"),
+    ] = None
+    slack: Annotated[
+        Slack | Annotated[tuple[Slack, ...], BeforeValidator(plain)] | None,
+        Expects("one number, 0 or more, or a list with one for each span"),
+    ] = None
+    knots: Literal["uniform", "centripetal", "chordal"] = "chordal"
+    tangents: Tangents | None = None

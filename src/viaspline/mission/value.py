@@ -1,0 +1,90 @@
+"""What the parts of a mission have in common: they are frozen, and say what keys they have.
+
+A key is declared once, where its field is: the type holds its limits and its unit, the class's
+docstring what it means. Messages (``key_words``) and the JSON Schema are derived from that.
+
+Tested through ``mission/test_model``.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
+
+from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic_core import PydanticCustomError
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from pydantic import GetJsonSchemaHandler
+    from typing_extensions import Unpack
+
+
+class KeyRules(TypedDict, total=False):
+    """What a class says of its keys together, as keywords of the class; all may be left out.
+
+    Attributes:
+        expected: What would be right where the class is asked for, in words; by default a mapping
+            with its keys.
+        exactly_one: Keys of which exactly one has to be given.
+        excluding: Pairs of keys of which one at most may be given.
+        needing: Keys that make sense beside another only.
+    """
+
+    expected: str
+    exactly_one: tuple[str, ...]
+    excluding: tuple[tuple[str, str], ...]
+    needing: tuple[tuple[str, str], ...]
+
+
+class Value(BaseModel):
+    """A frozen value that refuses keys it does not know.
+
+    >>> class Wheel(Value, expected="a wheel such as {radius_m: 0.2}"):
+    ...     radius_m: float
+    >>> Wheel.key_rules["expected"]
+    'a wheel such as {radius_m: 0.2}'
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    if TYPE_CHECKING:  # an annotation would be evaluated once more for each class
+        key_rules: ClassVar[KeyRules]
+
+    def __init_subclass__(cls, **rules: Unpack[KeyRules]) -> None:
+        """Take the class's `KeyRules`; those that it doesn't give are those of its base."""
+        super().__init_subclass__()
+        cls.key_rules = {**getattr(cls, "key_rules", KeyRules()), **rules}
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core_schema: Any, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """The schema with what the class says of its keys."""
+        from viaspline.mission.json_schema import describe_keys
+
+        schema = handler(core_schema)
+        describe_keys(cls, handler.resolve_ref_schema(schema))
+        return schema
+
+
+class OneOf(Value):
+    """A value of which exactly one of the keys ``exactly_one`` is given, e.g. the kind of a drive.
+
+    The others among them are None.
+    """
+
+    @model_validator(mode="after")
+    def _is_one(self) -> Self:
+        keys = self.key_rules["exactly_one"]
+        given = [key for key in keys if getattr(self, key) is not None]
+        if not given:
+            raise PydanticCustomError("none_of", "give one of them", {"keys": keys})
+        if len(given) > 1:
+            raise two_of(*given)
+        return self
+
+
+def two_of(*keys: str) -> PydanticCustomError:
+    """The error of keys that exclude each other."""
+    return PydanticCustomError("two_of", "give one of them", {"keys": keys})

@@ -1,0 +1,79 @@
+"""The world of a mission: how far it reaches, what stands in it, where to go slowly.
+
+Tested through ``mission/test_resolve_files``.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, TypeAlias
+
+from pydantic import BeforeValidator
+
+from viaspline.mission.annotations import Expects
+from viaspline.mission.fields import Coordinate, Name, Ring, Rings, Speed, plain
+from viaspline.mission.map_spec import MapSpec
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.value import Value
+
+
+def _resolved(value: Any) -> Any:
+    """An obstacle as it is: maps have been read before, see ``resolve_files``."""
+    return value
+
+
+AnyObstacle: TypeAlias = Annotated[
+    Obstacle, BeforeValidator(_resolved, json_schema_input_type=Obstacle | MapSpec)
+]
+Obstacles: TypeAlias = Annotated[
+    tuple[AnyObstacle, ...],
+    Expects(
+        "a list of obstacles such as - circle: {center: [x, y], radius: 5} or - map: depot.yaml"
+    ),
+]
+Bounds4: TypeAlias = Annotated[
+    tuple[Coordinate, Coordinate, Coordinate, Coordinate],
+    BeforeValidator(plain),
+    Expects("[x_min, y_min, x_max, y_max] in metres"),
+]
+
+
+class SpeedZone(
+    Value,
+    expected="a zone such as {polygon: [[x, y], ...], max_speed_mps: 0.5}",
+):
+    """An area in which the robot drives more slowly.
+
+    Attributes:
+        polygon: Its corners ``[[x, y], ...]`` [m].
+        max_speed_mps: The greatest speed of the reference point inside of it [m/s].
+        name: What it is called in reports and errors.
+    """
+
+    polygon: Ring
+    max_speed_mps: Speed
+    name: Name | None = None
+
+
+SpeedZones: TypeAlias = Annotated[
+    tuple[SpeedZone, ...],
+    Expects("a list of zones such as - {polygon: [[x, y], ...], max_speed_mps: 0.5}"),
+]
+
+
+class WorldSpec(Value):
+    """The known map, and what is there but not on the map.
+
+    Attributes:
+        bounds: ``x_min, y_min, x_max, y_max`` [m]; the robot stays inside. None: no bounds, or
+            the edge of the maps of squares that are known.
+        fences: Polygons that the robot stays inside of, every one (inclusion fences).
+        known: Obstacles on the map.
+        unseen: Obstacles that only the sensor finds.
+        speed_zones: Areas with a lower speed.
+    """
+
+    bounds: Bounds4 | None = None
+    fences: Rings = ()
+    known: Obstacles = ()
+    unseen: Obstacles = ()
+    speed_zones: SpeedZones = ()

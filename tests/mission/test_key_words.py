@@ -1,0 +1,120 @@
+from typing import Annotated
+
+import pytest
+from pydantic import Field
+
+from viaspline.mission.fields import DEGREES, Length, Number
+from viaspline.mission.key_words import expectation, keys_at, suggestion
+from viaspline.mission.mission_parts import MissionParts
+from viaspline.mission.unplaced_faults import Path
+from viaspline.mission.value import Value
+
+RING = "at least three points [[x, y], [x, y], [x, y]] in metres"
+
+
+@pytest.mark.parametrize(
+    ("path", "words"),
+    [
+        ((), "a mapping with the keys world, robot, route and spline"),
+        (("world",), "a mapping with the keys bounds, fences, known, unseen and speed_zones"),
+        (("world", "bounds", 2), "a number of metres"),
+        (("world", "fences"), "a list of polygons, each " + RING),
+        (("world", "fences", 0), RING),
+        (("world", "fences", 0, 1), "[x, y] in metres"),
+        (("world", "known", 4), "an obstacle such as {circle: {center: [x, y], radius: 5}}"),
+        (("world", "known", 4, "map"), "the path of a map such as depot.yaml"),
+        (("world", "known", 4, "unknown"), "blocked or free"),
+        (("world", "known", 4, "polygon"), RING),
+        (("world", "unseen", 4, "holes", 0, 1), "[x, y] in metres"),
+        (("robot", "radius_m"), "a number of metres, 0 or more"),
+        (("robot", "footprint", 0), "[x, y] in metres"),
+        (("robot", "max_accel_mps2"), "a number of m/s² greater than 0"),
+        (("robot", "drive", "delay_s"), "a number of seconds, 0 to 60"),
+        (("robot", "sensor"), "{range_m: 40} or {lidar: {range_m: 5}}"),
+        (("robot", "sensor", "lidar", "fov_deg"), "a number of degrees greater than 0, up to 360"),
+        (("robot", "sensor", "lidar", "beams"), "a whole number, 1 to 100000"),
+        (("robot", "localization", "heading_noise_deg"), "a number of degrees, 0 to 180"),
+        (("route", "via", 0), "[x, y] or {at: [x, y], name: ..., dwell_s: ...}"),
+        (("route", "via", 0, "at"), "[x, y] or [x, y, z] in metres"),
+        (("route", "start", "heading_deg"), "a number of degrees, anticlockwise from x"),
+        (("route", "closed"), "true or false"),
+        (("route", "order"), "given or shortest"),
+        (("route", "corridor", "line", 3), "a row [x, y, right, left] in metres"),
+        (("spline", "tension"), "one number up to 1, a list with one for each span, or auto"),
+        (("spline", "tension", 0), "a number up to 1"),
+        (("spline", "slack", 0), "a number, 0 or more"),
+        (("nowhere",), "something else"),
+    ],
+)
+def test_a_place_says_what_would_be_right_there(path: Path, words: str) -> None:
+    assert expectation(path) == words
+
+
+@pytest.mark.parametrize(
+    ("path", "some"),
+    [
+        (("world", "known", 0), {"circle", "polygon", "map", "unknown", "pass_on"}),
+        (("route", "goal"), {"at", "name", "dwell_s", "heading_deg"}),
+        (("route", "via", 0), {"at", "name", "dwell_s"}),
+        (("route", "closed"), set()),
+    ],
+)
+def test_a_mapping_has_the_keys_of_its_models(path: Path, some: set[str]) -> None:
+    keys = set(keys_at(path))
+    assert some <= keys
+    assert "grid" not in keys
+    assert bool(some) == bool(keys)
+    assert ("heading_deg" in keys) == ("heading_deg" in some)
+
+
+@pytest.mark.parametrize(
+    ("key", "path", "remedy"),
+    [
+        ("max_speed_mps", ("route",), "'max_speed_mps' belongs under robot"),
+        ("Fov-Deg", ("robot",), "'fov_deg' belongs under lidar"),
+        ("map", ("world",), "'map' belongs under known"),
+        ("clear", ("robot",), "did you mean 'clearance_m'?"),
+        ("zzz", ("robot", "sensor"), "the keys here are range_m, lidar"),
+    ],
+)
+def test_a_key_in_the_wrong_place_is_sent_to_where_it_belongs(
+    key: str, path: Path, remedy: str
+) -> None:
+    assert suggestion(key, path)[0] == remedy
+
+
+class Beacon(
+    Value,
+    expected="a beacon",
+):
+    """A light.
+
+    Attributes:
+        height_m: Over the ground [m].
+        turn_deg: How far it is turned [deg].
+    """
+
+    height_m: Length
+    turn_deg: Annotated[Number, DEGREES, Field(gt=-90, lt=90)] = 0.0
+
+
+class Harbour(MissionParts):
+    """A mission with a key of its own.
+
+    Attributes:
+        beacons: Lights.
+    """
+
+    beacons: tuple[Beacon, ...] = ()
+
+
+def test_a_new_model_needs_no_table_to_be_known_by_words_keys_and_schema(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("viaspline.mission.key_words.MissionParts", Harbour)
+    assert expectation(("beacons", 0)) == "a beacon"
+    words = "a number of degrees greater than -90, less than 90"
+    assert expectation(("beacons", 0, "turn_deg")) == words
+    assert suggestion("height_m", ("robot",)) == ("'height_m' belongs under beacons", None)
+    schema = Harbour.model_json_schema()["$defs"]["Beacon"]
+    assert schema["properties"]["height_m"]["description"] == "Over the ground [m]."
