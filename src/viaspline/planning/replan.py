@@ -16,13 +16,12 @@ from numpy.typing import NDArray
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import GUIDE, Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import NoPathError
+from viaspline.errors import NoPathError, PlanningError
 from viaspline.kernels.arrays import Floats
-from viaspline.planning.alternatives.fit import CLEAR
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.checking.conflicts import body_conflicts, proven
-from viaspline.planning.plan_path import lay_course
+from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
+from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
 from viaspline.planning.problem.via_sequence import (
@@ -34,9 +33,9 @@ from viaspline.planning.problem.via_sequence import (
 )
 from viaspline.world.world import World
 
-NEAR = 1e-6  # via points nearer along the path than this have been passed [m]
-ROOM = 0.4  # of the way to the next via point that a run-out may take
-REACHES = (2.0, 1.0, 0.3)  # lengths of a run-out, in required distances
+PASSED_M = 1e-6  # via points nearer along the path than this have been passed
+MAX_RUN_OUT = 0.4  # part of the way to the next via point that a run-out may take
+RUN_OUT_LENGTHS = (2.0, 1.0, 0.3)  # that are tried, in required distances
 
 
 @dataclass(frozen=True)
@@ -80,7 +79,7 @@ def reflex(path: Path, at: float, world: World, requirements: Requirements) -> S
     wide = _stretch(users, users, u, blocked)
     try:
         return _joined(path, narrow, world, requirements)
-    except NoPathError:
+    except PlanningError:
         if wide == narrow:
             raise
     return _joined(path, wide, world, requirements)
@@ -92,7 +91,7 @@ def _stretch(
     """From the last of the joints before the blocked spans to the first one after them."""
     leave = max([u, *(via.u for via in joints if via.u <= blocked[0])])
     tail = next(via for via in joints if via.u >= blocked[-1] + 1)
-    within = tuple(via for via in users if leave + NEAR < via.u < tail.u)
+    within = tuple(via for via in users if leave + PASSED_M < via.u < tail.u)
     if tail.u >= users[-1].u:
         return _Stretch(leave, (*within, users[-1]), None)
     return _Stretch(leave, within, tail)
@@ -137,10 +136,10 @@ def from_rest(
     stretch = _Stretch(u, _remaining(path, at, world, requirements, skip), None)
     _refuse_the_end(path, stretch)
     start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
-    sequence = _course(path, start, stretch, requirements)
+    sequence = _sequence_through(path, start, stretch, requirements)
     if requirements.turn_radius is not None and requirements.turns_on_spot == "never":
         sequence = replace(sequence, start_tangent=np.asarray(path.tangent(u)))
-    spline_path, account = lay_course(sequence, world, requirements)
+    spline_path, account = lay_path(sequence, world, requirements)
     head = _head(path, u)
     vias = (*_vias_until(path, u, len(head)), *spline_path.vias_from(len(head)))
     new = Path(np.concatenate((head, spline_path.spans)), vias)
@@ -151,15 +150,15 @@ def from_rest(
 def _joined(path: Path, stretch: _Stretch, world: World, requirements: Requirements) -> Solution:
     """The new path with the first run-out, from long to short, that lets it be clear."""
     _refuse_the_end(path, stretch)
-    problem: NoPathError | None = None
-    for reach in REACHES:
+    problem: PlanningError | None = None
+    for reach in RUN_OUT_LENGTHS:
         try:
             return _join(
                 path, stretch, world, requirements, reach * max(requirements.required, 0.1)
             )
-        except NoPathError as error:
+        except PlanningError as error:
             problem = error
-    assert problem is not None  # REACHES is not empty
+    assert problem is not None  # RUN_OUT_LENGTHS is not empty
     raise problem
 
 
@@ -176,10 +175,12 @@ def _join(
         _refuse_blocked(back, world, requirements)
     start = RouteVia("the robot", out.end, None)
     meet = None if back is None else RouteVia("the old path", back.span[0], None)
-    sequence = replace(_course(path, start, stretch, requirements, meet), start_tangent=out.tangent)
+    sequence = replace(
+        _sequence_through(path, start, stretch, requirements, meet), start_tangent=out.tangent
+    )
     if back is not None:
         sequence = replace(sequence, end_tangent=back.tangent)
-    spline_path, account = lay_course(sequence, world, requirements)
+    spline_path, account = lay_path(sequence, world, requirements)
     spans = spline_path.spans
     head = _head(path, stretch.u)
     first = len(head) + 1
@@ -202,7 +203,7 @@ def _room(path: Path, stretch: _Stretch) -> tuple[float, float]:
     """What a run-out may take on the first and on the last leg of a stretch [m]."""
     targets = [*stretch.ahead, *([stretch.tail] if stretch.tail else [])]
     at = np.asarray(path.distance(np.array([stretch.u, *(via.u for via in targets)])))
-    rooms = ROOM * np.diff(at)
+    rooms = MAX_RUN_OUT * np.diff(at)
     return float(rooms[0]), float(rooms[-1])
 
 
@@ -250,7 +251,7 @@ def _blocked_spans(
 
 def _ahead(path: Path, u: float) -> PiecewiseCubic:
     end = path.domain[1]
-    return path.section(min(u, end - NEAR), end)
+    return path.section(min(u, end - PASSED_M), end)
 
 
 def _head(path: Path, u: float) -> Floats:
@@ -261,7 +262,7 @@ def _head(path: Path, u: float) -> Floats:
 
 
 def _vias_until(path: Path, u: float, spans: int) -> Sequence[PathVia]:
-    return [via for via in path.vias if via.u <= min(u + NEAR, spans)]
+    return [via for via in path.vias if via.u <= min(u + PASSED_M, spans)]
 
 
 def _to_serve(path: Path, world: World, requirements: Requirements) -> list[PathVia]:
@@ -270,7 +271,7 @@ def _to_serve(path: Path, world: World, requirements: Requirements) -> list[Path
     Without them the way to the next via point might go round the other way.
     """
     places = [via.at[:2] for via in path.vias]
-    free = world.distance(places) > requirements.required + NEAR
+    free = world.distance(places) > requirements.required + PASSED_M
     return [
         via
         for via, is_free in zip(path.vias, free.tolist(), strict=True)
@@ -282,7 +283,7 @@ def _remaining(
     path: Path, at: float, world: World, requirements: Requirements, skip: Collection[int]
 ) -> tuple[PathVia, ...]:
     serve = _to_serve(path, world, requirements)
-    u = float(path.parameter(min(at + NEAR, path.length)))
+    u = float(path.parameter(min(at + PASSED_M, path.length)))
     remaining = tuple(via for via in serve if via.u > u and via.index not in skip)
     if not any(via.kind == "user" for via in remaining):
         raise NoPathError(
@@ -293,14 +294,14 @@ def _remaining(
     return remaining
 
 
-def _course(
+def _sequence_through(
     path: Path,
     start: RouteVia,
     stretch: _Stretch,
     requirements: Requirements,
     meet: RouteVia | None = None,
 ) -> ViaSequence:
-    """A course without detours through the via points of a stretch, to ``meet`` if it is given."""
+    """A via sequence without detours through those of a stretch, to ``meet`` if it is given."""
     targets = [RouteVia(v.name, np.array(v.at), v.index, v.dwell) for v in stretch.ahead]
     legs = [via.index or 1 for via in stretch.ahead]
     if meet is not None and stretch.tail is not None:

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import Path, PathVia
-from viaspline.errors import NoPathError
+from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning import replan
 from viaspline.planning.problem.requirements import Requirements
@@ -50,7 +50,7 @@ def way_out(
     at = context.stop + math.dist(here, place)
     try:
         found = replan.from_rest(straight, at, world, requirements)
-    except NoPathError:
+    except PlanningError:
         return None
     context = replace(context, journey=replace(journey, close=ReducedClearance(at, floor)))
     choice = timed(context, "from_rest", replace(found, changed_from=context.stop), (at,))
@@ -87,7 +87,7 @@ def relieved(
     at = float(places[roomy[0]])
     try:
         found = replan.planned(path, at, world, requirements, skip)
-    except NoPathError:
+    except PlanningError:
         return context, choice
     freed = replace(
         context, journey=replace(journey, close=ReducedClearance(at, journey.close.floor))

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.planning.alternatives.fit import CLEAR
-from viaspline.planning.checking.conflicts import conflicts_within
+from viaspline.planning.checking.conflicts import CLEAR, conflicts_within
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.robot.journey import SAME_PLACE_M, NavigationState
 from viaspline.world.world import World

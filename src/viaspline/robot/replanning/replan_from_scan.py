@@ -9,10 +9,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from viaspline.errors import NoPathError
-from viaspline.planning.alternatives.fit import too_close
+from viaspline.errors import PlanningError
+from viaspline.planning.checking.conflicts import too_close
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.routing.route_refusals import BlockedLegError
+from viaspline.planning.routing.leg_refusals import BlockedLegError, UnfinishedLegError
 from viaspline.robot.journey import SAME_PLACE_M, NavigationState, ReducedClearance, Wait
 from viaspline.robot.records import give_up, take
 from viaspline.robot.replanning.escape import relieved, way_out
@@ -67,7 +67,7 @@ def better(journey: NavigationState, *, opened: bool) -> NavigationState:
     freed = replace(context, journey=replace(journey, close=None))
     try:
         choice = anew(freed, journey.world)
-    except NoPathError:
+    except PlanningError:
         return _timed(journey, began)
     if tight or is_better(choice.found.path.length - journey.distance, rest):
         journey = take(freed, choice, {})
@@ -170,9 +170,9 @@ def _detected(journey: NavigationState) -> tuple[tuple[str, ...], NavigationStat
     return tuple(names), journey.noted(*events)
 
 
-def _plain(refusal: NoPathError | str) -> str:
+def _plain(refusal: PlanningError | str) -> str:
     """Why there is no way on, as far as a robot can tell that sees a part of the world."""
-    if isinstance(refusal, BlockedLegError):
+    if isinstance(refusal, BlockedLegError | UnfinishedLegError):
         return f"sees no way to '{refusal.via}'"
     return str(refusal)
 

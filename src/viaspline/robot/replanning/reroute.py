@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from viaspline.errors import NoPathError
+from viaspline.errors import PlanningError
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.journey import SAME_PLACE_M, NavigationState
 from viaspline.robot.records import give_up, take
@@ -29,7 +29,7 @@ class Answer:
     """
 
     choice: Choice | None
-    refusal: NoPathError | str = ""
+    refusal: PlanningError | str = ""
     skip: Mapping[int, str] = field(default_factory=dict)
 
 
@@ -81,7 +81,7 @@ def answer(context: ReplanContext, world: World) -> Answer:
     while True:
         try:
             return Answer(find(context, world, frozenset(skip)), skip=skip)
-        except NoPathError as error:
+        except PlanningError as error:
             lost = _lost(context, skip, error)
             if lost is None:
                 return Answer(None, error)
@@ -123,7 +123,7 @@ def _covered(context: ReplanContext) -> tuple[dict[int, str], str | None]:
     return covered, None
 
 
-def _lost(context: ReplanContext, skip: Mapping[int, str], error: NoPathError) -> int | None:
+def _lost(context: ReplanContext, skip: Mapping[int, str], error: PlanningError) -> int | None:
     """Index of the point that an error says can't be reached, if the robot may go on without."""
     path = context.journey.path
     for via, at in context.journey.ahead:

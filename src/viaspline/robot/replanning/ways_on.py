@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viaspline.errors import GeometryError, NoPathError
+from viaspline.errors import GeometryError, PlanningError
 from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.robot.journey import SAME_PLACE_M, certain_until, trajectory_along
@@ -43,7 +43,7 @@ def find(context: ReplanContext, world: World, skip: Collection[int] = frozenset
         skip: Points of the route that are left out.
 
     Raises:
-        NoPathError: If there is no way to the goal.
+        PlanningError: If there is no way to the goal, or none was found.
     """
     choice = _first_way(context, world, skip)
     journey = context.journey
@@ -59,7 +59,7 @@ def find(context: ReplanContext, world: World, skip: Collection[int] = frozenset
         return choice
     try:
         kept = _first_way(context, world.with_side(now, side), skip)
-    except NoPathError:
+    except PlanningError:
         return choice
     rest, other = (c.found.path.length - journey.distance for c in (choice, kept))
     return choice if is_better(rest, other) else kept
@@ -69,7 +69,7 @@ def anew(context: ReplanContext, world: World) -> Choice:
     """Everything ahead laid anew, under way or from rest.
 
     Raises:
-        NoPathError: If there is no way to the goal.
+        PlanningError: If there is no way to the goal, or none was found.
     """
     return _first_way(context, world, (), ("planned",))
 
@@ -89,7 +89,7 @@ def _first_way(
                     found = replan.reflex(path, leave, world, requirements)
                 else:
                     found = replan.planned(path, leave, world, requirements, skip=skip)
-            except NoPathError:
+            except PlanningError:
                 continue  # a robot that leaves later, or that stands, may find a way
             choice = timed(context, mode, found)
             if choice is not None and not _turns_back(context, found):
