@@ -50,7 +50,7 @@ def random_mission(seed: int) -> vs.Mission | None:
     return mission(start, *free[1:], radius=radius, closed=closed, world={"known": known})
 
 
-def check_refusal(error: vs.NoPathError) -> None:
+def check_refusal(error: vs.PlanningError) -> None:
     assert error.remedy
     assert error.via is not None or error.obstacles
 
@@ -87,7 +87,7 @@ def test_a_path_keeps_turning_circle_clearance_and_via_points(seed: int) -> None
         return
     try:
         found = vs.plan(asked)
-    except vs.NoPathError as error:
+    except vs.PlanningError as error:
         check_refusal(error)
         return
     radius = asked.robot.turn_radius
