@@ -1,6 +1,6 @@
 """The spline of a via sequence, led round what stands in the way of the disc in the body.
 
-Tested through test_clear_spline.
+Tested through ``planning/methods/test_clear_spline``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The curves past what a leg meets, side by side.
 
-Tested through test_ledger.
+Tested through ``planning/problem/test_ledger``.
 """
 
 from __future__ import annotations

@@ -3,6 +3,8 @@
 As the slack goes to 0 a cardinal spline tends to its polyline. The detour via points stand so that
 their polyline is clear; so there is always a slack at which the spline is clear as well. It is
 lowered only on the spans that need it, and only as far as they need it.
+
+Tested through ``planning/methods/test_clear_spline`` and ``test_planner_bad_days``.
 """
 
 from __future__ import annotations

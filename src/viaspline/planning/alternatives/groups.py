@@ -4,7 +4,7 @@ The paper's rule, made exact. Obstacles that stand together are one group; where
 the shortest taut path is sought on its left and on its right, past everything else that those
 meet; the spline is regenerated through each, proven and measured, and the shorter one is taken.
 
-Tested through test_ledger.
+Tested through ``planning/problem/test_ledger``.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 The taut path that was taken is the shortest of all, whatever stands around it. The other side of
 an island is sought when the ledger is read.
 
-Tested through test_map_promises.
+Tested through ``test_map_promises``.
 """
 
 from __future__ import annotations

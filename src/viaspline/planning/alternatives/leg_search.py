@@ -1,6 +1,6 @@
 """One leg on its way round what it meets: taut paths, curves along them, and what they cost.
 
-Tested through test_ledger.
+Tested through ``planning/problem/test_ledger``.
 """
 
 from __future__ import annotations

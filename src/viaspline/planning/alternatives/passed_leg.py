@@ -1,6 +1,6 @@
 """A leg that was led round what stands in its way, and what it was chosen from.
 
-Tested through test_ledger.
+Tested through ``planning/problem/test_ledger``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The account of a search: every group that was met, drawn up when it is asked for.
 
-Tested through test_ledger_as_laid.
+Tested through ``planning/problem/test_ledger_as_laid``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The result of every search for a way.
 
-Tested through test_replan.
+Tested through ``planning/test_replan``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What the body comes too close to on its way, and the proof that it doesn't.
 
-Tested through test_promises.
+Tested through ``test_promises``.
 """
 
 from __future__ import annotations

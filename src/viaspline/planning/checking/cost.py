@@ -1,6 +1,6 @@
 """Length, proven clearance and curvature of a candidate's curve.
 
-Tested through test_ledger.
+Tested through ``planning/problem/test_ledger``.
 """
 
 from __future__ import annotations

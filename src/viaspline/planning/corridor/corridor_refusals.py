@@ -1,6 +1,6 @@
 """Why a corridor has no line: its points, its width and its bends.
 
-Tested through test_corridor_planner.
+Tested through ``planning/corridor/test_corridor_planner``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The line with which a corridor's own begins: along the middle, led round what stands there.
 
-Tested through test_corridor_planner.
+Tested through ``planning/corridor/test_corridor_planner``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """How far points are from an edge of a strip, near the place of the strip where they are.
 
-Tested through test_corridor_planner.
+Tested through ``planning/corridor/test_corridor_planner``.
 """
 
 from __future__ import annotations

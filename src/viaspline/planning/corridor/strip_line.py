@@ -1,6 +1,6 @@
 """A line inside a strip, with joints at the places that it runs through.
 
-Tested through test_corridor_planner.
+Tested through ``planning/corridor/test_corridor_planner``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Methods that are asked with ever sharper turns.
 
-Tested through test_plan_path.
+Tested through ``planning/test_plan_path``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Turns with the headings at all via points chosen together.
 
-Tested through test_plan_path.
+Tested through ``planning/test_plan_path``.
 """
 
 from __future__ import annotations

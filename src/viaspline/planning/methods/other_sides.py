@@ -1,6 +1,6 @@
 """Shorter paths on the other sides of what the legs meet.
 
-Tested through test_plan_path and test_driven_alternatives.
+Tested through ``planning/test_plan_path`` and ``planning/turning/test_driven_alternatives``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The spline as it is, if the robot can drive it.
 
-Tested through test_plan_path.
+Tested through ``planning/test_plan_path``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Straight lines and turns with ramps along the shortest taut paths.
 
-Tested through test_plan_path.
+Tested through ``planning/test_plan_path``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Heights for a curve that was laid on the ground.
 
-Tested through test_ordered.
+Tested through ``planning/methods/test_ordered``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What every path has to keep, whoever asks for it.
 
-Tested through test_plan_drive.
+Tested through ``planning/test_plan_drive``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """A course as it was laid in the end: its curve and where its via points lie on it.
 
-Tested through test_ledger_as_laid.
+Tested through ``planning/problem/test_ledger_as_laid``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """A course: the points that the spline runs through, leg by leg from user via to user via.
 
-Tested through test_planner.
+Tested through ``test_planner``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Why nothing leads from one via point to the next, and the least change that would allow it."""
+"""Why nothing leads from one via point to the next, and the least change that would allow it.
+
+Tested through ``test_planner`` and ``planning/routing/test_lattice``.
+"""
 
 from __future__ import annotations
 

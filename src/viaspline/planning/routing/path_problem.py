@@ -1,6 +1,6 @@
 """The problem of laying a whole path: through which points, in which world, keeping what.
 
-Tested through test_clear_spline.
+Tested through ``planning/methods/test_clear_spline``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The problem of routing one leg: from place to place, in the free space of a robot.
 
-Tested through test_router.
+Tested through ``planning/routing/test_router``.
 """
 
 from __future__ import annotations

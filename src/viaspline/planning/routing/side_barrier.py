@@ -1,6 +1,6 @@
 """Barriers: what closes one side of an obstacle, so that a way has to take the other.
 
-Tested through test_router.
+Tested through ``planning/routing/test_router``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """A path pulled taut round what stands between two places: the shortest of its kind.
 
-Tested through test_router.
+Tested through ``planning/routing/test_router``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Why a via point can't be served where it is, and the least change that would serve it.
 
-Tested through test_planner.
+Tested through ``test_planner``.
 """
 
 from __future__ import annotations

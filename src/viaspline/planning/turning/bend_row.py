@@ -1,6 +1,6 @@
 """A row of bends: the via points, and what the taut paths between them go round.
 
-Tested through test_ordered.
+Tested through ``planning/methods/test_ordered``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The problem of a robot with a turning circle or a long body, and what its turns go along.
 
-Tested through test_ordered.
+Tested through ``planning/methods/test_ordered``.
 """
 
 from __future__ import annotations

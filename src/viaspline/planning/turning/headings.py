@@ -5,7 +5,7 @@ on and comes round again. So every via point gets a row of headings, and the che
 between them is found by dynamic programming; legs that can't be laid are left
 out, one after the other, until a row is clear.
 
-Tested through test_ordered.
+Tested through ``planning/methods/test_ordered``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Pushing a turn path away from what it comes too close to.
 
-Tested through test_ordered.
+Tested through ``planning/methods/test_ordered``.
 """
 
 from __future__ import annotations

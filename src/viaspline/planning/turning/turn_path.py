@@ -1,6 +1,6 @@
 """Lines and turns with ramps round a row of bends.
 
-Tested through test_ordered.
+Tested through ``planning/methods/test_ordered``.
 """
 
 from __future__ import annotations

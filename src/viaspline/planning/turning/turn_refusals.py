@@ -1,6 +1,6 @@
 """Why a robot with a turning circle or a long body has no path, and what would allow one.
 
-Tested through test_ordered and test_plan_path.
+Tested through ``planning/methods/test_ordered`` and ``planning/test_plan_path``.
 """
 
 from __future__ import annotations

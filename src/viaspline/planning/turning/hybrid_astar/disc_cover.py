@@ -1,6 +1,6 @@
 """A body as a few discs: what a search looks at instead of its outline.
 
-Tested through test_pose_search.
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
 """
 
 from __future__ import annotations

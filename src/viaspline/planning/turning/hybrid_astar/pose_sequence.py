@@ -1,6 +1,6 @@
 """Ways through a row of places: the best heading at one of them may bar the way to the next.
 
-Tested through test_pose_search.
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
 """
 
 from __future__ import annotations

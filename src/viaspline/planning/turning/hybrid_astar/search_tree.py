@@ -1,6 +1,6 @@
 """One search through poses, in one direction, as it grows.
 
-Tested through test_pose_search.
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
 """
 
 from __future__ import annotations

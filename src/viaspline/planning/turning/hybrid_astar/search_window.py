@@ -1,6 +1,6 @@
 """A window of a world, made ready for searches through poses in both directions.
 
-Tested through test_pose_search.
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
 """
 
 from __future__ import annotations

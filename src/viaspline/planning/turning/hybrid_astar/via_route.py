@@ -1,6 +1,6 @@
 """A whole via sequence through tight space, by the search among poses.
 
-Tested through test_hybrid_astar_search.
+Tested through ``planning/methods/test_hybrid_astar_search``.
 """
 
 from __future__ import annotations
