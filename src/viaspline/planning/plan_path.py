@@ -12,7 +12,7 @@ from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.methods.clear_spline import ClearSpline
 from viaspline.planning.methods.ordered import PATH_METHODS, PathMethod
-from viaspline.planning.problem.outcome import Found, first_settled
+from viaspline.planning.problem.method import Found, first_settled
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence

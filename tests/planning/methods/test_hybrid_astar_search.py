@@ -11,7 +11,7 @@ import viaspline as vs
 from viaspline.curve.bending import curvature_bound
 from viaspline.planning.methods.clear_spline import ClearSpline
 from viaspline.planning.methods.hybrid_astar_search import HybridAStar
-from viaspline.planning.problem.outcome import Found, GaveUp, Refusal
+from viaspline.planning.problem.method import Found, GaveUp, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.planning.routing.path_problem import PathProblem

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from viaspline.maps.grid import Grid
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.planning.problem.outcome import Found, GaveUp
+from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.routing.exact_route import ExactRoute
 from viaspline.planning.routing.lattice_route import LatticeRoute
 from viaspline.planning.routing.route_problem import NO_BARRIERS, RouteProblem, on_the_line

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.planning.problem.outcome import Found, GaveUp, Refusal
+from viaspline.planning.problem.method import Found, GaveUp, Refusal
 from viaspline.planning.routing.lattice_route import LatticeRoute
 from viaspline.planning.routing.route_problem import NO_BARRIERS, RouteProblem, SearchSpace
 from viaspline.world.world import World

@@ -19,7 +19,7 @@ from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.comparison import Met
 from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite, reason_of
-from viaspline.planning.problem.outcome import Found, Outcome
+from viaspline.planning.problem.method import Found, Outcome
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.planning.routing.taut_path import TautPath

@@ -21,14 +21,14 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.planning.alternatives.leg_search import LegSearch
-from viaspline.planning.problem.outcome import Found
+from viaspline.planning.problem.method import Found
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
 LEAST_GAIN = 1e-6  # part of the length by which another row has to be shorter
-SAME_LENGTH_M = 1e-6  # rows whose lengths differ by less are one
+SAME_LENGTH_M = 1e-6  # taut paths of a leg whose lengths differ by less are one
 TOUCHING = 1e-3  # distance at which the segment across a gap ends, in required distances
 MAX_RAY_STEPS = 200  # of such a segment to either side
 
@@ -67,6 +67,16 @@ class TautRow:
     def length(self) -> float:
         """[m]."""
         return sum(taut_path.length for taut_path in self.taut_paths)
+
+    def is_same(self, other: TautRow) -> bool:
+        """Whether every leg has the taut path of another row, as its length tells.
+
+        The lengths of the rows don't: laps have legs that are alike.
+        """
+        return all(
+            abs(mine.length - its.length) <= SAME_LENGTH_M
+            for mine, its in zip(self.taut_paths, other.taut_paths, strict=True)
+        )
 
     def with_leg(self, leg: int, taut_path: TautPath, closed: Floats = NO_BARRIERS) -> TautRow:
         """This row with another taut path for one leg."""
@@ -119,12 +129,12 @@ def shortest_laid(
     """
     number = count()
     open_: list[tuple[float, int, TautRow]] = []
-    seen: list[float] = []
+    seen: list[TautRow] = []
 
     def add(rows: Iterable[TautRow]) -> None:
         for row in rows:
-            if all(abs(row.length - before) > SAME_LENGTH_M for before in seen):
-                seen.append(row.length)
+            if not any(row.is_same(before) for before in seen):
+                seen.append(row)
                 heapq.heappush(open_, (row.length, next(number), row))
 
     add(first)

@@ -13,7 +13,7 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.fit import Fitted, fit
 from viaspline.planning.checking.cost import CandidateCost, measure
-from viaspline.planning.problem.outcome import Outcome, Refusal
+from viaspline.planning.problem.method import Outcome, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.routing.route_problem import NO_BARRIERS

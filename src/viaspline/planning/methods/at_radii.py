@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from viaspline.planning.problem.outcome import Found, GaveUp, Method, Outcome, first_settled
+from viaspline.planning.problem.method import Found, GaveUp, Method, Outcome, first_settled
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
 

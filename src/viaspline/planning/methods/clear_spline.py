@@ -22,7 +22,7 @@ from viaspline.planning.alternatives.islands import IslandsInTheWay
 from viaspline.planning.alternatives.leg_search import LegSearch, Spline
 from viaspline.planning.alternatives.passed_leg import PassedLeg
 from viaspline.planning.checking.conflicts import CLEAR, too_close
-from viaspline.planning.problem.outcome import Found, GaveUp, Outcome, Refusal
+from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence, lay
 from viaspline.planning.routing.leg_refusals import (

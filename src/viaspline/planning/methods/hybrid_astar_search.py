@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viaspline.planning.problem.outcome import Found, GaveUp, Outcome, Refusal
+from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
 from viaspline.planning.turning.hybrid_astar.pose_search import (

@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from functools import partial
 
-from viaspline.planning.problem.outcome import Found, GaveUp
+from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import TurnProblem
 from viaspline.planning.turning.headings import legs_of, posed

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 
 from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, shortest_laid
-from viaspline.planning.problem.outcome import Found, GaveUp
+from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.bend_row import bends_along
 from viaspline.planning.turning.driven_problem import TurnProblem

@@ -12,7 +12,7 @@ from viaspline.planning.methods.next_homotopy_classes import NextHomotopyClasses
 from viaspline.planning.methods.other_sides import OtherSides
 from viaspline.planning.methods.spline_as_is import SplineAsItIs
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
-from viaspline.planning.problem.outcome import Method
+from viaspline.planning.problem.method import Method
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import DrivenProblem
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, shortest_laid
-from viaspline.planning.problem.outcome import Found, Method, Outcome, first_settled
+from viaspline.planning.problem.method import Found, Method, Outcome, first_settled
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import DrivenProblem
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from viaspline.planning.problem.outcome import Found, GaveUp
+from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.repair import MAX_PUSH_ROUNDS

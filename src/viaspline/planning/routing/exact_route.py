@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.kernels.routing.tangent_graph import has_narrow_gap, shortest_route
-from viaspline.planning.problem.outcome import Found, GaveUp
+from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.routing.route_problem import (
     TURN_MARGINS_M,
     TURN_STEPS_RAD,

@@ -11,7 +11,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.routing.narrow_gaps import narrow_places, narrowest
 from viaspline.kernels.routing.string_pulling.pull import pulled_taut
 from viaspline.kernels.routing.tangent_arcs import taut_length
-from viaspline.planning.problem.outcome import Found, GaveUp, Outcome, Refusal
+from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.routing.lattice import Lattice
 from viaspline.planning.routing.route_problem import (
     TURN_MARGINS_M,

@@ -16,7 +16,7 @@ from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.errors import Change, GaveUpError, NoPathError, PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.world.corner_fans import X, Y
-from viaspline.planning.problem.outcome import GaveUp
+from viaspline.planning.problem.method import GaveUp
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
 from viaspline.planning.routing.lattice_route import LatticeRoute

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.planning.problem.outcome import Method, Outcome, first_settled
+from viaspline.planning.problem.method import Method, Outcome, first_settled
 from viaspline.planning.routing.exact_route import ExactRoute
 from viaspline.planning.routing.lattice_route import LatticeRoute
 from viaspline.planning.routing.route_problem import RouteProblem, SearchSpace

@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 
 from viaspline.errors import GaveUpError, NoPathError, PlanningError
-from viaspline.planning.problem.outcome import GaveUp, Refusal
+from viaspline.planning.problem.method import GaveUp, Refusal
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.headings import legs_of, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear

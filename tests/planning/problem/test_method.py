@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hypothesis import given
 from hypothesis import strategies as st
 
-from viaspline.planning.problem.outcome import Found, GaveUp, Outcome, Refusal, first_settled
+from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal, first_settled
 
 ANSWERS = st.one_of(
     st.builds(Found, st.just("path"), st.floats(1, 9), st.booleans()),
