@@ -14,7 +14,7 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
 from viaspline.planning.routing.exact_route import ExactRoute
 from viaspline.planning.routing.lattice_route import LatticeRoute
-from viaspline.planning.routing.leg_refusals import BlockedLegError, UnfinishedLegError
+from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.router import Router
 

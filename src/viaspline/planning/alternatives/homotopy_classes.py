@@ -29,7 +29,7 @@ from viaspline.world.world import World
 
 LEAST_GAIN = 1e-6  # part of the length by which another row has to be shorter
 SAME_LENGTH_M = 1e-6  # taut paths of a leg whose lengths differ by less are one
-TOUCHING = 1e-3  # distance at which the segment across a gap ends, in required distances
+GAP_END = 1e-3  # distance at which the segment across a gap ends, in required distances
 MAX_RAY_STEPS = 200  # of such a segment to either side
 
 
@@ -172,7 +172,7 @@ def gap_across(
     feet = corners[:-1] + np.clip(along, 0.0, 1.0)[:, None] * steps
     foot = feet[np.linalg.norm(feet - by, axis=1).argmin()]
     gap = float(np.linalg.norm(foot - by))
-    if gap < TOUCHING * requirements.required:
+    if gap < GAP_END * requirements.required:
         return None
     out = (foot - by) / gap
     ends = [
@@ -188,7 +188,7 @@ def _touched(
     along = 0.0
     for _ in range(MAX_RAY_STEPS):
         left = float(world.distance(place + along * out))
-        if left <= TOUCHING * requirements.required or along >= farthest:
+        if left <= GAP_END * requirements.required or along >= farthest:
             break
         along = min(along + left, farthest)
     return place + along * out

@@ -25,9 +25,8 @@ from viaspline.planning.checking.conflicts import CLEAR, too_close
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence, lay
+from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.planning.routing.leg_refusals import (
-    BlockedLegError,
-    UnfinishedLegError,
     explain_blocked_leg,
     explain_tight_leg,
     explain_unfinished_leg,

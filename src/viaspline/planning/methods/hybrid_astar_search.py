@@ -11,11 +11,8 @@ import numpy as np
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
-from viaspline.planning.turning.hybrid_astar.pose_search import (
-    SEARCH_EFFORTS,
-    Effort,
-    NotFound,
-)
+from viaspline.planning.turning.hybrid_astar.pose_search import SEARCH_EFFORTS, Effort
+from viaspline.planning.turning.hybrid_astar.search_outcome import NotFound
 from viaspline.planning.turning.hybrid_astar.via_route import via_route_chains
 from viaspline.planning.turning.turn_path import RAMP
 

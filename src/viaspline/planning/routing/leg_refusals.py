@@ -5,7 +5,6 @@ Tested through ``test_planner`` and ``planning/routing/test_lattice``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -13,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.certificate import PROOF_SLACK_M
-from viaspline.errors import Change, GaveUpError, NoPathError, PlanningError
+from viaspline.errors import Change, GaveUpError, NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.planning.problem.method import GaveUp
@@ -30,55 +29,6 @@ MAX_BISECTIONS = 30  # of the distance that a way can keep
 WIDTH_RESOLUTION = 1e-4  # to which that is known, in required distances
 MAX_GOALS_TRIED = 8  # places that are tried as a better goal
 PLACES_ON_STRAIGHT = 201  # of each piece of a taut path, to find its tightest place
-
-
-class _ExplainedLaterError(PlanningError):
-    """An error of a leg whose reason is found out when it is asked for.
-
-    Finding the least change that would serve takes many more searches than finding that there is
-    no way, and who has another way to try doesn't ask.
-    """
-
-    def __init__(self, via: str, explain: Callable[[], PlanningError]) -> None:
-        Exception.__init__(self)
-        self.via = via
-        self._explain = explain
-
-    def __getattr__(self, name: str) -> Any:
-        if name not in ("reason", "where", "remedy", "obstacles", "changes"):
-            raise AttributeError(name)
-        told = self._explain()
-        self.reason, self.where, self.remedy = told.reason, told.where, told.remedy
-        self.obstacles, self.changes = told.obstacles, told.changes
-        return vars(self)[name]
-
-    def __str__(self) -> str:
-        return f"{self.reason}: {self.remedy}"
-
-
-class BlockedLegError(_ExplainedLaterError, NoPathError):
-    """No way leads from one via point to the next.
-
-    Args:
-        via: The via point that can't be reached.
-        explain: Finds the reason.
-    """
-
-
-class UnfinishedLegError(_ExplainedLaterError, GaveUpError):
-    """No way from one via point to the next was found before a budget ran out.
-
-    Args:
-        via: The via point that wasn't reached.
-        explain: Finds out what would help.
-        tried: What was tried, each in words.
-    """
-
-    def __init__(
-        self, via: str, explain: Callable[[], PlanningError], tried: Sequence[str]
-    ) -> None:
-        super().__init__(via, explain)
-        self.tried = tuple(tried)
 
 
 def explain_unfinished_leg(

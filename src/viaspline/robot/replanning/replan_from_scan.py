@@ -12,7 +12,7 @@ import numpy as np
 from viaspline.errors import PlanningError
 from viaspline.planning.checking.conflicts import too_close
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.routing.leg_refusals import BlockedLegError, UnfinishedLegError
+from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.robot.journey import SAME_PLACE_M, NavigationState, ReducedClearance, Wait
 from viaspline.robot.records import give_up, take
 from viaspline.robot.replanning.escape import relieved, way_out

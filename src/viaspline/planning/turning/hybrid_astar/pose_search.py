@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
-from enum import Enum
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,6 +19,13 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL_SHARE
 from viaspline.kernels.turning.hybrid_astar.primitives import MotionPrimitives, primitives_of
 from viaspline.kernels.turning.segment_chain import chain_spans, merged, shortened
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.turning.hybrid_astar.search_outcome import (
+    Chain,
+    Goal,
+    NotFound,
+    Pose,
+    Reason,
+)
 from viaspline.planning.turning.hybrid_astar.search_tree import SearchTree, backwards, bridged, met
 from viaspline.planning.turning.hybrid_astar.search_window import Body, SearchWindow, search_areas
 from viaspline.world.world import World
@@ -32,101 +38,6 @@ MAX_SHORTCUT_PASSES = 4
 LEAST_PASS_GAIN = 1e-3  # share of its length that a pass has to save for another one
 SHORTCUT_SPACING = 0.5  # between states on a line that shortcuts begin and end at, in radii,
 MAX_SHORTCUT_STATES = 40  # but not many more than these
-
-
-@dataclass(frozen=True)
-class Pose:
-    """A place [m] and the heading there [rad], which is driven through without curvature."""
-
-    x: float
-    y: float
-    heading: float
-
-
-@dataclass(frozen=True)
-class Goal:
-    """A place to get to.
-
-    Attributes:
-        x: [m].
-        y: [m].
-        headings: Those that it may be driven through with [rad]; if there are none, any.
-    """
-
-    x: float
-    y: float
-    headings: tuple[float, ...] = ()
-
-
-class Reason(Enum):
-    """Why no way was found."""
-
-    START_TAKEN = "there is no room for the body at the start"
-    GOAL_TAKEN = "there is no room for the body at the goal"
-    START_SHUT_IN = "forwards, the robot can't get far from the start"
-    GOAL_SHUT_IN = "forwards, the robot can't come to the goal from anywhere far"
-    NO_WAY = "nothing that can be reached from the start leads to the goal"
-    BUDGET = "the search was given up before it had seen everything"
-
-    @property
-    def is_at_start(self) -> bool:
-        """Whether it is about the place where the search began."""
-        return self in (Reason.START_TAKEN, Reason.START_SHUT_IN)
-
-    @property
-    def is_proof(self) -> bool:
-        """Whether all was seen, at the finest resolution."""
-        return self is not Reason.BUDGET
-
-    @property
-    def is_of_goal(self) -> bool:
-        """Whether it is about a place that isn't reached, wherever the search begins."""
-        return self in (Reason.GOAL_TAKEN, Reason.GOAL_SHUT_IN)
-
-    @property
-    def is_of_turns(self) -> bool:
-        """Whether sharper turns might change it."""
-        return self not in (Reason.START_TAKEN, Reason.GOAL_TAKEN)
-
-
-@dataclass(frozen=True)
-class NotFound:
-    """Nothing was found.
-
-    Attributes:
-        reason: Why. All but BUDGET mean that all was seen at the finest resolution: of the states
-            in a cell of place, heading and curvature the search follows the first one, and the
-            cells are small near the start and the goal and where it is tight.
-        goal: Number of the goal that isn't reached from the one before.
-        expanded: How many states were looked at.
-    """
-
-    reason: Reason
-    goal: int = 0
-    expanded: int = 0
-
-
-@dataclass(frozen=True)
-class Chain:
-    """A way.
-
-    Attributes:
-        segments: Curvature at the start and the end, and length, of its lines, arcs and ramps
-            [1/m, 1/m, m], (n, 3).
-        spans: The same as Bézier control polygons [m], (m, 4, 2): exactly through both ends, with
-            continuous curvature, which is 0 at the ends.
-        length: [m].
-        start: Where it begins.
-        end: Where it ends.
-        expanded: How many states were looked at.
-    """
-
-    segments: Floats = field(repr=False)
-    spans: Floats = field(repr=False)
-    length: float
-    start: Pose
-    end: Pose
-    expanded: int = 0
 
 
 @dataclass(frozen=True)
@@ -321,11 +232,6 @@ def _failure(both: Sequence[SearchTree], is_whole: bool, expanded: int) -> tuple
 def turn_of(segments: Floats) -> float:
     """By how much a chain turns [rad]."""
     return 0.5 * float(((segments[:, 0] + segments[:, 1]) * segments[:, 2]).sum())
-
-
-def _reversed(segments: Floats) -> Floats:
-    """The same way driven from its end."""
-    return np.ascontiguousarray(segments[::-1][:, [1, 0, 2]] * (-1.0, -1.0, 1.0))
 
 
 def finished(

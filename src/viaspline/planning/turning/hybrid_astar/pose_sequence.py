@@ -17,17 +17,19 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     HEADING_SECTORS,
     SEARCH_EFFORTS,
-    Chain,
     Effort,
-    Goal,
-    NotFound,
-    Pose,
     PoseProblem,
-    Reason,
     finished,
     headings_at,
     pose_problems,
     turn_of,
+)
+from viaspline.planning.turning.hybrid_astar.search_outcome import (
+    Chain,
+    Goal,
+    NotFound,
+    Pose,
+    Reason,
 )
 from viaspline.planning.turning.hybrid_astar.search_tree import SearchTree
 from viaspline.world.world import World

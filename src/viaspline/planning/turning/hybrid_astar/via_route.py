@@ -14,16 +14,15 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence
-from viaspline.planning.turning.hybrid_astar.pose_search import (
-    SEARCH_EFFORTS,
+from viaspline.planning.turning.hybrid_astar.pose_search import SEARCH_EFFORTS, Effort
+from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
+from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
-    Effort,
     Goal,
     NotFound,
     Pose,
     Reason,
 )
-from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
 from viaspline.world.world import World
 
 MAX_FREE_STARTS = 8  # headings that are tried where the first one is free
