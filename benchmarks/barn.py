@@ -98,7 +98,7 @@ def small(folder: str, found: dict[int, np.ndarray]) -> None:
             cells = reference(folder, world)
             ends = cells[0].tolist(), cells[-1].tolist()
             part = vs.plan(mission(centres, SMALL, *ends))
-        except vs.NoPathError as error:
+        except vs.PlanningError as error:
             print(f"world {world}: {error}")
             continue
         plan = plans["plan"]
@@ -128,7 +128,7 @@ def large(found: dict[int, np.ndarray]) -> None:
                 seconds, plan = clock(lambda task=task: vs.plan(task))
                 says = "open" if plan.certificate.holds else "uncertified"
                 spent.append(1e3 * seconds)
-            except vs.NoPathError as refusal:
+            except vs.PlanningError as refusal:
                 says, error = "closed", refusal
                 gaps = np.sort(cKDTree(centres).query(refusal.where, k=2)[0]) - CYLINDER
                 named += len(refusal.obstacles) >= 2 and gaps[1] < radius

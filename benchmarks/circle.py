@@ -16,11 +16,11 @@ from worlds import GOAL, RADIUS, SIZE, START, dense, obstacles
 
 import viaspline as vs
 from viaspline.curve.bending import curvature_bound
-from viaspline.planning.alternatives.lead_round import Task
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
-from viaspline.planning.routing.router import on_the_line
+from viaspline.planning.routing.path_problem import PathProblem
+from viaspline.planning.routing.route_problem import on_the_line
 
 CIRCLE, ROUNDS = 4.0, 7
 
@@ -33,10 +33,11 @@ def mission(found: list[vs.Obstacle], circle: float | None) -> vs.Mission:
 
 
 def corner_length(asked: vs.Mission) -> float:
-    """Length of the taut way [m]."""
-    world, brief, course = vs.World.known(asked), Requirements.of(asked), via_sequence_of(asked)
-    leg = LegSearch(course, 0, world, brief, Task.of(course, world, brief).router)
-    return leg.shortest_allowed(on_the_line(world, *leg.ends, brief.required))[0].length
+    """Length of the taut path [m]."""
+    world, requirements = vs.World.known(asked), Requirements.of(asked)
+    asked_for = PathProblem.of(via_sequence_of(asked), world, requirements)
+    leg = LegSearch(asked_for.sequence, 0, world, requirements, asked_for.router)
+    return leg.shortest_allowed(on_the_line(world, *leg.ends, requirements.required))[0].length
 
 
 def main() -> None:

@@ -115,7 +115,7 @@ class Row:
         self.told.append(is_there_a_way(found, radius))
         try:
             vs.plan(task)
-        except vs.NoPathError as error:
+        except vs.PlanningError as error:
             self.refused += 1
             if self.told[-1] != "closed":
                 print(f"{self.name}, seed {seed}, {self.told[-1]}: {error}")

@@ -19,7 +19,8 @@ from worlds import length
 
 import viaspline as vs
 from viaspline.maps.grid import Grid
-from viaspline.planning.routing.router import NO_BARRIERS, Router
+from viaspline.planning.routing.route_problem import NO_BARRIERS
+from viaspline.planning.routing.router import Router
 
 SIDE, BLOCKED, BLUR, ENDS = 500, 0.2, 6.0, 20  # cells; the two corners are free
 RADIUS = 0.1  # of the robot, in cells
@@ -76,7 +77,7 @@ class Prepared:
     def route(self, start, goal):
         return self.router.find(
             np.array(start, float), np.array(goal, float), NO_BARRIERS, self.none.copy()
-        )
+        ).value
 
 
 def tcod_graph(cells: np.ndarray):

@@ -73,7 +73,7 @@ def measured(make, sizes) -> np.ndarray:
             task = make(size, seed)
             try:
                 vs.plan(task)
-            except vs.NoPathError as error:
+            except vs.PlanningError as error:
                 print(f"{make.__name__} {size}, seed {seed}: {error}")
                 continue
             spent, plans = in_turn({"plan": lambda task=task: vs.plan(task)}, ROUNDS)

@@ -79,7 +79,7 @@ def main(out: str, *arguments: str) -> None:
         task = tour(argument, radius, clearance)
         try:
             vs.plan(task)
-        except vs.NoPathError as error:
+        except vs.PlanningError as error:
             print(f"{name}: {error}")
             continue
         times, plans = in_turn({"plan": lambda task=task: vs.plan(task)}, ROUNDS)

@@ -43,7 +43,7 @@ def tried(problem, graph, ready, known, extent):
     )
     try:
         whole, plan = clock(lambda: vs.plan(task))
-    except vs.NoPathError as error:
+    except vs.PlanningError as error:
         return peer, route, np.nan, error
     return peer, route, whole, plan
 
@@ -64,7 +64,7 @@ def main(folder: str, count: int) -> None:
         for problem in problems:
             *times, plan = tried(problem, graph, ready, known, grid.extent)
             rows.append(times)
-            if isinstance(plan, vs.NoPathError):
+            if isinstance(plan, vs.PlanningError):
                 print(f"{path.name} {problem.start} {problem.goal}: {plan}")
                 continue
             certified += plan.certificate.holds

@@ -28,7 +28,8 @@ import viaspline as vs
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.turning.hybrid_astar.pose_search import Chain, Goal, Pose, find_poses
+from viaspline.planning.turning.hybrid_astar.pose_search import find_poses
+from viaspline.planning.turning.hybrid_astar.search_outcome import Chain, Goal, Pose
 
 WORLDS = {
     "parking1": ("car", 0.9), "parking2": ("car", 0.9), "parking3": ("car", 0.9),

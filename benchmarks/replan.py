@@ -60,7 +60,7 @@ def replan(plan: vs.Plan, obstacle: vs.Obstacle, at: float) -> vs.Path:
     brief = Requirements.of(plan.mission)
     try:
         found = reflex(plan.path, at, world, brief)
-    except vs.NoPathError:
+    except vs.PlanningError:
         found = planned(plan.path, at, world, brief)
     vs.retime(found.path, vs.Limits.of(plan.mission.robot), start=at, start_speed=1.0)
     return found.path
@@ -80,7 +80,7 @@ def main(cases: int) -> None:
             begin = time.perf_counter()
             try:
                 path = replan(plan, *case)
-            except vs.NoPathError:
+            except vs.PlanningError:
                 refused += 1
                 continue
             finally:

@@ -77,7 +77,7 @@ def main() -> None:
         begin = time.perf_counter()
         try:
             plan = vs.plan(asked)
-        except vs.NoPathError as error:
+        except vs.PlanningError as error:
             is_circle = "turning circle" in error.reason
             told[error.reason.rsplit(": ", 1)[-1] if is_circle else "no way for a point"] += 1
             if is_circle:

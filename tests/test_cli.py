@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -144,6 +145,40 @@ def test_no_path_is_explained_and_leaves_no_folder(tmp_path: Path) -> None:
     assert "there is no such path: " in result.stderr
     assert "\n  where:  (" in result.stderr
     assert "\n  remedy: " in result.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_search_that_gave_up_is_no_refusal(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With a budget for one gap of a lattice, of many that look alike."""
+    slots = [4 + 9 * k for k in range(11)]
+    ends = [0.0, *(y + d for y in slots for d in (-0.9995, 0.9995)), 100.0]
+    rings = [
+        [[49, low], [51, low], [51, high], [49, high]]
+        for low, high in zip(ends[::2], ends[1::2], strict=True)
+    ]
+    file = tmp_path / "slots.json.yaml"
+    file.write_text(json.dumps({
+        "world": {"bounds": [0, 0, 100, 100], "known": [{"polygon": ring} for ring in rings]},
+        "robot": {"radius_m": 1.0, "clearance_m": 0.0},
+        "route": {"start": [10, 50], "goal": [90, 50]},
+    }))  # fmt: skip
+    refused = call("plan", file, "--out", tmp_path / "out")
+    assert refused.exit_code == 3
+    assert "there is no such path: " in refused.stderr
+    from viaspline.planning.routing import router
+    from viaspline.planning.routing.lattice_route import LatticeRoute
+
+    slight = partial(router.Router, methods=(LatticeRoute(max_gaps=1),))
+    monkeypatch.setattr("viaspline.planning.routing.path_problem.Router", slight)
+    result = call("plan", file, "--out", tmp_path / "out")
+    assert result.exit_code == 5
+    assert "gave up: no way from 'start' to 'goal' was found" in result.stderr
+    assert "\n  where:  (" in result.stderr
+    assert "\n  tried:  cells of " in result.stderr
+    assert "\n  remedy: " in result.stderr
+    assert "there is no such path" not in result.stderr
     assert not (tmp_path / "out").exists()
 
 

@@ -75,7 +75,7 @@ def mission(
 def found(asked: vs.Mission) -> bool:
     try:
         return vs.plan(asked).certificate.holds
-    except vs.NoPathError:
+    except vs.PlanningError:
         return False
 
 
@@ -95,7 +95,7 @@ def test_no_place_of_the_curve_is_nearer_to_a_square_than_its_certificate_says(s
     cells, side, required, start, goal = task(seed)
     try:
         plan = vs.plan(mission(cells, side, start, goal, 0.5 * required, 0.5 * required))
-    except vs.NoPathError:
+    except vs.PlanningError:
         return
     along = np.asarray(plan.path.at_distance(np.linspace(0.0, plan.path.length, 2000)))
     nearest = brute_distance(cells, side, *along.T).min() - 0.5 * required
@@ -112,7 +112,7 @@ def test_a_remedy_that_is_offered_serves(seed: int) -> None:
     asked = mission(cells, side, start, goal, 0.2 * required, 0.8 * required)
     try:
         vs.plan(asked)
-    except vs.NoPathError as error:
+    except vs.PlanningError as error:
         for remedy in error.remedy.split(" or "):
             if remedy.startswith("set robot.clearance_m to at most "):
                 smaller = float(remedy.rsplit(" ", 1)[1])

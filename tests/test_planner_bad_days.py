@@ -11,7 +11,7 @@ import shapely
 
 import viaspline as vs
 from viaspline.planning.plan_path import find_path
-from viaspline.planning.problem.requirements import LEAST, Requirements
+from viaspline.planning.problem.requirements import LEAST_KEPT_M, Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
 
 Oracle = Callable[..., Any]
@@ -237,7 +237,7 @@ def test_a_point_without_clearance_goes_round_and_not_through() -> None:
     assert found.certificate.holds
     assert found.path.length > 100.2
     assert len(found.ledger) == 2
-    assert Requirements.of(found.mission).required == LEAST
+    assert Requirements.of(found.mission).required == LEAST_KEPT_M
 
 
 def test_a_via_point_at_just_what_is_required_is_served(shapely_distance: Oracle) -> None:

@@ -95,12 +95,12 @@ def random_mission(seed: int, most: int = 30, *, sides: bool = True) -> vs.Missi
 def planned(mission: vs.Mission) -> vs.Plan | None:
     try:
         return vs.plan(mission)
-    except vs.NoPathError as error:
+    except vs.PlanningError as error:
         check_reason(error)
         return None
 
 
-def check_reason(error: vs.NoPathError) -> None:
+def check_reason(error: vs.PlanningError) -> None:
     assert error.reason
     assert error.remedy
     assert np.isfinite(error.where).all()
@@ -288,7 +288,7 @@ def attempt(
 ) -> Solution | None:
     try:
         found: Solution = getattr(replan, mode)(path, at, world, brief)
-    except vs.NoPathError as error:
+    except vs.PlanningError as error:
         check_reason(error)
         return None
     return found

@@ -27,11 +27,13 @@ if TYPE_CHECKING:
     from viaspline.curve.path import Path
     from viaspline.curve.piecewise import PiecewiseCubic
     from viaspline.errors import (
+        GaveUpError,
         GeometryError,
         MissionError,
         MissionWarning,
         NoPathError,
         OutputError,
+        PlanningError,
         ViasplineError,
     )
     from viaspline.formats.load import load
@@ -55,6 +57,7 @@ _HOMES = {
     "CardinalSpline": "curve.cardinal",
     "Certificate": "curve.certificate",
     "Command": "robot.state",
+    "GaveUpError": "errors",
     "GeometryError": "errors",
     "Grid": "maps.grid",
     "Limits": "trajectory.limits",
@@ -66,6 +69,7 @@ _HOMES = {
     "Obstacle": "mission.shapes.obstacle",
     "OutputError": "errors",
     "Path": "curve.path",
+    "PlanningError": "errors",
     "PiecewiseCubic": "curve.piecewise",
     "Plan": "planner",
     "RobotState": "robot.state",

@@ -1,7 +1,8 @@
 """The command line: arguments and exit codes, nothing else.
 
-Exit codes: 0 done; 2 the mission or the arguments are wrong; 3 there is no such path; 4 the robot
-did not reach its goal; 130 interrupted; 143 terminated; 1 a defect of viaspline itself.
+Exit codes: 0 done; 2 the mission or the arguments are wrong; 3 there is no such path, proven; 4 the
+robot did not reach its goal; 5 gave up before it was known; 130 interrupted; 143 terminated; 1 a
+defect of viaspline itself.
 """
 
 from __future__ import annotations
@@ -16,9 +17,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viaspline import __version__
-from viaspline.errors import MissionError, NoPathError, ViasplineError
+from viaspline.errors import GaveUpError, MissionError, NoPathError, ViasplineError
 from viaspline.report.interrupts import Terminated, remembered
-from viaspline.report.words import no_path, say, tell, telling_warnings
+from viaspline.report.words import gave_up, no_path, say, tell, telling_warnings
 
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
@@ -28,7 +29,8 @@ if TYPE_CHECKING:
     from viaspline.report.progress_bar import Watch
     from viaspline.report.result_files import ResultFolder
 
-DEFECT, WRONG, NO_PATH, NOT_REACHED, INTERRUPTED, TERMINATED = 1, 2, 3, 4, 130, 143
+DEFECT, WRONG, NO_PATH, NOT_REACHED, GAVE_UP = 1, 2, 3, 4, 5
+INTERRUPTED, TERMINATED = 130, 143
 
 
 class Commands(click.Group):
@@ -57,6 +59,9 @@ def told(error: BaseException) -> int:
     if isinstance(error, NoPathError):
         tell(no_path(error))
         return NO_PATH
+    if isinstance(error, GaveUpError):
+        tell(gave_up(error))
+        return GAVE_UP
     if isinstance(error, MissionError):
         tell(*(str(fault) for fault in error.faults), prefix="")
         return WRONG

@@ -7,7 +7,9 @@
     ├── GeometryError       a curve, a world or an argument makes no sense     (exit code 2)
     ├── OutputError         a result can't be written                          (exit code 2)
     ├── StudioError         the studio can't be served                         (exit code 2)
-    └── NoPathError         there is no such path: where, why, what would help (exit code 3)
+    └── PlanningError       no path was laid: where, why, what would help
+        ├── NoPathError     there is none: that is proven                      (exit code 3)
+        └── GaveUpError     a budget ran out before it was known               (exit code 5)
 
 Every error carries its data as attributes; its message names the thing and the remedy.
 
@@ -101,13 +103,13 @@ class StudioError(ViasplineError):
     """The studio can't be served: something isn't installed, or its address can't be had."""
 
 
-class NoPathError(ViasplineError):
-    """There is no path that serves every via point with the clearance that was asked for.
+class PlanningError(ViasplineError):
+    """No path was laid that serves every via point with the clearance that was asked for.
 
     Attributes:
         reason: What is in the way.
         where: The place [m], shape (d,).
-        remedy: The least change that would serve.
+        remedy: The least change that would serve, or would help.
         via: The via point that can't be served, if it is one.
         obstacles: The names of the obstacles in the way.
         changes: What the remedy says, each by itself; it need not be all. The route is the one
@@ -131,3 +133,34 @@ class NoPathError(ViasplineError):
         self.obstacles = tuple(obstacles)
         self.changes = tuple(changes)
         super().__init__(f"{reason}: {remedy}")
+
+
+class NoPathError(PlanningError):
+    """There is no path that serves every via point with the clearance that was asked for.
+
+    It is proven that there is none, as closely as the search can see.
+    """
+
+
+class GaveUpError(PlanningError):
+    """The search for a path ran out of a budget: there may be one.
+
+    Attributes:
+        tried: What was tried, each in words.
+    """
+
+    def __init__(
+        self,
+        reason: str,
+        *,
+        where: Iterable[float],
+        remedy: str,
+        tried: Sequence[str],
+        via: str | None = None,
+        obstacles: Sequence[str] = (),
+        changes: Sequence[Change] = (),
+    ) -> None:
+        super().__init__(
+            reason, where=where, remedy=remedy, via=via, obstacles=obstacles, changes=changes
+        )
+        self.tried = tuple(tried)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from viaspline.advice import with_advice
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
-from viaspline.errors import GeometryError, NoPathError
+from viaspline.errors import GeometryError, PlanningError
 from viaspline.machine.allowance import SOFTER, allowance, allowance_on_bends
 from viaspline.machine.machine import is_driven, machine_of
 from viaspline.machine.machine_limits import limits_of
@@ -76,6 +76,7 @@ def plan(mission: Mission) -> Plan:
 
     Raises:
         NoPathError: When there is no path, with the reason and the least change that would serve.
+        GaveUpError: When a budget ran out before that was known, with what was tried.
         GeometryError: When the mission's numbers contradict each other, or the robot can't follow.
 
     Example:
@@ -98,9 +99,9 @@ def plan(mission: Mission) -> Plan:
         return first
     try:
         return _as_driven(first)
-    except (NoPathError, GeometryError):
+    except (PlanningError, GeometryError):
         if robot.drive is not None and robot.drive.ackermann is not None:
-            with suppress(NoPathError, GeometryError):
+            with suppress(PlanningError, GeometryError):
                 return _as_driven(_with_error(_with_reserve(mission), world, error))
         raise
 
@@ -150,7 +151,7 @@ def _with_error(mission: Mission, world: World, error: float) -> Plan:
     requirements = Requirements.of(mission, error)
     try:
         found = find_drive(mission, world, requirements)
-    except NoPathError as problem:
+    except PlanningError as problem:
         if error > 0.0:
             problem.reason += f" ({error:.2f} m of it for how far the robot gets beside its path)"
             problem.args = (f"{problem.reason}: {problem.remedy}",)

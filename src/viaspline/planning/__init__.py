@@ -1,1 +1,1 @@
-"""Ways past what stands in the way: either side, the spline through it, the ledger, re-planning."""
+"""From via points to a proven path: routes, the spline along them, what a robot can drive of it."""

@@ -1,38 +1,65 @@
-"""From a course to a proven path, for whichever robot is to drive it."""
+"""From via points to a proven path, for whichever robot is to drive it."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
 from viaspline.curve.path import Path
-from viaspline.planning.alternatives.lay_clear import lay_clear
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
+from viaspline.planning.methods.clear_spline import ClearSpline
+from viaspline.planning.methods.ordered import PATH_METHODS, PathMethod
+from viaspline.planning.problem.method import Found, first_settled
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence
-from viaspline.planning.turning.turn_planner import lay_drivable
+from viaspline.planning.routing.path_problem import PathProblem
+from viaspline.planning.turning.driven_alternatives import as_driven
+from viaspline.planning.turning.driven_problem import DrivenProblem
+from viaspline.planning.turning.turn_refusals import unlaid
 from viaspline.world.world import World
 
 
-def lay_course(
-    sequence: ViaSequence, world: World, requirements: Requirements
+def lay_path(
+    sequence: ViaSequence,
+    world: World,
+    requirements: Requirements,
+    methods: Sequence[PathMethod] = PATH_METHODS,
 ) -> tuple[SplinePath, Account]:
-    """The curve of a course that the robot can drive clear of everything.
+    """The curve through via points that the robot can drive clear of everything.
+
+    Args:
+        sequence: The via points.
+        world: The known world.
+        requirements: What to keep.
+        methods: In the order in which they are asked, once there is a clear spline.
 
     Raises:
         NoPathError: When there is none, with the least change that would serve.
+        GaveUpError: When a budget ran out before that was known.
     """
-    if requirements.turn_radius is None and requirements.footprint is None:
-        return lay_clear(sequence, world, requirements)
-    return lay_drivable(sequence, world, requirements)
+    if not requirements.is_free_disc:
+        sequence = replace(sequence, tangents="continuous")
+    asked = PathProblem.of(sequence, world, requirements)
+    cleared = ClearSpline().lay(asked)
+    problem = DrivenProblem(sequence, world, requirements, asked.router, cleared)
+    outcome = first_settled(methods, problem)
+    if not isinstance(outcome, Found):
+        raise unlaid(problem, outcome)
+    driven = None if requirements.is_free_disc else partial(as_driven, problem)
+    return outcome.value, Account(outcome.value, world, requirements, cleared.passed, driven)
 
 
 def find_path(sequence: ViaSequence, world: World, requirements: Requirements) -> Solution:
-    """A proven path along a course.
+    """A proven path through via points.
 
     Raises:
         NoPathError: When there is none, with the least change that would serve.
+        GaveUpError: When a budget ran out before that was known.
     """
-    spline_path, account = lay_course(sequence, world, requirements)
+    spline_path, account = lay_path(sequence, world, requirements)
     path = Path(spline_path.spans, spline_path.vias)
     return Solution(path, proven(path, world, requirements), account)

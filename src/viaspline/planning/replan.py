@@ -8,50 +8,36 @@ valid.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.certificate import Certificate
-from viaspline.curve.path import GUIDE, Path, PathVia
+from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import NoPathError
+from viaspline.errors import NoPathError, PlanningError
 from viaspline.kernels.arrays import Floats
-from viaspline.planning.alternatives.fit import CLEAR
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.checking.conflicts import body_conflicts, proven
-from viaspline.planning.plan_path import lay_course
+from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
+from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
-from viaspline.planning.problem.via_sequence import (
-    Leg,
-    RouteVia,
-    ViaSequence,
-    direction,
-    span_slack,
+from viaspline.planning.problem.via_sequence import RouteVia
+from viaspline.planning.stretch import (
+    PASSED_M,
+    Stretch,
+    refuse_the_end,
+    room_to_run_out,
+    sequence_through,
+    stretch_round,
+    vias_remaining,
+    vias_to_serve,
 )
 from viaspline.world.world import World
 
-NEAR = 1e-6  # via points nearer along the path than this have been passed [m]
-ROOM = 0.4  # of the way to the next via point that a run-out may take
-REACHES = (2.0, 1.0, 0.3)  # lengths of a run-out, in required distances
-
-
-@dataclass(frozen=True)
-class _Stretch:
-    """What is laid anew: from ``u`` on the old path to a via point of it, or to the goal.
-
-    Attributes:
-        u: Where the old path is left.
-        ahead: The user via points that are still to be served in the stretch.
-        tail: Where the old path is taken up again, None if it is not.
-    """
-
-    u: float
-    ahead: tuple[PathVia, ...]
-    tail: PathVia | None
+RUN_OUT_LENGTHS = (2.0, 1.0, 0.3)  # that are tried, in required distances
 
 
 def reflex(path: Path, at: float, world: World, requirements: Requirements) -> Solution:
@@ -75,27 +61,15 @@ def reflex(path: Path, at: float, world: World, requirements: Requirements) -> S
     if not blocked.size:
         certificate = proven(_ahead(path, u), world, requirements)
         return replace(_result(path, at, certificate, None), rejoins_at=at)
-    users = _to_serve(path, world, requirements)
-    narrow = _stretch(path.vias, users, u, blocked)
-    wide = _stretch(users, users, u, blocked)
+    users = vias_to_serve(path, world, requirements)
+    narrow = stretch_round(path.vias, users, u, blocked)
+    wide = stretch_round(users, users, u, blocked)
     try:
         return _joined(path, narrow, world, requirements)
-    except NoPathError:
+    except PlanningError:
         if wide == narrow:
             raise
     return _joined(path, wide, world, requirements)
-
-
-def _stretch(
-    joints: Sequence[PathVia], users: Sequence[PathVia], u: float, blocked: NDArray[np.intp]
-) -> _Stretch:
-    """From the last of the joints before the blocked spans to the first one after them."""
-    leave = max([u, *(via.u for via in joints if via.u <= blocked[0])])
-    tail = next(via for via in joints if via.u >= blocked[-1] + 1)
-    within = tuple(via for via in users if leave + NEAR < via.u < tail.u)
-    if tail.u >= users[-1].u:
-        return _Stretch(leave, (*within, users[-1]), None)
-    return _Stretch(leave, within, tail)
 
 
 def planned(
@@ -113,7 +87,7 @@ def planned(
     u = float(path.parameter(at))
     return _joined(
         path,
-        _Stretch(u, _remaining(path, at, world, requirements, skip), None),
+        Stretch(u, vias_remaining(path, at, world, requirements, skip), None),
         world,
         requirements,
     )
@@ -134,13 +108,13 @@ def from_rest(
         NoPathError: When there is no way.
     """
     u = float(path.parameter(at))
-    stretch = _Stretch(u, _remaining(path, at, world, requirements, skip), None)
-    _refuse_the_end(path, stretch)
+    stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
+    refuse_the_end(path, stretch)
     start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
-    sequence = _course(path, start, stretch, requirements)
+    sequence = sequence_through(path, start, stretch, requirements)
     if requirements.turn_radius is not None and requirements.turns_on_spot == "never":
         sequence = replace(sequence, start_tangent=np.asarray(path.tangent(u)))
-    spline_path, account = lay_course(sequence, world, requirements)
+    spline_path, account = lay_path(sequence, world, requirements)
     head = _head(path, u)
     vias = (*_vias_until(path, u, len(head)), *spline_path.vias_from(len(head)))
     new = Path(np.concatenate((head, spline_path.spans)), vias)
@@ -148,26 +122,26 @@ def from_rest(
     return _result(new, at, certificate, account)
 
 
-def _joined(path: Path, stretch: _Stretch, world: World, requirements: Requirements) -> Solution:
+def _joined(path: Path, stretch: Stretch, world: World, requirements: Requirements) -> Solution:
     """The new path with the first run-out, from long to short, that lets it be clear."""
-    _refuse_the_end(path, stretch)
-    problem: NoPathError | None = None
-    for reach in REACHES:
+    refuse_the_end(path, stretch)
+    problem: PlanningError | None = None
+    for reach in RUN_OUT_LENGTHS:
         try:
             return _join(
                 path, stretch, world, requirements, reach * max(requirements.required, 0.1)
             )
-        except NoPathError as error:
+        except PlanningError as error:
             problem = error
-    assert problem is not None  # REACHES is not empty
+    assert problem is not None  # RUN_OUT_LENGTHS is not empty
     raise problem
 
 
 def _join(
-    path: Path, stretch: _Stretch, world: World, requirements: Requirements, reach: float
+    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
 ) -> Solution:
     tail = stretch.tail
-    first_room, last_room = _room(path, stretch)
+    first_room, last_room = room_to_run_out(path, stretch)
     out = run_out(path, stretch.u, min(reach, first_room))
     _refuse_blocked(out, world, requirements)
     back = None
@@ -176,10 +150,12 @@ def _join(
         _refuse_blocked(back, world, requirements)
     start = RouteVia("the robot", out.end, None)
     meet = None if back is None else RouteVia("the old path", back.span[0], None)
-    sequence = replace(_course(path, start, stretch, requirements, meet), start_tangent=out.tangent)
+    sequence = replace(
+        sequence_through(path, start, stretch, requirements, meet), start_tangent=out.tangent
+    )
     if back is not None:
         sequence = replace(sequence, end_tangent=back.tangent)
-    spline_path, account = lay_course(sequence, world, requirements)
+    spline_path, account = lay_path(sequence, world, requirements)
     spans = spline_path.spans
     head = _head(path, stretch.u)
     first = len(head) + 1
@@ -198,14 +174,6 @@ def _join(
     return _result(new, leaving, certificate, account, back_at)
 
 
-def _room(path: Path, stretch: _Stretch) -> tuple[float, float]:
-    """What a run-out may take on the first and on the last leg of a stretch [m]."""
-    targets = [*stretch.ahead, *([stretch.tail] if stretch.tail else [])]
-    at = np.asarray(path.distance(np.array([stretch.u, *(via.u for via in targets)])))
-    rooms = ROOM * np.diff(at)
-    return float(rooms[0]), float(rooms[-1])
-
-
 def _result(
     new: Path,
     certificate_from: float,
@@ -219,12 +187,6 @@ def _result(
         certificate, tightest_distance=distance, tightest_u=float(new.parameter(distance))
     )
     return Solution(new, moved, account, certificate_from, rejoins_at)
-
-
-def _refuse_the_end(path: Path, stretch: _Stretch) -> None:
-    if not stretch.ahead and stretch.tail is None:
-        where = np.asarray(path.evaluate(stretch.u))
-        raise NoPathError("nothing is left to go to", where=where, remedy="the route ends here")
 
 
 def _refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> None:
@@ -250,7 +212,7 @@ def _blocked_spans(
 
 def _ahead(path: Path, u: float) -> PiecewiseCubic:
     end = path.domain[1]
-    return path.section(min(u, end - NEAR), end)
+    return path.section(min(u, end - PASSED_M), end)
 
 
 def _head(path: Path, u: float) -> Floats:
@@ -261,70 +223,4 @@ def _head(path: Path, u: float) -> Floats:
 
 
 def _vias_until(path: Path, u: float, spans: int) -> Sequence[PathVia]:
-    return [via for via in path.vias if via.u <= min(u + NEAR, spans)]
-
-
-def _to_serve(path: Path, world: World, requirements: Requirements) -> list[PathVia]:
-    """The user's via points, and a corridor's guides where there is room: no way leaves them out.
-
-    Without them the way to the next via point might go round the other way.
-    """
-    places = [via.at[:2] for via in path.vias]
-    free = world.distance(places) > requirements.required + NEAR
-    return [
-        via
-        for via, is_free in zip(path.vias, free.tolist(), strict=True)
-        if via.kind == "user" or (via.name == GUIDE and is_free)
-    ]
-
-
-def _remaining(
-    path: Path, at: float, world: World, requirements: Requirements, skip: Collection[int]
-) -> tuple[PathVia, ...]:
-    serve = _to_serve(path, world, requirements)
-    u = float(path.parameter(min(at + NEAR, path.length)))
-    remaining = tuple(via for via in serve if via.u > u and via.index not in skip)
-    if not any(via.kind == "user" for via in remaining):
-        raise NoPathError(
-            "no via point is left to go to",
-            where=np.asarray(path.at_distance(min(at, path.length))),
-            remedy="the route ends here",
-        )
-    return remaining
-
-
-def _course(
-    path: Path,
-    start: RouteVia,
-    stretch: _Stretch,
-    requirements: Requirements,
-    meet: RouteVia | None = None,
-) -> ViaSequence:
-    """A course without detours through the via points of a stretch, to ``meet`` if it is given."""
-    targets = [RouteVia(v.name, np.array(v.at), v.index, v.dwell) for v in stretch.ahead]
-    legs = [via.index or 1 for via in stretch.ahead]
-    if meet is not None and stretch.tail is not None:
-        tail = stretch.tail.u
-        targets.append(meet)
-        legs.append(next(v.index or 1 for v in path.vias if v.index is not None and v.u >= tail))
-    slack = _slack_by_leg(path, requirements)
-    return ViaSequence(
-        vias=(start, *targets),
-        legs=tuple(Leg.straight(slack[leg - 1], len(start.at)) for leg in legs),
-        spline=requirements.spline,
-        tangents=requirements.tangents,
-        end_tangent=direction(requirements.goal_heading_deg, len(start.at))
-        if meet is None
-        else None,
-    )
-
-
-def _slack_by_leg(path: Path, requirements: Requirements) -> tuple[float, ...]:
-    count = max(via.index for via in path.vias if via.index is not None)
-    given = (
-        requirements.spline.slack
-        if requirements.spline.slack is not None
-        else requirements.spline.tension
-    )
-    lap = len(given) if isinstance(given, tuple) else count  # laps share what each span has
-    return span_slack(requirements.spline, lap) * (count // lap)
+    return [via for via in path.vias if via.u <= min(u + PASSED_M, spans)]

@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from viaspline.errors import MissionWarning, NoPathError
+from viaspline.errors import GaveUpError, MissionWarning, NoPathError, PlanningError
 
 
 def say(*lines: str) -> None:
@@ -39,8 +39,19 @@ def tell(*lines: str, prefix: str = "viaspline: ") -> None:
 
 def no_path(error: NoPathError) -> str:
     """Why there is no path, where, and what would help, on a line each."""
-    where = ", ".join(f"{x:.2f}" for x in error.where)
-    return f"there is no such path: {error.reason}\n  where:  ({where})\n  remedy: {error.remedy}"
+    where, remedy = _where(error), error.remedy
+    return f"there is no such path: {error.reason}\n  where:  {where}\n  remedy: {remedy}"
+
+
+def gave_up(error: GaveUpError) -> str:
+    """Where the search for a path was given up, what was tried, and what would help, on lines."""
+    tried = "".join(f"\n  tried:  {one}" for one in error.tried)
+    remedy = f"\n  remedy: {error.remedy}"
+    return f"gave up: {error.reason}\n  where:  {_where(error)}{tried}{remedy}"
+
+
+def _where(error: PlanningError) -> str:
+    return f"({', '.join(f'{x:.2f}' for x in error.where)})"
 
 
 @contextmanager

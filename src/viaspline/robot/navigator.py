@@ -76,6 +76,7 @@ class Navigator:
 
     Raises:
         NoPathError: When there is no path at all.
+        GaveUpError: When a budget ran out before that was known.
         GeometryError: When the sensor sees no farther than the robot's body.
 
     Example:

@@ -55,6 +55,7 @@ def simulate(
 
     Raises:
         NoPathError: When there is no path at all.
+        GaveUpError: When a budget ran out before that was known.
         GeometryError: When the step is not above 0, the sensor sees no farther than the robot's
             body, or a robot with a drive is sent on a route with heights.
 

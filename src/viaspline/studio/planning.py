@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from viaspline.errors import Change, MissionError, NoPathError, ViasplineError
+from viaspline.errors import Change, GaveUpError, MissionError, PlanningError, ViasplineError
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.studio.document import Document
@@ -74,7 +74,7 @@ def planned(document: Document, maps: Maps, base: Path) -> Planned:
         found = plan(mission)
     except MissionError as error:
         problems = _faults(error, unfolded)
-    except NoPathError as error:
+    except PlanningError as error:
         problems = (_blocked(error, unfolded, mission),)
     except ViasplineError as error:
         problems = (PlanFault(str(error)),)
@@ -95,18 +95,21 @@ def _faults(error: MissionError, unfolded: ExpandedDocument | None) -> tuple[Pla
 
 
 def _blocked(
-    error: NoPathError, unfolded: ExpandedDocument | None, mission: Mission | None
+    error: PlanningError, unfolded: ExpandedDocument | None, mission: Mission | None
 ) -> PlanFault:
     changes = tuple(_as_given(change, error, mission) for change in error.changes)
+    text = error.reason
+    if isinstance(error, GaveUpError):
+        text = f"gave up: {text} (tried: {'; '.join(error.tried)})"
     return PlanFault(
-        text=error.reason,
+        text=text,
         remedy=error.remedy,
         where=error.where,
         changes=_changes(changes, unfolded),
     )
 
 
-def _as_given(change: Change, error: NoPathError, mission: Mission | None) -> Change:
+def _as_given(change: Change, error: PlanningError, mission: Mission | None) -> Change:
     """The change with the via point's place in the file, if the planner has put them in order."""
     if mission is None or mission.route.order == "given":
         return change

@@ -9,7 +9,9 @@ import pytest
 import viaspline as vs
 from viaspline.maps.grid import Grid
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.planning.routing.router import NO_BARRIERS, Router, TautPath
+from viaspline.planning.routing.route_problem import NO_BARRIERS
+from viaspline.planning.routing.router import Router
+from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
 WALL = np.ones((1, 4), bool)
@@ -18,7 +20,7 @@ WALL = np.ones((1, 4), bool)
 def taut_path(world: World, start: Any, goal: Any, required: float = 0.2) -> TautPath | None:
     places = np.array([start, goal], float)
     active = np.zeros(len(world), np.bool_)
-    return Router(world, required, places).find(*places, NO_BARRIERS, active)
+    return Router(world, required, places).find(*places, NO_BARRIERS, active).value
 
 
 def wall(yaw: float = 0.0) -> Obstacle:

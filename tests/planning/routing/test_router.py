@@ -12,8 +12,10 @@ from scipy import ndimage
 
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.planning.routing.router import NO_BARRIERS, Router, TautPath
+from viaspline.planning.routing.route_problem import NO_BARRIERS
+from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.side_barrier import barriers_of
+from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
 Oracle = Callable[..., Any]
@@ -32,7 +34,7 @@ def polygon(*ring: tuple[float, float]) -> Obstacle:
 def taut_path(world: World, start: Any, goal: Any, required: float = 1.0) -> TautPath | None:
     places = np.array([start, goal], float)
     active = np.zeros(len(world), np.bool_)
-    return Router(world, required, places).find(*places, NO_BARRIERS, active)
+    return Router(world, required, places).find(*places, NO_BARRIERS, active).value
 
 
 def random_obstacles(rng: np.random.Generator, count: int, size: float) -> list[Obstacle]:
@@ -260,7 +262,7 @@ def test_a_barrier_closes_one_side(obstacle: Obstacle, side: Any) -> None:
     start, goal = np.array([0.0, 0.0]), np.array([100.0, 0.0])
     closed = barriers_of(world, 0, start, goal).closing(side)
     places = np.array([start, goal])
-    found = Router(world, 1.0, places).find(start, goal, closed, np.zeros(1, np.bool_))
+    found = Router(world, 1.0, places).find(start, goal, closed, np.zeros(1, np.bool_)).value
     other = barriers_of(world, 0, start, goal).closing("right" if side == "left" else "left")
     assert found is not None
     assert not found.crosses(closed)

@@ -106,5 +106,5 @@ def plan_on_side(asked: vs.Mission, members: tuple[str, ...], side: str) -> vs.P
 def planned(asked: vs.Mission) -> vs.Plan | None:
     try:
         return vs.plan(asked)
-    except vs.NoPathError:
+    except vs.PlanningError:
         return None

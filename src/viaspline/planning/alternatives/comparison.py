@@ -1,4 +1,7 @@
-"""The ways past what a leg meets, side by side."""
+"""The curves past what a leg meets, side by side.
+
+Tested through ``planning/problem/test_ledger``.
+"""
 
 from __future__ import annotations
 
@@ -9,15 +12,15 @@ import numpy as np
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.leg_search import Curve, LegSearch
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
-from viaspline.planning.routing.router import TautPath
 from viaspline.planning.routing.side_barrier import Barriers
+from viaspline.planning.routing.taut_path import TautPath
 
 SIDES: tuple[Side, Side] = ("left", "right")
 
 
 @dataclass(frozen=True)
 class Met:
-    """A group that stands in the way of a leg.
+    """What stands in the way of a leg and is passed as one: a group, or an island.
 
     Attributes:
         members: The names of its obstacles.
@@ -28,7 +31,7 @@ class Met:
     barriers: Barriers
 
     def side_of(self, taut_path: TautPath) -> Side:
-        """The side on which a way passes it."""
+        """The side on which a taut path passes it."""
         return "right" if taut_path.crosses(self.barriers.right) else "left"
 
 
@@ -38,10 +41,10 @@ class Comparison:
 
     Attributes:
         leg: The leg.
-        met: The groups in its way.
-        curves: One along the shortest way, and those on the other side of a group.
+        met: What stands in its way.
+        curves: One along the shortest taut path, and those on the other side of what was met.
         winner: The one that is taken, of these.
-        reasons: For each group, why there might be no curve on one of its sides.
+        reasons: For each that was met, why there might be no curve on one of its sides.
     """
 
     leg: LegSearch
@@ -52,24 +55,24 @@ class Comparison:
 
     @property
     def entries(self) -> tuple[LedgerEntry, ...]:
-        """For each group the shortest curve on either side."""
+        """For each that was met the shortest curve on either side."""
         start, goal = self.leg.sequence.ends(self.leg.index)
         return tuple(
             LedgerEntry(
-                group.members,
+                one.members,
                 (start.name, goal.name),
-                tuple(self._candidate(group, side, reason) for side in SIDES),
+                tuple(self._candidate(one, side, reason) for side in SIDES),
             )
-            for group, reason in zip(self.met, self.reasons, strict=True)
+            for one, reason in zip(self.met, self.reasons, strict=True)
         )
 
     def taking(self, curve: Curve) -> Comparison:
-        """The same with another curve in the place of the winner."""
+        """This comparison with another curve in the place of the winner."""
         curves = tuple(curve if one is self.winner else one for one in self.curves)
         return replace(self, curves=curves, winner=curve)
 
-    def _candidate(self, group: Met, side: Side, reason: str) -> Candidate:
-        passing = [curve for curve in self.curves if group.side_of(curve.taut_path) == side]
+    def _candidate(self, met: Met, side: Side, reason: str) -> Candidate:
+        passing = [curve for curve in self.curves if met.side_of(curve.taut_path) == side]
         if not passing:
             dimension = len(self.leg.ends[0])
             none = np.empty((0, dimension))

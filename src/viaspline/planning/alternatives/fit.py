@@ -1,8 +1,10 @@
-"""Fitting the spline of one leg to a way until it is proven clear.
+"""Fitting the spline of one leg to a taut path until it is proven clear.
 
-As the slack goes to 0 a cardinal spline tends to its polyline. The via points of a way stand so
-that their polyline is clear; so there is always a slack at which the spline is clear as well. It
-is lowered only on the spans that need it, and only as far as they need it.
+As the slack goes to 0 a cardinal spline tends to its polyline. The detour via points stand so that
+their polyline is clear; so there is always a slack at which the spline is clear as well. It is
+lowered only on the spans that need it, and only as far as they need it.
+
+Tested through ``planning/methods/test_clear_spline`` and ``test_planner_bad_days``.
 """
 
 from __future__ import annotations
@@ -14,31 +16,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.bending import self_loops
-from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.clearance.disc import conflicts
+from viaspline.planning.checking.conflicts import CLEAR, too_close
 from viaspline.planning.problem.via_sequence import Leg, ViaSequence, lay
-from viaspline.planning.routing.router import TautPath
+from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
 # Largest turn from via point to via point [rad], how far out they stand, how far off the helpers,
 # and what part of the length may be spent on roundness. Rounder first, closer where it is tight.
-EFFORTS = (
+FIT_EFFORTS = (
     (0.2, 1.0, 1.0, 1e-4),
     (0.2, 1.0, 1.0, 2e-5),
     (0.2, 1.0, 1.0, 0.0),
     (0.1, 1.0, 1.0, 0.0),
 )
-LOWER = (0.7, 0.5)  # slack of a leg whose straight line is clear, before it gets helpers
-HALVINGS = 24
-TAUT = 1e-3  # slack below which a loop is too small to matter
-CLEAR = -1
-HELPER = 0.1  # of a straight leg's length, where the spline would swing out into something
+STRAIGHT_SLACKS = (0.7, 0.5)  # parts of a straight leg's slack that are tried before helpers
+MAX_HALVINGS = 24  # of slack, after which the spline is its polyline to a ten-millionth
+LEAST_LOOP_SLACK = 1e-3  # below which a loop is too small to matter
+HELPER_AT = 0.1  # of a straight leg's length, where the spline would swing out into something
 
 
 @dataclass(frozen=True)
 class Fitted:
-    """A course in which one leg is clear, and that leg's curve.
+    """A via sequence in which one leg is clear, and that leg's curve.
 
     Attributes:
         sequence: With the leg in it.
@@ -49,20 +49,10 @@ class Fitted:
     spans: Floats
 
 
-def too_close(world: World, spans: Floats, required: float) -> NDArray[np.int64]:
-    """What each span comes nearer to than ``required``: indices as in ``World.nearest``, or -1.
-
-    A little stricter than the certificate, which is never quite at the true distance.
-    """
-    writable = spans if spans.flags.writeable else spans.copy()  # numba compiles for one kind
-    found: NDArray[np.int64] = conflicts(world.packed, writable, required - 0.8 * PROOF_SLACK_M)[0]
-    return found
-
-
 def fit(
     sequence: ViaSequence, index: int, taut_path: TautPath, world: World, required: float
 ) -> Fitted | None:
-    """Lay the leg's spline along a way.
+    """Lay the leg's spline along a taut path.
 
     Returns:
         The fitted leg, or None if no slack makes it clear (the two via points themselves have
@@ -85,7 +75,7 @@ def fit(
 
 def tighten(sequence: ViaSequence, index: int, world: World, required: float) -> Fitted | None:
     """Halve the slack of a leg's spans that come too close, until none does."""
-    for _ in range(HALVINGS):
+    for _ in range(MAX_HALVINGS):
         spans = leg_spans(sequence, index)
         close = too_close(world, spans, required) != CLEAR
         if not close.any():
@@ -95,7 +85,7 @@ def tighten(sequence: ViaSequence, index: int, world: World, required: float) ->
 
 
 def untied(sequence: ViaSequence, spans: Floats) -> ViaSequence:
-    """The course with less slack where a span loops back on itself; itself if none does.
+    """The sequence with less slack where a span loops back on itself; itself if none does.
 
     Where a heading is given the curve may have to come round.
     """
@@ -113,7 +103,7 @@ def untied(sequence: ViaSequence, spans: Floats) -> ViaSequence:
     first = sequence.first_spans()
     for index, leg in enumerate(sequence.legs):
         tied = loops[first[index] : first[index + 1]]
-        tied &= np.repeat(leg.slack > TAUT, sequence.pieces)
+        tied &= np.repeat(leg.slack > LEAST_LOOP_SLACK, sequence.pieces)
         if tied.any():
             sequence = _halved(sequence, index, tied)
     return sequence
@@ -139,15 +129,15 @@ def _base_slack(sequence: ViaSequence, index: int) -> float:
 def _attempts(
     sequence: ViaSequence, index: int, taut_path: TautPath, slack: float
 ) -> Iterator[Leg]:
-    """Legs along a way, the roundest first."""
+    """Legs along a taut path, the roundest first."""
     start, goal = (via.at for via in sequence.ends(index))
     if taut_path.is_direct:
-        helpers = np.array([start + w * (goal - start) for w in (HELPER, 1 - HELPER)])
-        for factor in LOWER:
+        helpers = np.array([start + w * (goal - start) for w in (HELPER_AT, 1 - HELPER_AT)])
+        for factor in STRAIGHT_SLACKS:
             yield Leg(np.empty((0, len(start))), np.array([slack * factor]))
         yield Leg(helpers, np.full(3, slack))
         return
-    for effort in EFFORTS:
+    for effort in FIT_EFFORTS:
         points = lifted(taut_path.points(*effort), start, goal)
         yield Leg(points, np.full(len(points) + 1, slack))
 

@@ -1,7 +1,9 @@
 """Clutter and maps: what stands together is an island of blocked cells, with two sides.
 
-The way that was taken is the shortest of all, whatever stands around it. The other side of an
-island is sought when the ledger is read.
+The taut path that was taken is the shortest of all, whatever stands around it. The other side of
+an island is sought when the ledger is read.
+
+Tested through ``test_map_promises``.
 """
 
 from __future__ import annotations
@@ -16,48 +18,36 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.obstacle import Side
-from viaspline.planning.alternatives.comparison import Comparison, Met
-from viaspline.planning.alternatives.fit import Fitted
-from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite
-from viaspline.planning.routing.router import on_the_line
+from viaspline.planning.alternatives.comparison import Met
+from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite, reason_of
+from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.side_barrier import barriers_at
 from viaspline.world.world import World
 
-MEMBERS = 12  # names that an island is given
+MAX_ISLAND_NAMES = 12  # that an island is given
 
 
 @dataclass(frozen=True)
-class PassedIslands:
-    """A leg that was led through clutter.
+class IslandsInTheWay:
+    """The islands that a leg was led through; see ``InTheWay``.
 
     Attributes:
-        leg: What was led round.
-        best: The curve along the shortest way.
+        leg: The leg.
     """
 
     leg: LegSearch
-    best: Spline
-
-    @property
-    def fitted(self) -> Fitted:
-        """The leg's spline."""
-        return self.best.fitted
 
     @cached_property
-    def comparison(self) -> Comparison:
-        """The curves on either side of every island that the straight line meets."""
-        met = tuple(islands_met(self.leg))
-        sides = [opposite(island.side_of(self.best.taut_path)) for island in met]
-        found = [self._passing(island, side) for island, side in zip(met, sides, strict=True)]
-        others = [curve for curve in found if curve is not None]
-        reasons = tuple(f"no way is wide enough on the {side}" for side in sides)
-        return Comparison(self.leg, met, (self.best, *others), self.best, reasons)
+    def met(self) -> tuple[Met, ...]:
+        """The islands that its straight line goes through, in its order."""
+        return tuple(islands_met(self.leg))
 
-    def _passing(self, island: Met, side: Side) -> Spline | None:
-        closed = island.barriers.closing(opposite(side))
+    def other_side(self, met: Met, side: Side, best: Spline) -> tuple[Spline | None, str]:
+        """See ``InTheWay``."""
+        closed = met.barriers.closing(opposite(side))
         active = on_the_line(self.leg.world, *self.leg.ends, self.leg.requirements.required)
-        taut_path, _ = self.leg.shortest_allowed(active, closed)
-        return self.leg.curve(taut_path)
+        outcome, _ = self.leg.shortest_allowed(active, closed)
+        return self.leg.curve(outcome.value), reason_of(outcome, side)
 
 
 def islands_met(leg: LegSearch) -> Iterator[Met]:
@@ -93,8 +83,8 @@ def _names(leg: LegSearch, island: NDArray[np.bool_], middle: Floats) -> tuple[s
             names.append(world.name(i))
         elif world.distances_to(i, middle[None, :])[0] < leg.requirements.required:
             names.append(f"{world.name(i)} at ({middle[0]:.2f}, {middle[1]:.2f})")
-    if len(names) > MEMBERS:
-        return (*names[:MEMBERS], f"{len(names) - MEMBERS} more")
+    if len(names) > MAX_ISLAND_NAMES:
+        return (*names[:MAX_ISLAND_NAMES], f"{len(names) - MAX_ISLAND_NAMES} more")
     return tuple(names)
 
 

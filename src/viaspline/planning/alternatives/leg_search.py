@@ -1,4 +1,7 @@
-"""One leg of a course on its way round what it meets: ways, curves along them, and their prices."""
+"""One leg on its way round what it meets: taut paths, curves along them, and what they cost.
+
+Tested through ``planning/problem/test_ledger``.
+"""
 
 from __future__ import annotations
 
@@ -10,22 +13,25 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.fit import Fitted, fit
 from viaspline.planning.checking.cost import CandidateCost, measure
+from viaspline.planning.problem.method import Outcome, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence
-from viaspline.planning.routing.router import NO_BARRIERS, Router, TautPath
+from viaspline.planning.routing.route_problem import NO_BARRIERS
+from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.side_barrier import barriers_of
+from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve along a way, and what it costs.
+    """A curve along a taut path, and what it costs.
 
     Attributes:
         taut_path: What it follows.
         vias: Its detour via points [m], shape (k, d).
         spans: Bézier control polygons of the whole leg [m], shape (m, 4, d).
-        measured: Its price.
+        measured: What it costs.
     """
 
     taut_path: TautPath
@@ -36,10 +42,10 @@ class Curve:
 
 @dataclass(frozen=True)
 class Spline(Curve):
-    """The spline that was fitted to a way.
+    """The spline that was fitted to a taut path.
 
     Attributes:
-        fitted: The course with it.
+        fitted: The via sequence with it.
     """
 
     fitted: Fitted
@@ -47,14 +53,14 @@ class Spline(Curve):
 
 @dataclass(frozen=True)
 class LegSearch:
-    """A leg in its course and world.
+    """A leg among the others, in its world.
 
     Attributes:
         sequence: What there is so far.
         index: The leg.
         world: The known world.
         requirements: What to keep.
-        router: Of this world and brief.
+        router: Of this world and these requirements.
     """
 
     sequence: ViaSequence
@@ -71,10 +77,10 @@ class LegSearch:
 
     def shortest_allowed(
         self, active: Flags, closed: Floats = NO_BARRIERS
-    ) -> tuple[TautPath | None, Floats]:
-        """The shortest way that passes what it meets on the sides that the mission allows.
+    ) -> tuple[Outcome[TautPath], Floats]:
+        """The shortest taut path that passes what it meets on the sides that the mission allows.
 
-        A way can meet obstacles with a side of their own that were not met before; each such
+        It can meet obstacles with a side of their own that were not met before; each such
         round adds at least one barrier, so there are no more rounds than obstacles.
 
         Args:
@@ -82,14 +88,14 @@ class LegSearch:
             closed: Further segments not to cross, (b, 4).
 
         Returns:
-            The way, or None where there is none, and the barriers that forbid sides, (f, 4).
+            What came of it, and the barriers that forbid sides, (f, 4).
         """
         barriers = self.forced_barriers(active)
         while True:
-            taut_path = self.router.find(*self.ends, np.vstack((closed, barriers)), active)
+            outcome = self.router.find(*self.ends, np.vstack((closed, barriers)), active)
             needed = self.forced_barriers(active)
             if len(needed) == len(barriers):
-                return taut_path, barriers
+                return outcome, barriers
             barriers = needed
 
     def forced_barriers(self, active: Flags) -> Floats:
@@ -102,17 +108,24 @@ class LegSearch:
         return np.vstack(rows) if rows else NO_BARRIERS
 
     def curve(self, taut_path: TautPath | None) -> Spline | None:
-        """The spline along a way, or None where no slack makes it clear."""
+        """The spline along a taut path, or None where no slack makes it clear."""
         if taut_path is None:
             return None
         fitted = fit(self.sequence, self.index, taut_path, self.world, self.requirements.required)
         if fitted is None:
             return None
         vias = fitted.sequence.legs[self.index].points
-        price = measure(fitted.spans, self.world, self.requirements)
-        return Spline(taut_path, vias, fitted.spans, price, fitted)
+        cost = measure(fitted.spans, self.world, self.requirements)
+        return Spline(taut_path, vias, fitted.spans, cost, fitted)
 
 
 def opposite(side: Side) -> Side:
     """The other side."""
     return "right" if side == "left" else "left"
+
+
+def reason_of(outcome: Outcome[TautPath], side: Side) -> str:
+    """Why there may be no curve on a side, from what the search for its taut path came to."""
+    if outcome.value is not None or isinstance(outcome, Refusal):
+        return f"no way is wide enough on the {side}"
+    return f"no way was found on the {side} before the search was given up"

@@ -1,21 +1,23 @@
-"""The account of a search: every group that was met, drawn up when it is asked for."""
+"""The account of a search: every group that was met, drawn up when it is asked for.
+
+Tested through ``planning/problem/test_ledger_as_laid``.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from viaspline.planning.alternatives.comparison import Comparison
-from viaspline.planning.alternatives.lead_round import Passed
 from viaspline.planning.alternatives.leg_search import Curve
+from viaspline.planning.alternatives.passed_leg import PassedLeg
 from viaspline.planning.checking.cost import measure
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
-from viaspline.planning.turning.driven_alternatives import DrivenSides
 from viaspline.world.world import World
 
 
@@ -23,23 +25,23 @@ from viaspline.world.world import World
 class Account:
     """What a search did, leg by leg.
 
-    Among many groups the way that was taken is known to be the shortest before the other sides
-    of the groups have been looked at; they are looked at when the ledger is read.
+    Among many groups the taut path that was taken is known to be the shortest before the other
+    sides of the groups have been looked at; they are looked at when the ledger is read.
 
     Attributes:
-        spline_path: The course as it was laid in the end.
+        spline_path: What was laid in the end.
         world: The known world.
         requirements: What the path keeps.
         passed: The legs that were led round something.
-        driven: The other sides as a robot with a body or a turning circle drives them; None for
-            others.
+        driven: Turns a comparison of splines into one of the curves that a robot with a body or a
+            turning circle drives, beside what was laid; None for others.
     """
 
     spline_path: SplinePath
     world: World
     requirements: Requirements
-    passed: Mapping[int, Passed] = field(default_factory=dict)
-    driven: DrivenSides | None = None
+    passed: Mapping[int, PassedLeg] = field(default_factory=dict)
+    driven: Callable[[Comparison, SplinePath], Comparison] | None = None
 
     @cached_property
     def ledger(self) -> tuple[LedgerEntry, ...]:
@@ -48,17 +50,17 @@ class Account:
         A leg that was led round after its neighbour has turned the tangents at the via point
         between them; what was not chosen stays as it was weighed.
         """
-        comparison = (self._weighed(leg) for leg in sorted(self.passed))
-        return tuple(entry for leg in comparison for entry in leg.entries)
+        compared = (self._as_laid(leg) for leg in sorted(self.passed))
+        return tuple(entry for comparison in compared for entry in comparison.entries)
 
-    def _weighed(self, leg: int) -> Comparison:
+    def _as_laid(self, leg: int) -> Comparison:
         comparison = self.passed[leg].comparison
         if self.driven is not None:
-            return self.driven.comparison(comparison, self.spline_path)
+            return self.driven(comparison, self.spline_path)
         winner, spans = comparison.winner, self.spline_path.leg(leg)
         if np.array_equal(winner.spans, spans):
             return comparison
-        price = measure(spans, self.world, self.requirements)
+        cost = measure(spans, self.world, self.requirements)
         return comparison.taking(
-            Curve(winner.taut_path, self.spline_path.detours(leg), spans, price)
+            Curve(winner.taut_path, self.spline_path.detours(leg), spans, cost)
         )

@@ -1,4 +1,7 @@
-"""The result of every search for a way."""
+"""The result of every search for a way.
+
+Tested through ``planning/test_replan``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What the body comes too close to on its way, and the proof that it doesn't."""
+"""What the body comes too close to on its way, and the proof that it doesn't.
+
+Tested through ``test_promises``.
+"""
 
 from __future__ import annotations
 
@@ -6,17 +9,37 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve import footprint_conflicts
-from viaspline.curve.certificate import Certificate, certify
+from viaspline.curve.certificate import PROOF_SLACK_M, Certificate, certify
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
-from viaspline.planning.alternatives.fit import CLEAR, too_close
-from viaspline.planning.problem.requirements import LEAST, Requirements
+from viaspline.kernels.clearance.disc import conflicts
+from viaspline.planning.problem.requirements import LEAST_KEPT_M, Requirements
 from viaspline.world.outline import outline
 from viaspline.world.world import World
 
+CLEAR = -1  # the index of what a span comes too close to, where it is nothing
+
+
+def too_close(world: World, spans: Floats, required: float) -> NDArray[np.int64]:
+    """What each span comes nearer to than ``required``: indices as in ``World.nearest``, or -1.
+
+    A little stricter than the certificate, which is never quite at the true distance.
+
+    Args:
+        world: What to keep clear of.
+        spans: Bézier control polygons [m], (m, 4, d).
+        required: [m].
+
+    Returns:
+        (m,).
+    """
+    writable = spans if spans.flags.writeable else spans.copy()  # numba compiles for one kind
+    found: NDArray[np.int64] = conflicts(world.packed, writable, required - 0.8 * PROOF_SLACK_M)[0]
+    return found
+
 
 def body_conflicts(world: World, spans: Floats, requirements: Requirements) -> NDArray[np.int64]:
-    """What the body comes nearer to than it may on each span: as ``fit.too_close``, (m,)."""
+    """What the body comes nearer to than it may on each span: as ``too_close``, (m,)."""
     return conflicts_within(requirements.required, world, spans, requirements)
 
 
@@ -28,10 +51,10 @@ def is_clear(world: World, spans: Floats, requirements: Requirements) -> bool:
 def conflicts_within(
     required: float, world: World, spans: Floats, requirements: Requirements
 ) -> NDArray[np.int64]:
-    """The same for another distance that the path itself is to keep [m]."""
+    """What the body comes too close to if the path itself is to keep ``required`` [m], (m,)."""
     if requirements.footprint is None:
         return too_close(world, spans, required)
-    least = max(required - requirements.radius, LEAST)
+    least = max(required - requirements.radius, LEAST_KEPT_M)
     return footprint_conflicts.body_conflicts(
         world.packed, spans, outline(requirements.footprint), least
     )

@@ -1,4 +1,7 @@
-"""Length, proven clearance and curvature of a candidate's curve."""
+"""Length, proven clearance and curvature of a candidate's curve.
+
+Tested through ``planning/problem/test_ledger``.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.world.world import World
 
-TOLERANCE = 1e-2  # of a candidate's clearance [m]; the path's own certificate is proven anew
+CLEARANCE_TOLERANCE_M = 1e-2  # of a candidate; the path's own certificate is proven anew
 
 
 @dataclass(frozen=True)
@@ -28,11 +31,11 @@ def measure(spans: Floats, world: World, requirements: Requirements) -> Candidat
     """What a curve costs.
 
     Args:
-        spans: A curve that is known to keep what the brief requires, shape (m, 4, d).
+        spans: A curve that is known to keep what is required, shape (m, 4, d).
         world: The known world.
         requirements: What it keeps.
     """
-    lower = float(tightest(world.packed, spans, STILL, TOLERANCE)[0])
+    lower = float(tightest(world.packed, spans, STILL, CLEARANCE_TOLERANCE_M)[0])
     length, sharpest = length_and_curvature(spans)
     return CandidateCost(
         float(length), max(lower - requirements.radius, requirements.kept), float(sharpest)
@@ -40,7 +43,7 @@ def measure(spans: Floats, world: World, requirements: Requirements) -> Candidat
 
 
 def measure_body(spans: Floats, world: World, requirements: Requirements) -> CandidateCost:
-    """What a curve costs that a body drives, whether it keeps what the brief requires or not."""
+    """What a curve costs that a body drives, whether it keeps what is required or not."""
     length, sharpest = length_and_curvature(spans)
     clearance = proven(PiecewiseCubic(spans), world, requirements).clearance
     return CandidateCost(float(length), clearance, float(sharpest))

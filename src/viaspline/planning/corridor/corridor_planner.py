@@ -16,8 +16,8 @@ from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.mission.model import Mission
 from viaspline.mission.spline_spec import SplineSpec
 from viaspline.mission.strip import Strip, rings_of, strip_of
-from viaspline.planning.alternatives.fit import CLEAR, too_close
 from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.checking.conflicts import CLEAR, too_close
 from viaspline.planning.checking.conflicts import proven as prove_body
 from viaspline.planning.corridor.corridor_refusals import (
     no_room,
@@ -41,11 +41,11 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence, via_sequence_of
 from viaspline.world.world import World
 
-PROOFS = 25  # times that a line is moved away from where the proof fails
-FINER = 1e-4  # to which it is known by how much it fails [m]
-BEYOND = 1.2  # times as far as it fails a line is moved away
-GUIDED = 4  # spans from guide to guide: re-plans under way come back to the line at one of them
-ROUNDER = 0.999  # of the curvature that is allowed is what a line is held to
+MAX_PROOF_ROUNDS = 25  # times that a line is moved away from where the proof fails
+FAILURE_TOLERANCE_M = 1e-4  # to which it is known by how much it fails
+MOVE_FACTOR = 1.2  # times as far as it fails a line is moved away
+SPANS_PER_GUIDE = 4  # re-plans under way come back to the line at one of the guides
+CURVATURE_PART = 0.999  # of the curvature that is allowed, to which a line is held
 
 
 def line_through(
@@ -92,10 +92,10 @@ def line_through(
     others = None
     if world.obstacles or world.bounds is not None or world.fences:
         others = World(world.obstacles, bounds=world.bounds, fences=world.fences)
-    limit = None if max_curvature is None else ROUNDER * max_curvature
-    task = StripProblem(strip, margin, others, gates, limit)
-    line = proven(settled(seed(task, world), task), task, world)
-    spline_path = split(line, task)
+    limit = None if max_curvature is None else CURVATURE_PART * max_curvature
+    problem = StripProblem(strip, margin, others, gates, limit)
+    line = proven(settled(seed(problem, world), problem), problem, world)
+    spline_path = split(line, problem)
     if max_curvature is not None:
         refuse_sharp(spline_path, max_curvature)
     return spline_path
@@ -140,28 +140,28 @@ def _margins(requirements: Requirements) -> Floats:
     return requirements.required + np.array([0.0, 0.25, 0.5, 1.0]) * (outer - requirements.radius)
 
 
-def proven(line: Line, task: StripProblem, world: World) -> Line:
+def proven(line: Line, problem: StripProblem, world: World) -> Line:
     """The line moved away from where it comes too close, until none of its spans does.
 
     Raises:
         NoPathError: When that can't be had.
     """
-    for _ in range(PROOFS):
-        line = fixed(line, task)
+    for _ in range(MAX_PROOF_ROUNDS):
+        line = fixed(line, problem)
         spans = line.spans
-        close = np.flatnonzero(too_close(world, spans, task.margin) != CLEAR)
+        close = np.flatnonzero(too_close(world, spans, problem.margin) != CLEAR)
         if not close.size:
             return line
         extra = line.extra.copy()
         for span in close.tolist():
-            lower = tightest(world.packed, spans[span : span + 1], STILL, FINER)[0]
+            lower = tightest(world.packed, spans[span : span + 1], STILL, FAILURE_TOLERANCE_M)[0]
             at = np.arange(PER_SPAN * span, PER_SPAN * (span + 1) + 1)
             at = at % extra.size if line.knots.closed else at
-            extra[at] += BEYOND * max(task.margin - lower, 0.0) + FINER
+            extra[at] += MOVE_FACTOR * max(problem.margin - lower, 0.0) + FAILURE_TOLERANCE_M
         for _ in range(2):
-            line, _ = improved(replace(line, extra=extra), task)
-    certificate = certify(PiecewiseCubic(line.spans), world, task.margin)
-    raise no_room(certificate.tightest_at, certificate.clearance, task.margin, task.strip)
+            line, _ = improved(replace(line, extra=extra), problem)
+    certificate = certify(PiecewiseCubic(line.spans), world, problem.margin)
+    raise no_room(certificate.tightest_at, certificate.clearance, problem.margin, problem.strip)
 
 
 def _path_vias(sequence: ViaSequence, spline_path: StripLine) -> tuple[PathVia, ...]:
@@ -178,7 +178,7 @@ def _path_vias(sequence: ViaSequence, spline_path: StripLine) -> tuple[PathVia, 
     taken = {via.u for via in vias}
     vias += [
         PathVia(GUIDE, tuple(spline_path.spans[u, 0].tolist()), "detour", float(u))
-        for u in range(GUIDED, len(spline_path.spans), GUIDED)
+        for u in range(SPANS_PER_GUIDE, len(spline_path.spans), SPANS_PER_GUIDE)
         if float(u) not in taken
     ]
     return tuple(sorted(vias, key=lambda via: via.u))

@@ -1,4 +1,7 @@
-"""Why a corridor has no line: its points, its width and its bends."""
+"""Why a corridor has no line: its points, its width and its bends.
+
+Tested through ``planning/corridor/test_corridor_planner``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The line with which a corridor's own begins: along the middle, led round what stands there."""
+"""The line with which a corridor's own begins: along the middle, led round what stands there.
+
+Tested through ``planning/corridor/test_corridor_planner``.
+"""
 
 from __future__ import annotations
 
@@ -9,22 +12,23 @@ from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.spline_spec import SplineSpec
 from viaspline.mission.strip import Strip, rings_of
-from viaspline.planning.alternatives.fit import CLEAR, too_close
-from viaspline.planning.alternatives.lay_clear import lay_clear
+from viaspline.planning.checking.conflicts import CLEAR, too_close
 from viaspline.planning.corridor.minimum_curvature import SHARE, Line, StripProblem
+from viaspline.planning.methods.clear_spline import ClearSpline
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import Leg, RouteVia, ViaSequence
+from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.world.world import World
 
 
-def seed(task: StripProblem, world: World) -> Line:
+def seed(problem: StripProblem, world: World) -> Line:
     """The line along the middle of a strip, led round what stands there.
 
     Raises:
         NoPathError: When there is no way round it.
     """
-    strip = task.strip
-    first, last = task.gates[0], task.gates[-1]
+    strip = problem.strip
+    first, last = problem.gates[0], problem.gates[-1]
     middle = 0.5 * (strip.left + strip.right)
     if strip.closed:
         rows = (first.row + np.arange(len(middle))) % len(middle)
@@ -35,20 +39,22 @@ def seed(task: StripProblem, world: World) -> Line:
             rows = np.array([first.row, last.row])
         points = middle[rows].copy()
         points[0], points[-1] = first.place, last.place
-    line = Line.through(points, rows, task)
-    if task.obstacles is None:
+    line = Line.through(points, rows, problem)
+    if problem.obstacles is None:
         return line
-    close = np.flatnonzero(too_close(task.obstacles, line.spans, task.margin) != CLEAR)
+    close = np.flatnonzero(too_close(problem.obstacles, line.spans, problem.margin) != CLEAR)
     if not close.size:
         return line
     where = line.knots.matrix(close.astype(np.float64) + 0.5) @ line.controls
     away = np.linalg.norm(points - where[:, None], axis=2)
-    points = _led_round(points, rows, away.argmin(axis=1), task, world)
-    return Line.through(points, strip.track(points, int(rows[0]), task.window), task)
+    points = _led_round(points, rows, away.argmin(axis=1), problem, world)
+    return Line.through(points, strip.track(points, int(rows[0]), problem.window), problem)
 
 
-def _led_round(points: Floats, rows: Ints, close: Ints, task: StripProblem, world: World) -> Floats:
-    """The points of a way through a strip that is free of what stands in it.
+def _led_round(
+    points: Floats, rows: Ints, close: Ints, problem: StripProblem, world: World
+) -> Floats:
+    """The points of a path through a strip that is free of what stands in it.
 
     Only pieces of the strip are searched, so that no way goes the wrong way round.
 
@@ -56,42 +62,45 @@ def _led_round(points: Floats, rows: Ints, close: Ints, task: StripProblem, worl
         points: Along the middle [m], (k, 2).
         rows: Their rows.
         close: Indices of points next to which something stands.
-        task: What the line keeps.
+        problem: What the line keeps.
         world: The known world.
     """
-    closed = task.strip.closed
+    closed = problem.strip.closed
     if closed:
-        points = np.vstack((task.gates[0].place, points[1:], task.gates[0].place))
+        points = np.vstack((problem.gates[0].place, points[1:], problem.gates[0].place))
         rows = np.append(rows, rows[0])
     reach = np.zeros(len(points), np.bool_)
     for index in close.tolist():
-        reach[max(index - task.window, 0) : index + task.window + 1] = True
+        reach[max(index - problem.window, 0) : index + problem.window + 1] = True
     edges = np.flatnonzero(np.diff(np.r_[False, reach, False].astype(int))).reshape(-1, 2)
     pieces: list[Floats] = []
     done = 0
     for first, end in edges.tolist():
-        taut_path = _way(points[first:end], task.strip.piece(rows[first:end]), task, world)
+        taut_path = _piece_led_round(
+            points[first:end], problem.strip.piece(rows[first:end]), problem, world
+        )
         pieces += [points[done:first], taut_path]
         done = end
     found = np.vstack([*pieces, points[done:]])
     return found[:-1] if closed else found
 
 
-def _way(points: Floats, piece: Strip, task: StripProblem, world: World) -> Floats:
-    """The points of a way along a piece of the strip, from the first of some points to the last."""
+def _piece_led_round(points: Floats, piece: Strip, problem: StripProblem, world: World) -> Floats:
+    """The points of a path along a piece of the strip, from the first point to the last."""
     local = World(
         world.obstacles, bounds=world.bounds, fences=world.fences, corridor=rings_of(piece.area)
     )
-    free = local.distance(points) > task.margin + 0.1 * SHARE * task.width
+    free = local.distance(points) > problem.margin + 0.1 * SHARE * problem.width
     free[[0, -1]] = True
     vias = tuple(RouteVia("the corridor", place, None) for place in points[free])
     legs = tuple(Leg.straight(0.5, 2) for _ in vias[1:])
-    requirements = Requirements(radius=0.0, clearance=task.margin)
+    requirements = Requirements(radius=0.0, clearance=problem.margin)
+    asked = PathProblem.of(ViaSequence(vias, legs, SplineSpec()), local, requirements)
     try:
-        spans = lay_clear(ViaSequence(vias, legs, SplineSpec()), local, requirements)[0].spans
+        spans = ClearSpline().lay(asked).spline_path.spans
     except NoPathError as error:
         raise NoPathError(
             f"the corridor is blocked: {error.reason}", where=error.where, remedy=error.remedy,
             obstacles=error.obstacles,
         ) from error  # fmt: skip
-    return PiecewiseCubic(spans).sample(0.5 * SHARE * task.width)[2]
+    return PiecewiseCubic(spans).sample(0.5 * SHARE * problem.width)[2]

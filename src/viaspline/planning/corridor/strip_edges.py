@@ -1,4 +1,7 @@
-"""How far points are from an edge of a strip, near the place of the strip where they are."""
+"""How far points are from an edge of a strip, near the place of the strip where they are.
+
+Tested through ``planning/corridor/test_corridor_planner``.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 
-TOUCHING = 1e-6  # from where on the direction to the edge is the edge's own [m]
+ON_EDGE_M = 1e-6  # from where on the direction to the edge is the edge's own
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,8 +57,8 @@ class StripEdge:
         every = np.arange(len(places))
         side = np.where(beside[every, best] >= 0.0, 1.0, -1.0)
         distance = np.sqrt(least[:, 0])
-        along = side[:, None] * away[every, best] / np.maximum(distance, TOUCHING)[:, None]
-        along = np.where((distance > TOUCHING)[:, None], along, across[every, best])
+        along = side[:, None] * away[every, best] / np.maximum(distance, ON_EDGE_M)[:, None]
+        along = np.where((distance > ON_EDGE_M)[:, None], along, across[every, best])
         return side * distance, along
 
     def _segments(self, rows: Ints) -> tuple[Floats, Floats]:

@@ -1,4 +1,7 @@
-"""A line inside a strip, with joints at the places that it runs through."""
+"""A line inside a strip, with joints at the places that it runs through.
+
+Tested through ``planning/corridor/test_corridor_planner``.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,7 @@ from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.planning.corridor.minimum_curvature import Line, StripProblem
 
-AT_JOINT = 1e-9  # a gate so near to a joint lies on it, as a parameter
+AT_JOINT_PART = 1e-9  # a gate so near to a joint lies on it, as a parameter
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +30,7 @@ class StripLine:
     at: Ints
 
 
-def split(line: Line, task: StripProblem) -> StripLine:
+def split(line: Line, problem: StripProblem) -> StripLine:
     """The spans of a line with joints at its gates, from the first gate on.
 
     Raises:
@@ -44,14 +47,14 @@ def split(line: Line, task: StripProblem) -> StripLine:
         k = int(np.flatnonzero(np.diff(laps) <= 0.0)[0]) + 1
         raise NoPathError(
             "the corridor's line can't serve its places in their order",
-            where=task.gates[k].place, remedy="move them apart along the corridor",
+            where=problem.gates[k].place, remedy="move them apart along the corridor",
         )  # fmt: skip
     spans = list(line.spans)
     joints = np.empty(at.size, np.int64)
     for k in np.argsort(at)[::-1].tolist():  # from behind, so that those before keep their index
         span = min(int(at[k]), count - 1)
         w = at[k] - span
-        if AT_JOINT < w < 1.0 - AT_JOINT:
+        if AT_JOINT_PART < w < 1.0 - AT_JOINT_PART:
             spans[span : span + 1] = _halves(spans[span], w)
             joints[at > at[k]] += 1
             joints[k] = span + 1
@@ -61,7 +64,7 @@ def split(line: Line, task: StripProblem) -> StripLine:
     if line.knots.closed:
         whole = np.roll(whole, -joints[0], axis=0)
         joints = (joints - joints[0]) % len(whole)
-    for gate, joint in zip(task.gates, joints.tolist(), strict=True):
+    for gate, joint in zip(problem.gates, joints.tolist(), strict=True):
         if joint > 0 or line.knots.closed:
             whole[joint - 1, 3] = gate.place
         if joint < len(whole):

@@ -1,4 +1,7 @@
-"""Heights for a curve that was laid on the ground."""
+"""Heights for a curve that was laid on the ground.
+
+Tested through ``planning/methods/test_ordered``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What every path has to keep, whoever asks for it."""
+"""What every path has to keep, whoever asks for it.
+
+Tested through ``planning/test_plan_drive``.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import TurnOnSpot
 from viaspline.mission.spline_spec import SplineSpec, Tangents
 
-LEAST = 1e-5  # what even a point without clearance keeps, so that touching is not crossing [m]
+LEAST_KEPT_M = 1e-5  # even by a point without clearance, so that touching is not crossing
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,23 +43,28 @@ class Requirements:
     turns_on_spot: TurnOnSpot = "stations"
 
     @property
+    def is_free_disc(self) -> bool:
+        """Whether a disc drives that can follow any curve."""
+        return self.turn_radius is None and self.footprint is None
+
+    @property
     def kept(self) -> float:
         """Free space that the body on the path keeps, so that the driven one has its clearance."""
         return self.clearance + self.tracking_error
 
     @property
     def least(self) -> float:
-        """The same, at least what is more than a touch [m]."""
-        return max(self.kept, LEAST)
+        """Free space that is kept, at least what is more than a touch [m]."""
+        return max(self.kept, LEAST_KEPT_M)
 
     @property
     def required(self) -> float:
         """Distance that the path itself keeps from every obstacle [m]."""
-        return max(self.radius + self.kept, LEAST)
+        return max(self.radius + self.kept, LEAST_KEPT_M)
 
     @classmethod
     def of(cls, mission: Mission, tracking_error: float = 0.0) -> Requirements:
-        """The brief of a mission.
+        """The requirements of a mission.
 
         Args:
             mission: What is asked for.

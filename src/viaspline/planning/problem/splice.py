@@ -4,6 +4,8 @@ A cardinal spline that starts at a given place can be given a heading there, but
 So the old curve runs out first: a cubic that takes over its position, heading and curvature, and
 whose second derivative falls linearly to nothing at its end. From there the new spline goes on
 with the heading that is reached.
+
+Tested through ``planning/test_replan``.
 """
 
 from __future__ import annotations
@@ -15,8 +17,8 @@ import numpy as np
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 
-RESTING = 1e-9  # derivative below which a curve has no curvature there [m]
-SHARPEST = 0.5  # largest turn of the heading while running out [rad]
+LEAST_DERIVATIVE_M = 1e-9  # below which a curve has no curvature there
+MAX_TURN_RAD = 0.5  # of the heading while running out
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,7 @@ class RunOut:
         return end
 
     def reversed(self) -> RunOut:
-        """The same cubic the other way: it runs in to where it started."""
+        """The cubic the other way: it runs in to where it started."""
         return RunOut(self.span[::-1].copy(), -self.tangent)
 
 
@@ -60,7 +62,7 @@ def run_out(curve: PiecewiseCubic, u: float, length: float, *, sense: int = 1) -
     place = np.asarray(curve.evaluate(u))
     velocity = np.asarray(curve.evaluate(u, 1))
     speed = float(np.linalg.norm(velocity))
-    if speed > RESTING:
+    if speed > LEAST_DERIVATIVE_M:
         tangent = sense * velocity / speed
         bend = np.asarray(curve.evaluate(u, 2)) / speed**2
         bend = bend - (bend @ tangent) * tangent
@@ -68,7 +70,7 @@ def run_out(curve: PiecewiseCubic, u: float, length: float, *, sense: int = 1) -
         tangent = sense * np.asarray(curve.tangent(u))
         bend = np.zeros_like(place)
     sharpness = float(np.linalg.norm(bend))
-    reach = min(length, 2 * SHARPEST / sharpness) if sharpness > 0 else length
+    reach = min(length, 2 * MAX_TURN_RAD / sharpness) if sharpness > 0 else length
     first = place + reach / 3 * tangent
     second = 2 * first - place + reach**2 / 6 * bend
     end = 2 * second - first

@@ -1,4 +1,7 @@
-"""A course as it was laid in the end: its curve and where its via points lie on it."""
+"""A via sequence as it was laid in the end: its curve and where its via points lie on it.
+
+Tested through ``planning/problem/test_ledger_as_laid``.
+"""
 
 from __future__ import annotations
 
@@ -16,13 +19,13 @@ from viaspline.planning.problem.via_sequence import ViaSequence
 
 @dataclass(frozen=True)
 class SplinePath:
-    """The curve of a course.
+    """The curve of a via sequence.
 
     Attributes:
         spans: Bézier control polygons [m], shape (m, 4, d).
-        joints: The span that begins at each via point of the course; m at its end, shape (n,), or
+        joints: The span that begins at each via point of the sequence; m at its end, shape (n,), or
             (n + 1,) when it is closed.
-        vias: The via points of the course and its detours, in order.
+        vias: The via points of the sequence and its detours, in order.
     """
 
     spans: Floats
@@ -33,7 +36,7 @@ class SplinePath:
     def through(
         cls, sequence: ViaSequence, spans: Floats, joints: NDArray[np.int64], detours: Sequence[int]
     ) -> SplinePath:
-        """The curve of a course with a detour via point where each of some spans begins."""
+        """The curve of a sequence with a detour via point where each of some spans begins."""
         vias = [_user_via(sequence, k, int(u)) for k, u in enumerate(joints)]
         taken = set(joints.tolist())
         vias += [

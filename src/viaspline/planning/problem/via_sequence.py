@@ -1,4 +1,7 @@
-"""A course: the points that the spline runs through, leg by leg from user via to user via."""
+"""A via sequence: the points that a spline runs through, leg by leg from user via to user via.
+
+Tested through ``test_planner``.
+"""
 
 from __future__ import annotations
 
@@ -79,7 +82,7 @@ class ViaSequence:
         return self.vias[leg], self.vias[(leg + 1) % len(self.vias)]
 
     def with_leg(self, index: int, leg: Leg) -> ViaSequence:
-        """The same with another leg."""
+        """This sequence with another leg."""
         return replace(self, legs=(*self.legs[:index], leg, *self.legs[index + 1 :]))
 
     @property
@@ -93,7 +96,7 @@ class ViaSequence:
 
 
 def lay(sequence: ViaSequence) -> Floats:
-    """The cardinal spline through a course: Bézier control polygons [m], shape (m, 4, d)."""
+    """The cardinal spline through a via sequence: Bézier control polygons [m], shape (m, 4, d)."""
     rows: list[Floats] = []
     for k, leg in enumerate(sequence.legs):
         rows.append(sequence.vias[k].at[None, :])
@@ -107,7 +110,7 @@ def lay(sequence: ViaSequence) -> Floats:
 
 
 def spline_spans(points: Floats, slack: Floats, sequence: ViaSequence) -> Floats:
-    """Spans through points with the course's knots, tangents and end directions."""
+    """Spans through points with the sequence's knots, tangents and end directions."""
     start, end = sequence.start_tangent, sequence.end_tangent
     none = np.zeros(points.shape[1])
     return RULES[sequence.tangents](
@@ -118,7 +121,7 @@ def spline_spans(points: Floats, slack: Floats, sequence: ViaSequence) -> Floats
 
 
 def via_sequence_of(mission: Mission) -> ViaSequence:
-    """The course of a mission before any detour."""
+    """The via sequence of a mission before any detour."""
     route = mission.route
     named = list(route.points())
     vias = tuple(

@@ -22,10 +22,11 @@ from viaspline.world.world import World
 Box = tuple[float, float, float, float]
 
 HALF_DIAGONAL = math.sqrt(0.5)  # of a cell of side 1
-FINE, COARSE = 2**16, 2**20  # cells that a lattice of obstacles without maps should have, may have
-MOST = 2**27
-ALIGNED = 1e-9  # of a cell: what a map may lie off the lattice
-NOTHING: Bytes = np.empty((0, 0), np.uint8)
+CELLS_WANTED, MAX_CELLS = 2**16, 2**20  # of a lattice of obstacles without maps
+MAX_MAP_CELLS = 2**27  # of a lattice with maps
+MAX_LATTICES = 3  # each with cells half as wide as those of the one before
+MISALIGNMENT = 1e-9  # what a map may lie off the lattice, in cells
+NO_CELLS: Bytes = np.empty((0, 0), np.uint8)
 
 
 @dataclass(frozen=True)
@@ -33,8 +34,8 @@ class Lattice:
     """Square cells; the middle of the robot may be in those that are free.
 
     Attributes:
-        x: Outer corner of cell (0, 0) [m].
-        y: The same.
+        x: Outer corner of cell (0, 0), its first coordinate [m].
+        y: Outer corner of cell (0, 0), the other coordinate [m].
         side: Of a cell [m].
         cells: Nonzero where blocked, (height, width).
         is_open: Whether every place with the room that is required lies in a free cell, so that
@@ -73,7 +74,7 @@ class Lattice:
         return found
 
     def without(self, segments: Floats) -> Lattice:
-        """The same with the cells blocked that some segments (n, 4) [m] pass through."""
+        """This lattice with the cells blocked that some segments (n, 4) [m] pass through."""
         cells = self.cells.copy()
         mark_segments(np.ascontiguousarray(segments), self.x, self.y, self.side, cells)
         return Lattice(self.x, self.y, self.side, cells, self.is_open)
@@ -102,15 +103,15 @@ def lattices(world: World, required: float, places: Floats) -> Iterator[Lattice]
     if grids:
         finest = min(grid.resolution for grid in grids)
         side = finest / max(1.0, math.ceil(finest / wanted - 1e-9))
-        side = max(side, math.sqrt(area / MOST))
+        side = max(side, math.sqrt(area / MAX_MAP_CELLS))
         x0, y0 = (
             _snapped(low, at, side) for low, at in zip((x0, y0), grids[0].origin, strict=False)
         )
     else:
-        side = min(wanted, math.sqrt(area / FINE))
-        side = max(side, math.sqrt(area / COARSE))
-    for _ in range(3):
-        if area / side**2 > 2 * MOST:
+        side = min(wanted, math.sqrt(area / CELLS_WANTED))
+        side = max(side, math.sqrt(area / MAX_CELLS))
+    for _ in range(MAX_LATTICES):
+        if area / side**2 > 2 * MAX_MAP_CELLS:
             return
         yield _rasterized(world, required, (x0, y0, x1, y1), side)
         side *= 0.5
@@ -132,7 +133,7 @@ def _grown_maps(
     grids = [obstacle.grid for obstacle in world.obstacles if obstacle.grid is not None]
     places = [_place_on(grid, low, side) for grid in grids]
     if not grids or None in places:
-        return NOTHING
+        return NO_CELLS
     cells = np.zeros(shape, np.uint8)
     for grid, place in zip(grids, places, strict=True):
         assert place is not None
@@ -152,7 +153,7 @@ def _place_on(grid: Grid, low: tuple[float, float], side: float) -> tuple[int, i
     x, y, yaw = grid.origin
     numbers = np.array([(y - low[1]) / side, (x - low[0]) / side, grid.resolution / side])
     whole = np.round(numbers)
-    if yaw != 0.0 or whole[2] < 1 or (np.abs(numbers - whole) > ALIGNED * whole[2]).any():
+    if yaw != 0.0 or whole[2] < 1 or (np.abs(numbers - whole) > MISALIGNMENT * whole[2]).any():
         return None
     row, column, parts = whole.astype(int).tolist()
     return row, column, parts
@@ -169,9 +170,9 @@ def _native(world: World, required: float, box: Box) -> Lattice | None:
     low, high = np.array(grid.extent).reshape(2, 2)
     beyond = np.array((low - box[:2], box[2:] - high)) / grid.resolution
     cells = np.round(beyond) if world.bounds is not None else np.ceil(beyond)
-    is_cut = world.bounds is not None and (np.abs(beyond - cells) > ALIGNED).any()
+    is_cut = world.bounds is not None and (np.abs(beyond - cells) > MISALIGNMENT).any()
     width, height = (high - low) / grid.resolution + cells.sum(axis=0)
-    if is_cut or (cells < 0).any() or width * height > MOST:
+    if is_cut or (cells < 0).any() or width * height > MAX_MAP_CELLS:
         return None
     (left, down), (right, up) = cells.astype(int).tolist()
     free = np.pad(grid.blocked.astype(np.uint8), ((down, up), (left, right)))

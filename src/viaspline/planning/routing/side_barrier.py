@@ -1,4 +1,7 @@
-"""Barriers: what closes one side of an obstacle, so that a way has to take the other."""
+"""Barriers: what closes one side of an obstacle, so that a way has to take the other.
+
+Tested through ``planning/routing/test_router``.
+"""
 
 from __future__ import annotations
 

@@ -16,11 +16,12 @@ from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import ViaPoint
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.routing.router import NO_BARRIERS, Router, on_the_line
+from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
+from viaspline.planning.routing.router import Router
 from viaspline.world.world import World
 
-EXACT = 9  # via points up to which all orders are compared
-SLIGHT = 1e-9  # shorter by less is not shorter [m]
+MAX_VIAS_ALL_ORDERS = 9  # up to which all orders are compared
+LEAST_GAIN_M = 1e-9  # shorter by less is not shorter
 
 
 def ordered(mission: Mission, world: World) -> Mission:
@@ -65,7 +66,7 @@ def lengths_between(mission: Mission, world: World) -> Floats:
     lengths = np.zeros((len(at), len(at)))
     for i, j in combinations(range(len(at)), 2):
         active = on_the_line(world, at[i], at[j], required)
-        taut_path = router.find(at[i], at[j], NO_BARRIERS, active)
+        taut_path = router.find(at[i], at[j], NO_BARRIERS, active).value
         lengths[i, j] = lengths[j, i] = np.inf if taut_path is None else taut_path.length
     return lengths
 
@@ -73,7 +74,7 @@ def lengths_between(mission: Mission, world: World) -> Floats:
 def _shortest_order(lengths: Floats, count: int, *, closed: bool) -> tuple[int, ...]:
     """The order of the via points, from 0, between the first point and the last."""
     last = 0 if closed else (count + 1 if len(lengths) > count + 1 else None)
-    if count <= EXACT:
+    if count <= MAX_VIAS_ALL_ORDERS:
         return _held_karp(lengths, count, last)
     return _exchanged(lengths, _nearest_first(lengths, count), last)
 
@@ -121,7 +122,7 @@ def _exchanged(lengths: Floats, order: tuple[int, ...], last: int | None) -> tup
         improved = False
         for candidate in _neighbours(order):
             length = _round(lengths, candidate, last)
-            if length < best - SLIGHT:
+            if length < best - LEAST_GAIN_M:
                 order, best, improved = candidate, length, True
                 break
     return order

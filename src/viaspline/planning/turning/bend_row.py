@@ -1,4 +1,7 @@
-"""A row of bends: the via points of a course, and what the ways between them go round."""
+"""A row of bends: the via points, and what the taut paths between them go round.
+
+Tested through ``planning/methods/test_ordered``.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ from viaspline.kernels.turning.turn_sequence import HEADING, KEPT, SIDE, X, Y
 from viaspline.kernels.world.corner_fans import X as CORNER_X
 from viaspline.kernels.world.corner_fans import Y as CORNER_Y
 from viaspline.planning.problem.via_sequence import ViaSequence
-from viaspline.planning.routing.router import TautPath
+from viaspline.planning.routing.taut_path import TautPath
 
 DETOUR = -1
 
@@ -27,7 +30,7 @@ class Bends:
 
     Attributes:
         rows: See ``kernels.turning.turn_sequence``, shape (n, 5).
-        vias: Index of each one's via point in the course, or ``DETOUR``, shape (n,).
+        vias: Index of each one's via point in the sequence, or ``DETOUR``, shape (n,).
         closed: Whether the last one is followed by the first.
     """
 
@@ -36,29 +39,29 @@ class Bends:
     closed: bool = False
 
     def with_bend(self, k: int, row: Floats) -> Bends:
-        """The same with a detour bend before bend k."""
+        """These bends with a detour bend before bend k."""
         return Bends(
             np.insert(self.rows, k, row, axis=0), np.insert(self.vias, k, DETOUR), self.closed
         )
 
     def without(self, k: int) -> Bends:
-        """The same without bend k."""
+        """These bends without bend k."""
         return Bends(np.delete(self.rows, k, axis=0), np.delete(self.vias, k), self.closed)
 
     def widened(self, k: int, by: float) -> Bends:
-        """The same with more room kept from what detour bend k goes round [m]."""
+        """These bends with more room kept from what detour bend k goes round [m]."""
         rows = self.rows.copy()
         rows[k, KEPT] += by
         return Bends(rows, self.vias, self.closed)
 
     def leg_of(self, k: int) -> int:
-        """The leg of the course on which bend k lies; the last of its via points ends the last."""
+        """The leg on which bend k lies; the last of the via points ends the last one."""
         vias = self.vias != DETOUR
         last = int(vias.sum()) - (1 if self.closed else 2)
         return min(int(vias[: k + 1].sum()) - 1, last)
 
     def places(self, via: int) -> int:
-        """Where in the row a via point of the course stands."""
+        """Where in the row a via point of the sequence stands."""
         return int(np.flatnonzero(self.vias == via)[0])
 
 
@@ -70,7 +73,7 @@ def bend(x: float, y: float, kept: float = 0.0, side: float = 0.0) -> Floats:
 
 
 def bends_along(sequence: ViaSequence, taut_paths: Sequence[TautPath]) -> Bends:
-    """The bends of a course whose legs go along given ways."""
+    """The bends of a via sequence whose legs go along taut paths."""
     rows: list[Floats] = []
     vias: list[int] = []
     for k, via in enumerate(sequence.vias):

@@ -4,6 +4,8 @@ Between two via points with given headings there is always a way for a car in th
 on and comes round again. So every via point gets a row of headings, and the cheapest row of legs
 between them is found by dynamic programming; legs that can't be laid are left
 out, one after the other, until a row is clear.
+
+Tested through ``planning/methods/test_ordered``.
 """
 
 from __future__ import annotations
@@ -23,9 +25,8 @@ from viaspline.planning.turning.turn_path import RAMP, TurnPath
 
 Lay = Callable[[Bends], TurnPath | None]
 
-HEADINGS = 36
-ROUNDS = 300
-FINER = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they are turned then
+HEADING_COUNT = 36  # that are tried at a via point
+FINER_TURNS = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they are turned then
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,7 @@ def _headings(bends: Bends, via: int, count: int, spots: Collection[int]) -> Flo
         return bends.rows[[bends.places(via)], HEADING]
     if via % (count - bends.closed) in spots:
         return np.array([math.nan])
-    return np.arange(HEADINGS, dtype=np.float64) * (math.tau / HEADINGS)
+    return np.arange(HEADING_COUNT, dtype=np.float64) * (math.tau / HEADING_COUNT)
 
 
 def posed(
@@ -108,8 +109,8 @@ def posed(
     rho: float,
     closed: bool,
     lay: Lay,
-    most: int = ROUNDS,
-    patience: int = ROUNDS,
+    max_rows: int,
+    max_pairs: int,
     bound: float = math.inf,
 ) -> Poses | None:
     """The shortest row of clear legs, None where there is none among the headings that are tried.
@@ -118,9 +119,9 @@ def posed(
         legs: The legs.
         rho: The least radius [m].
         closed: Whether the last heading is the first.
-        lay: Lays a clear swing round bends, if it can.
-        most: Rows of headings that are tried.
-        patience: Pairs of headings of a leg that are tried until one of them is clear.
+        lay: Lays a clear turn path round bends, if it can.
+        max_rows: Rows of headings that are tried.
+        max_pairs: Pairs of headings of a leg that are tried until one of them is clear.
         bound: Only shorter rows are of use [m].
     """
     counts = np.array([*(len(leg.starts) for leg in legs), len(legs[-1].goals)])
@@ -128,8 +129,8 @@ def posed(
     for k, leg in enumerate(legs):
         costs[k, : counts[k], : counts[k + 1]] = leg.lengths(rho).min(axis=(2, 3))
     spline_path: dict[tuple[int, int, int], TurnPath] = {}
-    failed = np.zeros(len(legs), np.int64)
-    for _ in range(most):
+    failed, is_hopeful = np.zeros(len(legs), np.int64), np.zeros(len(legs), np.bool_)
+    for _ in range(max_rows):
         row, cost = cheapest(costs, counts, closed)
         if not cost < bound:  # what is not laid yet costs no less than it says
             return None
@@ -145,18 +146,18 @@ def posed(
             costs[key] = math.inf if turn_path is None else turn_path.length
             if turn_path is not None:
                 spline_path[key] = turn_path
-                failed[key[0]] = -ROUNDS  # it isn't hopeless
+                is_hopeful[key[0]] = True
             failed[key[0]] += 1
-        if (failed >= patience).any():
+        if ((failed >= max_pairs) & ~is_hopeful).any():
             return None
     return None
 
 
 def _finer(poses: Poses, legs: Sequence[HeadingLeg], closed: bool, lay: Lay) -> Poses:
-    """The same with headings turned a little, each as long as that makes it shorter."""
+    """Poses with headings turned a little, each as long as that makes it shorter."""
     free = [k for k in range(len(legs)) if len(legs[k].starts) > 1]
-    for part in FINER:
-        step = part * math.tau / HEADINGS
+    for part in FINER_TURNS:
+        step = part * math.tau / HEADING_COUNT
         for k in free:
             for turn in (step, -step):
                 turned = _turned(poses, legs, closed, lay, k, turn)
@@ -169,7 +170,7 @@ def _finer(poses: Poses, legs: Sequence[HeadingLeg], closed: bool, lay: Lay) -> 
 def _turned(
     poses: Poses, legs: Sequence[HeadingLeg], closed: bool, lay: Lay, k: int, turn: float
 ) -> Poses | None:
-    """The same with another heading at via point k."""
+    """Poses with another heading at via point k."""
     headings = poses.headings.copy()
     headings[k] += turn
     if closed and k == 0:

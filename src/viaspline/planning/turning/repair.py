@@ -1,4 +1,7 @@
-"""Pushing a swing away from what it comes too close to."""
+"""Pushing a turn path away from what it comes too close to.
+
+Tested through ``planning/methods/test_ordered``.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +13,7 @@ from numpy.typing import NDArray
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
-from viaspline.planning.alternatives.fit import CLEAR
-from viaspline.planning.checking.conflicts import body_conflicts, is_clear, proven
+from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, is_clear, proven
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.turning.bend_row import DETOUR, KEPT, SIDE, Bends, bend
 from viaspline.planning.turning.turn_path import (
@@ -24,21 +26,22 @@ from viaspline.planning.turning.turn_path import (
 )
 from viaspline.world.world import World
 
-ROUNDS = 12
-SAMPLES = 9  # of a span, to find its tightest place
-EPS = 1e-6  # step of the gradient of the distance [m]
-EXTRA = 2e-3  # what a bend keeps beyond what is required [m]
-AHEAD = 12  # spans after a run on which the path may pass what the front touches
-SHORTER, LEAST_RAMP = 0.5, 0.08  # of the ramps' length from one round to another, and in radii
-SAME = 0.25  # bends nearer to each other than this, in required distances, are one
+MAX_PUSH_ROUNDS = 12
+SAMPLES_PER_SPAN = 9  # to find its tightest place
+GRADIENT_STEP_M = 1e-6  # of the gradient of the distance
+BEND_SLACK_M = 2e-3  # what a bend keeps beyond what is required
+SPANS_AHEAD = 12  # after a run, on which the path may pass what the front touches
+RAMP_SHORTENING = 0.5  # of the ramps' length from one round to another
+LEAST_RAMP = 0.08  # length of a ramp, in radii
+SAME_BEND = 0.25  # bends nearer to each other than this, in required distances, are one
 
 
 @dataclass(frozen=True)
 class Stuck:
-    """Where a swing could not be pushed clear.
+    """Where a turn path could not be pushed clear.
 
     Attributes:
-        places: The leg, and what its way goes by there [m], (2,).
+        places: The leg, and what its taut path goes by there [m], (2,).
     """
 
     places: tuple[tuple[int, Floats], ...]
@@ -47,7 +50,7 @@ class Stuck:
 def clear_turn_path(
     bends: Bends, rho: float, world: World, requirements: Requirements
 ) -> TurnPath | None:
-    """The shortest clear swing, to any sides of given headings, pushed away from what is near.
+    """The shortest clear turn path, to any sides of given headings, pushed away from what is near.
 
     Args:
         bends: The row.
@@ -62,7 +65,7 @@ def clear_turn_path(
 def clear_turn_path_or_why(
     bends: Bends, rho: float, world: World, requirements: Requirements
 ) -> TurnPath | Stuck:
-    """The same, or where it got stuck."""
+    """The shortest clear turn path, or where it got stuck; see ``clear_turn_path``."""
     found = [_pushed_clear(tried, rho, world, requirements) for tried in with_sides(bends)]
     clear = [turn_path for turn_path in found if isinstance(turn_path, TurnPath)]
     return min(clear, key=lambda turn_path: turn_path.length) if clear else found[0]
@@ -71,7 +74,7 @@ def clear_turn_path_or_why(
 def turn_path_if_clear(
     bends: Bends, rho: float, world: World, requirements: Requirements
 ) -> TurnPath | None:
-    """The shortest swing to any sides of given headings, if it is clear as it is."""
+    """The shortest turn path to any sides of given headings, if it is clear as it is."""
     turn_path = turn_path_round(bends, rho)
     if isinstance(turn_path, NoTurnPath) or not is_clear(world, turn_path.spans, requirements):
         return None
@@ -81,18 +84,19 @@ def turn_path_if_clear(
 def _pushed_clear(
     bends: Bends, rho: float, world: World, requirements: Requirements
 ) -> TurnPath | Stuck:
-    """The same to the sides that are set."""
+    """The turn path to the sides that are set, pushed clear, or where it got stuck."""
     ramp = RAMP
     turn_path = turn_path_on_sides(bends, rho, ramp)
-    for _ in range(ROUNDS):
+    for _ in range(MAX_PUSH_ROUNDS):
         if isinstance(turn_path, NoTurnPath):
             return _stuck_between(turn_path)
         close = body_conflicts(world, turn_path.spans, requirements)
         if (close == CLEAR).all():
             return turn_path
         pushed = turn_path_on_sides(_pushed(turn_path, close, world, requirements), rho, ramp)
-        if isinstance(pushed, TurnPath) and np.array_equal(pushed.bends.rows, turn_path.bends.rows):
-            ramp *= SHORTER  # the lines are far enough off, it is the ramps that cut the corner
+        rows = turn_path.bends.rows
+        if isinstance(pushed, TurnPath) and np.array_equal(pushed.bends.rows, rows):
+            ramp *= RAMP_SHORTENING  # the lines are far enough off, the ramps cut the corner
             pushed = turn_path_on_sides(turn_path.bends, rho, ramp)
         if isinstance(pushed, NoTurnPath) or ramp < LEAST_RAMP:
             return _stuck_at(turn_path, close, world, requirements)
@@ -149,12 +153,11 @@ def _push(
     for near in (row - 1, row % len(bends.rows)):
         if bends.vias[near] == DETOUR and bends.rows[near, SIDE] == side:
             off = float(np.linalg.norm(bends.rows[near, :2] - tight.wall))
-            if off < max(
-                SAME * requirements.required, bends.rows[near, KEPT] - SAME * requirements.required
-            ):
-                return bends.widened(near, 1.1 * tight.missing + EXTRA)
+            same = SAME_BEND * requirements.required
+            if off < max(same, bends.rows[near, KEPT] - same):
+                return bends.widened(near, 1.1 * tight.missing + BEND_SLACK_M)
     x, y = tight.wall.tolist()
-    return bends.with_bend(row, bend(x, y, tight.kept + EXTRA, side))
+    return bends.with_bend(row, bend(x, y, tight.kept + BEND_SLACK_M, side))
 
 
 def _row_before(turn_path: TurnPath, u: float) -> int:
@@ -193,12 +196,12 @@ def _tightest(
             wall = at + float(world.distance(at)) * into
             missing = requirements.least - found.clearance
             # the front may touch where the reference point is yet to come
-            beside = curve.section(float(run[0]), min(run[-1] + AHEAD, len(curve.spans))).project(
-                wall
-            )
+            beside = curve.section(
+                float(run[0]), min(run[-1] + SPANS_AHEAD, len(curve.spans))
+            ).project(wall)
             kept = max(beside.distance + 1.1 * missing, requirements.required)
             return _Tight(float(run[0] + beside.u), wall, into, missing, kept)
-    places_u = np.linspace(run[0], run[-1] + 1, SAMPLES * len(run))
+    places_u = np.linspace(run[0], run[-1] + 1, SAMPLES_PER_SPAN * len(run))
     places = np.asarray(curve.evaluate(places_u))
     gaps = world.distance(places)
     k = int(gaps.argmin())
@@ -210,7 +213,7 @@ def _tightest(
 
 def _gradient(world: World, place: Floats) -> Floats:
     """The direction in which the distance grows, a unit vector (2,)."""
-    steps = place + EPS * np.array([[1, 0], [-1, 0], [0, 1], [0, -1]])
+    steps = place + GRADIENT_STEP_M * np.array([[1, 0], [-1, 0], [0, 1], [0, -1]])
     d = world.distance(steps)
     slope = np.array([d[0] - d[1], d[2] - d[3]])
     size = float(np.linalg.norm(slope))

@@ -1,4 +1,7 @@
-"""Lines and turns with ramps round a row of bends."""
+"""Lines and turns with ramps round a row of bends.
+
+Tested through ``planning/methods/test_ordered``.
+"""
 
 from __future__ import annotations
 
@@ -58,7 +61,7 @@ class NoTurnPath:
 
 
 def turn_path_round(bends: Bends, rho: float) -> TurnPath | NoTurnPath:
-    """The shortest swing round a row of bends, to whichever sides given headings are left.
+    """The shortest turn path round a row of bends, to whichever sides given headings are left.
 
     A detour bend that the others make needless is left out.
 
@@ -80,7 +83,7 @@ def _is_longer(turn_sequence: TurnPath | NoTurnPath, other: TurnPath) -> bool:
 
 
 def turn_path_on_sides(bends: Bends, rho: float, ramp: float = RAMP) -> TurnPath | NoTurnPath:
-    """The swing round a row of bends, to the sides that are set.
+    """The turn path round a row of bends, to the sides that are set.
 
     Args:
         bends: The row.

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from itertools import pairwise
 
-from viaspline.errors import NoPathError
+from viaspline.errors import PlanningError
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.replanning.passing_sides import is_better
@@ -43,7 +43,7 @@ def better_path(context: ReplanContext, *, opened: bool) -> Decision:
     )
     try:
         candidate = first_candidate(freed, world, modes=("planned",))
-    except NoPathError:
+    except PlanningError:
         return Decision(reviewed, searched=True)
     if not tight and not is_better(candidate.solution.path.length - here, rest):
         return Decision(reviewed, searched=True)

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import Path, PathVia
-from viaspline.errors import NoPathError
+from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning import replan
 from viaspline.planning.problem.requirements import Requirements
@@ -56,7 +56,7 @@ def way_out(
     at = stop + math.dist(here, place)
     try:
         found = replan.from_rest(straight, at, world, requirements)
-    except NoPathError:
+    except PlanningError:
         return None
     return timed(
         _reduced(context, at, floor), "from_rest", replace(found, changed_from=stop), (at,)
@@ -95,7 +95,7 @@ def restore_clearance(
     at = float(places[roomy[0]])
     try:
         found = replan.planned(path, at, world, requirements, skip)
-    except NoPathError:
+    except PlanningError:
         return candidate
     again = timed(_reduced(context, at, floor), candidate.mode, replace(found, changed_from=start))
     return candidate if again is None else again

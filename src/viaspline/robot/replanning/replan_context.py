@@ -10,8 +10,7 @@ import numpy as np
 
 from viaspline.curve.path import PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.planning.alternatives.fit import CLEAR
-from viaspline.planning.checking.conflicts import conflicts_within
+from viaspline.planning.checking.conflicts import CLEAR, conflicts_within
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge

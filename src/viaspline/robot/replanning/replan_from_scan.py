@@ -12,9 +12,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from viaspline.errors import NoPathError
-from viaspline.planning.alternatives.fit import too_close
-from viaspline.planning.routing.route_refusals import BlockedLegError
+from viaspline.errors import PlanningError
+from viaspline.planning.checking.conflicts import too_close
+from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.schedule import ReducedClearance, Wait
 from viaspline.robot.replanning.better_path import better_path, with_spare
@@ -155,9 +155,9 @@ def _room(context: ReplanContext, spacing: float) -> float:
     return float(np.min(context.obstruction.world.distance(places)))
 
 
-def _plain(refusal: NoPathError | str) -> str:
+def _plain(refusal: PlanningError | str) -> str:
     """Why there is no way on, as far as a robot can tell that sees a part of the world."""
-    if isinstance(refusal, BlockedLegError):
+    if isinstance(refusal, BlockedLegError | UnfinishedLegError):
         return f"sees no way to '{refusal.via}'"
     return str(refusal)
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from viaspline.errors import GeometryError, NoPathError
+from viaspline.errors import GeometryError, PlanningError
 from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.robot.navigation.progress import SAME_PLACE_M
@@ -59,7 +59,7 @@ class ReplanResult:
     """
 
     candidate: PathCandidate | None
-    refusal: NoPathError | str = ""
+    refusal: PlanningError | str = ""
     skip: Mapping[int, str] = field(default_factory=dict)
 
 
@@ -73,7 +73,7 @@ def search(context: ReplanContext) -> ReplanResult:
     while True:
         try:
             return ReplanResult(_on_kept_sides(context, frozenset(skip)), skip=skip)
-        except NoPathError as error:
+        except PlanningError as error:
             lost = _lost(context, skip, error)
             if lost is None:
                 return ReplanResult(None, error)
@@ -87,7 +87,7 @@ def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandida
     better.
 
     Raises:
-        NoPathError: If there is no way to the goal.
+        PlanningError: If there is no way to the goal, or none was found.
     """
     world, schedule = context.knowledge.world, context.schedule
     candidate = first_candidate(context, world, skip)
@@ -103,7 +103,7 @@ def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandida
         return candidate
     try:
         kept = first_candidate(context, world.with_side(now, side), skip)
-    except NoPathError:
+    except PlanningError:
         return candidate
     here = context.progress.distance
     rest, other = (c.solution.path.length - here for c in (candidate, kept))
@@ -128,7 +128,7 @@ def first_candidate(
         modes: In this order.
 
     Raises:
-        NoPathError: If there is no way to the goal.
+        PlanningError: If there is no way to the goal, or none was found.
     """
     path, requirements = context.schedule.path, context.requirements
     leaves = context.clear_leaves()
@@ -139,7 +139,7 @@ def first_candidate(
                     solution = replan.reflex(path, leave, world, requirements)
                 else:
                     solution = replan.planned(path, leave, world, requirements, skip=skip)
-            except NoPathError:
+            except PlanningError:
                 continue  # a robot that leaves later, or that stands, may find a way
             candidate = timed(context, mode, solution)
             if candidate is not None and not _turns_back(context, solution):
@@ -233,7 +233,7 @@ def _covered(context: ReplanContext) -> tuple[dict[int, str], str | None]:
     return covered, None
 
 
-def _lost(context: ReplanContext, skip: Mapping[int, str], error: NoPathError) -> int | None:
+def _lost(context: ReplanContext, skip: Mapping[int, str], error: PlanningError) -> int | None:
     """Index of the point that an error says can't be reached, if the robot may go on without."""
     end = context.schedule.path.domain[1]
     for via, at in context.vias_ahead:

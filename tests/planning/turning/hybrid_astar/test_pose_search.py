@@ -11,15 +11,15 @@ from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import dubins
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.turning.hybrid_astar.pose_search import (
+from viaspline.planning.turning.hybrid_astar.pose_search import find_poses
+from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
+from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
     NotFound,
     Pose,
     Reason,
-    find_poses,
 )
-from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
 from viaspline.world.world import World
 
 RHO, RAMP = 4.0, 1.0

@@ -1,4 +1,7 @@
-"""A body as a few discs: what a search looks at instead of its outline."""
+"""A body as a few discs: what a search looks at instead of its outline.
+
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +15,8 @@ from viaspline.kernels.arrays import Floats
 
 Corners = tuple[tuple[float, float], ...]
 
-QUARTER = 32  # corners of a quarter of a disc, as it is reckoned to cover
-COVERED = 1e-9  # area that may be left over, as a share of the body's
+QUARTER_CORNERS = 32  # of a quarter of a disc, as it is reckoned to cover
+MAX_AREA_LEFT = 1e-9  # that may be left over, as a share of the body's
 
 
 @lru_cache(maxsize=32)
@@ -47,7 +50,7 @@ def covering_discs(footprint: Corners, overhang: float) -> Floats:
         left &= ~reached[best]
     discs = [(*centers[k], radii[k]) for k in chosen]
     rest = body.difference(shapely.union_all([_disc(disc) for disc in discs]))
-    while rest.area > COVERED * body.area:
+    while rest.area > MAX_AREA_LEFT * body.area:
         largest = max(shapely.get_parts(rest), key=lambda part: part.area)
         x, y = shapely.get_coordinates(largest.representative_point())[0]
         radius = shapely.distance(shapely.Point(x, y), body.exterior) + overhang
@@ -60,7 +63,7 @@ def covering_discs(footprint: Corners, overhang: float) -> Floats:
 
 def _disc(disc: tuple[float, float, float]) -> shapely.Polygon:
     """A polygon inside of a disc."""
-    return shapely.Point(disc[:2]).buffer(disc[2], quad_segs=QUARTER)
+    return shapely.Point(disc[:2]).buffer(disc[2], quad_segs=QUARTER_CORNERS)
 
 
 def _centers(body: shapely.Polygon, overhang: float) -> Floats:

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
-from enum import Enum
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,92 +19,25 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL_SHARE
 from viaspline.kernels.turning.hybrid_astar.primitives import MotionPrimitives, primitives_of
 from viaspline.kernels.turning.segment_chain import chain_spans, merged, shortened
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.turning.hybrid_astar.search_outcome import (
+    Chain,
+    Goal,
+    NotFound,
+    Pose,
+    Reason,
+)
 from viaspline.planning.turning.hybrid_astar.search_tree import SearchTree, backwards, bridged, met
 from viaspline.planning.turning.hybrid_astar.search_window import Body, SearchWindow, search_areas
 from viaspline.world.world import World
 
-FIRST_BRIDGE, PIERS = 1000, 24  # states after which, and between how many, a bridge is tried
-AFTER = 0.25  # what is looked at after the first arrival, see ``SearchTree``
-SECTORS = 16  # headings that are tried where any is allowed
-PASSES = 4  # of shortcuts
-ENOUGH = 1e-3  # share of its length that a pass has to save for another one
-SPACING = 0.5  # between states on a line that shortcuts begin and end at, in radii
-STATES = 40  # but not many more than these
-
-
-@dataclass(frozen=True)
-class Pose:
-    """A place [m] and the heading there [rad], which is driven through without curvature."""
-
-    x: float
-    y: float
-    heading: float
-
-
-@dataclass(frozen=True)
-class Goal:
-    """A place to get to.
-
-    Attributes:
-        x: [m].
-        y: [m].
-        headings: Those that it may be driven through with [rad]; if there are none, any.
-    """
-
-    x: float
-    y: float
-    headings: tuple[float, ...] = ()
-
-
-class Reason(Enum):
-    """Why no way was found."""
-
-    START_TAKEN = "there is no room for the body at the start"
-    GOAL_TAKEN = "there is no room for the body at the goal"
-    START_SHUT_IN = "forwards, the robot can't get far from the start"
-    GOAL_SHUT_IN = "forwards, the robot can't come to the goal from anywhere far"
-    NO_WAY = "nothing that can be reached from the start leads to the goal"
-    BUDGET = "the search was given up before it had seen everything"
-
-
-@dataclass(frozen=True)
-class NotFound:
-    """Nothing was found.
-
-    Attributes:
-        reason: Why. All but BUDGET mean that all was seen at the finest resolution: of the states
-            in a cell of place, heading and curvature the search follows the first one, and the
-            cells are small near the start and the goal and where it is tight.
-        goal: Number of the goal that isn't reached from the one before.
-        expanded: How many states were looked at.
-    """
-
-    reason: Reason
-    goal: int = 0
-    expanded: int = 0
-
-
-@dataclass(frozen=True)
-class Chain:
-    """A way.
-
-    Attributes:
-        segments: Curvature at the start and the end, and length, of its lines, arcs and ramps
-            [1/m, 1/m, m], (n, 3).
-        spans: The same as Bézier control polygons [m], (m, 4, 2): exactly through both ends, with
-            continuous curvature, which is 0 at the ends.
-        length: [m].
-        start: Where it begins.
-        end: Where it ends.
-        expanded: How many states were looked at.
-    """
-
-    segments: Floats = field(repr=False)
-    spans: Floats = field(repr=False)
-    length: float
-    start: Pose
-    end: Pose
-    expanded: int = 0
+FIRST_BRIDGE_STATES = 1000  # after which a bridge is tried,
+BRIDGE_ENDS = 24  # between so many states of either search
+SHARE_AFTER_ARRIVAL = 0.25  # of states, that is looked at then; see ``SearchTree``
+HEADING_SECTORS = 16  # headings that are tried where any is allowed
+MAX_SHORTCUT_PASSES = 4
+LEAST_PASS_GAIN = 1e-3  # share of its length that a pass has to save for another one
+SHORTCUT_SPACING = 0.5  # between states on a line that shortcuts begin and end at, in radii,
+MAX_SHORTCUT_STATES = 40  # but not many more than these
 
 
 @dataclass(frozen=True)
@@ -129,12 +61,12 @@ class Effort:
     care: tuple[float, float] = (0.0, 0.0)
 
 
-EFFORTS = (
+SEARCH_EFFORTS = (
     Effort(0.05, 1.0, (1 / 3,), 60_000),
     Effort(0.05, 0.7, (1 / 6, 1 / 3), 60_000),
     Effort(0.025, 0.4, (1 / 12, 1 / 6, 1 / 3), 120_000, (1.5, 0.25)),
 )
-LEAST_RAMP = 0.08  # of the radius
+LEAST_SEARCH_RAMP = 0.08  # of the radius
 
 
 @dataclass(frozen=True)
@@ -146,7 +78,7 @@ class PoseProblem:
     room: int
 
     def forwards(
-        self, starts: Floats, goal: Goal, headings: Floats, after: float = AFTER
+        self, starts: Floats, goal: Goal, headings: Floats, after: float = SHARE_AFTER_ARRIVAL
     ) -> SearchTree:
         """A search from some poses to the goal."""
         place = np.array([goal.x, goal.y])
@@ -174,12 +106,18 @@ class PoseProblem:
             place,
             back,
             self.room,
-            AFTER,
+            SHARE_AFTER_ARRIVAL,
         )
 
 
 def find_poses(
-    world: World, requirements: Requirements, rho: float, ramp: float, start: Pose, goal: Goal
+    world: World,
+    requirements: Requirements,
+    rho: float,
+    ramp: float,
+    start: Pose,
+    goal: Goal,
+    efforts: Sequence[Effort] = SEARCH_EFFORTS,
 ) -> Chain | NotFound:
     """A way from a pose to a place, forwards, with continuous curvature of at most 1 / rho.
 
@@ -191,15 +129,16 @@ def find_poses(
             than a twelfth of rho, where nothing is found otherwise.
         start: Where it begins.
         goal: Where it ends.
+        efforts: How finely and how long is looked, one after the other.
 
     Returns:
-        A chain whose discs (see ``cover``) are clear; or why there is none.
+        A chain whose discs (see ``disc_cover``) are clear; or why there is none.
     """
     places = np.array([[start.x, start.y], [goal.x, goal.y]])
     expanded, reason = 0, Reason.BUDGET
-    for effort in EFFORTS:
-        for task in tasks(world, requirements, rho, ramp, places, effort):
-            found, is_cut = _one_way(task, start, goal)
+    for effort in efforts:
+        for problem in pose_problems(world, requirements, rho, ramp, places, effort):
+            found, is_cut = _one_way(problem, start, goal)
             expanded += found.expanded
             if isinstance(found, Chain):
                 return replace(found, expanded=expanded)
@@ -209,7 +148,7 @@ def find_poses(
     return NotFound(reason, 0, expanded)
 
 
-def tasks(
+def pose_problems(
     world: World,
     requirements: Requirements,
     rho: float,
@@ -217,9 +156,9 @@ def tasks(
     places: Floats,
     effort: Effort,
 ) -> Iterator[PoseProblem]:
-    """The task in ever greater windows."""
+    """The problem in ever greater windows."""
     body = Body.of(requirements, effort.overhang)
-    bent = max(effort.ramps * ramp, min(LEAST_RAMP * rho, ramp))
+    bent = max(effort.ramps * ramp, min(LEAST_SEARCH_RAMP * rho, ramp))
     steps = np.maximum(np.array(effort.steps) * rho, 0.5 * bent)
     for area in search_areas(world, body.reach, places, 3.0 * rho + body.reach):
         search_window = SearchWindow(
@@ -235,22 +174,22 @@ def tasks(
         )
 
 
-def _one_way(task: PoseProblem, start: Pose, goal: Goal) -> tuple[Chain | NotFound, bool]:
+def _one_way(problem: PoseProblem, start: Pose, goal: Goal) -> tuple[Chain | NotFound, bool]:
     """The way in one window, or why there is none and whether a greater window may have one."""
-    headings = headings_at(task, goal)
-    if not task.search_window.has_room(start.x, start.y, start.heading):
+    headings = headings_at(problem, goal)
+    if not problem.search_window.has_room(start.x, start.y, start.heading):
         return NotFound(Reason.START_TAKEN), False
     if not len(headings):
         return NotFound(Reason.GOAL_TAKEN), False
     to = headings if goal.headings else np.append(headings, math.nan)
     begin = np.array([[start.x, start.y, start.heading, 0.0]])
-    both = (task.forwards(begin, goal, to), task.backwards(start, goal, headings))
-    bridge, due = None, FIRST_BRIDGE
+    both = (problem.forwards(begin, goal, to), problem.backwards(start, goal, headings))
+    bridge, due = None, FIRST_BRIDGE_STATES
     while bridge is None and not any(tree.is_over for tree in both):
         for tree, other in (both, both[::-1]):
             tree.go_on(other)
         if both[0].expanded >= due and not any(tree.has_arrived for tree in both):
-            bridge, due = bridged(*both, PIERS), 2 * due
+            bridge, due = bridged(*both, BRIDGE_ENDS), 2 * due
     expanded = sum(tree.expanded for tree in both)
     taut_paths = [
         (taut_path.cost, taut_path.segments, taut_path.heading)
@@ -266,16 +205,18 @@ def _one_way(task: PoseProblem, start: Pose, goal: Goal) -> tuple[Chain | NotFou
         if taut_path is not None
     ]
     if not taut_paths:
-        return _failure(both, task.search_window.area.is_whole, expanded)
+        return _failure(both, problem.search_window.area.is_whole, expanded)
     _, segments, heading = min(taut_paths, key=lambda taut_path: taut_path[0])
     free = math.nan if not goal.headings else heading
-    return finished(task, start, np.array([goal.x, goal.y, free]), segments, expanded), False
+    return finished(problem, start, np.array([goal.x, goal.y, free]), segments, expanded), False
 
 
-def headings_at(task: PoseProblem, goal: Goal) -> Floats:
+def headings_at(problem: PoseProblem, goal: Goal) -> Floats:
     """The headings with which the body may stand at a goal, of those that are tried."""
-    headings = np.array(goal.headings or np.arange(SECTORS) * (2.0 * math.pi / SECTORS))
-    return headings[[task.search_window.has_room(goal.x, goal.y, each) for each in headings]]
+    headings = np.array(
+        goal.headings or np.arange(HEADING_SECTORS) * (2.0 * math.pi / HEADING_SECTORS)
+    )
+    return headings[[problem.search_window.has_room(goal.x, goal.y, each) for each in headings]]
 
 
 def _failure(both: Sequence[SearchTree], is_whole: bool, expanded: int) -> tuple[NotFound, bool]:
@@ -293,24 +234,19 @@ def turn_of(segments: Floats) -> float:
     return 0.5 * float(((segments[:, 0] + segments[:, 1]) * segments[:, 2]).sum())
 
 
-def _reversed(segments: Floats) -> Floats:
-    """The same way driven from its end."""
-    return np.ascontiguousarray(segments[::-1][:, [1, 0, 2]] * (-1.0, -1.0, 1.0))
-
-
 def finished(
-    task: PoseProblem, start: Pose, goal: Floats, segments: Floats, expanded: int
+    problem: PoseProblem, start: Pose, goal: Floats, segments: Floats, expanded: int
 ) -> Chain:
     """The chain of what was found, with shortcuts."""
-    rho, ramp = task.moves.sizes[:2].tolist()
+    rho, ramp = problem.moves.sizes[:2].tolist()
     begin = np.array([start.x, start.y, start.heading])
     length = math.inf
-    for _ in range(PASSES):
-        spacing = max(SPACING * rho, float(segments[:, 2].sum()) / STATES)
+    for _ in range(MAX_SHORTCUT_PASSES):
+        spacing = max(SHORTCUT_SPACING * rho, float(segments[:, 2].sum()) / MAX_SHORTCUT_STATES)
         segments = merged(segments, rho)
-        segments = shortened(task.search_window.cache, begin, goal, segments, rho, ramp, spacing)
+        segments = shortened(problem.search_window.cache, begin, goal, segments, rho, ramp, spacing)
         before, length = length, float(segments[:, 2].sum())
-        if length > (1.0 - ENOUGH) * before:
+        if length > (1.0 - LEAST_PASS_GAIN) * before:
             break
     segments = merged(segments, rho)
     spans = chain_spans(begin, goal, segments)

@@ -1,4 +1,7 @@
-"""Ways through a row of places: the best heading at one of them may bar the way to the next."""
+"""Ways through a row of places: the best heading at one of them may bar the way to the next.
+
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
+"""
 
 from __future__ import annotations
 
@@ -12,26 +15,29 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.turning.hybrid_astar.pose_search import (
-    EFFORTS,
-    SECTORS,
+    HEADING_SECTORS,
+    SEARCH_EFFORTS,
+    Effort,
+    PoseProblem,
+    finished,
+    headings_at,
+    pose_problems,
+    turn_of,
+)
+from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
     NotFound,
     Pose,
-    PoseProblem,
     Reason,
-    finished,
-    headings_at,
-    tasks,
-    turn_of,
 )
 from viaspline.planning.turning.hybrid_astar.search_tree import SearchTree
 from viaspline.world.world import World
 
-KEPT = 6  # arrivals at every place, of different headings
-AFTER = 1.0  # what is looked at after the first arrival, see ``SearchTree``
-DOUBT = 1000  # states after which it is looked at whether the goal can be come to at all
-APART = math.pi / SECTORS  # headings nearer to each other than this are one [rad]
+MAX_ARRIVALS = 6  # that are followed on from every place, of different headings
+SHARE_AFTER_FIRST = 1.0  # of states, that is looked at after the first arrival; see ``SearchTree``
+DOUBT_STATES = 1000  # after which it is looked at whether the goal can be come to at all
+SAME_HEADING_RAD = math.pi / HEADING_SECTORS  # nearer to each other than this, two are one
 
 
 @dataclass(frozen=True)
@@ -56,6 +62,7 @@ def find_row(
     ramp: float,
     start: Pose,
     goals: Sequence[Goal],
+    efforts: Sequence[Effort] = SEARCH_EFFORTS,
 ) -> tuple[Chain, ...] | NotFound:
     """Ways from a pose through a row of places, one after the other; see ``find_poses``.
 
@@ -66,18 +73,19 @@ def find_row(
         ramp: Length on which the curvature rises from 0 to 1 / rho [m].
         start: Where the first begins.
         goals: Where they end.
+        efforts: How finely and how long is looked, one after the other.
 
     Returns:
         A chain for every goal, each beginning with the pose in which the one before ends; or why
-        there are none. NO_WAY is no proof here: of every place, only the ``KEPT`` shortest
-        arrivals with different headings are followed.
+        there are none. From every place only the shortest arrivals with different headings are
+        followed on; that there is no way is said only where those were all.
     """
     places = np.array([[start.x, start.y], *([goal.x, goal.y] for goal in goals)])
     failed = NotFound(Reason.BUDGET)
     expanded = 0
-    for effort in EFFORTS:
-        for task in tasks(world, requirements, rho, ramp, places, effort):
-            found, is_cut = _through(task, start, goals)
+    for effort in efforts:
+        for problem in pose_problems(world, requirements, rho, ramp, places, effort):
+            found, is_cut = _through(problem, start, goals)
             if not isinstance(found, NotFound):
                 return found
             expanded += found.expanded
@@ -88,21 +96,21 @@ def find_row(
 
 
 def _through(
-    task: PoseProblem, start: Pose, goals: Sequence[Goal]
+    problem: PoseProblem, start: Pose, goals: Sequence[Goal]
 ) -> tuple[tuple[Chain, ...] | NotFound, bool]:
     """The chains in one window, or why there are none and whether a greater one may have some."""
-    if not task.search_window.has_room(start.x, start.y, start.heading):
+    if not problem.search_window.has_room(start.x, start.y, start.heading):
         return NotFound(Reason.START_TAKEN), False
     begin = np.array([start.x, start.y, start.heading, 0.0])
     layers = [[_Arrival(begin, -1, np.empty((0, 3)))]]
-    expanded = 0
+    expanded, has_followed_all = 0, True
     for number, goal in enumerate(goals):
-        headings = headings_at(task, goal)
+        headings = headings_at(problem, goal)
         if not len(headings):
             return NotFound(Reason.GOAL_TAKEN, number, expanded), False
         to = headings if goal.headings else np.append(headings, math.nan)
-        tree = task.forwards(np.array([a.pose for a in layers[-1]]), goal, to, AFTER)
-        is_shut_in, seen = _grown(task, tree, layers[-1][0].pose, goal, headings)
+        tree = problem.forwards(np.array([a.pose for a in layers[-1]]), goal, to, SHARE_AFTER_FIRST)
+        is_shut_in, seen = _grown(problem, tree, layers[-1][0].pose, goal, headings)
         expanded += seen
         if is_shut_in:
             return NotFound(Reason.GOAL_SHUT_IN, number, expanded), False
@@ -112,18 +120,21 @@ def _through(
             heading = before + turn_of(found.segments)
             pose = np.array([goal.x, goal.y, heading, found.cost])
             arrivals.append(_Arrival(pose, found.start, found.segments))
+        is_cut = tree.was_cut and not problem.search_window.area.is_whole
         if not arrivals:
-            is_cut = tree.was_cut and not task.search_window.area.is_whole
             reason = Reason.START_SHUT_IN if number == 0 else Reason.NO_WAY
-            if tree.state != EMPTY or is_cut:
+            if tree.state != EMPTY or is_cut or not has_followed_all:
                 reason = Reason.BUDGET
             return NotFound(reason, number, expanded), tree.state == EMPTY and is_cut
-        layers.append(_distinct(arrivals))
-    return _chains(task, start, goals, layers, expanded), False
+        distinct = _distinct(arrivals)
+        layers.append(distinct[:MAX_ARRIVALS])
+        has_seen_all = tree.state == EMPTY and not is_cut
+        has_followed_all &= has_seen_all and len(distinct) <= MAX_ARRIVALS
+    return _chains(problem, start, goals, layers, expanded), False
 
 
 def _grown(
-    task: PoseProblem, tree: SearchTree, start: Floats, goal: Goal, headings: Floats
+    problem: PoseProblem, tree: SearchTree, start: Floats, goal: Goal, headings: Floats
 ) -> tuple[bool, int]:
     """Let a search grow to its end, and in doubt another one from its goal.
 
@@ -133,12 +144,12 @@ def _grown(
     back: SearchTree | None = None
     while not tree.is_over:
         tree.go_on()
-        if tree.has_arrived or tree.expanded < DOUBT:
+        if tree.has_arrived or tree.expanded < DOUBT_STATES:
             continue
         if back is None:
-            back = task.backwards(Pose(*start[:3].tolist()), goal, headings)
+            back = problem.backwards(Pose(*start[:3].tolist()), goal, headings)
         back.go_on()
-        if back.state == EMPTY and (task.search_window.area.is_whole or not back.was_cut):
+        if back.state == EMPTY and (problem.search_window.area.is_whole or not back.was_cut):
             return True, tree.expanded + back.expanded
     return False, tree.expanded + (0 if back is None else back.expanded)
 
@@ -148,13 +159,13 @@ def _distinct(arrivals: Sequence[_Arrival]) -> list[_Arrival]:
     kept: list[_Arrival] = []
     for arrival in arrivals:
         gaps = [math.remainder(arrival.pose[2] - other.pose[2], math.tau) for other in kept]
-        if all(abs(gap) >= APART for gap in gaps):
+        if all(abs(gap) >= SAME_HEADING_RAD for gap in gaps):
             kept.append(arrival)
-    return kept[:KEPT]
+    return kept
 
 
 def _chains(
-    task: PoseProblem,
+    problem: PoseProblem,
     start: Pose,
     goals: Sequence[Goal],
     layers: Sequence[list[_Arrival]],
@@ -169,6 +180,6 @@ def _chains(
         free = number == len(goals) - 1 and not goal.headings
         heading = math.nan if free else float(arrival.pose[2])
         end = np.array([goal.x, goal.y, heading])
-        chains.append(finished(task, start, end, arrival.segments, expanded))
+        chains.append(finished(problem, start, end, arrival.segments, expanded))
         start = chains[-1].end
     return tuple(chains)

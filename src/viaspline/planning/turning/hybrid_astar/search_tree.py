@@ -1,4 +1,7 @@
-"""One search through poses, in one direction, as it grows."""
+"""One search through poses, in one direction, as it grows.
+
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
+"""
 
 from __future__ import annotations
 
@@ -27,9 +30,9 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
 from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, STEP, MotionPrimitives
 from viaspline.planning.turning.hybrid_astar.search_window import SearchWindow
 
-FIRST_SLICE, SLICE = 64, 4000  # states between which a search can be stopped
-FEW = 800
-MANY = 3000  # states of which some are chosen
+FIRST_SLICE_STATES, SLICE_STATES = 64, 4000  # between which a search can be stopped
+LEAST_STATES_BEFORE = 800  # that count as those before the first arrival
+MAX_SPREAD_STATES = 3000  # of which some are chosen
 
 
 @dataclass(frozen=True)
@@ -67,14 +70,14 @@ class SearchTree:
             headings: Those that are allowed there [rad], NaN for whichever comes straight, (h,).
             room: States that are kept, at most.
             after: How many states are looked at after the first arrival, as a share of those
-                before it and of ``FEW``.
+                before it and of ``LEAST_STATES_BEFORE``.
         """
         self.cache, self.moves = cache, moves
         self.ahead: Ahead = search_window.ahead(goal[None])
         self.search = _empty(search_window, moves, starts, goal, headings, room)
         self._nobody = _empty(search_window, moves, starts, goal, headings, 1)
         self.state = kernels.RUNNING
-        self._slice = FIRST_SLICE
+        self._slice = FIRST_SLICE_STATES
         self._until = math.inf
         self._after = after
         kernels.set_off(cache, self.search, self.ahead, float(moves.sizes[0]), starts)
@@ -108,14 +111,16 @@ class SearchTree:
         """
         left = self._until - self.expanded
         quota = int(min(self._slice, left)) if left > 0 else 0
-        self._slice = min(2 * self._slice, SLICE)
+        self._slice = min(2 * self._slice, SLICE_STATES)
         had = self.has_arrived
         opposite = self._nobody if other is None else other.search
         self.state = kernels.go_on(
             self.cache, self.moves, self.search, opposite, self.ahead, quota, float(bound)
         )
         if self.has_arrived and not had:
-            self._until = self.expanded + math.ceil(self._after * (self.expanded + FEW))
+            self._until = self.expanded + math.ceil(
+                self._after * (self.expanded + LEAST_STATES_BEFORE)
+            )
 
     def arrivals(self) -> list[Arrival]:
         """The best with each heading, the shortest first."""
@@ -141,7 +146,7 @@ class SearchTree:
         size = int(self.search.counts[NODES])
         level = self.search.links[:size, LEVEL]
         nodes = np.flatnonzero(level == LEVELS // 2)
-        nodes = nodes[:: 1 + len(nodes) // MANY]
+        nodes = nodes[:: 1 + len(nodes) // MAX_SPREAD_STATES]
         x, y, heading = self.search.nodes[nodes, :3].T
         rho = self.moves.sizes[0]
         states = np.column_stack((x / rho, y / rho, np.cos(heading), np.sin(heading)))
@@ -202,7 +207,7 @@ def _bridge(there: SearchTree, back: SearchTree, meeting: Sequence[float] | Floa
 
 
 def backwards(segments: Floats) -> Floats:
-    """The same way driven from its end."""
+    """The segments driven from their end."""
     return np.ascontiguousarray(segments[::-1][:, [1, 0, 2]] * (-1.0, -1.0, 1.0))
 
 

@@ -1,4 +1,7 @@
-"""A window of a world, made ready for searches through poses in both directions."""
+"""A window of a world, made ready for searches through poses in both directions.
+
+Tested through ``planning/turning/hybrid_astar/test_pose_search``.
+"""
 
 from __future__ import annotations
 
@@ -25,11 +28,11 @@ from viaspline.world.world import World
 
 Box = tuple[float, float, float, float]
 
-GREED = 1.3  # by how much what is still to come counts more than what has been
-FINEST = 400  # cells of the lattice along a window's longer side, at most
-TABLE = 1000  # the same of the table of distances
-PACE = 0.02  # between places that are looked at, as a share of the body's half width
-NO_CELLS: Bytes = np.empty((0, 0), np.uint8)
+HEURISTIC_WEIGHT = 1.3  # by how much what is still to come counts more than what has been
+MAX_CELLS_ALONG = 400  # of the lattice, along a window's longer side
+MAX_TABLE_CELLS_ALONG = 1000  # of the table of distances, along it too
+LOOKED_AT_SPACING = 0.02  # between places that are looked at, in half widths of the body
+NO_GROWN_MAPS: Bytes = np.empty((0, 0), np.uint8)
 
 
 @dataclass(frozen=True)
@@ -103,7 +106,7 @@ class Body:
 
     @classmethod
     def of(cls, requirements: Requirements, overhang: float) -> Body:
-        """The body of a brief; the discs jut out by a share ``overhang`` of its half width."""
+        """The required body; its discs jut out by a share ``overhang`` of its half width."""
         if requirements.footprint is None:
             return cls(
                 np.array([[0.0, 0.0, requirements.required]]),
@@ -160,12 +163,12 @@ class SearchWindow:
     def side(self) -> float:
         """Side of a cell of the lattice [m]."""
         x0, y0, x1, y1 = self.area.box
-        return max(self.cell, max(x1 - x0, y1 - y0) / FINEST)
+        return max(self.cell, max(x1 - x0, y1 - y0) / MAX_CELLS_ALONG)
 
     @cached_property
     def pace(self) -> float:
         """Distance between places of a path that are looked at [m]."""
-        return PACE * self.body.width
+        return LOOKED_AT_SPACING * self.body.width
 
     @cached_property
     def cells(self) -> Bytes:
@@ -174,7 +177,7 @@ class SearchWindow:
         height, width = math.ceil((y1 - y0) / self.side), math.ceil((x1 - x0) / self.side)
         near = max(self.body.inner - HALF_DIAGONAL_CELLS * self.side, 0.0)
         cells: Bytes = rasterized(
-            self.world.packed, x0, y0, self.side, height, width, near, NO_CELLS
+            self.world.packed, x0, y0, self.side, height, width, near, NO_GROWN_MAPS
         )
         return cells
 
@@ -184,7 +187,7 @@ class SearchWindow:
         x0, y0, x1, y1 = self.area.box
         reach = self.body.reach
         size = max(x1 - x0, y1 - y0) + 2.0 * reach
-        side = max(size / TABLE, 0.12 * self.body.width)
+        side = max(size / MAX_TABLE_CELLS_ALONG, 0.12 * self.body.width)
         shape = (
             math.ceil((y1 - y0 + 2.0 * reach) / side),
             math.ceil((x1 - x0 + 2.0 * reach) / side),
@@ -196,7 +199,7 @@ class SearchWindow:
 
     @cached_property
     def cache_back(self) -> CollisionCache:
-        """The same for one that drives backwards; it shares the table of distances."""
+        """Where the body may be if it drives backwards; it shares the table of distances."""
         return self.cache._replace(discs=self.body.rows(self.rho, -1.0))
 
     def rooms(self, steps: Floats) -> Floats:
@@ -221,4 +224,4 @@ class SearchWindow:
         x0, y0 = self.area.box[:2]
         found = np.floor((places[:, ::-1] - (y0, x0)) / self.side).astype(np.int64)
         lengths = distance_field(self.cells, np.ascontiguousarray(found))
-        return Ahead(np.array([x0, y0, self.side, GREED]), lengths)
+        return Ahead(np.array([x0, y0, self.side, HEURISTIC_WEIGHT]), lengths)

@@ -1,8 +1,10 @@
-"""Why there is no path, and the least change that would allow one."""
+"""Why nothing leads from one via point to the next, and the least change that would allow it.
+
+Tested through ``test_planner`` and ``planning/routing/test_lattice``.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -10,111 +12,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.certificate import PROOF_SLACK_M
-from viaspline.errors import Change, NoPathError
+from viaspline.errors import Change, GaveUpError, NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.world.corner_fans import X, Y
+from viaspline.planning.problem.method import GaveUp
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
-from viaspline.planning.routing.router import NO_BARRIERS, Router, TautPath, on_the_line
+from viaspline.planning.routing.lattice_route import LatticeRoute
+from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
+from viaspline.planning.routing.router import Router
+from viaspline.planning.routing.taut_path import TautPath
+from viaspline.planning.routing.via_refusals import change_moving
 from viaspline.world.world import World
 
-BISECTIONS = 30
-TRIALS = 8  # places that are tried as a better goal
+MAX_BISECTIONS = 30  # of the distance that a way can keep
+WIDTH_RESOLUTION = 1e-4  # to which that is known, in required distances
+MAX_GOALS_TRIED = 8  # places that are tried as a better goal
+PLACES_ON_STRAIGHT = 201  # of each piece of a taut path, to find its tightest place
 
 
-def refuse_blocked_vias(sequence: ViaSequence, world: World, requirements: Requirements) -> None:
-    """Raise NoPathError for the first via point that has not the room that is required."""
-    at = np.array([via.at[:2] for via in sequence.vias])
-    distance, index = world.nearest(at)
-    for via, room, nearest in zip(sequence.vias, distance, index, strict=True):
-        if room < requirements.required - PROOF_SLACK_M:
-            raise _no_room(via, float(room), int(nearest), world, requirements)
-
-
-def _no_room(
-    via: RouteVia, room: float, index: int, world: World, requirements: Requirements
-) -> NoPathError:
-    name = world.name(index)
-    free = room - requirements.radius
-    place = _nearest_free(via.at, world, requirements.required)
-    moves = [] if place is None else [f"move it to ({place[0]:.3f}, {place[1]:.3f})"]
-    changes = _moved(via, place)
-    if 0 <= free < requirements.clearance:
-        most = float(np.floor(free * 1000) / 1000)
-        moves.append(f"set robot.clearance_m to at most {most:.3f}")
-        changes += (Change("robot.clearance_m", most),)
-    missing = requirements.required - room
-    what = "outside" if index < -1 and room < 0 else f"{missing:.3f} m inside the clearance of"
-    return NoPathError(
-        f"via point {via.name!r} lies {what} {name!r}",
-        where=via.at,
-        remedy=" or ".join(moves) or "move it",
-        via=via.name,
-        obstacles=(name,),
-        changes=changes,
+def explain_unfinished_leg(
+    sequence: ViaSequence, leg: int, world: World, requirements: Requirements, barriers: Floats,
+    gave_up: GaveUp,
+) -> GaveUpError:  # fmt: skip
+    """What would help where no way between two via points was found."""
+    start, goal = sequence.ends(leg)
+    told = explain_blocked_leg(sequence, leg, world, requirements, barriers)
+    helps = [told.remedy, *([gave_up.would_help] if gave_up.would_help else [])]
+    return GaveUpError(
+        f"no way from {start.name!r} to {goal.name!r} was found, and none is ruled out",
+        where=goal.at,
+        remedy=" or ".join(helps),
+        tried=gave_up.tried,
+        via=goal.name,
+        obstacles=told.obstacles,
+        changes=told.changes,
     )
-
-
-def _moved(via: RouteVia, place: Floats | None) -> tuple[Change, ...]:
-    """The change that moves a via point to a place [m], shape (2,), if there is one."""
-    if place is None or not via.key:
-        return ()
-    at = [round(x, 3) for x in place.tolist()]
-    return (Change(f"{via.key}.at", (*at, *via.at[2:].tolist())),)
-
-
-def _nearest_free(at: Floats, world: World, required: float) -> Floats | None:
-    """A place near ``at`` with the room that is required: rings of growing radius, then closer."""
-    angles = np.linspace(0, 2 * np.pi, 180, endpoint=False)
-    ring = np.column_stack((np.cos(angles), np.sin(angles)))
-    radius = max(required, 1e-3) * 0.05
-    for _ in range(60):
-        places = at[:2] + radius * ring
-        free = np.flatnonzero(world.distance(places) >= required)
-        if free.size:
-            return _pulled_back(at[:2], places[free[0]], world, required)
-        radius *= 1.25
-    return None
-
-
-def _pulled_back(at: Floats, place: Floats, world: World, required: float) -> Floats:
-    low, high = 0.0, 1.0
-    for _ in range(30):
-        middle = 0.5 * (low + high)
-        if world.distance(at + middle * (place - at)) >= required + 1e-3:
-            high = middle
-        else:
-            low = middle
-    found: Floats = at + high * (place - at)
-    return found
-
-
-class BlockedLegError(NoPathError):
-    """No way leads from one via point to the next; why is found out when it is asked for.
-
-    Finding the least change that would serve takes many more searches than finding that there is
-    no way, and who has another way to try doesn't ask.
-
-    Args:
-        via: The via point that can't be reached.
-        explain: Finds the reason.
-    """
-
-    def __init__(self, via: str, explain: Callable[[], NoPathError]) -> None:
-        Exception.__init__(self)
-        self.via = via
-        self._explain = explain
-
-    def __getattr__(self, name: str) -> Any:
-        if name not in ("reason", "where", "remedy", "obstacles", "changes"):
-            raise AttributeError(name)
-        told = self._explain()
-        self.reason, self.where, self.remedy = told.reason, told.where, told.remedy
-        self.obstacles, self.changes = told.obstacles, told.changes
-        return vars(self)[name]
-
-    def __str__(self) -> str:
-        return f"{self.reason}: {self.remedy}"
 
 
 def explain_blocked_leg(
@@ -127,7 +60,7 @@ def explain_blocked_leg(
     opened = _widest(start, goal, world, requirements.required)
     moved = reachable_near(start.at, goal.at, world, requirements.required)
     moves = [] if moved is None else [f"move {goal.name!r} to ({moved[0]:.3f}, {moved[1]:.3f})"]
-    changes = _moved(goal, moved)
+    changes = change_moving(goal, moved)
     if opened is None:
         walls = _walls(start, goal, world)
         moves.append(f"open a gap of {2 * requirements.required:.3f} m")
@@ -178,12 +111,13 @@ def reachable_near(start: Floats, goal: Floats, world: World, required: float) -
     """
     router = Router(world, required, np.array([start[:2], goal[:2]]))
     closed, place = NO_BARRIERS, goal
-    for _ in range(TRIALS):
-        closed = router.closed_between(start, place, closed)
+    for _ in range(MAX_GOALS_TRIED):
+        closed = LatticeRoute().followed(router, router.lattice, start, place, closed).closed
         candidate = _nearest_in_room(router, start, goal, closed)
         if candidate is None:
             return None
-        if router.find(start, candidate, NO_BARRIERS, np.zeros(len(world), np.bool_)) is not None:
+        nothing_met = np.zeros(len(world), np.bool_)
+        if router.find(start, candidate, NO_BARRIERS, nothing_met).value is not None:
             return candidate
         place = candidate
     return None
@@ -210,18 +144,24 @@ def _nearest_in_room(router: Router, start: Floats, goal: Floats, closed: Floats
 
 
 def explain_tight_leg(
-    sequence: ViaSequence, leg: int, world: World, requirements: Requirements
-) -> NoPathError:
-    """Why no spline along a leg is clear: one of its via points has no room for the curve."""
+    sequence: ViaSequence,
+    leg: int,
+    world: World,
+    requirements: Requirements,
+    tried: tuple[str, ...],
+) -> GaveUpError:
+    """Where no spline along a leg was found that is clear: at a via point with just enough room."""
     start, goal = sequence.ends(leg)
     room, index = world.nearest(np.array([start.at[:2], goal.at[:2]]))
     worse = int(np.argmin(room))
     via = (start, goal)[worse]
-    return NoPathError(
-        f"the curve can't pass {via.name!r} with the clearance of "
-        f"{world.name(int(index[worse]))!r}: it has {room[worse]:.4f} m, just what is required",
+    return GaveUpError(
+        f"no curve was found that passes {via.name!r} with the clearance of "
+        f"{world.name(int(index[worse]))!r}: it has {room[worse]:.4f} m, "
+        f"{requirements.required:.4f} m are required",
         where=via.at,
         remedy=f"move {via.name!r} a little away, or lower robot.clearance_m",
+        tried=tried,
         via=via.name,
         obstacles=(world.name(int(index[worse])),),
     )
@@ -252,7 +192,7 @@ def _way(
 ) -> TautPath | None:
     router = Router(world, required, np.array([start.at[:2], goal.at[:2]]))
     active = on_the_line(world, start.at, goal.at, required)
-    return router.find(start.at, goal.at, barriers, active)
+    return router.find(start.at, goal.at, barriers, active).value
 
 
 def _widest(
@@ -263,14 +203,14 @@ def _widest(
     best = _way(start, goal, world, low, NO_BARRIERS)
     if best is None:
         return None
-    for _ in range(BISECTIONS):
+    for _ in range(MAX_BISECTIONS):
         middle = 0.5 * (low + high)
         taut_path = _way(start, goal, world, middle, NO_BARRIERS)
         if taut_path is None:
             high = middle
         else:
             low, best = middle, taut_path
-        if high - low < 1e-4 * required:
+        if high - low < WIDTH_RESOLUTION * required:
             break
     return low, best
 
@@ -294,7 +234,7 @@ def _pair(names: tuple[str, ...]) -> str:
 
 def _narrowest(taut_path: TautPath, world: World) -> _Gap:
     """Where a way is tightest."""
-    w = np.linspace(0.0, 1.0, 201)[:, None]
+    w = np.linspace(0.0, 1.0, PLACES_ON_STRAIGHT)[:, None]
     corners = taut_path.corners[:, X : Y + 1]
     places = np.vstack([a + w * (b - a) for a, b in pairwise(corners)])
     inner = places[2:-2] if len(places) > 4 else places

@@ -1,0 +1,163 @@
+"""The spline through the via points, blocked legs led round what stands in their way.
+
+What every path begins with: whatever drives it, the disc in its body needs a way. A refusal here is
+everyone's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.errors import PlanningError
+from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.routing.narrow_gaps import narrow_places
+from viaspline.kernels.world.corner_fans import X, Y
+from viaspline.planning.alternatives.cleared_spline import ClearedSpline
+from viaspline.planning.alternatives.fit import tighten, untied
+from viaspline.planning.alternatives.groups import GroupsInTheWay, groups_met
+from viaspline.planning.alternatives.islands import IslandsInTheWay
+from viaspline.planning.alternatives.leg_search import LegSearch, Spline
+from viaspline.planning.alternatives.passed_leg import PassedLeg
+from viaspline.planning.checking.conflicts import CLEAR, too_close
+from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.via_sequence import ViaSequence, lay
+from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
+from viaspline.planning.routing.leg_refusals import (
+    explain_blocked_leg,
+    explain_tight_leg,
+    explain_unfinished_leg,
+)
+from viaspline.planning.routing.path_problem import PathProblem
+from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
+from viaspline.planning.routing.via_refusals import refuse_blocked_vias
+
+CURVE_SLACK_M = 1e-4  # room on either side that a curve may need beyond what is required
+MAX_GROUPS_WEIGHED = 4  # up to which the curves on either side are weighed at once
+
+
+@dataclass(frozen=True)
+class ClearSpline:
+    """Lays the spline, and leads every blocked leg round what stands in its way.
+
+    The other legs are left alone.
+
+    Attributes:
+        max_rounds: Every round lowers slack, of spans that loop or of legs that are too close.
+        max_closed_gaps: Gaps of a leg that are closed because no curve fits through them.
+    """
+
+    max_rounds: int = 60
+    max_closed_gaps: int = 200
+
+    def lay(self, problem: PathProblem) -> ClearedSpline:
+        """Lay it.
+
+        Raises:
+            NoPathError: When a via point has no room, or nothing leads from one to the next.
+            GaveUpError: When a budget ran out before that was known.
+        """
+        sequence, world, requirements = problem.sequence, problem.world, problem.requirements
+        refuse_blocked_vias(sequence, world, requirements)
+        passed: dict[int, PassedLeg] = {}
+        leg = 0
+        for _ in range(self.max_rounds):
+            spans = lay(sequence)
+            loose = untied(sequence, spans)
+            if loose is not sequence:
+                sequence = loose
+                continue
+            close = too_close(world, spans, requirements.required)
+            if (close == CLEAR).all():
+                joints, detours = sequence.first_spans(), _detours(sequence)
+                return ClearedSpline(SplinePath.through(sequence, spans, joints, detours), passed)
+            first = sequence.first_spans()
+            for leg in range(len(sequence.legs)):
+                hit = close[first[leg] : first[leg + 1]]
+                hit = hit[hit != CLEAR]
+                if not hit.size:
+                    continue
+                if leg in passed:  # a neighbour that was led round has turned its tangents
+                    tightened = tighten(sequence, leg, world, requirements.required)
+                    if tightened is not None:
+                        sequence = tightened.sequence
+                        continue
+                passed[leg] = self._led_round(problem, sequence, leg, hit[hit >= 0].tolist())
+                sequence = passed[leg].taken.fitted.sequence
+        rounds = f"{self.max_rounds} rounds of drawing the spline in"
+        raise explain_tight_leg(sequence, leg, world, requirements, (rounds,))
+
+    def _led_round(
+        self, problem: PathProblem, sequence: ViaSequence, index: int, hit: Sequence[int]
+    ) -> PassedLeg:
+        """Lead one leg round everything, by the shorter side of each group if they are few.
+
+        Args:
+            problem: What is to be laid.
+            sequence: What there is so far.
+            index: The leg that comes too close to something.
+            hit: Obstacles that its curve comes too close to.
+
+        Raises:
+            NoPathError: When there is no way, with the least change that would serve.
+            GaveUpError: When that isn't known.
+        """
+        world, requirements, router = problem.world, problem.requirements, problem.router
+        leg = LegSearch(sequence, index, world, requirements, router)
+        active = on_the_line(world, *leg.ends, requirements.required)
+        active[list(hit)] = True
+        is_dense = router.is_dense(active)
+        met = () if is_dense else groups_met(leg, problem.groups, active)
+        outcome, barriers = self._fitted(leg, active)
+        if not isinstance(outcome, Found):
+            raise _no_leg(leg, outcome, barriers)
+        if is_dense:
+            return PassedLeg(IslandsInTheWay(leg), outcome.value, is_weighed=False)
+        is_weighed = len(met) <= MAX_GROUPS_WEIGHED
+        return PassedLeg(GroupsInTheWay(leg, met, active), outcome.value, is_weighed)
+
+    def _fitted(self, leg: LegSearch, active: Flags) -> tuple[Outcome[Spline], Floats]:
+        """The curve along the shortest taut path on which one fits, and the forbidden sides.
+
+        A gap that is just as wide as what is required lets a polyline through, but no curve with
+        a certificate: it is closed then.
+        """
+        closed = NO_BARRIERS
+        while True:
+            outcome, barriers = leg.shortest_allowed(active, closed)
+            if not isinstance(outcome, Found):
+                return outcome, barriers
+            best = leg.curve(outcome.value)
+            if best is not None:
+                return Found(best, best.measured.length), barriers
+            places = np.ascontiguousarray(outcome.value.corners[:, X : Y + 1])
+            room = leg.requirements.required + CURVE_SLACK_M
+            tight = narrow_places(leg.world.packed, places, room)
+            if not len(tight):
+                return GaveUp(("a spline along a route that touches what it passes",)), barriers
+            if len(closed) > self.max_closed_gaps:
+                tried = f"routes through {len(closed)} gaps that no curve fits through"
+                return GaveUp((tried,)), barriers
+            closed = np.vstack((closed, tight))
+
+
+def _no_leg(leg: LegSearch, outcome: Refusal | GaveUp, barriers: Floats) -> PlanningError:
+    """The error of a leg for which nothing was found."""
+    via = leg.sequence.ends(leg.index)[1].name
+    asked = (leg.sequence, leg.index, leg.world, leg.requirements, barriers)
+    if isinstance(outcome, Refusal):
+        return BlockedLegError(via, lambda: explain_blocked_leg(*asked))
+    return UnfinishedLegError(via, lambda: explain_unfinished_leg(*asked, outcome), outcome.tried)
+
+
+def _detours(sequence: ViaSequence) -> list[int]:
+    """The spans that begin at the detour via points of a sequence."""
+    first = sequence.first_spans().tolist()
+    return [
+        u + sequence.pieces * j
+        for u, leg in zip(first, sequence.legs, strict=False)
+        for j in range(1, len(leg.slack))
+    ]

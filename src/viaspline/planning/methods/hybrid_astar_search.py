@@ -1,0 +1,58 @@
+"""A search among poses, leg by leg: the last resort in tight space."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
+from viaspline.planning.turning.hybrid_astar.pose_search import SEARCH_EFFORTS, Effort
+from viaspline.planning.turning.hybrid_astar.search_outcome import NotFound
+from viaspline.planning.turning.hybrid_astar.via_route import via_route_chains
+from viaspline.planning.turning.turn_path import RAMP
+
+
+@dataclass(frozen=True)
+class HybridAStar:
+    """Searches poses forwards and backwards between the via points.
+
+    Where it has seen everything at its finest resolution, it proves that there is no path with
+    turns of that radius. For a robot without a turning circle that is no proof: it may turn more
+    sharply yet.
+
+    Attributes:
+        efforts: How finely and how long it looks, one after the other.
+    """
+
+    efforts: Sequence[Effort] = SEARCH_EFFORTS
+
+    def lay(self, problem: TurnProblem, bound: float = math.inf) -> Outcome[SplinePath]:
+        """See ``Method``."""
+        path, rho = problem.path, problem.rho
+        chains = via_route_chains(
+            path.sequence, path.world, path.requirements, rho, RAMP * rho, path.spots, self.efforts
+        )
+        if isinstance(chains, NotFound):
+            return _nothing(path, rho, chains)
+        spans = np.concatenate([chain.spans for chain in chains])
+        if not path.is_clear(spans):  # the search knows the body by the discs that cover it
+            return GaveUp(("a search among poses, whose path the body itself doesn't clear",))
+        joints = np.cumsum([0, *(len(chain.spans) for chain in chains)])
+        spline_path = path.through(spans, joints, ())
+        return Found(spline_path, spline_path.length)
+
+
+def _nothing(path: DrivenProblem, rho: float, failed: NotFound) -> Refusal | GaveUp:
+    """A refusal where the search has seen everything."""
+    via = failed.goal + (0 if failed.reason.is_at_start else 1)
+    via %= len(path.sequence.vias)
+    has_circle = path.requirements.turn_radius is not None
+    if failed.reason.is_proof and (has_circle or not failed.reason.is_of_turns):
+        return Refusal(failed.reason.value, via)
+    poses = f"a search among {failed.expanded} poses with turns of at least {rho:.3g} m"
+    return GaveUp((poses,), "more room round the via points", via, failed.reason.value)

@@ -1,0 +1,49 @@
+"""Turns with the headings at all via points chosen together.
+
+Tested through ``planning/test_plan_path``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import partial
+
+from viaspline.planning.problem.method import Found, GaveUp
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.turning.driven_problem import TurnProblem
+from viaspline.planning.turning.headings import legs_of, posed
+from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
+
+
+@dataclass(frozen=True)
+class JointHeadings:
+    """Lays turns between the best row of headings: legs as they are, else pushed clear.
+
+    Attributes:
+        max_rows: Rows of headings that are tried with legs as they are.
+        max_pushed_rows: The same with legs that are pushed clear.
+        max_pushed_pairs: Pairs of headings of a leg for which it is pushed, until one of them can
+            be cleared.
+    """
+
+    max_rows: int = 300
+    max_pushed_rows: int = 40
+    max_pushed_pairs: int = 16
+
+    def lay(self, problem: TurnProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
+        """See ``Method``."""
+        path, rho = problem.path, problem.rho
+        legs, closed = legs_of(path.bends, path.spots), path.bends.closed
+        as_it_is, pushed = (
+            partial(lay, rho=rho, world=path.world, requirements=path.requirements)
+            for lay in (turn_path_if_clear, clear_turn_path)
+        )
+        poses = posed(legs, rho, closed, as_it_is, self.max_rows, self.max_rows, bound)
+        if poses is None:
+            rows, pairs = self.max_pushed_rows, self.max_pushed_pairs
+            poses = posed(legs, rho, closed, pushed, rows, pairs, bound)
+        if poses is None:
+            return GaveUp((f"{self.max_rows} rows of headings at the via points",))
+        spline_path = path.through_turns(poses.turn_paths)
+        return Found(spline_path, spline_path.length)

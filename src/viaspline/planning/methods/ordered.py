@@ -1,0 +1,31 @@
+"""The methods of laying a path, in the order in which they are asked.
+
+A new one is a file beside this one and a line here.
+"""
+
+from __future__ import annotations
+
+from viaspline.planning.methods.at_radii import AtRadii
+from viaspline.planning.methods.hybrid_astar_search import HybridAStar
+from viaspline.planning.methods.joint_headings import JointHeadings
+from viaspline.planning.methods.next_homotopy_classes import NextHomotopyClasses
+from viaspline.planning.methods.other_sides import OtherSides
+from viaspline.planning.methods.spline_as_is import SplineAsItIs
+from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
+from viaspline.planning.problem.method import Method
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.turning.driven_problem import DrivenProblem
+
+PathMethod = Method[DrivenProblem, SplinePath]
+
+PATH_METHODS: tuple[PathMethod, ...] = (
+    SplineAsItIs(),
+    OtherSides((
+        TurnsOnShortest(),
+        AtRadii((
+            NextHomotopyClasses(),
+            JointHeadings(),
+            HybridAStar(),
+        )),
+    )),
+)  # fmt: skip

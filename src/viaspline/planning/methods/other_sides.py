@@ -1,0 +1,54 @@
+"""Shorter paths on the other sides of what the legs meet.
+
+Tested through ``planning/test_plan_path`` and ``planning/turning/test_driven_alternatives``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, shortest_laid
+from viaspline.planning.problem.method import Found, Method, Outcome, first_settled
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.turning.driven_problem import DrivenProblem
+
+
+@dataclass(frozen=True)
+class OtherSides:
+    """What other methods find, or a shorter path on other sides of the groups in its way.
+
+    A side that is shorter for a point can be longer for a robot that has to swing out for it.
+
+    Attributes:
+        methods: The others, in the order in which they are asked.
+    """
+
+    methods: Sequence[Method[DrivenProblem, SplinePath]]
+
+    def lay(self, problem: DrivenProblem, bound: float = math.inf) -> Outcome[SplinePath]:
+        """See ``Method``."""
+        outcome = first_settled(self.methods, problem, bound)
+        if not isinstance(outcome, Found):
+            return outcome
+
+        def attempt(row: TautRow) -> Attempt[SplinePath]:
+            laid = problem.turns_along(row.taut_paths)
+            return Attempt(laid, () if laid is None else _other_rows(problem, row))
+
+        rows = _other_rows(problem, problem.shortest_row)
+        shortest = shortest_laid(rows, attempt, best=outcome.value)
+        assert shortest is not None  # there was one to begin with
+        return Found(shortest, shortest.length)
+
+
+def _other_rows(problem: DrivenProblem, row: TautRow) -> Iterator[TautRow]:
+    """The rows that pass a group on another side, of those legs that don't yet."""
+    for leg, passed in problem.cleared.passed.items():
+        is_shortest = row.taut_paths[leg] is problem.shortest_row.taut_paths[leg]
+        if not passed.is_weighed or not is_shortest:
+            continue
+        for curve in passed.comparison.curves:
+            if curve is not passed.best:
+                yield row.with_leg(leg, curve.taut_path)

@@ -1,0 +1,72 @@
+"""The exact shortest route among few obstacles: a search of their tangent graph."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.kernels.routing.tangent_graph import has_narrow_gap, shortest_route
+from viaspline.planning.problem.method import Found, GaveUp
+from viaspline.planning.routing.route_problem import (
+    TURN_MARGINS_M,
+    TURN_STEPS_RAD,
+    RouteProblem,
+)
+from viaspline.planning.routing.taut_path import TautPath
+
+
+@dataclass(frozen=True)
+class ExactRoute:
+    """The shortest route in the tangent graph of the obstacles that it meets.
+
+    The search is among those alone, so it is quick where they are few and slow where they are
+    many. Round corners are circumscribed, a millimetre too far out: where it finds nothing, that
+    is no proof that there is nothing.
+
+    Attributes:
+        more_than: Obstacles met up to which it is left to the others.
+        max_met: Obstacles met beyond which it gives up.
+        least_gain: Part of the bound by which a route has to be shorter.
+    """
+
+    more_than: int = -1
+    max_met: int = 16
+    least_gain: float = 0.0
+
+    def lay(self, problem: RouteProblem, bound: float = math.inf) -> Found[TautPath] | GaveUp:
+        """See ``Method``."""
+        if problem.space.has_maps:
+            return GaveUp(("corners, which a map has too many of",))
+        if not self.more_than < problem.active_count <= self.max_met:
+            return self._gave_up(problem)
+        start, goal = (np.ascontiguousarray(end[:2]) for end in (problem.start, problem.goal))
+        space = problem.space
+        corners = shortest_route(
+            space.world.packed, start, goal, space.required + TURN_MARGINS_M[0], space.floor,
+            TURN_STEPS_RAD[0], problem.barriers, problem.active, self.max_met,
+        )  # fmt: skip
+        if not len(corners):
+            return self._gave_up(problem)
+        taut_path = TautPath.through(corners)
+        if not taut_path.length <= (1.0 - self.least_gain) * bound:
+            return GaveUp((f"a route of {taut_path.length:.3f} m, which is not shorter",))
+        return Found(taut_path, taut_path.length, _is_surely_shortest(problem))
+
+    def _gave_up(self, problem: RouteProblem) -> GaveUp:
+        met = problem.active_count
+        limit = f", of at most {self.max_met}" if met > self.max_met else ""
+        return GaveUp((f"the tangents of {met} obstacles{limit}",))
+
+
+def _is_surely_shortest(problem: RouteProblem) -> bool:
+    """Whether circumscribed corners close no gap that the arcs themselves leave open."""
+    space, active = problem.space, problem.active
+    if space.world.enclosures and active.any():
+        return False
+    met = (space.world.obstacles[i].ring for i in np.flatnonzero(active))
+    radius = max((ring.radius for ring in met if ring is not None), default=0.0)
+    excess = (radius + space.required) * (1.0 / np.cos(0.25 * TURN_STEPS_RAD[0]) - 1.0)
+    low, high = 2.0 * space.floor, 2.0 * (space.required + TURN_MARGINS_M[0] + excess)
+    return not has_narrow_gap(space.world.packed, active, low, high)

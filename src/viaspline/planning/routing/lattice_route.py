@@ -1,0 +1,147 @@
+"""Routes on maps and among many obstacles: guides through a lattice, pulled taut."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.routing.narrow_gaps import narrow_places, narrowest
+from viaspline.kernels.routing.string_pulling.pull import pulled_taut
+from viaspline.kernels.routing.tangent_arcs import taut_length
+from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
+from viaspline.planning.routing.lattice import Lattice
+from viaspline.planning.routing.route_problem import (
+    TURN_MARGINS_M,
+    TURN_STEPS_RAD,
+    RouteProblem,
+    SearchSpace,
+)
+from viaspline.planning.routing.taut_path import TautPath
+
+PLACES_ACROSS_GAP = 65  # at which it is looked at whether a gap has the room
+
+
+@dataclass(frozen=True)
+class Followed:
+    """What came of following the guides of one lattice.
+
+    Attributes:
+        taut_path: The route, if there is one.
+        closed: Segments that no route crosses, (n, 4).
+        is_proof: Whether nothing else was closed in the lattice. Closing a segment blocks whole
+            cells, so a finer lattice may still show a route beside it.
+    """
+
+    taut_path: TautPath | None
+    closed: Floats
+    is_proof: bool
+
+
+@dataclass(frozen=True)
+class LatticeRoute:
+    """The shortest path through the free cells of a lattice (Polyanya), pulled taut.
+
+    Where it gets stuck in a gap, that is closed and the next shortest path is pulled; where
+    nothing is left, a finer lattice is tried. The last one proves that there is no route, to
+    within its cells: if every place with room lies in a free cell, and all that was closed is
+    known to be too narrow.
+
+    Attributes:
+        max_gaps: Gaps of a lattice that may prove too narrow before a finer one is tried.
+    """
+
+    max_gaps: int = 200
+
+    def lay(self, problem: RouteProblem, bound: float = math.inf) -> Outcome[TautPath]:
+        """See ``Method``."""
+        closed, count = problem.barriers, 0
+        for lattice in problem.space.ever_finer():
+            count += 1
+            found = self.followed(problem.space, lattice, problem.start, problem.goal, closed)
+            if found.taut_path is not None:
+                return _if_shorter(found.taut_path, problem, bound)
+            is_shut = lattice.is_open and found.is_proof
+            if is_shut and len(found.closed) == len(problem.barriers):
+                return Refusal("no free cells of a lattice lead there")
+            closed = found.closed
+        if is_shut:
+            return Refusal("every gap on the way there is too narrow")
+        return self._gave_up(lattice, count, is_open=lattice.is_open)
+
+    def followed(
+        self, space: SearchSpace, lattice: Lattice, start: Floats, goal: Floats, closed: Floats
+    ) -> Followed:
+        """Follow the guides of a lattice, each but the last through a gap that is closed then.
+
+        Args:
+            space: That the lattice is of.
+            lattice: Of free cells.
+            start: [m], at least (2,).
+            goal: [m], at least (2,).
+            closed: Segments that no route crosses, (n, 4).
+        """
+        is_proof = True
+        if len(closed):
+            lattice = lattice.without(closed)
+        for _ in range(self.max_gaps):
+            guide = lattice.guide(start, goal)
+            if guide is None:
+                return Followed(None, closed, is_proof)
+            bends, corners, stuck = pulled_taut(
+                space.world.packed, guide, space.required + np.array(TURN_MARGINS_M), space.floor,
+                lattice.side, np.array(TURN_STEPS_RAD),
+            )  # fmt: skip
+            if len(bends):
+                taut_path = TautPath(corners, bends, float(taut_length(corners, bends)))
+                return Followed(taut_path, closed, is_proof)
+            gap = _gap_at(space, guide, stuck, lattice.side)
+            lattice = lattice.without(gap)
+            proven = narrow_places(space.world.packed, guide, space.floor)
+            if _is_too_narrow(space, gap):
+                proven = np.vstack((proven, gap))
+            else:
+                is_proof = False
+            if len(proven):
+                closed = np.vstack((closed, proven))
+                lattice = lattice.without(proven)
+        return Followed(None, closed, is_proof=False)
+
+    def _gave_up(self, finest: Lattice, count: int, *, is_open: bool) -> GaveUp:
+        cells = f"cells of {finest.side:.3g} m, the finest of {count} lattices"
+        if not is_open:
+            return GaveUp(
+                (f"{cells}, which are too wide for so small a robot",),
+                "a smaller world.bounds, or more robot.clearance_m",
+            )
+        return GaveUp(
+            (f"{cells}, where up to {self.max_gaps} gaps were closed that may be wide enough",),
+            "a smaller world.bounds",
+        )
+
+
+def _if_shorter(taut_path: TautPath, problem: RouteProblem, bound: float) -> Outcome[TautPath]:
+    """A route with what it goes round marked as met; nothing where it isn't shorter."""
+    if not taut_path.length < bound:
+        return GaveUp((f"a route of {taut_path.length:.3f} m, which is not shorter",))
+    problem.mark(taut_path)
+    return Found(taut_path, taut_path.length, is_settled=False)
+
+
+def _is_too_narrow(space: SearchSpace, gap: Floats) -> bool:
+    """Whether nothing on a segment across a gap, shape (1, 4), has the room."""
+    w = np.linspace(0.0, 1.0, PLACES_ACROSS_GAP)[:, None]
+    return bool(
+        space.world.distance(gap[:, :2] + w * (gap[:, 2:] - gap[:, :2])).max() < space.floor
+    )
+
+
+def _gap_at(space: SearchSpace, guide: Floats, stuck: Floats, side: float) -> Floats:
+    """The segment across the gap at which a guide through cells got stuck, (1, 4)."""
+    if stuck[0, 4] < 0.0:
+        return np.ascontiguousarray(stuck[:, :4])
+    near = max(space.floor, 0.5 * side)  # what is required may be nothing at all
+    found: Floats = narrowest(space.world.packed, guide, stuck[0, 4], near)
+    return found

@@ -1,0 +1,102 @@
+"""The problem of routing one leg: from place to place, in the free space of a robot.
+
+Tested through ``planning/routing/test_router``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain, islice, pairwise
+
+import numpy as np
+
+from viaspline.curve.certificate import PROOF_SLACK_M
+from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.world.corner_fans import X, Y
+from viaspline.kernels.world.segment import mark_near_segment
+from viaspline.planning.routing.lattice import Lattice, lattices
+from viaspline.planning.routing.taut_path import TautPath
+from viaspline.world.world import World
+
+# How far off an obstacle a route turns beyond what is required, for gaps that are ever less wider
+# than the robot. Below nothing at last: a via point may stand at just what is required, and a route
+# turns only round what it is outside of.
+TURN_MARGINS_M = (1e-3, 1e-4, -0.25 * PROOF_SLACK_M)
+TURN_STEPS_RAD = (np.pi / 6, np.pi / 32, np.pi / 200)  # largest turn at one corner
+NO_BARRIERS = np.empty((0, 4))
+
+
+@dataclass(frozen=True)
+class SearchSpace:
+    """Where the middle of a robot may be.
+
+    Attributes:
+        world: What to keep clear of.
+        required: Distance to keep [m].
+        places: Where routes may begin and end [m], (n, 2).
+    """
+
+    world: World
+    required: float
+    places: Floats
+
+    @property
+    def floor(self) -> float:
+        """What a route keeps, a little less than what is asked for, as the certificate does [m]."""
+        return self.required - 0.5 * PROOF_SLACK_M
+
+    @cached_property
+    def has_maps(self) -> bool:
+        """Whether there are occupancy grids in the world."""
+        return bool(self.world.are_maps.any())
+
+    @cached_property
+    def lattice(self) -> Lattice:
+        """The coarsest lattice."""
+        return next(lattices(self.world, self.required, self.places))
+
+    def ever_finer(self) -> Iterator[Lattice]:
+        """The lattices of this space, the coarsest first."""
+        finer = islice(lattices(self.world, self.required, self.places), 1, None)
+        return chain((self.lattice,), finer)
+
+
+@dataclass(frozen=True)
+class RouteProblem:
+    """A taut path that is asked for.
+
+    Attributes:
+        space: Where it may go.
+        start: [m], at least (2,).
+        goal: [m], at least (2,).
+        barriers: Segments that it must not cross, (b, 4).
+        active: (n,): obstacles that are known to be met; methods add those that they meet, in
+            place.
+    """
+
+    space: SearchSpace
+    start: Floats
+    goal: Floats
+    barriers: Floats
+    active: Flags
+
+    @property
+    def active_count(self) -> int:
+        """How many obstacles are known to be met."""
+        return int(np.count_nonzero(self.active))
+
+    def mark(self, taut_path: TautPath) -> None:
+        """Add what a taut path goes round to the active obstacles."""
+        width = self.space.required + 2 * TURN_MARGINS_M[0]
+        packed = self.space.world.packed
+        for (ax, ay), (bx, by) in pairwise(taut_path.corners[:, X : Y + 1].tolist()):
+            mark_near_segment(packed, ax, ay, bx, by, width, self.active)
+
+
+def on_the_line(world: World, start: Floats, goal: Floats, width: float) -> Flags:
+    """Which obstacles are nearer than ``width`` to the straight line, (n,)."""
+    found = np.zeros(len(world), np.bool_)
+    mark_near_segment(world.packed, start[0], start[1], goal[0], goal[1], width, found)
+    return found

@@ -1,0 +1,70 @@
+"""A path pulled taut round what stands between two places: the shortest of its kind.
+
+Tested through ``planning/routing/test_router``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.routing.tangent_arcs import bends_of, detour_points, taut_length
+from viaspline.kernels.routing.tangent_graph import barrier_crossings
+from viaspline.kernels.world.corner_fans import X, Y
+
+
+@dataclass(frozen=True)
+class TautPath:
+    """A taut path between two places.
+
+    Attributes:
+        corners: Corner rows, see ``kernels.world.corner_fans``, shape (k, 8), start and goal
+            among them.
+        bends: Pulled taut, see ``kernels.routing.tangent_arcs``, shape (m, 6); empty where the arcs
+            have no common tangents.
+        length: [m].
+    """
+
+    corners: Floats
+    bends: Floats
+    length: float
+
+    @property
+    def is_direct(self) -> bool:
+        """Whether nothing stands between the two places."""
+        return len(self.corners) == 2
+
+    @property
+    def turns(self) -> Floats:
+        """The corners between start and goal [m], shape (n, 2): their polyline is clear."""
+        return np.ascontiguousarray(self.corners[1:-1, X : Y + 1])
+
+    def points(self, step: float, excess: float, stretch: float, ease: float) -> Floats:
+        """Detour via points along it [m], shape (n, 2); see ``tangent_arcs.detour_points``."""
+        if len(self.bends) == 0:
+            return self.turns
+        points: Floats = detour_points(self.bends, step, excess, stretch, ease)
+        return points
+
+    @classmethod
+    def through(cls, corners: Floats) -> TautPath:
+        """The taut path along given corners."""
+        bends = bends_of(corners)
+        return cls(corners, bends, float(taut_length(corners, bends)))
+
+    def crosses(self, barrier: Floats) -> bool:
+        """Whether it crosses a barrier, shape (1, 4), an odd number of times."""
+        return barrier_crossings(self.corners, barrier)[0] % 2 == 1
+
+    def window(self, barrier: Floats, reach: int) -> tuple[int, int]:
+        """The corners ``reach`` before and after the place where it crosses a barrier first."""
+        crossing = barrier_crossings(self.corners, barrier)[1]
+        return max(0, crossing - reach), min(len(self.corners) - 1, crossing + 1 + reach)
+
+    def spliced(self, first: int, last: int, part: TautPath) -> TautPath:
+        """This path with ``part`` between two of its corners."""
+        inner = part.corners[1:-1]
+        rows = (self.corners[: first + 1], inner, self.corners[last:])
+        return TautPath.through(np.concatenate(rows))

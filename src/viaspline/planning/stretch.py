@@ -1,0 +1,147 @@
+"""What a re-plan lays anew: a stretch of the path that is driven, and its via points.
+
+Tested through ``planning/test_replan``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.path import GUIDE, Path, PathVia
+from viaspline.errors import NoPathError
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import (
+    Leg,
+    RouteVia,
+    ViaSequence,
+    direction,
+    span_slack,
+)
+from viaspline.world.world import World
+
+PASSED_M = 1e-6  # via points nearer along the path than this have been passed
+MAX_RUN_OUT = 0.4  # part of the way to the next via point that a run-out may take
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """What is laid anew: from ``u`` on the old path to a via point of it, or to the goal.
+
+    Attributes:
+        u: Where the old path is left.
+        ahead: The user via points that are still to be served in the stretch.
+        tail: Where the old path is taken up again, None if it is not.
+    """
+
+    u: float
+    ahead: tuple[PathVia, ...]
+    tail: PathVia | None
+
+
+def stretch_round(
+    joints: Sequence[PathVia], users: Sequence[PathVia], u: float, blocked: NDArray[np.intp]
+) -> Stretch:
+    """What is laid anew, from the last of the joints before the blocked spans to the first after.
+
+    Args:
+        joints: Via points at which the old path may be left and taken up again.
+        users: Those that have to be served.
+        u: From where on it may be left.
+        blocked: Indices of spans.
+    """
+    leave = max([u, *(via.u for via in joints if via.u <= blocked[0])])
+    tail = next(via for via in joints if via.u >= blocked[-1] + 1)
+    within = tuple(via for via in users if leave + PASSED_M < via.u < tail.u)
+    if tail.u >= users[-1].u:
+        return Stretch(leave, (*within, users[-1]), None)
+    return Stretch(leave, within, tail)
+
+
+def room_to_run_out(path: Path, stretch: Stretch) -> tuple[float, float]:
+    """What a run-out may take on the first and on the last leg of a stretch [m]."""
+    targets = [*stretch.ahead, *([stretch.tail] if stretch.tail else [])]
+    at = np.asarray(path.distance(np.array([stretch.u, *(via.u for via in targets)])))
+    rooms = MAX_RUN_OUT * np.diff(at)
+    return float(rooms[0]), float(rooms[-1])
+
+
+def refuse_the_end(path: Path, stretch: Stretch) -> None:
+    """Raise NoPathError for a stretch that leads nowhere."""
+    if not stretch.ahead and stretch.tail is None:
+        where = np.asarray(path.evaluate(stretch.u))
+        raise NoPathError("nothing is left to go to", where=where, remedy="the route ends here")
+
+
+def vias_to_serve(path: Path, world: World, requirements: Requirements) -> list[PathVia]:
+    """The user's via points, and a corridor's guides where there is room: no way leaves them out.
+
+    Without them the way to the next via point might go round the other way.
+    """
+    places = [via.at[:2] for via in path.vias]
+    free = world.distance(places) > requirements.required + PASSED_M
+    return [
+        via
+        for via, is_free in zip(path.vias, free.tolist(), strict=True)
+        if via.kind == "user" or (via.name == GUIDE and is_free)
+    ]
+
+
+def vias_remaining(
+    path: Path, at: float, world: World, requirements: Requirements, skip: Collection[int]
+) -> tuple[PathVia, ...]:
+    """The via points that are still to be served after a distance, but those in ``skip``.
+
+    Raises:
+        NoPathError: When the user's are all behind.
+    """
+    serve = vias_to_serve(path, world, requirements)
+    u = float(path.parameter(min(at + PASSED_M, path.length)))
+    remaining = tuple(via for via in serve if via.u > u and via.index not in skip)
+    if not any(via.kind == "user" for via in remaining):
+        raise NoPathError(
+            "no via point is left to go to",
+            where=np.asarray(path.at_distance(min(at, path.length))),
+            remedy="the route ends here",
+        )
+    return remaining
+
+
+def sequence_through(
+    path: Path,
+    start: RouteVia,
+    stretch: Stretch,
+    requirements: Requirements,
+    meet: RouteVia | None = None,
+) -> ViaSequence:
+    """A via sequence without detours through those of a stretch, to ``meet`` if it is given."""
+    targets = [RouteVia(v.name, np.array(v.at), v.index, v.dwell) for v in stretch.ahead]
+    legs = [via.index or 1 for via in stretch.ahead]
+    if meet is not None and stretch.tail is not None:
+        tail = stretch.tail.u
+        targets.append(meet)
+        legs.append(next(v.index or 1 for v in path.vias if v.index is not None and v.u >= tail))
+    slack = _slack_by_leg(path, requirements)
+    return ViaSequence(
+        vias=(start, *targets),
+        legs=tuple(Leg.straight(slack[leg - 1], len(start.at)) for leg in legs),
+        spline=requirements.spline,
+        tangents=requirements.tangents,
+        end_tangent=direction(requirements.goal_heading_deg, len(start.at))
+        if meet is None
+        else None,
+    )
+
+
+def _slack_by_leg(path: Path, requirements: Requirements) -> tuple[float, ...]:
+    count = max(via.index for via in path.vias if via.index is not None)
+    given = (
+        requirements.spline.slack
+        if requirements.spline.slack is not None
+        else requirements.spline.tension
+    )
+    lap = len(given) if isinstance(given, tuple) else count  # laps share what each span has
+    return span_slack(requirements.spline, lap) * (count // lap)

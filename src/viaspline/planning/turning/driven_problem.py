@@ -1,0 +1,173 @@
+"""The problem of a robot with a turning circle or a long body, and what its turns go along.
+
+Tested through ``planning/methods/test_ordered``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from viaspline.curve.bending import curvature_bound
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.planning.alternatives.cleared_spline import ClearedSpline
+from viaspline.planning.alternatives.homotopy_classes import TautRow
+from viaspline.planning.alternatives.leg_search import LegSearch
+from viaspline.planning.checking.conflicts import is_clear
+from viaspline.planning.problem.heights import with_heights
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.routing.path_problem import PathProblem
+from viaspline.planning.routing.route_problem import on_the_line
+from viaspline.planning.routing.taut_path import TautPath
+from viaspline.planning.turning.bend_row import DETOUR, Bends, bends_along
+from viaspline.planning.turning.repair import clear_turn_path
+from viaspline.planning.turning.turn_path import OVERSHOOT, TurnPath
+
+# Radii of turns for a long body without a turning circle, wide ones first, in required distances.
+FREE_TURN_RADII = (6.0, 3.0, 1.5)
+LEAST_FREE_TURN_RADIUS = 0.5
+LEAST_REQUIRED_M = 1e-3  # that these are of
+
+
+@dataclass(frozen=True)
+class DrivenProblem(PathProblem):
+    """A path that is asked for, and the spline that there is for the disc in the body.
+
+    Attributes:
+        cleared: The spline.
+    """
+
+    cleared: ClearedSpline
+
+    @property
+    def turn_radius(self) -> float:
+        """The radius of the turning circle, or of what stands for one [m]."""
+        if self.requirements.turn_radius is not None:
+            return self.requirements.turn_radius
+        return LEAST_FREE_TURN_RADIUS * max(self.requirements.required, LEAST_REQUIRED_M)
+
+    @property
+    def least_radii(self) -> tuple[float, ...]:
+        """The least radii with which turns are laid [m]; wide ones first if none is given."""
+        least = OVERSHOOT * self.turn_radius
+        if self.requirements.turn_radius is not None:
+            return (least,)
+        return (*(part * self.requirements.required for part in FREE_TURN_RADII), least)
+
+    @property
+    def searched_radii(self) -> tuple[float, ...]:
+        """Those of them that are worth a longer search [m]."""
+        radii = self.least_radii
+        return radii[-1:] if len(radii) == 1 else (radii[1], radii[-1])
+
+    @cached_property
+    def legs(self) -> tuple[LegSearch, ...]:
+        """The legs of the sequence."""
+        return tuple(
+            LegSearch(self.sequence, k, self.world, self.requirements, self.router)
+            for k in range(len(self.sequence.legs))
+        )
+
+    @cached_property
+    def shortest_row(self) -> TautRow:
+        """The shortest taut path of every leg."""
+        return TautRow.of(_shortest(leg) for leg in self.legs)
+
+    @cached_property
+    def bends(self) -> Bends:
+        """What the shortest taut paths go round."""
+        return bends_along(self.sequence, self.shortest_row.taut_paths)
+
+    @property
+    def spots(self) -> set[int]:
+        """The via points at which the robot may turn on the spot."""
+        where = self.requirements.turns_on_spot
+        return {
+            k
+            for k, via in enumerate(self.sequence.vias)
+            if where == "vias" or (where == "stations" and via.dwell > 0.0)
+        }
+
+    def is_clear(self, spans: Floats) -> bool:
+        """Whether the body keeps clear on planar spans."""
+        return is_clear(self.world, spans, self.requirements)
+
+    def is_drivable(self, spans: Floats) -> bool:
+        """Whether the body keeps clear, and no turn is sharper than the turning circle."""
+        limit = self.requirements.turn_radius
+        if limit is not None:
+            flat = np.ascontiguousarray(spans[:, :, :2])
+            is_round = self.sequence.closed and np.array_equal(flat[0, 0], flat[-1, 3])
+            ground = PiecewiseCubic(flat, closed=is_round)  # with the seam: no turn there either
+            if not curvature_bound(ground)[0] * limit <= 1.0:
+                return False
+        return self.is_clear(spans)
+
+    def turns_along(self, taut_paths: Sequence[TautPath]) -> SplinePath | None:
+        """Lines and turns along a row of taut paths, with the widest turns that keep clear."""
+        bends = bends_along(self.sequence, taut_paths)
+        for rho in self.least_radii:
+            turn_path = clear_turn_path(bends, rho, self.world, self.requirements)
+            if turn_path is not None:
+                return self.through_turns([turn_path])
+        return None
+
+    def through_turns(self, turn_paths: Sequence[TurnPath]) -> SplinePath:
+        """The curve of turn paths that follow each other, with heights if the vias have them."""
+        joints, detours, first = [], [], 0
+        for turn_path in turn_paths:
+            vias = turn_path.bends.vias
+            if len(turn_paths) > 1:
+                joints.append(first)
+                detours += (first + turn_path.begins[1:-1]).tolist()
+            else:
+                begins = turn_path.begins[: len(vias)]
+                joints = begins[vias != DETOUR].tolist()
+                detours = begins[vias == DETOUR].tolist()
+            first += len(turn_path.spans)
+        if len(joints) < len(self.sequence.vias) + self.sequence.closed:
+            joints.append(first)
+        spans = np.concatenate([turn_path.spans for turn_path in turn_paths])
+        return self.through(spans, np.array(joints), detours)
+
+    def through(self, spans: Floats, joints: Ints, detours: Sequence[int]) -> SplinePath:
+        """Planar spans with the heights of the via points, and exactly through their places.
+
+        Args:
+            spans: [m], (m, 4, 2).
+            joints: The span that begins at each via point, as in ``SplinePath``.
+            detours: Spans that begin at a detour via point.
+        """
+        sequence = self.sequence
+        ends = [*sequence.vias, sequence.vias[0]] if sequence.closed else sequence.vias
+        spans = with_heights(spans, joints, np.array([via.at[2:] for via in ends]))
+        for u, via in zip(joints, ends, strict=True):
+            if u < len(spans):
+                spans[u, 0] = via.at
+            if u > 0:
+                spans[u - 1, 3] = via.at
+        return SplinePath.through(sequence, spans, joints, detours)
+
+
+@dataclass(frozen=True)
+class TurnProblem:
+    """A path that is asked for, with turns that are nowhere sharper than a radius.
+
+    Attributes:
+        path: What is to be driven.
+        rho: The least radius [m].
+    """
+
+    path: DrivenProblem
+    rho: float
+
+
+def _shortest(leg: LegSearch) -> TautPath:
+    active = on_the_line(leg.world, *leg.ends, leg.requirements.required)
+    taut_path = leg.shortest_allowed(active)[0].value
+    assert taut_path is not None  # the spline was led along one
+    return taut_path

@@ -1,0 +1,93 @@
+"""The spline that every path begins with: laid, refused, or given up."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+import viaspline as vs
+from viaspline.planning.methods.clear_spline import ClearSpline
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import via_sequence_of
+from viaspline.planning.routing.exact_route import ExactRoute
+from viaspline.planning.routing.lattice_route import LatticeRoute
+from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
+from viaspline.planning.routing.path_problem import PathProblem
+from viaspline.planning.routing.router import Router
+
+DISC = {"circle": {"center": [50, 1], "radius": 8}}
+
+
+def wall(*slots: tuple[float, float]) -> list[dict[str, Any]]:
+    """Across everything at x = 49 to 51, with slots of (middle, width)."""
+    edges = [0.0, *(edge for y, width in slots for edge in (y - width / 2, y + width / 2)), 100.0]
+    return [
+        {"polygon": [[49, low], [51, low], [51, high], [49, high]]}
+        for low, high in zip(edges[::2], edges[1::2], strict=True)
+    ]
+
+
+def problem(known: Any, start: Any = (5, 50), goal: Any = (95, 50), **budget: Any) -> PathProblem:
+    mission = vs.Mission.model_validate({
+        "world": {"known": known, "bounds": [0, 0, 100, 100]},
+        "robot": {"radius_m": 1.0, "clearance_m": 0},
+        "route": {"start": start, "goal": goal},
+    })  # fmt: skip
+    return PathProblem.of(
+        via_sequence_of(mission), vs.World.known(mission), Requirements.of(mission)
+    )
+
+
+def with_budget(asked: PathProblem, gaps: int) -> PathProblem:
+    """The problem for a router that gives up after so many gaps of a lattice."""
+    router = Router(
+        asked.world, asked.requirements.required, asked.router.places, (LatticeRoute(gaps),)
+    )
+    return PathProblem(asked.sequence, asked.world, asked.requirements, router)
+
+
+def test_a_blocked_leg_is_led_round_and_the_account_names_it() -> None:
+    asked = problem([{"circle": {"center": [50, 51], "radius": 8}}])
+    cleared = ClearSpline().lay(asked)
+    line = shapely.LineString(vs.PiecewiseCubic(cleared.spline_path.spans).sample(0.05)[2])
+    assert line.distance(shapely.Point(50, 51)) >= 9 - 1e-6
+    assert list(cleared.passed) == [0]
+
+
+def test_a_leg_that_is_shut_off_is_refused() -> None:
+    with pytest.raises(BlockedLegError) as caught:
+        ClearSpline().lay(problem(wall()))
+    assert caught.value.via == "goal"
+    assert isinstance(caught.value, vs.NoPathError)
+
+
+def test_a_search_that_ran_out_says_so_and_what_was_tried() -> None:
+    slots = [(4.0 + 9 * k, 1.9) for k in range(11)]
+    with pytest.raises(BlockedLegError, match="no way from 'start' to 'goal' is wide enough"):
+        ClearSpline().lay(problem(wall(*slots)))
+    with pytest.raises(UnfinishedLegError, match="none is ruled out") as caught:
+        ClearSpline().lay(with_budget(problem(wall(*slots)), gaps=1))
+    error = caught.value
+    assert isinstance(error, vs.GaveUpError)
+    assert not isinstance(error, vs.NoPathError)
+    assert "gaps" in error.tried[0]
+    assert "robot.clearance_m" in error.remedy or "radius" in error.remedy
+    assert np.isfinite(error.where).all()
+
+
+def test_an_exact_search_that_ran_out_proves_nothing_by_itself() -> None:
+    asked = problem([DISC | {"circle": {"center": [50, 50], "radius": 8}}])
+    space = asked.router
+    router = Router(space.world, space.required, space.places, (ExactRoute(max_met=0),))
+    with pytest.raises(UnfinishedLegError):
+        ClearSpline().lay(PathProblem(asked.sequence, asked.world, asked.requirements, router))
+
+
+def test_rounds_that_run_out_are_given_up_with_the_via_point_that_has_least_room() -> None:
+    known = [{"circle": {"center": [50, 51], "radius": 8}}]
+    with pytest.raises(vs.GaveUpError, match="no curve was found that passes") as caught:
+        ClearSpline(max_rounds=1).lay(problem(known))
+    assert caught.value.tried == ("1 rounds of drawing the spline in",)

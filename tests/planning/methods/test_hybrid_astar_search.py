@@ -1,0 +1,88 @@
+"""A search among poses as a method: what it finds, what it proves, and when it gives up."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+import viaspline as vs
+from viaspline.curve.bending import curvature_bound
+from viaspline.planning.methods.clear_spline import ClearSpline
+from viaspline.planning.methods.hybrid_astar_search import HybridAStar
+from viaspline.planning.problem.method import Found, GaveUp, Refusal
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import via_sequence_of
+from viaspline.planning.routing.path_problem import PathProblem
+from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
+from viaspline.planning.turning.hybrid_astar.pose_search import SEARCH_EFFORTS
+from viaspline.planning.turning.turn_path import OVERSHOOT
+
+PEN = [[[-2, -2], [8, -2], [8, -1.6], [-2, -1.6]], [[-2, 1.6], [8, 1.6], [8, 2], [-2, 2]],
+       [[8, -2], [8.4, -2], [8.4, 2], [8, 2]]]  # fmt: skip
+SLIGHT = (replace(SEARCH_EFFORTS[0], room=40),)
+
+
+def problem(known: Any, start: Any, goal: Any, **robot: Any) -> TurnProblem:
+    robot = {"clearance_m": 0.5, "min_turn_radius_m": 3.0} | robot
+    if "footprint" not in robot:
+        robot["radius_m"] = 0.5
+    mission = vs.Mission.model_validate({
+        "world": {"known": known, "bounds": [-40, -40, 40, 40]},
+        "robot": robot,
+        "route": {"start": start, "goal": goal},
+    })  # fmt: skip
+    sequence = replace(via_sequence_of(mission), tangents="continuous")
+    asked = PathProblem.of(sequence, vs.World.known(mission), Requirements.of(mission))
+    path = DrivenProblem(
+        sequence, asked.world, asked.requirements, asked.router, ClearSpline().lay(asked)
+    )
+    return TurnProblem(path, path.least_radii[-1])
+
+
+def pen(**robot: Any) -> TurnProblem:
+    """A start that faces the closed end of a pen."""
+    known = [{"polygon": ring} for ring in PEN]
+    return problem(known, {"at": [4, 0], "heading_deg": 0}, [-30, 0], **robot)
+
+
+def test_a_loop_round_the_turning_circle_is_found() -> None:
+    asked = problem([], {"at": [0, 0], "heading_deg": 0}, [-3, 1])
+    found = HybridAStar().lay(asked)
+    assert isinstance(found, Found)
+    assert asked.rho == OVERSHOOT * 3.0
+    assert curvature_bound(vs.PiecewiseCubic(found.value.spans))[0] * 3.0 <= 1.0
+    np.testing.assert_allclose(found.value.spans[-1, 3], (-3, 1), atol=1e-12)
+
+
+def test_a_start_that_is_shut_in_is_proven_so() -> None:
+    told = HybridAStar().lay(pen())
+    assert isinstance(told, Refusal)
+    assert told.via == 0
+    assert "far from the start" in told.reason
+
+
+def test_a_search_that_ran_out_of_room_proves_nothing() -> None:
+    disc = {"circle": {"center": [0, 0], "radius": 9}}
+    far = problem([disc], {"at": [-25, 0], "heading_deg": 180}, [25, 0])
+    assert isinstance(HybridAStar().lay(far), Found)
+    told = HybridAStar(SLIGHT).lay(far)
+    assert isinstance(told, GaveUp)
+    assert told.via == 1
+    assert "poses" in told.tried[0]
+
+
+def test_a_body_without_a_turning_circle_is_refused_for_its_place_alone() -> None:
+    """It may turn more sharply than the search does."""
+    footprint = [[-0.4, -0.3], [0.9, -0.3], [0.9, 0.3], [-0.4, 0.3]]
+    narrow = [{"polygon": [[-9, 0.55], [9, 0.55], [9, 2], [-9, 2]]},
+              {"polygon": [[-9, -2], [9, -2], [9, -0.55], [-9, -0.55]]},
+              {"polygon": [[9, -2], [10, -2], [10, 2], [9, 2]]}]  # fmt: skip
+    asked = problem(
+        narrow, {"at": [0, 0], "heading_deg": 0}, [-30, 0],
+        footprint=footprint, clearance_m=0.1, min_turn_radius_m=None,
+    )  # fmt: skip
+    told = HybridAStar(SEARCH_EFFORTS[:1]).lay(asked)
+    assert isinstance(told, GaveUp)
+    assert "far from the start" in told.reason

@@ -1,0 +1,80 @@
+"""From via points to a path, with methods and budgets of the test's own."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import viaspline as vs
+from viaspline.planning.methods.at_radii import AtRadii
+from viaspline.planning.methods.hybrid_astar_search import HybridAStar
+from viaspline.planning.methods.joint_headings import JointHeadings
+from viaspline.planning.methods.next_homotopy_classes import NextHomotopyClasses
+from viaspline.planning.methods.ordered import PATH_METHODS
+from viaspline.planning.methods.other_sides import OtherSides
+from viaspline.planning.methods.spline_as_is import SplineAsItIs
+from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
+from viaspline.planning.plan_path import lay_path
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import via_sequence_of
+
+LOOP = ([0, 0], [10, 0], [10.5, 1.5], [9, 2], [30, 20])  # nearer than the turning circle
+ROOM = [[[-3, -9], [30, -9], [30, -1.5], [-3, -1.5]], [[-3, 1.5], [30, 1.5], [30, 9], [-3, 9]],
+        [[30, -9], [31, -9], [31, 9], [30, 9]]]  # fmt: skip
+
+
+def lay(methods: Any, *route: Any, radius: float | None = 3.0, known: Any = ()) -> Any:
+    robot = {"radius_m": 0.5, "clearance_m": 0.5, "min_turn_radius_m": radius}
+    mission = vs.Mission.model_validate({
+        "world": {"known": [{"polygon": ring} for ring in known]},
+        "robot": robot,
+        "route": {"start": route[0], "via": route[1:-1], "goal": route[-1]},
+    })  # fmt: skip
+    sequence, world = via_sequence_of(mission), vs.World.known(mission)
+    return lay_path(sequence, world, Requirements.of(mission), methods)[0]
+
+
+def test_a_robot_that_can_follow_any_curve_takes_the_spline() -> None:
+    assert lay((SplineAsItIs(),), *LOOP, radius=None).length < 45
+
+
+def test_without_a_method_that_can_it_is_given_up_and_all_that_was_tried_is_told() -> None:
+    tried: list[Any] = [SplineAsItIs()]
+    with pytest.raises(vs.GaveUpError, match=r"turning circle of 3 m") as caught:
+        lay(tried, *LOOP)
+    assert caught.value.tried == ("the spline as it is",)
+    tried += [TurnsOnShortest(), AtRadii((NextHomotopyClasses(max_rows=1),))]
+    with pytest.raises(vs.GaveUpError) as caught:
+        lay(tried, *LOOP)
+    assert len(caught.value.tried) == 3
+    assert "up to 1 longer ways" in caught.value.tried[-1]
+
+
+def test_a_method_that_can_is_asked_when_the_others_gave_up() -> None:
+    found = lay((SplineAsItIs(), AtRadii((JointHeadings(),))), *LOOP)
+    assert found.length > 45
+    assert lay(PATH_METHODS, *LOOP).length == found.length
+
+
+def test_headings_whose_rows_run_out_prove_nothing() -> None:
+    with pytest.raises(vs.GaveUpError, match="turning circle") as caught:
+        lay((AtRadii((JointHeadings(1, 1, 1),)),), *LOOP)
+    assert not isinstance(caught.value, vs.NoPathError)
+    assert "1 rows of headings at the via points" in caught.value.tried
+
+
+def test_a_proof_of_the_last_method_is_a_refusal() -> None:
+    dead_end = ({"at": [20, 0], "heading_deg": 0}, [-30, 0])
+    with pytest.raises(vs.NoPathError, match="far from the start"):
+        lay(PATH_METHODS, *dead_end, known=ROOM)
+    with pytest.raises(vs.GaveUpError):
+        lay(PATH_METHODS[:1], *dead_end, known=ROOM)
+
+
+def test_the_other_sides_are_asked_for_what_is_shorter_and_never_lose() -> None:
+    known = [[[8, -4], [12, -4], [12, 3], [8, 3]], [[20, -3], [24, -3], [24, 4], [20, 4]]]
+    route = ({"at": [0, 0], "heading_deg": 90}, [32, 0])
+    plain = lay((TurnsOnShortest(), AtRadii((HybridAStar(),))), *route, radius=4.0, known=known)
+    wider = lay((OtherSides((TurnsOnShortest(),)),), *route, radius=4.0, known=known)
+    assert wider.length <= plain.length + 1e-9
