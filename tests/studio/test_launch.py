@@ -7,7 +7,6 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 import urllib.request
 from pathlib import Path
 
@@ -37,12 +36,10 @@ def test_it_says_where_it_is_and_ends_with_ctrl_c() -> None:
     url = line.split(" at ")[1].split(" ")[0]
     with urllib.request.urlopen(url) as answer:
         assert b"viaspline studio" in answer.read()
-    begin = time.monotonic()
     process.send_signal(signal.SIGINT)
     _, told = process.communicate(timeout=20)
     assert process.returncode == 130
     assert "Traceback" not in told
-    assert time.monotonic() - begin < 10
 
 
 def test_a_taken_port_is_named_with_the_remedy() -> None:
