@@ -4,7 +4,15 @@ import pytest
 
 from viaspline.mission.annotations import Unit
 from viaspline.mission.json_schema import documentation
-from viaspline.mission.key_places import Model, keys_of, models_below, options
+from viaspline.mission.key_places import (
+    Model,
+    is_union,
+    keys_of,
+    models_below,
+    options,
+    options_at,
+    path_of_error,
+)
 from viaspline.mission.mission_parts import MissionParts
 
 MODELS = [model for _, model in models_below(MissionParts)]
@@ -40,3 +48,17 @@ def test_unit_name_and_documentation_of_a_key_agree(model: Model) -> None:
         (unit,) = units
         assert re.match(rf"{re.escape(suffix)}\b|{re.escape(suffix)}$", unit), key
         assert f"[{unit}]" in documented[key], key
+
+
+def test_only_what_pydantic_tries_itself_is_a_union() -> None:
+    assert is_union(options_at(("spline", "tension"), MissionParts))
+    # An obstacle may have a map in its place, but that has been read by then.
+    for path in (("world", "known", 0), ("world", "known", 0, "pass_on"), ("route", "start")):
+        assert not is_union(options_at(path, MissionParts))
+
+
+def test_the_path_of_an_error_keeps_keys_and_leaves_out_branches() -> None:
+    loc = ("spline", "tension", "function-before[plain(), tuple[float, ...]]", 2)
+    assert path_of_error(loc, MissionParts) == ("spline", "tension", 2)
+    loc = ("world", "known", 3, "pass_on", "extra")
+    assert path_of_error(loc, MissionParts) == loc

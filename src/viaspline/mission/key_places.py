@@ -99,15 +99,16 @@ def options_at(path: Path, root: Model) -> tuple[Option, ...]:
 
 def _inside(option: Option, part: str | int) -> tuple[Option, ...]:
     """What may stand under a key of a mapping, or at an index of a list."""
+    found: tuple[Option, ...] = ()
     if option.model is not None and isinstance(part, str):
         field = keys_of(option.model).get(part)
-        return () if field is None else options(field.annotation, tuple(field.metadata))
-    items = get_args(option.kind) if get_origin(option.kind) is tuple else ()
-    if not items or not isinstance(part, int):
-        return ()
-    if items[-1] is Ellipsis:
-        return options(items[0])
-    return options(items[part]) if part < len(items) else ()
+        found = () if field is None else options(field.annotation, tuple(field.metadata))
+    elif get_origin(option.kind) is tuple and isinstance(part, int):
+        items = get_args(option.kind)
+        index = 0 if items[-1] is Ellipsis else part
+        found = options(items[index]) if index < len(items) else ()
+    # What stands in a form of files only, does so itself.
+    return tuple(each._replace(is_read=each.is_read or option.is_read) for each in found)
 
 
 def path_of_error(loc: tuple[int | str, ...], root: Model) -> Path:
