@@ -6,6 +6,9 @@ import inspect
 import re
 from typing import Any, Final
 
+from pydantic import BaseModel
+
+from viaspline.mission.drives.drive import DRIVE_KINDS, Drive
 from viaspline.mission.model import Mission
 from viaspline.mission.parts import (
     Corridor,
@@ -18,27 +21,23 @@ from viaspline.mission.parts import (
     WorldSpec,
 )
 from viaspline.mission.robot_parts import (
-    Ackermann,
-    Differential,
-    Drive,
     Lidar,
     Localization,
     RobotSpec,
     Sensor,
-    SkidSteer,
 )
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
 
-_DOCUMENTED: Final = (
-    Mission, WorldSpec, Obstacle, Circle, MapSpec, SpeedZone, RobotSpec, Drive, Differential,
-    Ackermann, SkidSteer, Localization, Sensor, Lidar, Route, ViaPoint, EndPoint, Corridor,
+_DOCUMENTED: Final[tuple[type[BaseModel], ...]] = (
+    Mission, WorldSpec, Obstacle, Circle, MapSpec, SpeedZone, RobotSpec, Drive,
+    *DRIVE_KINDS.values(), Localization, Sensor, Lidar, Route, ViaPoint, EndPoint, Corridor,
     SplineSpec,
 )  # fmt: skip
 
 _ONE_OF: Final = {
     "Sensor": ("range_m", "lidar"),
-    "Drive": ("differential", "ackermann", "skid_steer"),
+    "Drive": tuple(DRIVE_KINDS),
 }
 _ATTRIBUTE: Final = re.compile(r"^    (\w+): (.*(?:\n        .*)*)", re.MULTILINE)
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Mapping
 from typing import Final
 
 from pydantic import BaseModel
 
+from viaspline.mission.drives.drive import DRIVE_KINDS, Drive
+from viaspline.mission.drives.drive_kind import DriveKey, DriveKind
 from viaspline.mission.parts import (
     Corridor,
     EndPoint,
@@ -19,14 +22,10 @@ from viaspline.mission.parts import (
     WorldSpec,
 )
 from viaspline.mission.robot_parts import (
-    Ackermann,
-    Differential,
-    Drive,
     Lidar,
     Localization,
     RobotSpec,
     Sensor,
-    SkidSteer,
 )
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -40,7 +39,22 @@ _OBSTACLES = (
 )
 _TENSION = "one number up to 1, a list with one for each span, or auto"
 
+
+def _of_drives(kinds: Mapping[str, type[DriveKind]]) -> dict[str, str]:
+    """What the keys of all drives expect, as each says of its own."""
+    expected = {}
+    for name, kind in kinds.items():
+        example = ", ".join(f"{key}: {value}" for key, value in kind.example.items())
+        expected[name] = f"a mapping such as {{{example}}}"
+        for key, field in kind.model_fields.items():
+            for part in field.metadata:
+                if isinstance(part, DriveKey):
+                    expected[key] = part.expected
+    return expected
+
+
 EXPECTED: Final[dict[str, str]] = {
+    **_of_drives(DRIVE_KINDS),
     "": "a mapping with the keys world, robot, route and spline",
     "world": "a mapping with the keys bounds, fences, known, unseen and speed_zones",
     "bounds": "[x_min, y_min, x_max, y_max] in metres",
@@ -72,15 +86,6 @@ EXPECTED: Final[dict[str, str]] = {
     "max_yaw_accel_degps2": "a number of degrees/s² greater than 0",
     "max_jerk_mps3": "a number of m/s³ greater than 0",
     "drive": "a mapping such as {ackermann: {wheelbase_m: 2.5, max_steer_deg: 35}, delay_s: 0.1}",
-    "differential": "a mapping such as {track_m: 0.5}",
-    "ackermann": "a mapping such as {wheelbase_m: 2.5, max_steer_deg: 35}",
-    "skid_steer": "a mapping such as {track_m: 0.8, slip: 0.2}",
-    "track_m": "a number of metres greater than 0",
-    "max_wheel_speed_mps": "a number of metres per second greater than 0",
-    "wheelbase_m": "a number of metres greater than 0",
-    "max_steer_deg": "a number of degrees greater than 0, less than 90",
-    "max_steer_rate_degps": "a number of degrees per second greater than 0",
-    "slip": "a number from 0 to less than 1",
     "delay_s": "a number of seconds, 0 to 60",
     "lag_s": "a number of seconds, 0 to 60",
     "speed_noise_mps": "a number of metres per second, 0 or more",
@@ -147,9 +152,7 @@ _MODELS: Final[dict[str, type[BaseModel]]] = {
     "sensor": Sensor,
     "lidar": Lidar,
     "drive": Drive,
-    "differential": Differential,
-    "ackermann": Ackermann,
-    "skid_steer": SkidSteer,
+    **DRIVE_KINDS,
     "localization": Localization,
     "speed_zones": SpeedZone,
     "corridor": Corridor,

@@ -7,12 +7,11 @@ from typing import Annotated, Any, Final, Literal
 
 from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
+from viaspline.mission.drives.drive import Drive
 from viaspline.mission.fields import FAR, NotNegative, Positive, Ring, Value, one_of, two_of
 
 MOST_BEAMS: Final = 100_000
 """The most beams of a lidar."""
-LONGEST_DELAY: Final = 60.0
-"""The longest delay and the slowest lag of a drive [s]."""
 
 
 class Lidar(Value):
@@ -58,81 +57,6 @@ class Sensor(Value):
             return self.lidar.range_m
         assert self.range_m is not None
         return self.range_m
-
-
-class Differential(Value):
-    """Two driven wheels on one axle.
-
-    Attributes:
-        track_m: Distance between the wheels [m].
-        max_wheel_speed_mps: The greatest speed of either wheel [m/s]. None: no limit.
-    """
-
-    track_m: Annotated[Positive, Field(le=FAR)]
-    max_wheel_speed_mps: Positive | None = None
-
-
-class Ackermann(Value):
-    """Steered front wheels, as a bicycle; the reference point is the middle of the rear axle.
-
-    Attributes:
-        wheelbase_m: From the rear axle to the front axle [m].
-        max_steer_deg: The greatest angle of the front wheels [deg].
-        max_steer_rate_degps: How fast they turn [deg/s]. None: no limit.
-    """
-
-    wheelbase_m: Annotated[Positive, Field(le=FAR)]
-    max_steer_deg: Annotated[Positive, Field(lt=90)]
-    max_steer_rate_degps: Positive | None = None
-
-    @property
-    def turn_radius(self) -> float:
-        """The radius of the tightest circle of the reference point [m].
-
-        >>> round(Ackermann(wheelbase_m=2.0, max_steer_deg=45).turn_radius, 9)
-        2.0
-        """
-        return self.wheelbase_m / math.tan(math.radians(self.max_steer_deg))
-
-
-class SkidSteer(Value):
-    """Wheels or tracks on either side that slip when the robot turns.
-
-    Attributes:
-        track_m: Distance between the sides [m].
-        slip: Part of the yaw rate that is lost to slipping.
-        max_wheel_speed_mps: The greatest speed of either side [m/s]. None: no limit.
-    """
-
-    track_m: Annotated[Positive, Field(le=FAR)]
-    slip: Annotated[NotNegative, Field(lt=1)] = 0.0
-    max_wheel_speed_mps: Positive | None = None
-
-
-class Drive(Value):
-    """What moves the robot, and how far from perfect that is in the simulator.
-
-    Attributes:
-        differential: Two driven wheels.
-        ackermann: Steered front wheels.
-        skid_steer: Two slipping sides.
-        delay_s: Time from a command to its effect [s].
-        lag_s: Time constant with which speed and turn follow a command [s].
-        speed_noise_mps: Standard deviation of the speed that is driven [m/s].
-        yaw_rate_noise_degps: Standard deviation of the yaw rate that is driven [deg/s].
-    """
-
-    differential: Differential | None = None
-    ackermann: Ackermann | None = None
-    skid_steer: SkidSteer | None = None
-    delay_s: Annotated[NotNegative, Field(le=LONGEST_DELAY)] = 0.0
-    lag_s: Annotated[NotNegative, Field(le=LONGEST_DELAY)] = 0.0
-    speed_noise_mps: NotNegative = 0.0
-    yaw_rate_noise_degps: NotNegative = 0.0
-
-    @model_validator(mode="after")
-    def _one_kind(self) -> Drive:
-        return one_of(self, "differential", "ackermann", "skid_steer")
 
 
 class Localization(Value):
@@ -234,8 +158,8 @@ class RobotSpec(Value):
     @property
     def turn_radius(self) -> float | None:
         """The radius of the tightest circle that it can drive [m]; None if it has no limit."""
-        steered = None if self.drive is None else self.drive.ackermann
-        radii = [self.min_turn_radius_m, None if steered is None else steered.turn_radius]
+        of_drive = None if self.drive is None else self.drive.kind.turn_radius
+        radii = [self.min_turn_radius_m, of_drive]
         return max((radius for radius in radii if radius is not None), default=None)
 
     @property
@@ -243,8 +167,13 @@ class RobotSpec(Value):
         """Where it may stand and turn."""
         if self.turn_on_spot is not None:
             return self.turn_on_spot
-        steered = self.drive is not None and self.drive.ackermann is not None
-        return "never" if steered else "stations"
+        can = self.drive is None or self.drive.kind.can_turn_on_spot
+        return "stations" if can else "never"
+
+    @property
+    def held_heading(self) -> float | None:
+        """The heading that its body keeps wherever it goes [rad]; None: it looks that way."""
+        return None if self.drive is None else self.drive.kind.held_heading
 
 
 def _distance_to_edge(a: tuple[float, float], b: tuple[float, float]) -> float:

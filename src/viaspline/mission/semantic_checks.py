@@ -7,6 +7,7 @@ from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
 
+from viaspline.mission.drives.drive import DRIVE_KINDS
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.parts import SplineSpec, ViaPoint
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
@@ -28,6 +29,7 @@ def semantic_flaws(draft: PartialMission) -> list[UnplacedFault]:
     flaws += _names(draft)
     flaws += _sensor(draft)
     flaws += _footprint(draft)
+    flaws += _drive(draft)
     flaws += _route(draft)
     flaws += _same_places(draft)
     flaws += _dimensions(draft)
@@ -117,6 +119,18 @@ def _footprint(draft: PartialMission) -> list[UnplacedFault]:
 
     flaw = footprint_flaw(draft.robot.footprint)
     return [] if flaw is None else [flaw]
+
+
+def _drive(draft: PartialMission) -> list[UnplacedFault]:
+    if draft.robot is None or draft.robot.drive is None:
+        return []
+    drive = draft.robot.drive
+    has_footprint = draft.robot.footprint is not None
+    name = next(key for key in DRIVE_KINDS if getattr(drive, key) is not None)
+    return [
+        UnplacedFault(("robot", "drive", name, key), problem, remedy)
+        for key, problem, remedy in drive.kind.contradictions(has_footprint=has_footprint)
+    ]
 
 
 def _route(draft: PartialMission) -> list[UnplacedFault]:

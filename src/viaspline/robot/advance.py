@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import PathVia
-from viaspline.kernels.tracking.control_law import ASIDE
+from viaspline.kernels.tracking.control_law import CROSS_TRACK
 from viaspline.robot.controller import Controller
 from viaspline.robot.journey import SAME_PLACE_M, Dwell, NavigationState, trajectory_on
 from viaspline.robot.run import Event, Visit
@@ -56,7 +56,7 @@ def _piloted(
     )
     now = time + controller.ahead
     distance = max(float(trajectory.distance_at(now)), journey.distance)
-    off = abs(float(controller.note[ASIDE]))
+    off = abs(float(controller.note[CROSS_TRACK]))
     return happened(
         replace(
             journey,

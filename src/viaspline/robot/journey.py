@@ -257,7 +257,7 @@ def trajectory_along(
     if end < path.length:
         stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
     if journey.controller is not None:
-        stops = with_turns(path, journey.controller.machine, stops, distance)
+        stops = with_turns(path, journey.controller.model, stops, distance)
     trajectory = retime(
         path,
         journey.limits,

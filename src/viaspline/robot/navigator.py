@@ -9,8 +9,8 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.machine.machine import PERIOD, is_driven, machine_of
 from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.robot_model import PERIOD_S, drive_model_of, is_driven
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import Plan, plan
@@ -92,7 +92,7 @@ class Navigator:
         plan: Plan | None = None,
         *,
         reaction: float = REACTION_S,
-        period: float = PERIOD,
+        period: float = PERIOD_S,
     ) -> None:
         if not 0.0 < reaction < float("inf"):
             raise GeometryError(f"reaction is {reaction}; give a time above 0")
@@ -251,7 +251,7 @@ def _controller(journey: NavigationState, period: float) -> Controller | None:
     robot = journey.mission.robot
     if not is_driven(robot):
         return None
-    return Controller.of(machine_of(robot, period), period, journey.path, journey.trajectory)
+    return Controller.of(drive_model_of(robot, period), period, journey.path, journey.trajectory)
 
 
 def _started(journey: NavigationState, time: float) -> NavigationState:
@@ -266,7 +266,7 @@ def _check(state: RobotState, time: float, journey: NavigationState) -> None:
     last = journey.time - (0.0 if journey.controller is None else journey.controller.ahead)
     if journey.events and time < last - ROUNDING * (1.0 + abs(last)):
         raise GeometryError(f"time {time} s is before the last step's, {last} s")
-    numbers = (*state.position, state.heading, state.speed, time)
+    numbers = (*state.position, state.heading, state.speed, state.speed_across, time)
     if len(state.position) != journey.path.dimension or not np.isfinite(numbers).all():
         raise GeometryError(
             f"the state {state} at {time} s needs {journey.path.dimension} finite coordinates, "

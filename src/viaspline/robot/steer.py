@@ -1,34 +1,46 @@
-"""From progress along a path to what the robot's wheels are to do."""
+"""From progress along a path to what the robot is told."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.control_law import turn_law
-from viaspline.kernels.tracking.drive_model import ACKERMANN, DIFFERENTIAL, SKID_STEER, turning
+from viaspline.kernels.tracking.drive_model import yaw_rate_of
+from viaspline.mission.drives.drive import Drive
 from viaspline.robot.advance import ON_PATH
 from viaspline.robot.controller import Controller
 from viaspline.robot.journey import NavigationState
 from viaspline.robot.state import Command, RobotState
 
-NEAREST_AIM = 1.0  # a robot beside its path comes back to it over at least this distance [m]
-AIM_TIME = 1.0  # and over what it drives in this time [s]
+MIN_CONVERGENCE_M, CONVERGENCE_TIME_S = 1.0, 1.0
+"""A robot beside its path comes back to it over at least this distance [m], and over what it drives
+in this time [s]."""
+
+
+class _Motion(NamedTuple):
+    """What a robot with a drive is to do: in its body's frame, and by its actuators."""
+
+    velocity: tuple[float, float]
+    yaw_rate: float
+    actuators: Mapping[str, float]
 
 
 def steer(journey: NavigationState, state: RobotState) -> Command:
     """The command for a robot at this point of its journey.
 
     On the path it is the path's own curvature; beside it the control law leads back. The same
-    law drives robots with a drive, whose pilot has decided already.
+    law drives robots with a drive, whose controller has decided already.
     """
     distance, speed, acceleration = (float(x) for x in journey.trajectory.state_at(journey.time))
     if journey.off > ON_PATH and journey.controller is None:
         distance = journey.distance
         speed = float(journey.trajectory.speed_at(distance))
-    path = journey.path
+    path, robot = journey.path, journey.mission.robot
     u = float(path.parameter(distance))
     position = np.asarray(path.evaluate(u))
     heading, curvature = float(path.heading(u)), float(path.curvature(u))
@@ -37,46 +49,44 @@ def steer(journey: NavigationState, state: RobotState) -> Command:
     if path.dimension > 2:
         curvature = _ground_curvature(journey, u)
     stopped = speed == 0.0 and acceleration == 0.0
-    steered, wheels, rate = None, None, None
     if journey.controller is not None:
-        speed, rate, steered, wheels = _driven(journey.controller)
-        curvature = rate / speed if speed > 0.0 else curvature
-    elif journey.off > ON_PATH:
-        curvature = _led_back(curvature, state, position, heading)
+        motion = _driven(journey.controller, robot.drive)
+        speed = math.hypot(*motion.velocity)
+        if robot.held_heading is None:
+            curvature = motion.yaw_rate / speed if speed > 0.0 else curvature
+    else:
+        if journey.off > ON_PATH:
+            curvature = _led_back(curvature, state, position, heading)
+        motion = _Motion((speed, 0.0), speed * curvature, {})
     return Command(
         speed=speed,
         acceleration=acceleration,
         curvature=curvature,
-        yaw_rate=speed * curvature if rate is None else rate,
+        yaw_rate=motion.yaw_rate,
         position=tuple(position.tolist()),
-        heading=heading,
+        heading=heading if robot.held_heading is None else robot.held_heading,
         distance=distance,
         stopped=stopped,
         finished=journey.finished,
-        steer=steered,
-        wheels=wheels,
+        velocity=motion.velocity,
+        actuators=motion.actuators,
     )
 
 
-def _driven(
-    controller: Controller,
-) -> tuple[float, float, float | None, tuple[float, float] | None]:
-    """Speed, yaw rate, angle of the front wheels, speeds of the left and right wheels."""
-    machine, (speed, turn) = controller.machine, controller.command
-    rate = float(turning(machine, speed, turn))
-    if machine.kind == ACKERMANN:
-        return speed, rate, turn, None
-    if machine.kind in (DIFFERENTIAL, SKID_STEER):
-        apart = 0.5 * rate * machine.length / machine.grip
-        return speed, rate, None, (speed - apart, speed + apart)
-    return speed, rate, None, None
+def _driven(controller: Controller, drive: Drive | None) -> _Motion:
+    """What the controller has decided, in words of the drive."""
+    along, across, turn = controller.command
+    rate = float(yaw_rate_of(controller.model, along, turn))
+    actuators = {} if drive is None else drive.kind.actuator_values(along, turn)
+    return _Motion((along, across), rate, actuators)
 
 
 def _led_back(curvature: float, state: RobotState, position: Floats, heading: float) -> float:
     aside = np.asarray(state.position)[:2] - position[:2]
     offset = float(aside[1] * math.cos(heading) - aside[0] * math.sin(heading))
     error = math.remainder(state.heading - heading, math.tau)
-    return turn_law(curvature, offset, error, max(NEAREST_AIM, AIM_TIME * state.speed))
+    distance = max(MIN_CONVERGENCE_M, CONVERGENCE_TIME_S * state.speed)
+    return turn_law(curvature, offset, error, distance)
 
 
 def _ground_curvature(journey: NavigationState, u: float) -> float:
