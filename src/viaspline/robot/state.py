@@ -1,4 +1,7 @@
-"""What passes between a robot and its navigator."""
+"""What passes between a robot and its navigator.
+
+Tested through ``robot/test_driven``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""From progress along a path to what the robot is told."""
+"""From progress along a path to what the robot is told.
+
+Tested through ``robot/test_driven``.
+"""
 
 from __future__ import annotations
 

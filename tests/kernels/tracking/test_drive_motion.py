@@ -104,11 +104,6 @@ def test_noise_of_the_speed_acts_the_way_that_a_body_goes() -> None:
         0.01,
         commanded(0.6, 0.0, 0.8),
         rng.standard_normal((60_000, 2)),
-        np.zeros(STATE),
-        0.0,
-        0.01,
-        commanded(0.6, 0.0, 0.8),
-        rng.standard_normal((60_000, 2)),
     )
     assert np.hypot(rows[1000:, 4], rows[1000:, 6]).std() == pytest.approx(0.1, rel=0.1)
     assert rows[:, 6] * 0.6 == pytest.approx(rows[:, 4] * 0.8, abs=1e-9)

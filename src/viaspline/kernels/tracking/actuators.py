@@ -1,4 +1,7 @@
-"""What a drive's actuators can do, in numbers: all that kernels know of it. It imports no numba."""
+"""What a drive's actuators can do, in numbers: all that kernels know of it. It imports no numba.
+
+Tested through ``kernels/tracking/test_drive_model``.
+"""
 
 from __future__ import annotations
 

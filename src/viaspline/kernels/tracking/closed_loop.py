@@ -1,4 +1,7 @@
-"""Following a path with its time law: the closed loop, and how far off the robot was."""
+"""Following a path with its time law: the closed loop, and how far off the robot was.
+
+Tested through ``machine/test_trial_drive``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A path as points close together: places on it, and how far beside it a robot is."""
+"""A path as points close together: places on it, and how far beside it a robot is.
+
+Tested through ``machine/test_trial_drive``.
+"""
 
 from __future__ import annotations
 
