@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 from viaspline.mission.drives.ackermann import Ackermann
 from viaspline.mission.drives.differential import Differential
 from viaspline.mission.drives.drive_kind import DriveKind
+from viaspline.mission.drives.omnidirectional import Omnidirectional
 from viaspline.mission.drives.skid_steer import SkidSteer
 from viaspline.mission.fields import NotNegative, Value, one_of
 
@@ -24,6 +25,7 @@ class Drive(Value):
         differential: Two driven wheels.
         ackermann: Steered front wheels.
         skid_steer: Two slipping sides.
+        omnidirectional: Mecanum, omni or swerve wheels.
         delay_s: Time from a command to its effect [s].
         lag_s: Time constant with which speed and turn follow a command [s].
         speed_noise_mps: Standard deviation of the speed that is driven [m/s].
@@ -33,6 +35,7 @@ class Drive(Value):
     differential: Differential | None = None
     ackermann: Ackermann | None = None
     skid_steer: SkidSteer | None = None
+    omnidirectional: Omnidirectional | None = None
     delay_s: Annotated[NotNegative, Field(le=LONGEST_DELAY_S)] = 0.0
     lag_s: Annotated[NotNegative, Field(le=LONGEST_DELAY_S)] = 0.0
     speed_noise_mps: NotNegative = 0.0
