@@ -9,9 +9,9 @@ from viaspline.advice import with_advice
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
-from viaspline.machine.allowance import SOFTER, allowance, allowance_on_bends
-from viaspline.machine.machine import is_driven, machine_of
+from viaspline.machine.allowance import TRACKING_REMEDY, allowance, allowance_on_bends
 from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.robot_model import drive_model_of, is_driven
 from viaspline.machine.turns_on_spot import with_turns
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
@@ -100,7 +100,7 @@ def plan(mission: Mission) -> Plan:
     try:
         return _as_driven(first)
     except (PlanningError, GeometryError):
-        if robot.drive is not None and robot.drive.ackermann is not None:
+        if robot.drive is not None and robot.drive.kind.turn_radius is not None:
             with suppress(PlanningError, GeometryError):
                 return _as_driven(_with_error(_with_reserve(mission), world, error))
         raise
@@ -134,7 +134,7 @@ def _as_driven(first: Plan) -> Plan:
         result = _with_error(first.mission, first.world, error)
     raise GeometryError(
         f"the robot gets ever farther beside its path, {result.tracking_error:.2f} m in the last "
-        f"trial drive; give it {SOFTER}, or say what to keep by tracking_error_m"
+        f"trial drive; give it {TRACKING_REMEDY}, or say what to keep by tracking_error_m"
     )
 
 
@@ -169,4 +169,4 @@ def stations(path: Path, robot: RobotSpec) -> tuple[Station, ...]:
         for via, distance in zip(path.vias, path.via_distances, strict=True)
         if via.dwell > 0
     ]
-    return tuple(with_turns(path, machine_of(robot), stops) if is_driven(robot) else stops)
+    return tuple(with_turns(path, drive_model_of(robot), stops) if is_driven(robot) else stops)

@@ -15,6 +15,8 @@ DRIVES: dict[str, dict[str, Any]] = {
     "skid-steer": {"skid_steer": {"track_m": 0.6, "slip": 0.3, "max_wheel_speed_mps": 2.5}},
     "ackermann": {"ackermann": {"wheelbase_m": 1.0, "max_steer_deg": 35,
                                 "max_steer_rate_degps": 90}},
+    "omnidirectional": {"omnidirectional": {"max_speed_along_mps": 2.0,
+                                            "max_speed_across_mps": 1.0, "hold_heading_deg": 30}},
 }  # fmt: skip
 NOISE = {"speed_noise_mps": 0.05, "yaw_rate_noise_degps": 2.0}
 PLACE = {"position_noise_m": 0.02, "heading_noise_deg": 0.5}

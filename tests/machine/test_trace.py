@@ -8,14 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viaspline.kernels.tracking.drive_model import moved
-from viaspline.machine.trace import TOLERANCE, trace
+from viaspline.machine.trace import TRACE_TOLERANCE_M, trace
 
 
 def motion(speeds: np.ndarray, rates: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray]:
     """Places and headings after every step, and in between on the arcs."""
     poses = [(0.0, 0.0, 0.0)]
     for v, w in zip(speeds, rates, strict=True):
-        poses.append(moved(*poses[-1], float(v), float(w), step))
+        poses.append(moved(*poses[-1], float(v), 0.0, float(w), step))
     array = np.array(poses)
     return array[:, :2], array[:, 2]
 
@@ -31,10 +31,10 @@ def test_no_point_of_the_motion_is_farther_from_the_curve_than_the_bound(
     rates = turn * np.sin(np.linspace(0, 9, n)) + 0.2 * rng.standard_normal(n)
     places, headings = motion(speeds, rates, 0.01)
     curve, bound, u = trace(places, headings)
-    assert bound <= max(TOLERANCE, 2e-3)
+    assert bound <= max(TRACE_TOLERANCE_M, 2e-3)
     fine = np.asarray(curve.evaluate(np.linspace(*curve.domain, 40 * len(curve.spans) + 1)))
     for i in range(0, n, 7):
-        part = moved(*places[i], headings[i], float(speeds[i]), float(rates[i]), 0.0037)
+        part = moved(*places[i], headings[i], float(speeds[i]), 0.0, float(rates[i]), 0.0037)
         gap = np.hypot(*(fine - part[:2]).T).min()
         spacing = np.hypot(*np.diff(fine, axis=0).T).max()
         assert gap <= bound + spacing

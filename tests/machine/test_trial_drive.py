@@ -11,8 +11,8 @@ import pytest
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
-from viaspline.machine.machine import machine_of
 from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.robot_model import drive_model_of
 from viaspline.machine.trial_drive import Track, follow
 from viaspline.machine.turns_on_spot import with_turns
 from viaspline.mission.robot_parts import RobotSpec
@@ -20,7 +20,7 @@ from viaspline.trajectory.retime import retime
 
 
 def driven(path: PiecewiseCubic, robot: RobotSpec, **more: Any) -> Track:
-    trajectory = retime(path, limits_of(robot), with_turns(path, machine_of(robot), []))
+    trajectory = retime(path, limits_of(robot), with_turns(path, drive_model_of(robot), []))
     return follow(path, trajectory, robot, **more)
 
 
@@ -87,11 +87,13 @@ def test_the_loop_has_a_gain_margin_of_two(robot_of: Any, bends: Any, gain: floa
     import viaspline.machine.trial_drive as module
 
     robot = robot_of("differential", lag_s=0.1)
-    plain = module.machine_of
+    plain = module.drive_model_of
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
-            module, "machine_of",
-            lambda *args: plain(*args)._replace(aim_time=plain(*args).aim_time / gain),
+            module, "drive_model_of",
+            lambda *args: plain(*args)._replace(
+                convergence_time=plain(*args).convergence_time / gain
+            ),
         )  # fmt: skip
         track = driven(bends, robot)
     assert track.finished

@@ -47,7 +47,12 @@ def lidar(**changes: Any) -> dict[str, Any]:
         ("robot.footprint", [[0, 0], [1, 0], [0, 1]], "robot.radius_m", "exclude each other"),
         ("robot.min_turn_radius_m", 0, "robot.min_turn_radius_m", "greater than 0"),
         ("robot.turn_on_spot", "yes", "robot.turn_on_spot", "never, stations or vias"),
-        ("robot.drive", {}, "robot.drive", "has none of differential, ackermann and skid_steer"),
+        (
+            "robot.drive",
+            {},
+            "robot.drive",
+            "has none of differential, ackermann, skid_steer and omnidirectional",
+        ),
         ("robot.drive", {"differential": {}}, "robot.drive.differential.track_m", "is missing"),
         ("robot.drive", {"track_m": 1}, "robot.drive.track_m", "belongs under differential"),
         ("world.speed_zones", [{"max_speed_mps": 1}], "world.speed_zones[0].polygon", "is missing"),

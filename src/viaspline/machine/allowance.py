@@ -15,17 +15,17 @@ from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 
-SEEDS = (7001, 7002, 7003)
+TRIAL_SEEDS = (7001, 7002, 7003)
 """Of the trial drives."""
 
-MARGIN = 1.5
+ERROR_MARGIN = 1.5
 """By which the allowance is larger than what was measured. Errors from noise are about normal; in
 drives of some minutes the largest is about four standard deviations, so this covers six."""
 
-BENDS = 6
+SLALOM_BENDS = 6
 """Of the slalom that stands for paths that are laid under way."""
 
-LEAST = 0.005
+UNMEASURED_M = 0.005
 """What is added for what a trial drive leaves out: the curve through the steps, rounding [m]."""
 
 
@@ -44,28 +44,30 @@ def allowance(path: PiecewiseCubic, trajectory: Trajectory, robot: RobotSpec) ->
         >>> from viaspline.trajectory.limits import Limits
         >>> from viaspline.trajectory.retime import retime
         >>> line = PiecewiseCubic([[[0, 0], [10, 0], [20, 0], [30, 0]]])
-        >>> law = retime(line, Limits(max_speed=2.0, max_accel=1.0))
-        >>> allowance(line, law, RobotSpec(drive={"differential": {"track_m": 0.5}})) < 0.05
+        >>> trajectory = retime(line, Limits(max_speed=2.0, max_accel=1.0))
+        >>> allowance(line, trajectory, RobotSpec(drive={"differential": {"track_m": 0.5}})) < 0.05
         True
     """
     reach = 0.0 if robot.footprint is None else robot.outer_radius
     largest = 0.0
-    for seed in SEEDS:
+    for seed in TRIAL_SEEDS:
         track = follow(path, trajectory, robot, seed=seed)
         if not track.finished:
             raise GeometryError(
                 f"the robot can't follow its path: in a trial drive it was {track.times[-1]:.0f} s "
                 f"under way at {track.tracking.progress[-1]:.1f} m of {path.length:.1f} m; "
-                f"give it {SOFTER}"
+                f"give it {TRACKING_REMEDY}"
             )
         largest = max(largest, track.tracking.body_deviation(reach))
     if not math.isfinite(largest):
-        raise GeometryError(f"the robot can't follow its path at all; give it {SOFTER}")
-    return MARGIN * largest + LEAST
+        raise GeometryError(f"the robot can't follow its path at all; give it {TRACKING_REMEDY}")
+    return ERROR_MARGIN * largest + UNMEASURED_M
 
 
 def allowance_on_bends(robot: RobotSpec, radius: float) -> float:
-    """The same for bends that nobody knows yet: a slalom as tight as a re-planned path may be [m].
+    """The tracking error to allow for on bends that nobody knows yet [m].
+
+    It is measured on a slalom as tight as a re-planned path may be.
 
     Args:
         robot: Its body, drive and localisation.
@@ -73,11 +75,13 @@ def allowance_on_bends(robot: RobotSpec, radius: float) -> float:
             wider.
     """
     tight = max(radius, 1.2 * (robot.turn_radius or 0.0))
-    posts = np.arange(BENDS + 2)
-    aside = np.where((posts == 0) | (posts == BENDS + 1), 0.0, (-1.0) ** posts)
+    posts = np.arange(SLALOM_BENDS + 2)
+    aside = np.where((posts == 0) | (posts == SLALOM_BENDS + 1), 0.0, (-1.0) ** posts)
     points = tight * np.column_stack((4.0 * posts, aside))
     slalom = CardinalSpline(points, knots="chordal", tangents="continuous")
     return allowance(slalom, retime(slalom, limits_of(robot)), robot)
 
 
-SOFTER = "a lower max_speed_mps, softer limits (max_lateral_accel_mps2), less delay or less noise"
+TRACKING_REMEDY = (
+    "a lower max_speed_mps, softer limits (max_lateral_accel_mps2), less delay or less noise"
+)

@@ -9,7 +9,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.robot_parts import RobotSpec
 
-WILDEST = 3.0
+MAX_DEVIATIONS = 3.0
 """No error of a measured state is greater than so many standard deviations."""
 
 
@@ -37,14 +37,14 @@ class DriveNoise:
         position = 0.0 if place is None else place.position_noise_m
         heading = 0.0 if place is None else math.radians(place.heading_noise_deg)
         self._sizes = np.array([position, position, heading])
-        self._looks = np.random.default_rng((abs(seed), 1))
-        self._wheels = np.random.default_rng((abs(seed), 2))
+        self._localization = np.random.default_rng((abs(seed), 1))
+        self._drive = np.random.default_rng((abs(seed), 2))
 
     def measured(self, count: int) -> Floats:
         """The next errors of the measured x, y [m] and heading [rad], shape (count, 3)."""
-        noise = self._looks.standard_normal((count, 3))
-        return self._sizes * np.clip(noise, -WILDEST, WILDEST)
+        noise = self._localization.standard_normal((count, 3))
+        return self._sizes * np.clip(noise, -MAX_DEVIATIONS, MAX_DEVIATIONS)
 
     def driven(self, count: int) -> Floats:
         """The next standard normal numbers for speed and yaw rate, shape (count, 2)."""
-        return self._wheels.standard_normal((count, 2))
+        return self._drive.standard_normal((count, 2))

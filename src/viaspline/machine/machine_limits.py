@@ -1,26 +1,24 @@
-"""What a machine's own limits ask of the time law."""
+"""What a robot's drive asks of the time law, beside what the robot asks."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
 
-from viaspline.machine.machine import is_driven
+from viaspline.machine.robot_model import is_driven
+from viaspline.mission.drives.drive_limits import DriveLimits
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.limits import REACTION_S, Limits
 
-STRAIGHT = 0.8
-"""Part of a wheel's speed that is used at most on the straight; the rest is for turning."""
-GRIP = 5.0
-"""Acceleration across the path that tyres stand [m/s²], for machines without a limit of it."""
+TYRE_ACCEL_MPS2 = 5.0
+"""Acceleration across the path that tyres stand [m/s²], for robots without a limit of it."""
 
 
 def limits_of(robot: RobotSpec, reaction: float = REACTION_S) -> Limits:
-    """The limits of a mission's robot, with what its machine and its sensor allow.
+    """The limits of a mission's robot, with what its drive and its sensor allow.
 
     The time between two looks of the sensor is longer by the delay and the lag of the drive: so
-    much later it brakes. The outer wheel turns at v (1 + |curvature| track/2): a limit v of the
-    speed and one of the yaw rate share what it can. Steered wheels turn no faster than they can.
+    much later it brakes. A body that keeps its heading doesn't turn, whatever the path does.
 
     Args:
         robot: The robot of the mission.
@@ -39,23 +37,37 @@ def limits_of(robot: RobotSpec, reaction: float = REACTION_S) -> Limits:
         return Limits.of(robot, reaction)
     drive = robot.drive
     if drive is None:
-        return _gripping(Limits.of(robot, reaction))
-    limits = _gripping(Limits.of(robot, reaction + drive.delay_s + drive.lag_s))
-    steered = drive.ackermann
-    if steered is not None and steered.max_steer_rate_degps is not None:
-        rate = math.radians(steered.max_steer_rate_degps)
-        return replace(limits, max_steer_rate=rate, wheelbase=steered.wheelbase_m)
-    sides = drive.differential or drive.skid_steer
-    if sides is None or sides.max_wheel_speed_mps is None:
+        return _with_tyres(Limits.of(robot, reaction))
+    limits = _with_tyres(Limits.of(robot, reaction + drive.delay_s + drive.lag_s))
+    kind = drive.kind
+    limits = _with_drive(limits, kind.limits(limits.max_speed, limits.max_accel))
+    if kind.held_heading is None:
         return limits
-    wheel, grip = sides.max_wheel_speed_mps, 1.0
-    if drive.skid_steer is not None:
-        grip -= drive.skid_steer.slip
-    speed = min(limits.max_speed, STRAIGHT * wheel)
-    rate = 2.0 * grip * (wheel - speed) / sides.track_m
-    return replace(limits, max_speed=speed, max_yaw_rate=min(rate, limits.max_yaw_rate or rate))
+    return replace(limits, max_yaw_rate=None, max_yaw_accel=None, axis_heading=kind.held_heading)
 
 
-def _gripping(limits: Limits) -> Limits:
+def _with_tyres(limits: Limits) -> Limits:
     """With an end of what can be asked across the path: so corners are places to stop at."""
-    return replace(limits, max_lateral_accel=limits.max_lateral_accel or GRIP)
+    return replace(limits, max_lateral_accel=limits.max_lateral_accel or TYRE_ACCEL_MPS2)
+
+
+def _with_drive(limits: Limits, asked: DriveLimits) -> Limits:
+    """With what a drive asks where that is less."""
+    return replace(
+        limits,
+        max_speed=min(limits.max_speed, _or_inf(asked.max_speed)),
+        max_lateral_accel=_least(limits.max_lateral_accel, asked.max_lateral_accel),
+        max_yaw_rate=_least(limits.max_yaw_rate, asked.max_yaw_rate),
+        max_steer_rate=asked.max_steer_rate,
+        wheelbase=asked.wheelbase,
+        axis_speed=asked.body_speed,
+    )
+
+
+def _least(one: float | None, other: float | None) -> float | None:
+    least = min(_or_inf(one), _or_inf(other))
+    return least if math.isfinite(least) else None
+
+
+def _or_inf(limit: float | None) -> float:
+    return math.inf if limit is None else limit

@@ -10,11 +10,17 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.reference_path import ReferencePath
 
-APART = 0.25  # from one point to the next, at most [m],
-BENT = 0.03  # with so much turning between them [rad]
-FEWEST, MOST = 2, 400  # points on a span
-INSIDE = 1e-9  # a heading at the end of a span is looked up so far before it
-BEND = 100.0  # curvatures beyond this are those of a cusp [1/m]
+MAX_SPACING_M, MAX_TURN_RAD = 0.25, 0.03
+"""From one point to the next at most, and turning between them [m], [rad]."""
+
+MIN_POINTS, MAX_POINTS = 2, 400
+"""On a span."""
+
+BEFORE_END = 1e-9
+"""A heading at the end of a span is looked up so far before it, in the span's parameter."""
+
+CUSP_CURVATURE_PER_M = 100.0
+"""Curvatures beyond this are those of a cusp [1/m]."""
 
 
 def reference_path_of(path: PiecewiseCubic) -> ReferencePath:
@@ -27,8 +33,8 @@ def reference_path_of(path: PiecewiseCubic) -> ReferencePath:
         GeometryError: When the path is not in the plane.
 
     Example:
-        >>> rail = reference_path_of(PiecewiseCubic([[[0, 0], [1, 0], [2, 0], [3, 0]]]))
-        >>> round(float(rail.distance[-1]), 9), float(rail.heading[-1])
+        >>> reference = reference_path_of(PiecewiseCubic([[[0, 0], [1, 0], [2, 0], [3, 0]]]))
+        >>> round(float(reference.distance[-1]), 9), float(reference.heading[-1])
         (3.0, 0.0)
     """
     if path.dimension != 2:
@@ -41,7 +47,7 @@ def reference_path_of(path: PiecewiseCubic) -> ReferencePath:
     first = np.repeat(np.cumsum(counts) - counts, counts)
     w = (np.arange(len(k)) - first) / (np.repeat(counts, counts) - 1.0)
     u = k + w
-    inside = np.where(w >= 1.0, k + (1.0 - INSIDE), u)
+    inside = np.where(w >= 1.0, k + (1.0 - BEFORE_END), u)
     places = path.evaluate(u)
     heading = np.asarray(path.heading(inside))
     curvature = np.nan_to_num(np.asarray(path.curvature(inside)), posinf=0.0, neginf=0.0)
@@ -51,7 +57,7 @@ def reference_path_of(path: PiecewiseCubic) -> ReferencePath:
         places[:, 0].copy(),
         places[:, 1].copy(),
         heading[0] + np.concatenate(([0.0], np.cumsum(turns))),
-        np.clip(curvature, -BEND, BEND),
+        np.clip(curvature, -CUSP_CURVATURE_PER_M, CUSP_CURVATURE_PER_M),
     )
 
 
@@ -62,5 +68,7 @@ def _counts(spans: Floats) -> NDArray[np.int64]:
     angles = np.arctan2(legs[..., 1], legs[..., 0])
     turned = np.abs(np.remainder(np.diff(angles, axis=1) + np.pi, 2 * np.pi) - np.pi).sum(axis=1)
     # a span may turn most of its angle within a small part of it
-    needed = np.where(length > 0.0, np.maximum(length / APART, 2.0 * turned / BENT), 0.0)
-    return np.clip(np.ceil(needed).astype(np.int64) + 2, FEWEST, MOST)
+    needed = np.where(
+        length > 0.0, np.maximum(length / MAX_SPACING_M, 2.0 * turned / MAX_TURN_RAD), 0.0
+    )
+    return np.clip(np.ceil(needed).astype(np.int64) + 2, MIN_POINTS, MAX_POINTS)

@@ -8,10 +8,13 @@ from numpy.typing import NDArray
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats, Ints
 
-TOLERANCE = 1e-3
+TRACE_TOLERANCE_M = 1e-3
 """How far a cubic may be from the arcs that it stands for [m]."""
-LONGEST = 7  # a cubic stands for at most 2 to the power of this steps
-STANDS = 1e-9  # steps shorter than this are none [m]
+MAX_HALVINGS = 7
+"""A cubic stands for at most 2 to the power of this steps."""
+
+STANDING_M = 1e-9
+"""Steps shorter than this are none [m]."""
 
 
 def trace(
@@ -27,9 +30,9 @@ def trace(
 
     Args:
         positions: [m], shape (n, 2), n >= 1.
-        headings: Running on over whole turns [rad], shape (n,).
-        reach: Distance of the body's farthest corner, if it is a polygon, which the difference of
-            headings moves [m].
+        headings: Of the motion, running on over whole turns [rad], shape (n,).
+        reach: Distance of the body's farthest corner, if it is a polygon that looks the way that
+            it goes: the difference of headings moves it [m].
 
     Returns:
         The curve; the bound [m]; for every place the curve's parameter there, shape (n,).
@@ -48,21 +51,21 @@ def trace(
     along = np.concatenate(([0.0], np.cumsum(steps * bulge)))
     taken = np.zeros(len(steps), np.bool_)
     firsts, widths, bound = [], [], 0.0
-    for power in range(LONGEST, -1, -1):
+    for power in range(MAX_HALVINGS, -1, -1):
         width = 2**power
         first = np.arange(0, len(steps) - width + 1, width)
         first = first[~taken[first]]
         if not len(first):
             continue
         off = _bounds(positions, headings, along, first, width, reach)
-        off[along[first + width] - along[first] <= STANDS] = 0.0  # no cubic will stand for it
-        good = (off <= TOLERANCE) | (width == 1)
+        off[along[first + width] - along[first] <= STANDING_M] = 0.0  # no cubic will stand for it
+        good = (off <= TRACE_TOLERANCE_M) | (width == 1)
         bound = max(bound, float(off[good].max(initial=0.0)))
         first = first[good]
         taken[(first[:, None] + np.arange(width)).ravel()] = True
         firsts.append(first)
         widths.append(np.full(len(first), width))
-    bound += reach * _swayed(headings, np.diff(along) > STANDS)
+    bound += reach * _swayed(headings, np.diff(along) > STANDING_M)
     return _curve(positions, headings, along, firsts, widths, bound)
 
 
@@ -92,7 +95,7 @@ def _curve(
     width = np.concatenate([*widths, np.empty(0, np.int64)])
     order = np.argsort(first)
     first, last = first[order], (first + width)[order]
-    moved = along[last] - along[first] > STANDS
+    moved = along[last] - along[first] > STANDING_M
     first, last = first[moved], last[moved]
     if not len(first):  # it never moved
         here = np.repeat(positions[:1, None, :], 4, axis=1)
@@ -120,7 +123,7 @@ def _bounds(
     last = first + width
     spans = _cubics(positions, headings, along, first, last)
     index = first[:, None] + np.arange(width + 1)
-    total = np.maximum(along[last] - along[first], STANDS)
+    total = np.maximum(along[last] - along[first], STANDING_M)
     w = (along[index] - along[first][:, None]) / total[:, None]
     basis = np.stack(((1 - w) ** 3, 3 * w * (1 - w) ** 2, 3 * w * w * (1 - w), w**3), axis=-1)
     gaps = np.linalg.norm(np.einsum("kwb,kbd->kwd", basis, spans) - positions[index], axis=2)

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.closed_loop import deviations
+from viaspline.kernels.tracking.drive_model import DriveModel
 from viaspline.kernels.tracking.reference_path import ReferencePath
 
 
-class Spread(NamedTuple):
+class Percentiles(NamedTuple):
     """The median, the 99th percentile and the greatest of the sizes of an error."""
 
     p50: float
@@ -29,7 +30,7 @@ class Tracking:
         times: [s], shape (n,).
         progress: Distance along the path of the place that is nearest to the robot [m], (n,).
         cross_track: How far beside that place it was, left is positive [m], (n,).
-        heading_error: Its heading less the path's there [rad], (n,).
+        heading_error: Its heading less the one that it should have there [rad], (n,).
         along_track: How far behind the place was where it should have been [m], (n,).
         moving: Whether it should have been on its way, (n,). At rest it may turn on the spot, and
             what it is off is still what it was off when it stopped.
@@ -43,31 +44,34 @@ class Tracking:
     moving: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, reference: ReferencePath, notes: Floats, rows: Floats) -> Tracking:
+    def of(
+        cls, model: DriveModel, reference: ReferencePath, notes: Floats, rows: Floats
+    ) -> Tracking:
         """The errors of a drive.
 
         Args:
+            model: What drove.
             reference: The path.
             notes: Of every period of the controller, shape (m, NOTES), m >= 1.
-            rows: Of every step of the motion: time, x, y, heading, …, shape (n, 6).
+            rows: Of every step of the motion: time, x, y, heading, …, shape (n, ROW).
         """
-        off = deviations(reference, notes, rows)
+        off = deviations(model, reference, notes, rows)
         return cls(rows[:, 0], off[:, 0], off[:, 1], off[:, 2], off[:, 3], off[:, 4] == 0.0)
 
     @property
-    def cross(self) -> Spread:
+    def cross(self) -> Percentiles:
         """Of the offset to the side, while it was on its way [m]."""
-        return self._spread(self.cross_track)
+        return self._percentiles(self.cross_track)
 
     @property
-    def heading(self) -> Spread:
+    def heading(self) -> Percentiles:
         """Of the heading error, while it was on its way [rad]."""
-        return self._spread(self.heading_error)
+        return self._percentiles(self.heading_error)
 
     @property
-    def along(self) -> Spread:
+    def along(self) -> Percentiles:
         """Of the error along the path, while it was on its way [m]."""
-        return self._spread(self.along_track)
+        return self._percentiles(self.along_track)
 
     def body_deviation(self, reach: float) -> float:
         """How far any point of the body was from where it would have been on the path [m].
@@ -82,8 +86,8 @@ class Tracking:
         off = np.abs(self.cross_track) + 2.0 * reach * np.sin(0.5 * turned)
         return float(off.max()) if off.size else 0.0
 
-    def _spread(self, errors: Floats) -> Spread:
+    def _percentiles(self, errors: Floats) -> Percentiles:
         sizes = np.abs(errors[self.moving])
         if not sizes.size:
-            return Spread(0.0, 0.0, 0.0)
-        return Spread(*(float(x) for x in np.percentile(sizes, [50.0, 99.0, 100.0])))
+            return Percentiles(0.0, 0.0, 0.0)
+        return Percentiles(*(float(x) for x in np.percentile(sizes, [50.0, 99.0, 100.0])))

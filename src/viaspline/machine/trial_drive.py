@@ -1,4 +1,4 @@
-"""A trial drive: a machine follows a path with its time law, with nothing else to look at."""
+"""A trial drive: a robot follows a path with its time law, with nothing else to look at."""
 
 from __future__ import annotations
 
@@ -11,17 +11,32 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.closed_loop import drive
-from viaspline.kernels.tracking.drive_motion import HEADING, STATE, SUBSTEP, X, Y
+from viaspline.kernels.tracking.drive_model import DriveModel
+from viaspline.kernels.tracking.drive_motion import (
+    HEADING,
+    ROW,
+    ROW_HEADING,
+    ROW_TIME,
+    ROW_X,
+    ROW_Y,
+    ROW_YAW_RATE,
+    STATE,
+    SUBSTEP_S,
+    X,
+    Y,
+)
+from viaspline.kernels.tracking.reference_path import ReferencePath
 from viaspline.kernels.tracking.reference_timing import SpeedProfile
 from viaspline.machine.drive_noise import DriveNoise
-from viaspline.machine.machine import PERIOD, machine_of
 from viaspline.machine.reference import reference_path_of
+from viaspline.machine.robot_model import PERIOD_S, drive_model_of
 from viaspline.machine.tracking import Tracking
+from viaspline.machine.travel import travel_of
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.trajectory import Trajectory
 
-LONGER = 1.5  # times the planned duration, and
-GRACE = 60.0  # this much longer [s]: then a trial drive is broken off
+MAX_DURATIONS, MAX_OVERTIME_S = 1.5, 60.0
+"""A trial drive is broken off after so many planned durations, and so much longer [s]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,8 +47,8 @@ class Track:
         times: [s], shape (n,).
         positions: Of the reference point [m], shape (n, 2).
         headings: Running on over whole turns [rad], shape (n,).
-        speeds: In the step that ends there [m/s], shape (n,).
-        yaw_rates: The same [rad/s], shape (n,).
+        speeds: Over the ground, in the step that ends there [m/s], shape (n,).
+        yaw_rates: Of the body, in that step [rad/s], shape (n,).
         tracking: What it was off from its path.
         finished: Whether it came to the end of the time law.
     """
@@ -53,12 +68,12 @@ def follow(
     robot: RobotSpec,
     *,
     seed: int = 0,
-    period: float = PERIOD,
+    period: float = PERIOD_S,
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> Track:
     """Drive along a path in simulation, closed loop, with the delays and the noise of the drive.
 
-    The robot's clock waits while the robot is too far behind: so a machine that is slower than
+    The robot's clock waits while the robot is too far behind: so a robot that is slower than
     its time law comes to the end later, not on another way.
 
     Args:
@@ -78,30 +93,31 @@ def follow(
         >>> from viaspline.trajectory.retime import retime
         >>> line = PiecewiseCubic([[[0, 0], [10, 0], [20, 0], [30, 0]]])
         >>> robot = RobotSpec(drive={"differential": {"track_m": 0.5}, "delay_s": 0.1})
-        >>> law = retime(line, Limits(max_speed=2.0, max_accel=1.0))
-        >>> track = follow(line, law, robot, offset=(0.0, 0.5, 0.0))
+        >>> trajectory = retime(line, Limits(max_speed=2.0, max_accel=1.0))
+        >>> track = follow(line, trajectory, robot, offset=(0.0, 0.5, 0.0))
         >>> track.finished, bool(abs(track.tracking.cross_track[-1]) < 0.01)
         (True, True)
     """
     if not 0.0 < period < math.inf:
         raise GeometryError(f"period is {period}; give a time above 0 s")
-    machine, reference = machine_of(robot, period), reference_path_of(path)
+    model, reference = drive_model_of(robot, period), reference_path_of(path)
     profile = speed_profile_of(trajectory.delayed(-trajectory.start_time))
-    state = start_of(reference.x[0], reference.y[0], reference.heading[0], offset)
-    substeps = max(math.ceil(period / SUBSTEP - 1e-9), 1)
-    count = math.ceil((LONGER * trajectory.duration + GRACE + machine.delay) / period)
+    state = start_of(model, reference, offset)
+    substeps = max(math.ceil(period / SUBSTEP_S - 1e-9), 1)
+    count = math.ceil((MAX_DURATIONS * trajectory.duration + MAX_OVERTIME_S + model.delay) / period)
     faults = DriveNoise(robot, seed)
     rows, notes, ticks = drive(
-        machine, reference, profile, state.copy(), period, substeps,
+        model, reference, profile, state.copy(), period, substeps,
         faults.measured(count), faults.driven(count * substeps),
     )  # fmt: skip
     finished = ticks >= 0
     if finished:
         rows, notes = rows[: ticks * substeps], notes[:ticks]
-    rows = np.concatenate(([[0.0, *state[:3], 0.0, 0.0]], rows))
+    rows = np.concatenate((first_row(state), rows))
+    travel = travel_of(model, rows)
     return Track(
-        rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4], rows[:, 5],
-        Tracking.of(reference, notes, rows), finished,
+        rows[:, ROW_TIME], rows[:, [ROW_X, ROW_Y]], rows[:, ROW_HEADING], travel.speeds,
+        rows[:, ROW_YAW_RATE], Tracking.of(model, reference, notes, rows), finished,
     )  # fmt: skip
 
 
@@ -116,12 +132,28 @@ def speed_profile_of(trajectory: Trajectory) -> SpeedProfile:
 
 
 def start_of(
-    x: float, y: float, heading: float, offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    model: DriveModel,
+    reference: ReferencePath,
+    offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> Floats:
-    """The state of a machine that stands at a pose, or off it: ahead, to the left [m], [rad]."""
+    """The state of a drive that stands at the start of a path, or off it.
+
+    Args:
+        model: The drive.
+        reference: The path.
+        offset: Ahead and to the left of its start [m], and by what the heading is off [rad].
+    """
     ahead, left, turned = offset
-    state = np.zeros(STATE)
-    state[X] = x + ahead * math.cos(heading) - left * math.sin(heading)
-    state[Y] = y + ahead * math.sin(heading) + left * math.cos(heading)
-    state[HEADING] = heading + turned
+    state, way = np.zeros(STATE), reference.heading[0]
+    held = model.actuators.held_heading
+    state[X] = reference.x[0] + ahead * math.cos(way) - left * math.sin(way)
+    state[Y] = reference.y[0] + ahead * math.sin(way) + left * math.cos(way)
+    state[HEADING] = (way if math.isnan(held) else held) + turned
     return state
+
+
+def first_row(state: Floats) -> Floats:
+    """The row of a track at time 0, of a drive that stands, shape (1, ROW)."""
+    row = np.zeros((1, ROW))
+    row[0, [ROW_X, ROW_Y, ROW_HEADING]] = state[[X, Y, HEADING]]
+    return row

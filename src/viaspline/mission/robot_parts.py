@@ -6,118 +6,26 @@ Tested through ``mission/test_model``.
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Final, Literal, TypeAlias
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from viaspline.mission.annotations import Expects
+from viaspline.mission.drives.drive import Drive
 from viaspline.mission.fields import (
     DEGREES,
-    DEGREES_PER_SECOND,
-    METRES_PER_SECOND,
     Acceleration,
     AngularAcceleration,
     AngularSpeed,
     Distance,
-    Duration,
     Jerk,
     Length,
     NotNegative,
-    Positive,
     Ring,
     Speed,
 )
 from viaspline.mission.sensor_spec import Sensor
-from viaspline.mission.value import OneOf, Value, two_of
-
-MAX_DELAY_S: Final = 60.0
-"""The longest delay and the slowest lag of a drive."""
-
-ShortDuration: TypeAlias = Annotated[Duration, Field(le=MAX_DELAY_S)]
-
-
-class Differential(
-    Value,
-    expected="a mapping such as {track_m: 0.5}",
-):
-    """Two driven wheels on one axle.
-
-    Attributes:
-        track_m: Distance between the wheels [m].
-        max_wheel_speed_mps: The greatest speed of either wheel [m/s]. None: no limit.
-    """
-
-    track_m: Length
-    max_wheel_speed_mps: Speed | None = None
-
-
-class Ackermann(
-    Value,
-    expected="a mapping such as {wheelbase_m: 2.5, max_steer_deg: 35}",
-):
-    """Steered front wheels, as a bicycle; the reference point is the middle of the rear axle.
-
-    Attributes:
-        wheelbase_m: From the rear axle to the front axle [m].
-        max_steer_deg: The greatest angle of the front wheels [deg].
-        max_steer_rate_degps: How fast they turn [deg/s]. None: no limit.
-    """
-
-    wheelbase_m: Length
-    max_steer_deg: Annotated[Positive, DEGREES, Field(lt=90)]
-    max_steer_rate_degps: AngularSpeed | None = None
-
-    @property
-    def turn_radius(self) -> float:
-        """The radius of the tightest circle of the reference point [m].
-
-        >>> round(Ackermann(wheelbase_m=2.0, max_steer_deg=45).turn_radius, 9)
-        2.0
-        """
-        return self.wheelbase_m / math.tan(math.radians(self.max_steer_deg))
-
-
-class SkidSteer(
-    Value,
-    expected="a mapping such as {track_m: 0.8, slip: 0.2}",
-):
-    """Wheels or tracks on either side that slip when the robot turns.
-
-    Attributes:
-        track_m: Distance between the sides [m].
-        slip: Part of the yaw rate that is lost to slipping.
-        max_wheel_speed_mps: The greatest speed of either side [m/s]. None: no limit.
-    """
-
-    track_m: Length
-    slip: Annotated[NotNegative, Field(lt=1)] = 0.0
-    max_wheel_speed_mps: Speed | None = None
-
-
-class Drive(
-    OneOf,
-    expected="a mapping such as {ackermann: {wheelbase_m: 2.5, max_steer_deg: 35}, delay_s: 0.1}",
-    exactly_one=("differential", "ackermann", "skid_steer"),
-):
-    """What moves the robot, and how far from perfect that is in the simulator.
-
-    Attributes:
-        differential: Two driven wheels.
-        ackermann: Steered front wheels.
-        skid_steer: Two slipping sides.
-        delay_s: Time from a command to its effect [s].
-        lag_s: Time constant with which speed and turn follow a command [s].
-        speed_noise_mps: Standard deviation of the speed that is driven [m/s].
-        yaw_rate_noise_degps: Standard deviation of the yaw rate that is driven [deg/s].
-    """
-
-    differential: Differential | None = None
-    ackermann: Ackermann | None = None
-    skid_steer: SkidSteer | None = None
-    delay_s: ShortDuration = 0.0
-    lag_s: ShortDuration = 0.0
-    speed_noise_mps: Annotated[NotNegative, METRES_PER_SECOND] = 0.0
-    yaw_rate_noise_degps: Annotated[NotNegative, DEGREES_PER_SECOND] = 0.0
+from viaspline.mission.value import Value, two_of
 
 
 class Localization(
@@ -231,8 +139,8 @@ class RobotSpec(
     @property
     def turn_radius(self) -> float | None:
         """The radius of the tightest circle that it can drive [m]; None if it has no limit."""
-        steered = None if self.drive is None else self.drive.ackermann
-        radii = [self.min_turn_radius_m, None if steered is None else steered.turn_radius]
+        of_drive = None if self.drive is None else self.drive.kind.turn_radius
+        radii = [self.min_turn_radius_m, of_drive]
         return max((radius for radius in radii if radius is not None), default=None)
 
     @property
@@ -240,8 +148,13 @@ class RobotSpec(
         """Where it may stand and turn."""
         if self.turn_on_spot is not None:
             return self.turn_on_spot
-        steered = self.drive is not None and self.drive.ackermann is not None
-        return "never" if steered else "stations"
+        can = self.drive is None or self.drive.kind.can_turn_on_spot
+        return "stations" if can else "never"
+
+    @property
+    def held_heading(self) -> float | None:
+        """The heading that its body keeps wherever it goes [rad]; None: it looks that way."""
+        return None if self.drive is None else self.drive.kind.held_heading
 
 
 def _distance_to_edge(a: tuple[float, float], b: tuple[float, float]) -> float:

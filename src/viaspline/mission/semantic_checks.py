@@ -11,6 +11,7 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import Final
 
+from viaspline.mission.drives.drive import DRIVE_KINDS
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.route_spec import ViaPoint
 from viaspline.mission.spline_spec import POLYLINE_SLACK, POLYLINE_TENSION, SplineSpec
@@ -33,6 +34,7 @@ def semantic_faults(partial: PartialMission) -> list[UnplacedFault]:
     faults += _names(partial)
     faults += _sensor(partial)
     faults += _footprint(partial)
+    faults += _drive(partial)
     faults += _route(partial)
     faults += _same_places(partial)
     faults += _dimensions(partial)
@@ -122,6 +124,18 @@ def _footprint(partial: PartialMission) -> list[UnplacedFault]:
 
     fault = footprint_fault(partial.robot.footprint)
     return [] if fault is None else [fault]
+
+
+def _drive(partial: PartialMission) -> list[UnplacedFault]:
+    if partial.robot is None or partial.robot.drive is None:
+        return []
+    drive = partial.robot.drive
+    has_footprint = partial.robot.footprint is not None
+    name = next(key for key in DRIVE_KINDS if getattr(drive, key) is not None)
+    return [
+        UnplacedFault(("robot", "drive", name, key), problem, remedy)
+        for key, problem, remedy in drive.kind.contradictions(has_footprint=has_footprint)
+    ]
 
 
 def _route(partial: PartialMission) -> list[UnplacedFault]:

@@ -7,12 +7,14 @@ from typing import Any
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, PathPatch, Polygon, Rectangle
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.curve.sweep import footprints_along, placed, swept_area
+from viaspline.kernels.arrays import Floats
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.world_spec import SpeedZone
 from viaspline.report import style
@@ -22,6 +24,9 @@ from viaspline.report.labels import Labels
 LEAST = 5.0  # width of a body that is worth drawing [pixels]
 BODIES = 90  # along a path, at most
 APART = 1.6  # from one body to the next, in its lengths
+
+HEADING_LENGTH_PX, HEADING_SPACING_PX = 15.0, 60.0
+"""Of the strokes that say where a body looks, and from one to the next [pixels]."""
 
 
 def draw_swept(
@@ -75,6 +80,42 @@ def draw_body(axes: Axes, certificate: Certificate, robot: RobotSpec, heading: f
         heading = certificate.tightest_heading
     (corners,) = placed(np.array(robot.footprint), np.array([[x, y]]), np.array([heading]))
     axes.add_artist(Polygon(corners, alpha=0.85, **look))
+
+
+def draw_headings(
+    axes: Axes, points: Floats, headings: Floats, *, every: float = HEADING_SPACING_PX
+) -> list[Artist]:
+    """Where a body looks that needn't look the way that it goes, now and then along a curve.
+
+    Args:
+        axes: Where.
+        points: Along the curve [m], shape (n, 2).
+        headings: Of the body there [rad], shape (n,).
+        every: From one to the next [pixels].
+
+    Returns:
+        What belongs in a legend.
+    """
+    pixels = axes.transData.transform(points)
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(pixels, axis=0).T))])
+    if not np.isfinite(along[-1]):
+        return []
+    count = max(min(int(along[-1] // every), 80), 1)
+    at = np.searchsorted(along, (np.arange(count) + 0.5) * along[-1] / count)
+    feet = pixels[at]
+    tips = feet + HEADING_LENGTH_PX * np.column_stack((np.cos(headings[at]), np.sin(headings[at])))
+    ends = axes.transData.inverted().transform(np.stack((feet, tips), axis=1).reshape(-1, 2))
+    look: dict[str, Any] = {"color": style.SENSOR, "linewidth": 1.6}
+    axes.add_collection(
+        LineCollection(list(ends.reshape(-1, 2, 2)), zorder=9.5, capstyle="round", **look),
+        autolim=False,
+    )
+    axes.plot(
+        *ends[::2].T, marker="o", markersize=4.5, markerfacecolor="white", linestyle="none",
+        markeredgecolor=style.SENSOR, zorder=9.6, scalex=False, scaley=False,
+    )  # fmt: skip
+    return [Line2D([], [], marker="o", markerfacecolor="white", markersize=4.5,
+                   label="where the body looks", **look)]  # fmt: skip
 
 
 def draw_zones(axes: Axes, labels: Labels, zones: tuple[SpeedZone, ...]) -> list[Artist]:

@@ -12,7 +12,7 @@ from viaspline.curve.path import PathVia
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.report import strips, style
-from viaspline.report.bodies import draw_swept, draw_zones
+from viaspline.report.bodies import draw_headings, draw_swept, draw_zones
 from viaspline.report.close_up import ROOM, close_up
 from viaspline.report.column import Column
 from viaspline.report.drawing import any_name, png, polyline
@@ -62,6 +62,9 @@ def run_picture(run: Run, name: str) -> bytes:
     draw_driven(sheet, run, colours, limits)
     vias, places = draw_vias(sheet.map, labels, _all_vias(run), mission)
     draw_arrows(sheet.map, thinned(driven), style.INK, avoid=places, every=150)
+    if mission.robot.held_heading is not None:
+        some = thinned(np.column_stack((driven, run.headings)))
+        handles += draw_headings(sheet.map, some[:, :2], some[:, 2])
     handles += vias + _draw_events(sheet, labels, run)
     handles += draw_tightest(sheet.map, labels, run.certificate)
     noted = [event.at[:2] for event in run.events if event.kind in _told(run)]

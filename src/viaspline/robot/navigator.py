@@ -10,8 +10,8 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.machine.machine import PERIOD, is_driven, machine_of
 from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.robot_model import PERIOD_S, drive_model_of, is_driven
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import Plan
@@ -102,7 +102,7 @@ class Navigator:
         plan: Plan | None = None,
         *,
         reaction: float = REACTION_S,
-        period: float = PERIOD,
+        period: float = PERIOD_S,
     ) -> None:
         if not 0.0 < reaction < float("inf"):
             raise GeometryError(f"reaction is {reaction}; give a time above 0")
@@ -110,10 +110,10 @@ class Navigator:
         plan = plan_mission(mission) if plan is None else plan
         # with the tension that was advised
         mission = mission.model_copy(update={"spline": plan.mission.spline})
-        machine = machine_of(mission.robot, period) if is_driven(mission.robot) else None
+        model = drive_model_of(mission.robot, period) if is_driven(mission.robot) else None
         requirements = requirements_under_way(mission, plan.tracking_error)
         self._plan = plan
-        self._task = DriveTask(mission, requirements, limits, reaction, machine)
+        self._task = DriveTask(mission, requirements, limits, reaction, model)
         self._state = _at_start(self._task, plan, period)
 
     def step(
@@ -158,7 +158,7 @@ class Navigator:
         # what is it to do now?
         controller = before.progress.controller
         progress, schedule = with_command(controller, progress, schedule, measured, time)
-        command = command_for(progress, schedule, measured)
+        command = command_for(task.mission.robot, progress, schedule, measured)
         return command, self._with(NavigationState(progress, knowledge, schedule, log))
 
     def _with(self, state: NavigationState) -> Navigator:
@@ -251,8 +251,8 @@ def _at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     has_lidar = robot.sensor is not None and robot.sensor.lidar is not None
     belief = Belief.at_start(world, robot) if has_lidar else None
     controller = None
-    if task.machine is not None:
-        controller = Controller.of(task.machine, period, plan.path, plan.trajectory)
+    if task.model is not None:
+        controller = Controller.of(task.model, period, plan.path, plan.trajectory)
     progress = Progress(time=0.0, controller=controller)
     knowledge = Knowledge(world, frozenset(world.obstacles), belief)
     schedule = Schedule(plan.path, plan.trajectory, laid_in=world)
@@ -280,7 +280,7 @@ def _check(measured: RobotState, time: float, state: NavigationState) -> None:
     last = progress.time - (0.0 if progress.controller is None else progress.controller.ahead)
     if state.log.events and time < last - TIME_ROUNDING * (1.0 + abs(last)):
         raise GeometryError(f"time {time} s is before the last step's, {last} s")
-    numbers = (*measured.position, measured.heading, measured.speed, time)
+    numbers = (*measured.position, measured.heading, measured.speed, measured.speed_across, time)
     if len(measured.position) != dimension or not np.isfinite(numbers).all():
         raise GeometryError(
             f"the state {measured} at {time} s needs {dimension} finite coordinates, "

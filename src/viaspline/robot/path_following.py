@@ -6,27 +6,39 @@ Tested through ``robot/test_navigator``.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.control_law import turn_law
-from viaspline.kernels.tracking.drive_model import ACKERMANN, DIFFERENTIAL, SKID_STEER, turning
+from viaspline.kernels.tracking.drive_model import yaw_rate_of
+from viaspline.mission.drives.drive import Drive
+from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.controller import Controller
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.navigation.track_path import ON_PATH_M
 from viaspline.robot.state import Command, RobotState
 
-MIN_AIM_M = 1.0
-"""A robot beside its path comes back to it over at least this distance [m],"""
-
-AIM_TIME_S = 1.0
-"""and over what it drives in this time [s]."""
+MIN_CONVERGENCE_M, CONVERGENCE_TIME_S = 1.0, 1.0
+"""A robot beside its path comes back to it over at least this distance [m], and over what it drives
+in this time [s]."""
 
 
-def command_for(progress: Progress, schedule: Schedule, measured: RobotState) -> Command:
+class _Motion(NamedTuple):
+    """What a robot with a drive is to do: in its body's frame, and by its actuators."""
+
+    velocity: tuple[float, float]
+    yaw_rate: float
+    actuators: Mapping[str, float]
+
+
+def command_for(
+    robot: RobotSpec, progress: Progress, schedule: Schedule, measured: RobotState
+) -> Command:
     """The command for a robot at this point of its path.
 
     On the path it is the path's own curvature; beside it the control law leads back. The same
@@ -46,46 +58,44 @@ def command_for(progress: Progress, schedule: Schedule, measured: RobotState) ->
     if path.dimension > 2:
         curvature = _ground_curvature(path, u)
     stopped = speed == 0.0 and acceleration == 0.0
-    steered, wheels, rate = None, None, None
     if controller is not None:
-        speed, rate, steered, wheels = _driven(controller)
-        curvature = rate / speed if speed > 0.0 else curvature
-    elif beside:
-        curvature = _led_back(curvature, measured, position, heading)
+        motion = _driven(controller, robot.drive)
+        speed = math.hypot(*motion.velocity)
+        if robot.held_heading is None:
+            curvature = motion.yaw_rate / speed if speed > 0.0 else curvature
+    else:
+        if beside:
+            curvature = _led_back(curvature, measured, position, heading)
+        motion = _Motion((speed, 0.0), speed * curvature, {})
     return Command(
         speed=speed,
         acceleration=acceleration,
         curvature=curvature,
-        yaw_rate=speed * curvature if rate is None else rate,
+        yaw_rate=motion.yaw_rate,
         position=tuple(position.tolist()),
-        heading=heading,
+        heading=heading if robot.held_heading is None else robot.held_heading,
         distance=distance,
         stopped=stopped,
         finished=progress.finished,
-        steer=steered,
-        wheels=wheels,
+        velocity=motion.velocity,
+        actuators=motion.actuators,
     )
 
 
-def _driven(
-    controller: Controller,
-) -> tuple[float, float, float | None, tuple[float, float] | None]:
-    """Speed, yaw rate, angle of the front wheels, speeds of the left and right wheels."""
-    machine, (speed, turn) = controller.machine, controller.command
-    rate = float(turning(machine, speed, turn))
-    if machine.kind == ACKERMANN:
-        return speed, rate, turn, None
-    if machine.kind in (DIFFERENTIAL, SKID_STEER):
-        apart = 0.5 * rate * machine.length / machine.grip
-        return speed, rate, None, (speed - apart, speed + apart)
-    return speed, rate, None, None
+def _driven(controller: Controller, drive: Drive | None) -> _Motion:
+    """What the controller has decided, in words of the drive."""
+    along, across, turn = controller.command
+    rate = float(yaw_rate_of(controller.model, along, turn))
+    actuators = {} if drive is None else drive.kind.actuator_values(along, turn)
+    return _Motion((along, across), rate, actuators)
 
 
 def _led_back(curvature: float, state: RobotState, position: Floats, heading: float) -> float:
     aside = np.asarray(state.position)[:2] - position[:2]
     offset = float(aside[1] * math.cos(heading) - aside[0] * math.sin(heading))
     error = math.remainder(state.heading - heading, math.tau)
-    return turn_law(curvature, offset, error, max(MIN_AIM_M, AIM_TIME_S * state.speed))
+    distance = max(MIN_CONVERGENCE_M, CONVERGENCE_TIME_S * state.speed)
+    return turn_law(curvature, offset, error, distance)
 
 
 def _ground_curvature(path: Path, u: float) -> float:

@@ -5,7 +5,8 @@ Tested through ``robot/test_navigator``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True)
@@ -14,38 +15,40 @@ class RobotState:
 
     Attributes:
         position: Of its centre [m], shape (d,).
-        heading: Anticlockwise from x [rad].
-        speed: Forward [m/s], at least 0.
+        heading: Of its body, anticlockwise from x [rad].
+        speed: Forward, along its body [m/s].
+        speed_across: To the left, across its body [m/s]; 0 of a robot that can't.
     """
 
     position: tuple[float, ...]
     heading: float
     speed: float
+    speed_across: float = 0.0
 
 
 @dataclass(frozen=True)
 class Command:
     """What the robot is to do until the next step.
 
-    For a robot with a drive, speed and yaw rate are what the drive is to be given now: its delay,
-    its lag and its limits have been seen to. ROS's Twist takes ``speed`` and ``yaw_rate``.
+    For a robot with a drive, velocity and yaw rate are what the drive is to be given now: its
+    delay, its lag and its limits have been seen to. ROS's Twist takes ``velocity`` as its
+    ``linear.x`` and ``linear.y``, and ``yaw_rate`` as its ``angular.z``.
 
     Attributes:
-        speed: Forward, now [m/s].
+        speed: Over the ground, now [m/s].
         acceleration: By which that speed changes from now on [m/s²].
         curvature: Of the arc to drive, left is positive [1/m]; it leads back to the path if the
             measured state is off it.
-        yaw_rate: Speed times curvature [rad/s].
+        yaw_rate: Of the body [rad/s].
         position: The path's point that belongs to the robot's progress [m], shape (d,).
-        heading: The path's heading there [rad].
+        heading: The heading that the body should have there [rad].
         distance: The progress along the path [m].
         stopped: Whether the robot is to stand: it dwells, turns on the spot to ``heading``, or
             its drive is over.
         finished: Whether its drive is over, at the goal or not.
-        steer: The angle of the front wheels of a robot with an Ackermann drive, left is positive
-            [rad]; None for others.
-        wheels: The speeds of the left and the right wheels of a differential or skid-steer drive
-            [m/s]; None for others.
+        velocity: Forward and to the left, in the frame of the body [m/s].
+        actuators: What the actuators of its drive are to be given, by names with their units, such
+            as ``steer_rad`` or ``left_wheel_mps``; nothing of a robot that has none to name.
     """
 
     speed: float
@@ -57,5 +60,5 @@ class Command:
     distance: float
     stopped: bool
     finished: bool
-    steer: float | None = None
-    wheels: tuple[float, float] | None = None
+    velocity: tuple[float, float] = (0.0, 0.0)
+    actuators: Mapping[str, float] = field(default_factory=dict)

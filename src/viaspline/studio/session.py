@@ -16,6 +16,7 @@ from viaspline.errors import ViasplineError
 from viaspline.studio import filing
 from viaspline.studio.desk import Desk
 from viaspline.studio.document import EMPTY, changed
+from viaspline.studio.drive_forms import drive_forms
 from viaspline.studio.engine import Engine
 from viaspline.studio.folder import Folder
 from viaspline.studio.live import Live
@@ -81,6 +82,7 @@ class Session:
             document=desk.document,
             origin=desk.origin,
             empty=EMPTY,
+            drives=drive_forms(),
             problem=problem,
             warnings=notes,
         )

@@ -26,6 +26,7 @@ from viaspline.trajectory.coupled import Profile, Stage, cell_size_for, coupled_
 from viaspline.trajectory.curvature_limited import Cubic, bend_profile
 from viaspline.trajectory.limits import Limits
 from viaspline.trajectory.slow_zones import Slow, slow_parts
+from viaspline.trajectory.turned import TurnedCurve, turned
 
 
 class LimitedPath(Protocol):
@@ -54,7 +55,8 @@ def limited_path_of(
     if hasattr(path, "spans"):
         return LimitedCubicPath(cast(Cubic, path), limits, grid)
     rough = cell_size_for(limits, 1, Stage(start=0.0, end=1.0, first=0.0, last=0.0, top=1.0))
-    cells, u = sampled_cells(path, rough, MIN_SAMPLES if grid is None else grid)
+    sampled = TurnedCurve(path, limits.axis_heading) if limits.axis_heading else path
+    cells, u = sampled_cells(sampled, rough, MIN_SAMPLES if grid is None else grid)
     return LimitedSampledPath(path, limits, cells, u)
 
 
@@ -105,7 +107,7 @@ class LimitedCubicPath:
         """The path in cells that are fine enough for the limits."""
         cell_size = cell_size_for(self.limits, self.path.spans.shape[2], stage, self.grid)
         first, begin = self._ahead(stage.start)
-        spans = np.ascontiguousarray(self.path.spans[first:])
+        spans = turned(np.ascontiguousarray(self.path.spans[first:]), self.limits.axis_heading)
         return cubic_cells(spans, begin, self.length, cell_size), cell_size
 
     def profile(self, stage: Stage) -> Profile:

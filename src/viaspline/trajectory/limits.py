@@ -51,6 +51,8 @@ class Limits:
         wheelbase: From the reference point, on the rear axle, to the steered wheels [m].
         axis_speed: Along every coordinate axis [m/s]: one number, or one for each axis.
         axis_accel: Along every coordinate axis [m/s²], the acceleration across the path included.
+        axis_heading: By which the first two of these axes are turned, anticlockwise [rad]: so they
+            are limits along and across a body that keeps this heading.
 
     Raises:
         GeometryError: When a limit is not a finite number above 0, or a steering rate has no
@@ -72,6 +74,7 @@ class Limits:
     wheelbase: float | None = None
     axis_speed: float | Sequence[float] | NDArray[np.float64] | None = None
     axis_accel: float | Sequence[float] | NDArray[np.float64] | None = None
+    axis_heading: float = 0.0
 
     def __post_init__(self) -> None:
         for name in _ALONG:
@@ -82,6 +85,8 @@ class Limits:
                 object.__setattr__(self, name, float(value))
         if self.max_steer_rate is not None and self.wheelbase is None:
             raise GeometryError("max_steer_rate needs the wheelbase; give wheelbase in metres")
+        if not math.isfinite(self.axis_heading):
+            raise GeometryError(f"axis_heading is {self.axis_heading}; give an angle in radians")
         for name in ("axis_speed", "axis_accel"):
             value = getattr(self, name)
             if value is None or isinstance(value, float):

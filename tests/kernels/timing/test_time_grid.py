@@ -61,3 +61,12 @@ def test_where_a_drive_begins_by_braking_it_is_as_fine_as_can_be() -> None:
     line, squares = np.arange(11.0), np.array([9, 7, 5, 3, 1, 3, 5, 7, 7, 7, 7.0])
     finer = time_grid.refined(line, squares, 1.5, 1.0, 1.0, 1.0, 8)
     assert finer.tolist() == [*np.arange(0, 4, 0.125).tolist(), *line[4:].tolist()]
+
+
+@pytest.mark.parametrize("apart", [0.0, 2e-15, 1e-12, 1e-9])
+def test_stops_that_only_rounding_keeps_apart_have_no_nodes_between_them(apart: float) -> None:
+    along = np.linspace(0.0, 40.0, 401)
+    stops = np.array([0.0, 12.157435984, 12.157435984 + apart, 40.0])
+    marks = time_grid.marks(along, stops, np.empty(0), False, 0.8, 4e-8)
+    assert np.count_nonzero(np.abs(marks - stops[1]) < 1e-6) == 2
+    assert np.all(np.diff(marks) >= 0.0)

@@ -131,14 +131,16 @@ def test_a_command_says_what_the_drive_is_to_be_given(mission_of: Make, kind: st
     for _ in range(60):
         command, nav = nav.step(nav.reference(time), [], time)
         time += 0.05
+    assert command.velocity == (command.speed, 0.0)
+    told = command.actuators
     if kind == "ackermann":
-        assert command.wheels is None
-        assert command.steer is not None
-        assert command.yaw_rate == pytest.approx(command.speed * math.tan(command.steer) / 0.8)
+        assert set(told) == {"speed_mps", "steer_rad"}
+        assert told["speed_mps"] == command.speed
+        yaw_rate = command.speed * math.tan(told["steer_rad"]) / 0.8
+        assert command.yaw_rate == pytest.approx(yaw_rate)
         return
-    assert command.steer is None
-    assert command.wheels is not None
-    left, right = command.wheels
+    assert set(told) == {"left_wheel_mps", "right_wheel_mps"}
+    left, right = told["left_wheel_mps"], told["right_wheel_mps"]
     assert 0.5 * (left + right) == pytest.approx(command.speed)
     track, grip = (0.5, 1.0) if kind == "differential" else (0.6, 0.7)
     assert (right - left) / track * grip == pytest.approx(command.yaw_rate)

@@ -42,7 +42,8 @@ def marks(
     count, edge, cell = 0, 0, 1
     for leg in range(legs):
         low, high = stops[leg], stops[leg + 1]
-        step = 2.0 ** np.floor(np.log2((high - low) / MIN_STRETCHES))
+        # stops that only rounding keeps apart: a step that is less than rounding never ends
+        step = 2.0 ** np.floor(np.log2(max(high - low, slip) / MIN_STRETCHES))
         even = step * (np.floor(low / step) + 1.0)
         up = 0 if graded or leg > 0 else grades
         down = grades - 1

@@ -1,4 +1,7 @@
-"""Following a path with its time law: the closed loop, and how far off the machine was."""
+"""Following a path with its time law: the closed loop, and how far off the robot was.
+
+Tested through ``machine/test_trial_drive``.
+"""
 
 from __future__ import annotations
 
@@ -10,24 +13,42 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.tracking.control_law import (
     HIGH,
+    LAST_TURN,
     LATE,
     LOW,
     MEMORY,
+    NOTED_ACROSS,
+    NOTED_ALONG,
+    NOTED_TURN,
     NOTES,
     PLACE,
     REST,
     SPEED,
     TIME,
-    TO_SPEED,
-    TO_TURN,
-    TURN,
     decide_into,
 )
-from viaspline.kernels.tracking.drive_model import Machine, clip
-from viaspline.kernels.tracking.drive_motion import STATE, V, W, move_into
+from viaspline.kernels.tracking.drive_model import DriveModel, clip, wanted_heading
+from viaspline.kernels.tracking.drive_motion import (
+    ACROSS,
+    ALONG,
+    COMMAND,
+    GIVEN_AT,
+    ROW,
+    ROW_HEADING,
+    ROW_TIME,
+    ROW_X,
+    ROW_Y,
+    STATE,
+    TO_ACROSS,
+    TO_ALONG,
+    TO_TURN,
+    TURN,
+    move_into,
+)
 from viaspline.kernels.tracking.reference_path import (
     ReferencePath,
     beside,
+    heading_error,
     nearest_on,
     on_reference,
 )
@@ -36,7 +57,7 @@ from viaspline.kernels.tracking.reference_timing import SpeedProfile
 
 @kernel
 def drive(
-    machine: Machine,
+    model: DriveModel,
     reference: ReferencePath,
     profile: SpeedProfile,
     state: Floats,
@@ -48,7 +69,7 @@ def drive(
     """A whole drive along a path: measure, decide, move, until the time law is over.
 
     Args:
-        machine: The drive, with its noise.
+        model: The drive, with its noise.
         reference: The path.
         profile: The time law; it begins at time 0.
         state: At the start, shape (STATE,), changed in place.
@@ -62,10 +83,10 @@ def drive(
         the number of periods, -1 if it was not over after n.
     """
     n = measured.shape[0]
-    track, notes = np.empty((n * substeps, 6)), np.zeros((n, NOTES))
-    times, speeds, turns = np.empty(n), np.empty(n), np.empty(n)
+    track, notes = np.empty((n * substeps, ROW)), np.zeros((n, NOTES))
+    commands = np.empty((n, COMMAND))
     memory, pose, note = np.zeros(MEMORY), np.zeros(STATE), np.zeros(NOTES)
-    memory[LATE], memory[TURN] = machine.delay, state[W]
+    memory[LATE], memory[LAST_TURN] = model.delay, state[TURN]
     end = profile.time[profile.time.shape[0] - 1]
     for tick in range(n):
         time = tick * period
@@ -73,39 +94,30 @@ def drive(
             return track, notes, tick
         for k in range(3):
             pose[k] = state[k] + measured[tick, k]
-        pose[V] = state[V]
+        pose[ALONG], pose[ACROSS] = state[ALONG], state[ACROSS]
         decide_into(
-            machine,
-            reference,
-            profile,
-            memory,
-            pose,
-            time,
-            period,
-            times,
-            speeds,
-            turns,
-            tick,
-            note,
-        )
+            model, reference, profile, memory, pose, time, period, commands, tick, note
+        )  # fmt: skip
         for k in range(NOTES):
             notes[tick, k] = note[k]
-        times[tick], speeds[tick], turns[tick] = time, note[TO_SPEED], note[TO_TURN]
+        commands[tick, GIVEN_AT], commands[tick, TO_ALONG] = time, note[NOTED_ALONG]
+        commands[tick, TO_ACROSS], commands[tick, TO_TURN] = note[NOTED_ACROSS], note[NOTED_TURN]
         move_into(
-            machine, state, time, period / substeps, tick * substeps, (tick + 1) * substeps, times,
-            speeds, turns, tick + 1, noise, track,
+            model, state, time, period / substeps, tick * substeps, (tick + 1) * substeps, commands,
+            tick + 1, noise, track,
         )  # fmt: skip
     return track, notes, -1
 
 
 @kernel
-def deviations(reference: ReferencePath, notes: Floats, track: Floats) -> Floats:
-    """How far beside, turned from and behind its path a machine really was.
+def deviations(model: DriveModel, reference: ReferencePath, notes: Floats, track: Floats) -> Floats:
+    """How far beside, turned from and behind its path a robot really was.
 
     Args:
+        model: Its drive.
         reference: The path.
         notes: Of every period, shape (m, NOTES).
-        track: Of every step, shape (n, 6).
+        track: Of every step, shape (n, ROW).
 
     Returns:
         Distance along the path, distance from the path, positive to the left, heading error,
@@ -115,7 +127,7 @@ def deviations(reference: ReferencePath, notes: Floats, track: Floats) -> Floats
     k = -1
     s = low = notes[0, LOW]
     for i in range(track.shape[0]):
-        time, x, y = track[i, 0], track[i, 1], track[i, 2]
+        time, x, y = track[i, ROW_TIME], track[i, ROW_X], track[i, ROW_Y]
         while k + 1 < notes.shape[0] and notes[k + 1, TIME] <= time + 1e-9:
             k += 1
         should, rests = notes[0, PLACE], True
@@ -128,8 +140,9 @@ def deviations(reference: ReferencePath, notes: Floats, track: Floats) -> Floats
             should = min(should, high)
         s = nearest_on(reference, clip(should, s - 0.5, s + 0.5), x, y, low, high)
         px, py, _, _ = on_reference(reference, s)
-        aside, error = beside(reference, s, x, y, track[i, 3])
-        out[i, 0], out[i, 2] = s, error
+        aside, tangent = beside(reference, s, x, y)
+        out[i, 0] = s
         out[i, 1] = math.copysign(math.hypot(x - px, y - py), aside)
+        out[i, 2] = heading_error(track[i, ROW_HEADING], wanted_heading(model, tangent))
         out[i, 3], out[i, 4] = should - s, 1.0 if rests else 0.0
     return out

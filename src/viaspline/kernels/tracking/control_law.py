@@ -13,29 +13,46 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inlined, inner, kernel
-from viaspline.kernels.tracking.drive_model import ACKERMANN, Machine, clip, limited
-from viaspline.kernels.tracking.drive_motion import HEADING, V, W, X, Y, carried
+from viaspline.kernels.tracking.drive_model import (
+    DriveModel,
+    clip,
+    is_steered,
+    limited,
+    moves_across,
+    wanted_heading,
+)
+from viaspline.kernels.tracking.drive_motion import ACROSS, ALONG, HEADING, TURN, X, Y, carried
 from viaspline.kernels.tracking.reference_path import (
     ReferencePath,
     beside,
+    heading_error,
     nearest_on,
     on_reference,
 )
 from viaspline.kernels.tracking.reference_timing import SpeedProfile, ends_at, profile_at
 
-STEEPEST = 1.0  # a robot beside its path comes back to it at this angle at most [rad]
-ASTRAY = 0.7  # a robot that can turn on the spot does, if its heading is off by more [rad]
-STILL = 0.004  # an error of the heading at rest that is left as it is [rad]
+MAX_APPROACH_RAD = 1.0
+"""A robot beside its path comes back to it at this angle at most [rad]."""
+
+ASTRAY_RAD = 0.7
+"""A robot that can turn on the spot does, if its heading is off by more [rad]."""
+
+HEADING_DEADBAND_RAD = 0.004
+"""An error of the heading at rest that is left as it is [rad]."""
 
 # what is noted at every step of the controller
-TIME, PLACE, SPEED, LOW, HIGH, REST, TO_SPEED, TO_TURN, PROGRESS, ASIDE, ERROR, BEHIND = range(12)
-NOTES = 12
-# what the controller remembers
-LATE, AT, TURN, THEN, PACE, FLOOR = range(6)
+(
+    TIME, PLACE, SPEED, LOW, HIGH, REST, NOTED_ALONG, NOTED_TURN, PROGRESS, CROSS_TRACK,
+    HEADING_ERROR, ALONG_TRACK, NOTED_ACROSS,
+) = range(13)  # fmt: skip
+NOTES = 13
+# what the controller remembers: how late its clock is, where it was on the path, the turn and the
+# speed that it predicted, when, and the last rest that it left
+LATE, AT, LAST_TURN, LAST_TIME, LAST_SPEED, FLOOR = range(6)
 MEMORY = 6
 
 
-def turn_law(curvature: float, aside: float, error: float, aim: float) -> float:
+def turn_law(curvature: float, aside: float, error: float, distance: float) -> float:
     """The curvature of the arc that leads back to a path.
 
     Feed-forward of the path's curvature, seen from beside it, and feedback: with the offset e to
@@ -48,19 +65,19 @@ def turn_law(curvature: float, aside: float, error: float, aim: float) -> float:
         curvature: Of the path [1/m].
         aside: How far to the left of it the robot is [m].
         error: Its heading less the path's [rad].
-        aim: L [m].
+        distance: L [m].
     """
     nearer = min(max(1.0 - curvature * aside, 0.3), 3.0)
-    ahead = -min(max(0.5 * aside / aim, -STEEPEST), STEEPEST)
-    return curvature * math.cos(error) / nearer - 2.0 * (error - ahead) / aim
+    ahead = -min(max(0.5 * aside / distance, -MAX_APPROACH_RAD), MAX_APPROACH_RAD)
+    return curvature * math.cos(error) / nearer - 2.0 * (error - ahead) / distance
 
 
 _turn_law = inlined(turn_law)
 
 
 @inner
-def _aimed(
-    machine: Machine,
+def _under_way(
+    model: DriveModel,
     reference: ReferencePath,
     note: Floats,
     pose: Floats,
@@ -69,60 +86,68 @@ def _aimed(
     hold: float,
 ) -> None:
     """The command for a robot that should be moving, held for some time [s]."""
-    s, aside, error = note[PROGRESS], note[ASIDE], note[ERROR]
-    v = speed + machine.lag * accel + machine.gain * note[BEHIND]
-    v = clip(v, 0.0, machine.speed)
-    if machine.kind != ACKERMANN:
-        if abs(error) > ASTRAY:
-            note[TO_SPEED] = 0.0
-            note[TO_TURN] = clip(-machine.turn_gain * error, -machine.spot, machine.spot)
+    s, aside, error = note[PROGRESS], note[CROSS_TRACK], note[HEADING_ERROR]
+    v = speed + model.lag * accel + model.along_gain * note[ALONG_TRACK]
+    v = clip(v, 0.0, model.max_speed)
+    now = math.hypot(pose[ALONG], pose[ACROSS])
+    ahead = min(s + now * (model.lag + 0.5 * hold), note[HIGH] - 1e-9)
+    distance = max(model.convergence_distance, model.convergence_time * now)
+    _, _, tangent, curvature = on_reference(reference, max(ahead, s))
+    note[NOTED_ACROSS] = 0.0
+    if moves_across(model):
+        back = clip(-aside / distance, -MAX_APPROACH_RAD, MAX_APPROACH_RAD)
+        way = tangent + back - pose[HEADING]
+        note[NOTED_ALONG], note[NOTED_ACROSS] = v * math.cos(way), v * math.sin(way)
+        note[NOTED_TURN] = clip(-model.heading_gain * error, -model.spot_rate, model.spot_rate)
+        return
+    if not is_steered(model):
+        if abs(error) > ASTRAY_RAD:
+            note[NOTED_ALONG] = 0.0
+            note[NOTED_TURN] = clip(-model.heading_gain * error, -model.spot_rate, model.spot_rate)
             return
         v *= math.cos(error)
-    ahead = min(s + pose[V] * (machine.lag + 0.5 * hold), note[HIGH] - 1e-9)
-    curvature = on_reference(reference, max(ahead, s))[3]
-    aim = max(machine.aim, machine.aim_time * pose[V])
-    bend = _turn_law(curvature, aside, error, aim)
-    note[TO_SPEED] = v
-    note[TO_TURN] = math.atan(machine.length * bend) if machine.kind == ACKERMANN else bend * v
-    return
+    bend = _turn_law(curvature, aside, error, distance)
+    note[NOTED_ALONG] = v
+    note[NOTED_TURN] = bend * v
+    if is_steered(model):
+        note[NOTED_TURN] = math.atan(model.actuators.wheelbase * bend)
 
 
 @inner
-def _resting(machine: Machine, reference: ReferencePath, note: Floats) -> None:
+def _resting(model: DriveModel, reference: ReferencePath, note: Floats) -> None:
     """The command for a robot that should stand: it turns to where it goes on."""
-    note[TO_SPEED] = 0.0
-    if machine.kind == ACKERMANN:
-        note[TO_TURN] = math.atan(machine.length * on_reference(reference, note[PROGRESS])[3])
+    note[NOTED_ALONG], note[NOTED_ACROSS] = 0.0, 0.0
+    if is_steered(model):
+        bend = on_reference(reference, note[PROGRESS])[3]
+        note[NOTED_TURN] = math.atan(model.actuators.wheelbase * bend)
         return
-    error = note[ERROR]
-    note[TO_TURN] = 0.0
-    if abs(error) > STILL:
-        note[TO_TURN] = clip(-machine.turn_gain * error, -machine.spot, machine.spot)
+    error = note[HEADING_ERROR]
+    note[NOTED_TURN] = 0.0
+    if abs(error) > HEADING_DEADBAND_RAD:
+        note[NOTED_TURN] = clip(-model.heading_gain * error, -model.spot_rate, model.spot_rate)
 
 
 @inner
 def decide_into(
-    machine: Machine,
+    model: DriveModel,
     reference: ReferencePath,
     profile: SpeedProfile,
     memory: Floats,
     pose: Floats,
     time: float,
     period: float,
-    times: Floats,
-    speeds: Floats,
-    turns: Floats,
+    commands: Floats,
     count: int,
     note: Floats,
 ) -> None:
     """One step of the controller; see ``decide``."""
-    x, y, heading, v = pose[X], pose[Y], pose[HEADING], pose[V]
-    pose[V], pose[W] = memory[PACE], memory[TURN]
-    carried(machine, pose, memory[THEN], time, times, speeds, turns, count)
-    memory[TURN], memory[PACE], memory[THEN] = pose[W], v, time
-    pose[X], pose[Y], pose[HEADING], pose[V] = x, y, heading, v
-    carried(machine, pose, time, time + machine.delay, times, speeds, turns, count)
-    now = time + machine.delay
+    x, y, heading, along, across = pose[X], pose[Y], pose[HEADING], pose[ALONG], pose[ACROSS]
+    pose[ALONG], pose[TURN] = memory[LAST_SPEED], memory[LAST_TURN]
+    carried(model, pose, memory[LAST_TIME], time, commands, count)  # the turn is not measured
+    memory[LAST_TURN], memory[LAST_SPEED], memory[LAST_TIME] = pose[TURN], along, time
+    pose[X], pose[Y], pose[HEADING], pose[ALONG], pose[ACROSS] = x, y, heading, along, across
+    carried(model, pose, time, time + model.delay, commands, count)
+    now = time + model.delay
     should, speed, accel = profile_at(profile, now - memory[LATE])
     low, high, stood = ends_at(profile, now - memory[LATE])
     if stood:
@@ -134,66 +159,54 @@ def decide_into(
         least, most = low, max(high - 1e-9, low)
         s = nearest_on(reference, clip(should, memory[AT] - 0.5, memory[AT] + 1.0), pose[X],
                      pose[Y], least, most)  # fmt: skip
-        if should - s > machine.room + machine.room_time * speed:
+        if should - s > model.slack + model.slack_time * speed:
             memory[LATE] += period
             should, speed, accel = profile_at(profile, now - memory[LATE])
     memory[AT] = s
     note[TIME], note[PLACE], note[SPEED], note[LOW], note[HIGH] = now, should, speed, low, high
     note[REST] = 1.0 if rests else 0.0
-    note[PROGRESS], note[BEHIND] = s, should - s
-    note[ASIDE], note[ERROR] = beside(reference, s, pose[X], pose[Y], pose[HEADING])
+    note[PROGRESS], note[ALONG_TRACK] = s, should - s
+    note[CROSS_TRACK], tangent = beside(reference, s, pose[X], pose[Y])
+    note[HEADING_ERROR] = heading_error(pose[HEADING], wanted_heading(model, tangent))
     if rests:
-        _resting(machine, reference, note)
+        _resting(model, reference, note)
     else:
         _, soon, push = profile_at(profile, now + 0.5 * period - memory[LATE])
-        _aimed(machine, reference, note, pose, soon, push, period)
-    note[TO_SPEED], note[TO_TURN] = limited(machine, note[TO_SPEED], note[TO_TURN])
+        _under_way(model, reference, note, pose, soon, push, period)
+    note[NOTED_ALONG], note[NOTED_ACROSS], note[NOTED_TURN] = limited(
+        model, note[NOTED_ALONG], note[NOTED_ACROSS], note[NOTED_TURN]
+    )
 
 
 @kernel
 def decide(
-    machine: Machine,
+    model: DriveModel,
     reference: ReferencePath,
     profile: SpeedProfile,
     memory: Floats,
     pose: Floats,
     time: float,
     period: float,
-    times: Floats,
-    speeds: Floats,
-    turns: Floats,
+    commands: Floats,
 ) -> Floats:
     """What a robot is told now.
 
     Args:
-        machine: Its drive; the noise is not looked at.
+        model: Its drive; the noise is not looked at.
         reference: Its path.
         profile: Its time law.
         memory: What the controller remembers, shape (MEMORY,), changed in place.
-        pose: As measured: X, Y, HEADING, V and W, shape (STATE,); afterwards as predicted for
-            when the command takes effect.
+        pose: As measured: X, Y, HEADING, ALONG and ACROSS, shape (STATE,); afterwards as
+            predicted for when the command takes effect.
         time: Now [s].
         period: Until the next step [s].
-        times: When the commands before were given [s], increasing, shape (k,).
-        speeds: What they were [m/s], shape (k,).
-        turns: As the machine's, shape (k,).
+        commands: Those given before, in order, shape (k, COMMAND).
 
     Returns:
-        What is noted, shape (NOTES,): the command under TO_SPEED and TO_TURN.
+        What is noted, shape (NOTES,): the command under NOTED_ALONG, NOTED_ACROSS, NOTED_TURN.
     """
     note = np.zeros(NOTES)
     decide_into(
-        machine,
-        reference,
-        profile,
-        memory,
-        pose,
-        time,
-        period,
-        times,
-        speeds,
-        turns,
-        times.shape[0],
-        note,
+        model, reference, profile, memory, pose, time, period, commands, commands.shape[0], note
     )
     return note

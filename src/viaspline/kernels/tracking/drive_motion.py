@@ -1,4 +1,4 @@
-"""How a machine moves on under its commands: as a controller predicts it, and as it truly is."""
+"""How a drive moves on under its commands: as a controller predicts it, and as it truly is."""
 
 from __future__ import annotations
 
@@ -9,145 +9,153 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.tracking.drive_model import (
-    ACKERMANN,
-    BREATH,
-    Machine,
-    awake,
+    NOISE_TIME_S,
+    DriveModel,
+    is_steered,
     limited,
     moved,
+    noise_share,
     respond,
-    turning,
+    yaw_rate_of,
 )
 
-SUBSTEP = 0.01
+SUBSTEP_S = 0.01
 """Longest step of the motion [s]."""
 
-# the state of a machine: pose, speed, turn, and the noise of speed and yaw rate
-X, Y, HEADING, V, W, SPEED_OFF, YAW_OFF = range(7)
-STATE = 7
+# the state of a drive: pose, speed along the body, turn, noise of speed and yaw rate, speed across
+X, Y, HEADING, ALONG, TURN, SPEED_OFF, YAW_OFF, ACROSS = range(8)
+STATE = 8
+
+# a command: when it was given, and what it was
+GIVEN_AT, TO_ALONG, TO_ACROSS, TO_TURN = range(4)
+COMMAND = 4
+
+# a row of a track: when, the pose, and the velocity of the body and the yaw rate before
+ROW_TIME, ROW_X, ROW_Y, ROW_HEADING, ROW_ALONG, ROW_YAW_RATE, ROW_ACROSS = range(7)
+ROW = 7
 
 
 @inner
 def carried(
-    machine: Machine,
-    pose: Floats,
-    begin: float,
-    end: float,
-    times: Floats,
-    speeds: Floats,
-    turns: Floats,
-    count: int,
+    model: DriveModel, pose: Floats, begin: float, end: float, commands: Floats, count: int
 ) -> None:
-    """Let a machine go on from ``begin`` to ``end`` by the commands that take effect then.
+    """Let a drive go on from ``begin`` to ``end`` by the commands that take effect then.
 
     Args:
-        machine: Without its noise.
-        pose: X, Y, HEADING, V and W, changed in place.
+        model: Without its noise.
+        pose: X, Y, HEADING, ALONG, TURN and ACROSS, changed in place.
         begin: [s].
         end: [s].
-        times: When each command was given, increasing, the first ``count`` of them [s].
-        speeds: [m/s].
-        turns: As the machine's.
+        commands: In the order in which they were given, the first ``count`` of them, shape
+            (n, COMMAND).
         count: How many commands there are.
     """
     if end <= begin:
         return
-    steps = math.ceil((end - begin) / SUBSTEP - 1e-6)
+    steps = math.ceil((end - begin) / SUBSTEP_S - 1e-6)
     seconds = (end - begin) / steps
     k = count - 1
-    while k >= 0 and times[k] + machine.delay > begin + 0.5 * seconds:
+    while k >= 0 and commands[k, GIVEN_AT] + model.delay > begin + 0.5 * seconds:
         k -= 1
     for i in range(steps):
         now = begin + (i + 0.5) * seconds
-        while k + 1 < count and times[k + 1] + machine.delay <= now:
+        while k + 1 < count and commands[k + 1, GIVEN_AT] + model.delay <= now:
             k += 1
-        to_speed, to_turn = pose[V], pose[W]
+        to_along, to_across, to_turn = pose[ALONG], pose[ACROSS], pose[TURN]
         if k >= 0:
-            to_speed, to_turn = limited(machine, speeds[k], turns[k])
-        v, w = respond(machine, pose[V], pose[W], to_speed, to_turn, seconds)
-        mean = 0.5 * (pose[V] + v)
-        rate = turning(machine, mean, 0.5 * (pose[W] + w))
-        pose[X], pose[Y], pose[HEADING] = moved(
-            pose[X], pose[Y], pose[HEADING], mean, rate, seconds
+            to_along, to_across, to_turn = limited(
+                model, commands[k, TO_ALONG], commands[k, TO_ACROSS], commands[k, TO_TURN]
+            )
+        along, across, turn = respond(
+            model, pose[ALONG], pose[ACROSS], pose[TURN], to_along, to_across, to_turn, seconds
         )
-        pose[V], pose[W] = v, w
+        mean, aside = 0.5 * (pose[ALONG] + along), 0.5 * (pose[ACROSS] + across)
+        rate = yaw_rate_of(model, mean, 0.5 * (pose[TURN] + turn))
+        pose[X], pose[Y], pose[HEADING] = moved(
+            pose[X], pose[Y], pose[HEADING], mean, aside, rate, seconds
+        )
+        pose[ALONG], pose[ACROSS], pose[TURN] = along, across, turn
 
 
 @inner
 def move_into(
-    machine: Machine,
+    model: DriveModel,
     state: Floats,
     begin: float,
     seconds: float,
     first: int,
     last: int,
-    times: Floats,
-    speeds: Floats,
-    turns: Floats,
+    commands: Floats,
     count: int,
     noise: Floats,
     track: Floats,
 ) -> None:
     """The true motion in the steps ``first`` to ``last``; see ``move``."""
-    fade = math.exp(-seconds / BREATH)
+    fade = math.exp(-seconds / NOISE_TIME_S)
     fresh = math.sqrt(1.0 - fade * fade)
     k = count - 1
-    while k >= 0 and times[k] + machine.delay > begin + 0.5 * seconds:
+    while k >= 0 and commands[k, GIVEN_AT] + model.delay > begin + 0.5 * seconds:
         k -= 1
     for i in range(first, last):
         end = begin + (i - first + 1) * seconds
-        while k + 1 < count and times[k + 1] + machine.delay <= end - 0.5 * seconds:
+        while k + 1 < count and commands[k + 1, GIVEN_AT] + model.delay <= end - 0.5 * seconds:
             k += 1
-        to_speed, to_turn = 0.0, state[W]
-        if machine.kind != ACKERMANN:
-            to_turn = 0.0
+        to_along, to_across, to_turn = 0.0, 0.0, 0.0
+        if is_steered(model):  # wheels stay as they were turned
+            to_turn = state[TURN]
         if k >= 0:
-            to_speed, to_turn = limited(machine, speeds[k], turns[k])
-        v, w = respond(machine, state[V], state[W], to_speed, to_turn, seconds)
-        mean = 0.5 * (state[V] + v)
-        rate = turning(machine, mean, 0.5 * (state[W] + w))
-        state[V], state[W] = v, w
-        state[SPEED_OFF] = fade * state[SPEED_OFF] + fresh * machine.speed_noise * noise[i, 0]
-        state[YAW_OFF] = fade * state[YAW_OFF] + fresh * machine.yaw_noise * noise[i, 1]
-        share = awake(machine, mean, rate)
-        mean += share * state[SPEED_OFF]
+            to_along, to_across, to_turn = limited(
+                model, commands[k, TO_ALONG], commands[k, TO_ACROSS], commands[k, TO_TURN]
+            )
+        along, across, turn = respond(
+            model, state[ALONG], state[ACROSS], state[TURN], to_along, to_across, to_turn, seconds
+        )
+        mean, aside = 0.5 * (state[ALONG] + along), 0.5 * (state[ACROSS] + across)
+        rate = yaw_rate_of(model, mean, 0.5 * (state[TURN] + turn))
+        state[ALONG], state[ACROSS], state[TURN] = along, across, turn
+        state[SPEED_OFF] = fade * state[SPEED_OFF] + fresh * model.speed_noise * noise[i, 0]
+        state[YAW_OFF] = fade * state[YAW_OFF] + fresh * model.yaw_noise * noise[i, 1]
+        share = noise_share(model, mean, aside, rate)
+        off = share * state[SPEED_OFF]
+        if aside == 0.0:
+            mean += off
+        else:  # it is off along the direction of travel
+            ground = math.hypot(mean, aside)
+            mean, aside = mean + off * mean / ground, aside + off * aside / ground
         rate += share * state[YAW_OFF]
         state[X], state[Y], state[HEADING] = moved(
-            state[X], state[Y], state[HEADING], mean, rate, seconds
+            state[X], state[Y], state[HEADING], mean, aside, rate, seconds
         )
-        track[i, 0], track[i, 1], track[i, 2], track[i, 3] = end, state[X], state[Y], state[HEADING]
-        track[i, 4], track[i, 5] = mean, rate
+        track[i, ROW_TIME], track[i, ROW_X], track[i, ROW_Y] = end, state[X], state[Y]
+        track[i, ROW_HEADING], track[i, ROW_ALONG] = state[HEADING], mean
+        track[i, ROW_YAW_RATE], track[i, ROW_ACROSS] = rate, aside
 
 
 @kernel
 def move(
-    machine: Machine,
+    model: DriveModel,
     state: Floats,
     begin: float,
     seconds: float,
-    times: Floats,
-    speeds: Floats,
-    turns: Floats,
+    commands: Floats,
     noise: Floats,
 ) -> Floats:
-    """The true motion of a machine, as it is commanded.
+    """The true motion of a drive, as it is commanded.
 
     Args:
-        machine: The drive, with its noise.
+        model: The drive, with its noise.
         state: Shape (STATE,), changed in place.
         begin: [s].
         seconds: Each step takes [s].
-        times: When the commands were given [s], increasing, shape (k,).
-        speeds: What they were [m/s], shape (k,).
-        turns: As the machine's, shape (k,).
+        commands: When each was given [s], increasing, and the velocity along and across the body
+            [m/s] and the turn that it asked for, shape (k, COMMAND).
         noise: Standard normal numbers for speed and yaw rate in every step, shape (n, 2).
 
     Returns:
-        After every step time, x, y, heading, and the speed and yaw rate in it, shape (n, 6).
+        After every step time, x, y, heading, and the speed along the body, the yaw rate and the
+        speed across the body in it, shape (n, ROW).
     """
     n = noise.shape[0]
-    track = np.empty((n, 6))
-    move_into(
-        machine, state, begin, seconds, 0, n, times, speeds, turns, times.shape[0], noise, track
-    )
+    track = np.empty((n, ROW))
+    move_into(model, state, begin, seconds, 0, n, commands, commands.shape[0], noise, track)
     return track

@@ -1,4 +1,7 @@
-"""A path as points close together: places on it, and how far beside it a robot is."""
+"""A path as points close together: places on it, and how far beside it a robot is.
+
+Tested through ``machine/test_trial_drive``.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from typing import NamedTuple
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.arclength import panel_of
-from viaspline.kernels.jit import inner
+from viaspline.kernels.jit import inlined, inner
 from viaspline.kernels.tracking.drive_model import clip
 
 
@@ -81,11 +84,15 @@ def nearest_on(
 
 
 @inner
-def beside(
-    reference: ReferencePath, s: float, x: float, y: float, heading: float
-) -> tuple[float, float]:
-    """How far to the left of its place on a path a robot is, and its heading error."""
-    px, py, ahead, _ = on_reference(reference, s)
-    aside = (y - py) * math.cos(ahead) - (x - px) * math.sin(ahead)
-    error = heading - ahead
-    return aside, error - 2.0 * math.pi * math.floor(error / (2.0 * math.pi) + 0.5)
+def beside(reference: ReferencePath, s: float, x: float, y: float) -> tuple[float, float]:
+    """How far to the left of its place on a path a robot is, and the path's heading there."""
+    px, py, tangent, _ = on_reference(reference, s)
+    aside = (y - py) * math.cos(tangent) - (x - px) * math.sin(tangent)
+    return aside, tangent
+
+
+@inlined
+def heading_error(heading: float, wanted: float) -> float:
+    """A heading less another one, from -π to π [rad]."""
+    error = heading - wanted
+    return error - 2.0 * math.pi * math.floor(error / (2.0 * math.pi) + 0.5)

@@ -1,4 +1,7 @@
-"""A time law as it is followed: where a robot should be, and between which rests."""
+"""A time law as it is followed: where a robot should be, and between which rests.
+
+Tested through ``machine/test_trial_drive``.
+"""
 
 from __future__ import annotations
 

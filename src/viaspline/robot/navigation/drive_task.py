@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from viaspline.kernels.tracking.drive_model import Machine
+from viaspline.kernels.tracking.drive_model import DriveModel
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.robot.perception.belief import MIN_SURFACE_DISTANCE_M
@@ -23,14 +23,14 @@ class DriveTask:
         requirements: Of every path: the clearance, the body, the turning circle.
         limits: Of every trajectory: speeds and accelerations, with what the sensor allows.
         reaction: Longest time between two steps [s].
-        machine: The drive; None if the robot follows its path exactly.
+        model: The drive; None if the robot follows its path exactly.
     """
 
     mission: Mission
     requirements: Requirements
     limits: Limits
     reaction: float
-    machine: Machine | None = None
+    model: DriveModel | None = None
 
 
 def requirements_under_way(mission: Mission, tracking_error: float) -> Requirements:

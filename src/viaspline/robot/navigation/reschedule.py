@@ -115,8 +115,8 @@ def trajectory_within_sight(
         speed = 0.0
     if end < path.length:
         stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
-    if task.machine is not None:
-        stops = with_turns(path, task.machine, stops, distance)
+    if task.model is not None:
+        stops = with_turns(path, task.model, stops, distance)
     trajectory = retime(
         path,
         task.limits,

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import Path
-from viaspline.kernels.tracking.control_law import ASIDE
+from viaspline.kernels.tracking.control_law import CROSS_TRACK
 from viaspline.robot.controller import Controller
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule
@@ -61,7 +61,7 @@ def _controlled(
         progress,
         time=now,
         distance=max(float(schedule.trajectory.distance_at(now)), progress.distance),
-        cross_track=abs(float(controller.note[ASIDE])),
+        cross_track=abs(float(controller.note[CROSS_TRACK])),
         controller=controller,
     ), schedule
 

@@ -10,10 +10,20 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.control_law import NOTES
-from viaspline.kernels.tracking.drive_motion import SUBSTEP, move
+from viaspline.kernels.tracking.drive_model import DriveModel
+from viaspline.kernels.tracking.drive_motion import (
+    ACROSS,
+    ALONG,
+    HEADING,
+    ROW_TIME,
+    SUBSTEP_S,
+    X,
+    Y,
+    move,
+)
 from viaspline.machine.drive_noise import DriveNoise
 from viaspline.machine.tracking import Tracking
-from viaspline.machine.trial_drive import start_of
+from viaspline.machine.trial_drive import first_row, start_of
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
@@ -36,14 +46,15 @@ class MachineDrive:
 
     Attributes:
         nav: The navigator at its end.
-        rows: The true motion at every step: time, x, y, heading, and the speed and yaw rate
-            before, shape (n, 6).
+        model: What drove.
+        rows: The true motion at every step, as of the kernel ``move``, shape (n, ROW).
         tracking: What it was off from its path.
         touched: The contact that ended it.
         overdue: Why it was broken off.
     """
 
     nav: Navigator
+    model: DriveModel
     rows: Floats
     tracking: Tracking
     touched: Event | None
@@ -66,46 +77,42 @@ def drive_machine(
     controller = nav.controller
     assert controller is not None
     lidar, sensor = sensors_of(nav.mission, world, seed)
-    machine, faults = controller.machine, DriveNoise(nav.mission.robot, seed)
-    substeps = max(math.ceil(step / SUBSTEP - 1e-9), 1)
-    state = start_of(
-        controller.reference.x[0], controller.reference.y[0], controller.reference.heading[0]
-    )
-    rows, notes = [np.array([[0.0, *state[:3], 0.0, 0.0]])], []
+    model, faults = controller.model, DriveNoise(nav.mission.robot, seed)
+    substeps = max(math.ceil(step / SUBSTEP_S - 1e-9), 1)
+    state = start_of(model, controller.reference)
+    rows, notes = [first_row(state)], []
     contact = first_contact(nav.mission.robot, world, rows[0])
     overdue, tick = None, 0
     while contact is None:
         time = tick * step
-        pose = state[:3] + faults.measured(1)[0]
-        believed = RobotState((float(pose[0]), float(pose[1])), float(pose[2]), float(state[3]))
-        place = float(state[0]), float(state[1])
+        x, y, heading = (state[: HEADING + 1] + faults.measured(1)[0]).tolist()
+        believed = RobotState((x, y), heading, float(state[ALONG]), float(state[ACROSS]))
+        place = float(state[X]), float(state[Y])
         if lidar is not None:
-            _, nav = nav.step(believed, lidar.scan(place, float(state[2]), tick), time)
+            _, nav = nav.step(believed, lidar.scan(place, float(state[HEADING]), tick), time)
         else:
             _, nav = nav.step(believed, () if sensor is None else sensor.seen(place), time)
         controller = nav.controller
         assert controller is not None
         notes.append(controller.note)
         tell(time, nav)
-        if _is_over(nav, time, float(state[3])):
+        if _is_over(nav, time, math.hypot(state[ALONG], state[ACROSS])):
             break
         if time > limit:
             overdue = f"the drive was broken off after {time:.0f} s, its limit"
             break
         moved = move(
-            machine, state, time, step / substeps, controller.given[:, 0].copy(),
-            controller.given[:, 1].copy(), controller.given[:, 2].copy(), faults.driven(substeps),
+            model, state, time, step / substeps, controller.given.copy(), faults.driven(substeps),
         )  # fmt: skip
         contact = first_contact(nav.mission.robot, world, np.vstack((rows[-1][-1:], moved)))
         rows.append(moved)
         tick += 1
     track = np.concatenate(rows)
     if contact is not None:
-        track = track[track[:, 0] <= contact.time + 1e-9]
+        track = track[track[:, ROW_TIME] <= contact.time + 1e-9]
     noted = np.array(notes) if notes else np.zeros((1, NOTES))
-    return MachineDrive(
-        nav, track, Tracking.of(controller.reference, noted, track), contact, overdue
-    )
+    tracking = Tracking.of(model, controller.reference, noted, track)
+    return MachineDrive(nav, model, track, tracking, contact, overdue)
 
 
 def _is_over(nav: Navigator, time: float, speed: float) -> bool:

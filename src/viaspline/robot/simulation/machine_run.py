@@ -14,7 +14,9 @@ from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.tracking.drive_motion import ROW_HEADING, ROW_TIME, ROW_X, ROW_Y
 from viaspline.machine.trace import trace
+from viaspline.machine.travel import travel_of
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Run, Visit
 from viaspline.robot.simulation.machine_drive import MachineDrive
@@ -37,15 +39,18 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
         step: From one sample to the next [s].
     """
     nav, rows = drive.nav, drive.rows
-    robot, end = nav.mission.robot, float(drive.rows[-1, 0])
+    robot, end = nav.mission.robot, float(drive.rows[-1, ROW_TIME])
     reason, events, visits = outcome(nav, end, drive.touched, drive.overdue)
     path, bound, u = driven_path(drive)
     certificate = proven(path, world, robot)
     ticks = step * np.arange(math.floor(end / step + 1e-9) + 1)
     times = np.unique(np.concatenate((ticks, [event.time for event in events], [end])))
     times = times[times <= end]
-    speeds, rates = (np.interp(times, rows[:, 0], rows[:, k]) for k in (4, 5))
-    headings, least = np.interp(times, rows[:, 0], rows[:, 3]), MIN_CURVATURE_SPEED_MPS
+    travel = travel_of(drive.model, rows)
+    speeds = np.interp(times, rows[:, ROW_TIME], travel.speeds)
+    rates = np.interp(times, rows[:, ROW_TIME], travel.turn_rates)
+    headings = np.interp(times, rows[:, ROW_TIME], rows[:, ROW_HEADING])
+    least = MIN_CURVATURE_SPEED_MPS
     return Run(
         plan=nav.plan,
         world=world,
@@ -55,7 +60,7 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
         path=path,
         certificate=replace(certificate, clearance=certificate.clearance - bound),
         times=times,
-        positions=np.asarray(path.evaluate(np.interp(times, rows[:, 0], u))),
+        positions=np.asarray(path.evaluate(np.interp(times, rows[:, ROW_TIME], u))),
         headings=np.remainder(headings + np.pi, 2.0 * np.pi) - np.pi,
         speeds=speeds,
         curvatures=np.where(speeds > least, rates / np.maximum(speeds, least), 0.0),
@@ -83,7 +88,8 @@ def driven_path(drive: MachineDrive) -> tuple[Path, float, Floats]:
     """
     robot = drive.nav.mission.robot
     reach = 0.0 if robot.footprint is None else robot.outer_radius
-    curve, bound, u = trace(drive.rows[:, 1:3], drive.rows[:, 3], reach)
+    courses = travel_of(drive.model, drive.rows).courses
+    curve, bound, u = trace(drive.rows[:, ROW_X : ROW_Y + 1], courses, reach)
     vias: list[PathVia] = []
     for via, distance in zip(drive.nav.path.vias, drive.nav.path.via_distances, strict=True):
         row = _passing(drive, via, float(distance))
@@ -101,7 +107,7 @@ def _passing(drive: MachineDrive, via: PathVia, distance: float) -> int | None:
     rows = np.flatnonzero(np.abs(progress - distance) <= PASSING_WINDOW_M)
     if not rows.size:
         return None
-    away = np.hypot(*(drive.rows[rows, 1:3] - np.array(via.at[:2])).T)
+    away = np.hypot(*(drive.rows[rows, ROW_X : ROW_Y + 1] - np.array(via.at[:2])).T)
     return int(rows[int(away.argmin())])
 
 
@@ -109,7 +115,9 @@ def missed(drive: MachineDrive, visits: tuple[Visit, ...]) -> tuple[Visit, ...]:
     """The visits with how near the true motion came to each via point."""
     places = {via.at: row for via, row in _passings(drive)}
     return tuple(
-        replace(visit, miss=math.dist(drive.rows[places[visit.at], 1:3], visit.at[:2]))
+        replace(
+            visit, miss=math.dist(drive.rows[places[visit.at], ROW_X : ROW_Y + 1], visit.at[:2])
+        )
         if visit.status == "served" and visit.at in places
         else visit
         for visit in visits

@@ -92,6 +92,7 @@ async function greet(hello) {
   const { store } = app;
   app.summary.busy = "";
   app.empty = hello.empty;
+  app.drives = hello.drives;
   store.tell("status");
   if (greeted) { // the studio came back: go on with what is here
     app.link.plan(store.doc, store.revision, store.inputAt);

@@ -5,20 +5,13 @@ import { choice, h, numberField, textField } from "./dom.js";
 
 /** @typedef {(path: (string|number)[], value: unknown) => void} Set */
 
-/** What a drive begins with when it is chosen. @type {Record<string, any>} */
-const DRIVES = {
-  differential: { track_m: 0.5 }, ackermann: { wheelbase_m: 1, max_steer_deg: 30 }, skid_steer: { track_m: 0.5 },
-};
-const WHEELS = /** @type {[string, string, string, any][]} */ ([["Track", "track_m", "m", { min: 0.001, step: 0.05 }], ["Wheel speed", "max_wheel_speed_mps", "m/s", { min: 0.001, placeholder: "no limit" }]]);
-/** @type {Record<string, [string, string, string, any][]>} */
-const PARTS = {
-  differential: WHEELS,
-  ackermann: [["Wheelbase", "wheelbase_m", "m", { min: 0.001, step: 0.05 }], ["Steering", "max_steer_deg", "°", { min: 0.1, max: 89.9, step: 1 }]],
-  skid_steer: [...WHEELS, ["Slip", "slip", "", { min: 0, max: 0.99, step: 0.05, placeholder: "0" }]],
-};
+/**
+ * A kind of drive, as the studio tells it: what it begins with, and its fields.
+ * @typedef {{key: string, label: string, example: any, cannot: string, fields: {key: string, label: string, unit: string, step: number, min?: number, max?: number, placeholder?: string}[]}} DriveForm
+ */
 
-/** @param {any} doc @param {Set} set */
-export function robotFields(doc, set) {
+/** @param {any} doc @param {DriveForm[]} drives @param {Set} set */
+export function robotFields(doc, drives, set) {
   const robot = doc.robot ?? {};
   const field = (/** @type {string} */ label, /** @type {string} */ key, /** @type {string} */ unit, /** @type {any} */ more = {}) =>
     numberField({ label, unit, value: typeof robot[key] === "number" ? robot[key] : null, set: (value) => set(["robot", key], value), ...more });
@@ -33,7 +26,7 @@ export function robotFields(doc, set) {
     h("div", { class: "pair" },
       field("Across the path", "max_lateral_accel_mps2", "m/s²", { min: 0.001, placeholder: "no limit" }),
       sensor(robot, set)),
-    ...drive(robot, set),
+    ...drive(robot, drives, set),
   ];
 }
 
@@ -69,27 +62,28 @@ function sensor(robot, set) {
   return numberField({ label: "Sensor range", unit: "m", value: robot.sensor?.range_m ?? null, min: 0.1, step: 1, placeholder: "none", set: (value) => set(["robot", "sensor"], value === null ? undefined : { ...robot.sensor, range_m: value }) });
 }
 
-/** What moves it. @param {any} robot @param {Set} set */
-function drive(robot, set) {
-  const kind = Object.keys(DRIVES).find((name) => robot.drive?.[name]) ?? "";
-  const { differential: _, ackermann: __, skid_steer: ___, ...manner } = robot.drive ?? {};
-  const fields = (PARTS[kind] ?? []).map(([label, key, unit, more]) => numberField({
-    label, unit, value: robot.drive[kind][key] ?? null, ...more,
-    set: (/** @type {number|null} */ value) => (value !== null || more.placeholder) && set(["robot", "drive", kind, key], value),
+/** What moves it. @param {any} robot @param {DriveForm[]} drives @param {Set} set */
+function drive(robot, drives, set) {
+  const form = drives.find(({ key }) => robot.drive?.[key]);
+  const kind = form?.key ?? "";
+  const manner = Object.fromEntries(Object.entries(robot.drive ?? {}).filter(([key]) => drives.every((other) => other.key !== key)));
+  const fields = (form?.fields ?? []).map(({ key, ...field }) => numberField({
+    ...field, value: robot.drive[kind][key] ?? null,
+    set: (/** @type {number|null} */ value) => (value !== null || field.placeholder) && set(["robot", "drive", kind, key], value),
   }));
   const timing = (/** @type {string} */ label, /** @type {string} */ key) =>
     numberField({ label, unit: "s", value: robot.drive[key] ?? null, min: 0, max: 60, step: 0.05, placeholder: "0", set: (value) => set(["robot", "drive", key], value) });
   return [
     h("div", { class: "pair" },
       choice({
-        label: "Drive", value: kind, options: [["", "follows exactly"], ["differential", "two wheels"], ["ackermann", "steered"], ["skid_steer", "skid steer"]],
-        set: (value) => set(["robot", "drive"], value ? { [value]: DRIVES[value], ...manner } : undefined),
+        label: "Drive", value: kind, options: [["", "follows exactly"], ...drives.map(({ key, label }) => /** @type {[string, string]} */ ([key, label]))],
+        set: (value) => set(["robot", "drive"], value ? { [value]: drives.find(({ key }) => key === value)?.example, ...manner } : undefined),
       }),
       choice({
         label: "Turns on the spot", value: robot.turn_on_spot ?? "", options: [["", "as the drive"], ["never", "never"], ["stations", "at stations"], ["vias", "at via points"]],
         set: (value) => set(["robot", "turn_on_spot"], value || undefined),
       })),
-    kind ? h("div", { class: "pair" }, ...fields, timing("Delay", "delay_s"), timing("Lag", "lag_s")) : null,
+    form ? h("div", { class: "pair", title: form.cannot }, ...fields, timing("Delay", "delay_s"), timing("Lag", "lag_s")) : null,
   ];
 }
 

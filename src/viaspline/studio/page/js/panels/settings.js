@@ -31,7 +31,7 @@ export class Settings {
     fill(
       this.panel,
       h("h3", {}, "Robot"),
-      ...robotFields(doc, (path, value) => this.set(path, value)),
+      ...robotFields(doc, this.app.drives ?? [], (path, value) => this.set(path, value)),
       h("h3", {}, "Curve"),
       this.tension(),
       h("div", { class: "pair" },

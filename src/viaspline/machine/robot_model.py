@@ -1,0 +1,89 @@
+"""The drive model of a mission's robot: actuators, limits, faults, and the gains of its control."""
+
+from __future__ import annotations
+
+import math
+
+from viaspline.kernels.tracking.actuators import Actuators
+from viaspline.kernels.tracking.drive_model import DriveModel
+from viaspline.mission.robot_parts import RobotSpec
+
+PERIOD_S = 0.05
+"""Time between two commands, if nothing else is said [s]."""
+
+YAW_RESERVE = 1.25
+"""What control may ask of the yaw rate beyond what the time law plans with, as a factor."""
+
+ACCEL_RESERVE = 2.0
+"""What it may ask of the acceleration: a command that is held for a period makes stairs of a
+slope."""
+
+SPOT_RATE_RADPS = 1.0
+"""Yaw rate of a turn on the spot, if the drive has no limit of its own [rad/s]."""
+
+CONVERGENCE_TIME_S, CONVERGENCE_DISTANCE_M = 0.6, 0.3
+"""Over what a deviation dies out: from sweeps over examples, lags and noise, see
+benchmarks/README.md [s], [m]."""
+
+LAGS_PER_LOOP = 4.0
+"""A control loop is so many times slower than its lag: then it is damped well."""
+
+ALONG_GAIN_PER_S, HEADING_GAIN_PER_S = 1.0, 2.0
+"""Of an error along the path, and of the heading on the spot [1/s]."""
+
+SLACK_M, SLACK_TIME_S = 0.05, 0.15
+"""How far a robot may lag behind before its clock waits, at rest [m] and per speed [s]."""
+
+
+def is_driven(robot: RobotSpec) -> bool:
+    """Whether a robot moves by a drive's laws, or doesn't know where it is exactly."""
+    return robot.drive is not None or robot.localization is not None
+
+
+def drive_model_of(robot: RobotSpec, period: float = PERIOD_S) -> DriveModel:
+    """What the kernels have to know of a robot's drive.
+
+    Args:
+        robot: Of the mission; without a drive it moves as it is commanded.
+        period: Time between two commands [s].
+
+    Example:
+        >>> robot = RobotSpec(drive={"differential": {"track_m": 0.5}, "delay_s": 0.1})
+        >>> drive_model_of(robot).delay
+        0.1
+    """
+    drive, place = robot.drive, robot.localization
+    actuators = Actuators() if drive is None else drive.kind.actuators()
+    lag = 0.0 if drive is None else drive.lag_s
+    slow = 1.0 / (LAGS_PER_LOOP * (lag + 0.5 * period))
+    noise = 0.0 if place is None else place.position_noise_m
+    yaw = math.radians(robot.max_yaw_rate_degps or math.inf)
+    yaw_accel = math.radians(robot.max_yaw_accel_degps2 or math.inf)
+    turn, turn_rate = YAW_RESERVE * yaw, YAW_RESERVE * yaw_accel
+    if actuators.wheelbase > 0.0:
+        turn, turn_rate = actuators.max_steer, actuators.max_steer_rate
+    return DriveModel(
+        actuators=actuators,
+        max_turn=turn,
+        max_turn_rate=turn_rate,
+        max_speed=robot.max_speed_mps,
+        max_accel=ACCEL_RESERVE * max(robot.max_accel_mps2, robot.max_brake_mps2 or 0.0),
+        delay=0.0 if drive is None else drive.delay_s,
+        lag=lag,
+        spot_rate=min(SPOT_RATE_RADPS, yaw, _spot_rate(actuators)),
+        convergence_time=max(CONVERGENCE_TIME_S, LAGS_PER_LOOP * lag),
+        convergence_distance=CONVERGENCE_DISTANCE_M,
+        along_gain=min(ALONG_GAIN_PER_S, slow),
+        heading_gain=min(HEADING_GAIN_PER_S, slow),
+        slack=SLACK_M + 3.0 * noise,
+        slack_time=SLACK_TIME_S,
+        speed_noise=0.0 if drive is None else drive.speed_noise_mps,
+        yaw_noise=0.0 if drive is None else math.radians(drive.yaw_rate_noise_degps),
+    )
+
+
+def _spot_rate(actuators: Actuators) -> float:
+    """The yaw rate with both wheels at full speed, one backwards [rad/s]."""
+    if actuators.track <= 0.0:
+        return math.inf
+    return 2.0 * actuators.max_wheel_speed * actuators.grip / actuators.track
