@@ -11,7 +11,7 @@ import pytest
 
 from viaspline.errors import GeometryError, NoPathError
 from viaspline.mission.model import Mission
-from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning import replan

@@ -10,7 +10,8 @@ import pytest
 import viaspline as vs
 from viaspline.kernels.tracking.actuators import Actuators
 from viaspline.mission.drives.drive import DRIVE_KINDS, Drive
-from viaspline.mission.drives.drive_kind import DriveKey
+from viaspline.mission.drives.drive_kind import FormField
+from viaspline.mission.key_words import expectation
 
 
 def mission_with(drive: dict[str, Any], **robot: Any) -> vs.Mission:
@@ -33,10 +34,10 @@ def test_every_kind_says_what_each_of_its_keys_expects(name: str) -> None:
     kind = DRIVE_KINDS[name]
     assert kind.label
     assert kind.cannot
-    for field in kind.model_fields.values():
-        (said,) = (part for part in field.metadata if isinstance(part, DriveKey))
+    for key, field in kind.model_fields.items():
+        (said,) = (part for part in field.metadata if isinstance(part, FormField))
         assert said.label
-        assert said.expected
+        assert expectation(("robot", "drive", name, key)).startswith("a number")
         assert bool(said.placeholder) != field.is_required()
 
 
@@ -66,9 +67,8 @@ def test_no_kind_and_two_kinds_are_refused_by_name() -> None:
 
 def test_what_is_wrong_with_a_key_is_said_in_the_words_of_its_drive(name: str) -> None:
     kind = DRIVE_KINDS[name]
-    key, field = next(iter(kind.model_fields.items()))
-    (said,) = (part for part in field.metadata if isinstance(part, DriveKey))
+    key = next(iter(kind.model_fields))
     with pytest.raises(vs.MissionError) as refused:
         mission_with({name: {**kind.example, key: "wide"}})
-    assert said.expected in str(refused.value)
+    assert expectation(("robot", "drive", name, key)) in str(refused.value)
     assert f"robot.drive.{name}.{key}" in str(refused.value)

@@ -7,7 +7,7 @@ import pytest
 from viaspline.kernels.tracking.actuators import Actuators
 from viaspline.mission.drives.drive_kind import Contradiction, DriveKind
 from viaspline.mission.drives.drive_limits import DriveLimits
-from viaspline.mission.semantic_checks import semantic_flaws
+from viaspline.mission.semantic_checks import semantic_faults
 
 
 class Plain(DriveKind):
@@ -34,6 +34,6 @@ def test_what_contradicts_the_robot_is_a_fault_at_its_key(monkeypatch: pytest.Mo
     said = (Contradiction("track_m", "doesn't fit", "give a narrower one"),)
     monkeypatch.setattr(Differential, "contradictions", lambda *_, **__: said)
     robot = RobotSpec(drive=Drive(differential=Differential(track_m=0.5)))
-    (flaw,) = semantic_flaws(PartialMission(robot=robot, has_route=False))
-    assert flaw.path == ("robot", "drive", "differential", "track_m")
-    assert (flaw.problem, flaw.remedy) == ("doesn't fit", "give a narrower one")
+    (fault,) = semantic_faults(PartialMission(robot=robot, has_route=False))
+    assert fault.path == ("robot", "drive", "differential", "track_m")
+    assert (fault.problem, fault.remedy) == ("doesn't fit", "give a narrower one")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from viaspline.errors import GeometryError
-from viaspline.mission.robot_parts import Lidar
+from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.perception.lidar import LidarSensor

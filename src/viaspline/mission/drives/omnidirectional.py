@@ -21,8 +21,8 @@ class Omnidirectional(
         max_speed_along_mps: The greatest speed along the body, ROS's ``max_vel_x`` [m/s].
         max_speed_across_mps: The greatest speed across the body, ROS's ``max_vel_y`` [m/s]; it
             counts where the heading is held.
-        hold_heading_deg: The heading that the body keeps wherever it goes [deg]. None: it looks
-            the way that it goes.
+        hold_heading_deg: The heading that the body keeps wherever it goes [deg, anticlockwise from
+            x]. None: it looks the way that it goes.
     """
 
     label: ClassVar = "mecanum or swerve"
