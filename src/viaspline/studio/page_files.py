@@ -9,6 +9,9 @@ from typing import Final
 
 PAGE: Final = Path(__file__).parent / "page"
 
+PRELOADS: Final = b"<!-- modulepreload -->"
+"""Where the page names its modules, so that a browser asks for all of them at once."""
+
 TYPES: Final = {
     **types_map,
     ".js": "text/javascript",  # whatever this machine calls it: the page is served with nosniff
@@ -24,8 +27,15 @@ def page_files() -> Mapping[str, tuple[bytes, str]]:
     >>> page_files()["js/main.js"][1]
     'text/javascript'
     """
-    return {
+    files = {
         path.relative_to(PAGE).as_posix(): (path.read_bytes(), TYPES[path.suffix])
         for path in PAGE.rglob("*")
         if path.is_file() and path.suffix in TYPES
     }
+    page, kind = files["index.html"]
+    links = (_preload(name) for name in sorted(files) if name.endswith(".js"))
+    return {**files, "index.html": (page.replace(PRELOADS, b"\n  ".join(links)), kind)}
+
+
+def _preload(name: str) -> bytes:
+    return f'<link rel="modulepreload" href="/page/{name}">'.encode()

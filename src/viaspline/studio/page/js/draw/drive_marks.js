@@ -5,7 +5,7 @@ import { outline, sizeOf } from "./body.js";
 import { viridis } from "./theme.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
-/** @typedef {import("../drive.js").Drive} Drive */
+/** @typedef {import("../replay.js").Drive} Drive */
 
 /** @param {Pen} pen @param {Drive} drive */
 export function drawSight(pen, drive) {

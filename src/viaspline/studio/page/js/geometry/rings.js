@@ -1,4 +1,4 @@
-/** Distances to the shapes of obstacles, for picking and for the mark of the tightest place. */
+/** Distances to rings, whether they go round a place, the boxes round them. */
 
 /** @param {number[]} p @param {number[]} a @param {number[]} b @returns {{at: number[], away: number}} */
 export function toSegment(p, a, b) {
@@ -29,29 +29,6 @@ export function inside(p, ring) {
   return is;
 }
 
-/** The nearest place on an obstacle's edge [m]; null for maps. @param {number[]} p @param {any} obstacle */
-export function edgeNear(p, obstacle) {
-  if (obstacle.circle) {
-    const { center: [x, y], radius } = obstacle.circle;
-    const away = Math.hypot(p[0] - x, p[1] - y) || 1e-9;
-    return [x + ((p[0] - x) * radius) / away, y + ((p[1] - y) * radius) / away];
-  }
-  if (obstacle.polygon) {
-    const rings = [obstacle.polygon, ...obstacle.holes];
-    return rings.map((ring) => toRing(p, ring)).reduce((a, b) => (b.away < a.away ? b : a)).at;
-  }
-  return null;
-}
-
-/** @param {number[]} p @param {any} obstacle */
-export function covers(p, obstacle) {
-  if (obstacle.circle) {
-    const { center, radius } = obstacle.circle;
-    return Math.hypot(p[0] - center[0], p[1] - center[1]) <= radius;
-  }
-  return !!obstacle.polygon && inside(p, obstacle.polygon) && !obstacle.holes.some((/** @type {number[][]} */ hole) => inside(p, hole));
-}
-
 /** The box round many points; null if there are none. @param {number[][]} points @returns {number[]|null} */
 export function boxOf(points) {
   if (!points.length) return null;
@@ -63,4 +40,10 @@ export function boxOf(points) {
     box[3] = Math.max(box[3], y);
   }
   return box;
+}
+
+/** The middle of a ring's box. @param {number[][]} ring */
+export function middle(ring) {
+  const x = ring.map((p) => p[0]), y = ring.map((p) => p[1]);
+  return [(Math.min(...x) + Math.max(...x)) / 2, (Math.min(...y) + Math.max(...y)) / 2];
 }
