@@ -110,7 +110,8 @@ def echoes(run: Run) -> Floats:
     if run.known is None or not has_lidar(run):
         return np.zeros((0, 2))
     shown = run.known.obstacles[len(run.plan.world) :]
-    return np.array([o.circle.center for o in shown if o.circle is not None]).reshape(-1, 2)
+    rings = [ring for obstacle in shown if (ring := obstacle.ring) is not None and ring.is_disc]
+    return np.array([ring.loops[0][0] for ring in rings]).reshape(-1, 2)
 
 
 def _told(run: Run) -> tuple[str, ...]:

@@ -116,11 +116,10 @@ def grids(planned: Planned) -> list[dict[str, Any]]:
             if obstacle.grid is not None:
                 place = planned.unfolded.original(("world", key, i))
                 found.append({**_grid(obstacle.grid), "list": key, "item": place[2]})
-            elif key in planned.unfolded.places and obstacle.polygon is not None:
+            elif key in planned.unfolded.places and (ring := obstacle.ring) is not None:
                 place = planned.unfolded.original(("world", key, i))
                 if "map" in planned.document["world"][key][place[2]]:
-                    rings = [obstacle.polygon, *obstacle.holes]
-                    found.append({"rings": rings, "list": key, "item": place[2]})
+                    found.append({"rings": ring.loops, "list": key, "item": place[2]})
     return found
 
 
