@@ -1,4 +1,7 @@
-"""Has every obstacle one shape, and are shapes and fences such that they cover an area?"""
+"""Has every obstacle one shape, and are shapes and fences such that they cover an area?
+
+Tested through ``mission/test_yaml_reader``.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """A disc.
 
-Tested through ``mission/test_model``.
+Tested through ``mission/shapes/test_obstacle``.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from viaspline.mission.fields import Name, Ring, Rings
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.polygon import Polygon
 from viaspline.mission.shapes.rounded_ring import RoundedRing
-from viaspline.mission.shapes.shape import Shape
+from viaspline.mission.shapes.shape_protocol import Shape
 from viaspline.mission.value import Value
 
 Side = Literal["left", "right"]

@@ -1,4 +1,7 @@
-"""What a kind of obstacle that is a rounded ring says of itself."""
+"""What a kind of obstacle that is a rounded ring says of itself.
+
+Tested through ``mission/shapes/test_obstacle``.
+"""
 
 from __future__ import annotations
 
