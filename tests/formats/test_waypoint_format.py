@@ -293,7 +293,6 @@ def test_without_an_origin_of_its_own_a_plan_begins_at_its_home(beside: Any) -> 
     assert origin_in(QgcPlan().parse(json.dumps(plan), "x.plan")) == pytest.approx(ORIGIN)
 
 
-
 class Hedge(Obstacle):
     """An obstacle that is round without being a disc."""
 

@@ -1,4 +1,7 @@
-"""What is drawn on top of a world: paths with arrows, via points, stations, the tightest place."""
+"""What is drawn on top of a world: paths with arrows, via points, stations, the tightest place.
+
+Tested through ``report/test_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -19,12 +22,12 @@ from viaspline.report import style
 from viaspline.report.labels import Labels
 from viaspline.report.units import down
 
-APART = 24.0  # pixels between via points, below which they lose their numbers
-ARROWS = 105.0  # pixels from one arrow to the next
+MIN_NUMBERED_SPACING_PX = 24.0  # pixels between via points, below which they lose their numbers
+ARROW_SPACING_PX = 105.0  # pixels from one arrow to the next
 
 
 def draw_path(
-    axes: Axes, points: Floats, *, colour: str = style.PATH, width: float = style.PATH_WIDTH,
+    axes: Axes, points: Floats, *, colour: str = style.PATH, width: float = style.PATH_WIDTH_PT,
     label: str = "path", zorder: float = 8, **look: object,
 ) -> Line2D:  # fmt: skip
     """A curve with a white edge, so that it stands out from what it crosses."""
@@ -38,7 +41,12 @@ def draw_path(
 
 
 def draw_arrows(
-    axes: Axes, points: Floats, colour: str, *, avoid: Floats | None = None, every: float = ARROWS
+    axes: Axes,
+    points: Floats,
+    colour: str,
+    *,
+    avoid: Floats | None = None,
+    every: float = ARROW_SPACING_PX,
 ) -> None:
     """Small arrow heads along a curve, which say which way it runs."""
     pixels = axes.transData.transform(points)
@@ -130,7 +138,7 @@ def _are_apart(axes: Axes, places: Floats) -> bool:
     pixels = axes.transData.transform(places)
     gaps = np.hypot(*(pixels[:, None] - pixels[None]).transpose(2, 0, 1))
     gaps[gaps == 0] = np.inf  # the same place twice
-    close = int((gaps.min(axis=1) < APART).sum())
+    close = int((gaps.min(axis=1) < MIN_NUMBERED_SPACING_PX).sum())
     return close <= 0.25 * len(places)
 
 

@@ -1,4 +1,7 @@
-"""A simulated drive as the page plays it."""
+"""A simulated drive as the page plays it.
+
+Tested through ``studio/test_server``.
+"""
 
 from __future__ import annotations
 
@@ -11,17 +14,17 @@ import numpy as np
 
 from viaspline.mission.sensor_spec import Lidar
 from viaspline.planner import Plan
-from viaspline.report.plain import plain
+from viaspline.report.json_text import plain
 from viaspline.robot.perception.belief import ON_MAP_M
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
-from viaspline.studio.answers import finite, flat, rounded
+from viaspline.studio.plan_messages import finite, flat, rounded
 
-MOST_SAMPLES = 6000
-FRAMES = 400  # looks of a lidar that are shown
-RAYS = 180  # of each
-PATIENCE = 0.1  # between two words of progress [s]
+MAX_TRACE_SAMPLES = 6000
+LIDAR_SCANS_SHOWN = 400  # looks of a lidar that are shown
+MAX_BEAMS_SHOWN = 180  # of each
+PROGRESS_EVERY_S = 0.1  # between two words of progress [s]
 
 
 class StoppedError(Exception):
@@ -47,7 +50,7 @@ def drive(plan: Plan, *, seed: int, stop: Flag, tell: Callable[[float], None]) -
         if stop.is_set():
             raise StoppedError
         now = time.monotonic()
-        if now - last > PATIENCE:
+        if now - last > PROGRESS_EVERY_S:
             last = now
             tell(distance / length if length > 0 else 1.0)
 
@@ -57,7 +60,7 @@ def drive(plan: Plan, *, seed: int, stop: Flag, tell: Callable[[float], None]) -
 def driven(run: Run) -> dict[str, Any]:
     """What the page is told of a drive."""
     count = len(run.times)
-    some = np.unique(np.linspace(0, count - 1, min(count, MOST_SAMPLES)).round().astype(int))
+    some = np.unique(np.linspace(0, count - 1, min(count, MAX_TRACE_SAMPLES)).round().astype(int))
     return {
         "type": "driven",
         "reached": run.reached,
@@ -118,9 +121,9 @@ def sight(run: Run) -> dict[str, Any] | None:
 
 def _beams(run: Run, spec: Lidar) -> dict[str, Any]:
     """The fan of a lidar at some moments, and the points off the map that it hit first then."""
-    exact = spec.model_copy(update={"noise_m": 0.0, "beams": min(spec.beams, RAYS)})
+    exact = spec.model_copy(update={"noise_m": 0.0, "beams": min(spec.beams, MAX_BEAMS_SHOWN)})
     lidar = LidarSensor(run.world.obstacles, exact)
-    some = np.unique(np.linspace(0, len(run.times) - 1, FRAMES).round().astype(int))
+    some = np.unique(np.linspace(0, len(run.times) - 1, LIDAR_SCANS_SHOWN).round().astype(int))
     grain = spec.range_m / 150
     known: set[tuple[int, int]] = set()
     fans, hits = [], []

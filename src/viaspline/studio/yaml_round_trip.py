@@ -18,9 +18,14 @@ from ruamel.yaml.error import YAMLError
 
 from viaspline.studio.document import Document
 
-_BLOCK: Final = (("world",), ("robot",), ("route",), ("spline",), ())
-_LISTS: Final = (("world", "known"), ("world", "unseen"), ("world", "fences"), ("route", "via"))
-WIDTH: Final = 4096  # an item stays on its line
+_BLOCK_MAPPINGS: Final = (("world",), ("robot",), ("route",), ("spline",), ())
+_BLOCK_SEQUENCES: Final = (
+    ("world", "known"),
+    ("world", "unseen"),
+    ("world", "fences"),
+    ("route", "via"),
+)
+LINE_WIDTH_CHARACTERS: Final = 4096  # an item stays on its line
 
 Path = tuple[Any, ...]
 
@@ -71,7 +76,7 @@ def plain(value: Any) -> Any:
 def _yaml() -> YAML:
     yaml = YAML(typ="rt")
     yaml.preserve_quotes = True
-    yaml.width = WIDTH
+    yaml.width = LINE_WIDTH_CHARACTERS
     yaml.indent(mapping=2, sequence=4, offset=2)
     return yaml
 
@@ -140,12 +145,12 @@ def _fresh(value: Any, path: Path) -> Any:
     """A new node: the sections as blocks, everything else on one line."""
     if isinstance(value, Mapping):
         mapping = CommentedMap({key: _fresh(item, (*path, key)) for key, item in value.items()})
-        if path not in _BLOCK or not mapping:
+        if path not in _BLOCK_MAPPINGS or not mapping:
             mapping.fa.set_flow_style()
         return mapping
     if isinstance(value, list):
         sequence = CommentedSeq([_fresh(item, (*path, 0)) for item in value])
-        if path not in _LISTS or not sequence:
+        if path not in _BLOCK_SEQUENCES or not sequence:
             sequence.fa.set_flow_style()
         return sequence
     return value

@@ -10,8 +10,8 @@ from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
-from viaspline.report.screen import ledger_table, plan_tables, run_tables
 from viaspline.report.summary import spline_words, summary, tension
+from viaspline.report.terminal_tables import ledger_table, plan_tables, run_tables
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 

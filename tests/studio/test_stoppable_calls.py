@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from viaspline.studio.stopping import Stoppable, StoppedCallError
+from viaspline.studio.stoppable_calls import Stoppable, StoppedCallError
 
 
 def test_a_call_that_goes_on_for_ever_is_stopped() -> None:

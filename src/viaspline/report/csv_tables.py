@@ -9,7 +9,7 @@ from viaspline.planner import Plan
 from viaspline.report.units import nice
 from viaspline.robot.run import Run
 
-Column = tuple[str, NDArray[np.float64], int]  # header, values, decimals
+CsvColumn = tuple[str, NDArray[np.float64], int]  # header, values, decimals
 
 
 def spacing(length: float) -> float:
@@ -34,7 +34,7 @@ def path_csv(plan: Plan) -> str:
     """Points of the planned path, equally far apart; the last one is the path's end."""
     path = plan.path
     u, distance, points = path.sample(spacing(path.length))
-    columns: list[Column] = [
+    columns: list[CsvColumn] = [
         ("distance_m", distance, 6),
         *_places(points),
         ("heading_rad", np.asarray(path.heading(u)), 9),
@@ -47,7 +47,7 @@ def path_csv(plan: Plan) -> str:
 
 def run_csv(run: Run) -> str:
     """What was driven, over time."""
-    columns: list[Column] = [
+    columns: list[CsvColumn] = [
         ("time_s", run.times, 6),
         *_places(run.positions),
         ("heading_rad", run.headings, 9),
@@ -63,11 +63,11 @@ def run_csv(run: Run) -> str:
     return _csv(columns)
 
 
-def _places(points: NDArray[np.float64]) -> list[Column]:
+def _places(points: NDArray[np.float64]) -> list[CsvColumn]:
     return [(f"{axis}_m", points[:, i], 6) for i, axis in enumerate("xyz"[: points.shape[1]])]
 
 
-def _csv(columns: list[Column]) -> str:
+def _csv(columns: list[CsvColumn]) -> str:
     """Comma-separated text; a cell that is not finite is empty."""
     cells = []
     for _, values, decimals in columns:

@@ -1,4 +1,7 @@
-"""The robot's body on pictures: what it sweeps along a path, and where it stands on it."""
+"""The robot's body on pictures: what it sweeps along a path, and where it stands on it.
+
+Tested through ``report/test_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -16,12 +19,12 @@ from viaspline.curve.sweep import footprints_along, placed, swept_area
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.world_spec import SpeedZone
 from viaspline.report import style
-from viaspline.report.drawing import outline
+from viaspline.report.canvas import outline
 from viaspline.report.labels import Labels
 
-LEAST = 5.0  # width of a body that is worth drawing [pixels]
-BODIES = 90  # along a path, at most
-APART = 1.6  # from one body to the next, in its lengths
+MIN_BODY_WIDTH_PX = 5.0  # width of a body that is worth drawing [pixels]
+MAX_BODIES = 90  # along a path, at most
+BODY_SPACING_LENGTHS = 1.6  # from one body to the next, in its lengths
 
 
 def draw_swept(
@@ -33,7 +36,11 @@ def draw_swept(
         What belongs in a legend; nothing where the body is too small to be seen.
     """
     steers = robot.footprint is not None or robot.turn_radius is not None
-    if not steers or 2.0 * robot.inner_radius * pixels_per_metre < LEAST or curve.length <= 0.0:
+    if (
+        not steers
+        or 2.0 * robot.inner_radius * pixels_per_metre < MIN_BODY_WIDTH_PX
+        or curve.length <= 0.0
+    ):
         return []
     tolerance = max(0.5 / pixels_per_metre, 0.01 * robot.outer_radius)
     area = swept_area(curve, robot.footprint, tolerance, radius=_disc(robot))
@@ -41,7 +48,7 @@ def draw_swept(
         PathPatch(outline(area), facecolor=style.SENSOR, alpha=0.28, edgecolor="none", zorder=3)
     )
     if robot.footprint is not None:
-        spacing = max(APART * 2.0 * robot.outer_radius, curve.length / BODIES)
+        spacing = max(BODY_SPACING_LENGTHS * 2.0 * robot.outer_radius, curve.length / MAX_BODIES)
         axes.add_collection(
             PolyCollection(
                 list(footprints_along(curve, robot.footprint, spacing)), facecolors="none",
@@ -59,7 +66,7 @@ def draw_body(axes: Axes, certificate: Certificate, robot: RobotSpec, heading: f
         axes: Where.
         certificate: It says where, and how a long body stands there.
         robot: Whose body.
-        heading: Of the path there [rad].
+        heading: Which way it looks [rad].
     """
     x, y = certificate.tightest_at[:2]
     look: dict[str, Any] = {

@@ -1,4 +1,7 @@
-"""Maps of a mission document, read once: while something is dragged, no map is read again."""
+"""Maps of a mission document, read once: while something is dragged, no map is read again.
+
+Tested through ``studio/test_server``.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +27,8 @@ from viaspline.mission.unplaced_faults import located
 from viaspline.studio.document import Document
 from viaspline.studio.folder import Folder
 
-LISTS = ("known", "unseen")
-MOST_KEPT = 32
+OBSTACLE_LISTS = ("known", "unseen")
+MAX_KEPT_MAPS = 32
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ class ExpandedDocument:
         return (*path[:2], places[path[2]], *path[3:]) if path[2] < len(places) else path
 
 
-class Maps:
+class MapCache:
     """The maps of the files in a folder.
 
     Args:
@@ -75,7 +78,7 @@ class Maps:
             return ExpandedDocument(document, {})
         unfolded: dict[str, Any] = dict(world)
         places: dict[str, list[int]] = {}
-        for key in LISTS:
+        for key in OBSTACLE_LISTS:
             items = world.get(key)
             if not isinstance(items, list) or not any(map(_is_map, items)):
                 continue
@@ -118,7 +121,7 @@ class Maps:
             stamp = tuple(_stamp(file) for file in files)
             name = (json.dumps(item, sort_keys=True), str(base), stamp)
             if name not in self._kept:
-                while len(self._kept) >= MOST_KEPT:
+                while len(self._kept) >= MAX_KEPT_MAPS:
                     del self._kept[next(iter(self._kept))]
                 self._kept[name] = obstacles_of(spec, base, set(taken))
             return self._kept[name]

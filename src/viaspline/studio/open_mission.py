@@ -1,4 +1,7 @@
-"""What lies open before a page: a document, its file, and where on earth its 0, 0 is."""
+"""What lies open before a page: a document, its file, and where on earth its 0, 0 is.
+
+Tested through ``studio/test_server_files``.
+"""
 
 from __future__ import annotations
 
@@ -6,25 +9,25 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from viaspline.formats.items import LatLon
-from viaspline.studio.document import EMPTY, Document
+from viaspline.studio.document import EMPTY_DOCUMENT, Document
 from viaspline.studio.folder import Folder
-from viaspline.studio.opening import opened
+from viaspline.studio.load_document import opened
 
 
 @dataclass
-class Desk:
-    """The desk of one page.
+class OpenMission:
+    """What one page works on.
 
     Attributes:
         folder: Where missions are opened and saved.
-        name: Of the file, or None for a new mission.
+        name: The name of its file from the folder, or None for a new mission.
         document: As it is on the screen.
         origin: Latitude and longitude of its 0, 0 [deg], if they are known.
     """
 
     folder: Folder
     name: str | None = None
-    document: Document = field(default_factory=lambda: EMPTY)
+    document: Document = field(default_factory=lambda: EMPTY_DOCUMENT)
     origin: LatLon | None = None
 
     @property
@@ -35,7 +38,7 @@ class Desk:
         return self.folder.inside(self.name).parent
 
     def open(self, name: str) -> tuple[str, ...]:
-        """Put a file on the desk; what of it a mission can't represent.
+        """Take up a file; what of it a mission can't represent.
 
         Raises:
             MissionError: It can't be read.
@@ -47,4 +50,4 @@ class Desk:
 
     def clear(self) -> None:
         """Begin a new mission."""
-        self.document, self.name, self.origin = EMPTY, None, None
+        self.document, self.name, self.origin = EMPTY_DOCUMENT, None, None

@@ -1,4 +1,7 @@
-"""What a robot's sensor reaches at a moment of a film, and what it has found by then."""
+"""What a robot's sensor reaches at a moment of a film, and what it has found by then.
+
+Tested through ``report/test_animation``.
+"""
 
 from __future__ import annotations
 
@@ -14,15 +17,15 @@ from viaspline.kernels.arrays import Floats
 from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.report import style
-from viaspline.report.drawing import outline, shape_of
-from viaspline.report.map_ground import MapGround, Tone
+from viaspline.report.canvas import outline, shape_of
+from viaspline.report.map_ground import MapColours, MapGround
 from viaspline.report.sheet import Sheet
 from viaspline.robot.perception.belief import ON_MAP_M
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.run import Run
 
 
-class Sight(ABC):
+class SensorView(ABC):
     """A sensor in a film.
 
     Attributes:
@@ -38,7 +41,7 @@ class Sight(ABC):
         """What is to be drawn at a time [s], with the robot at a place [m]; times don't go back."""
 
 
-def sight_of(run: Run, sheet: Sheet) -> Sight:
+def sight_of(run: Run, sheet: Sheet) -> SensorView:
     """The sensor of a run, on the map of a sheet."""
     sensor = run.plan.mission.robot.sensor
     if sensor is None:
@@ -48,12 +51,12 @@ def sight_of(run: Run, sheet: Sheet) -> Sight:
     return _Range(run, sheet.map, sensor.reach)
 
 
-class _Blind(Sight):
+class _Blind(SensorView):
     def at(self, time: float, place: tuple[float, float], heading: float) -> list[Artist]:
         return []
 
 
-class _Range(Sight):
+class _Range(SensorView):
     """A disc, and the obstacles that it has touched."""
 
     def __init__(self, run: Run, axes: Axes, reach: float) -> None:
@@ -77,7 +80,9 @@ class _Range(Sight):
 def _found(axes: Axes, obstacle: Obstacle) -> Artist:
     """An obstacle that can be shown when it is found."""
     if obstacle.grid is not None:
-        MapGround(obstacle.grid, "", Tone(style.UNSEEN_FILL, style.UNSEEN)).draw(axes, zorder=5)
+        MapGround(obstacle.grid, "", MapColours(style.UNSEEN_FILL, style.UNSEEN)).draw(
+            axes, zorder=5
+        )
         return axes.images[-1]
     return axes.add_artist(_in_colours(PathPatch(outline(shape_of(obstacle)), zorder=5)))
 
@@ -87,7 +92,7 @@ def _in_colours(patch: Patch) -> Patch:
     return patch
 
 
-class _Beams(Sight):
+class _Beams(SensorView):
     """The ground that the beams sweep, and the points off the map that they have hit."""
 
     def __init__(self, run: Run, sheet: Sheet, spec: Lidar) -> None:

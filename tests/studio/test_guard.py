@@ -11,7 +11,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
-from viaspline.studio.messages import LARGEST
+from viaspline.studio.page_messages import MAX_MESSAGE_BYTES
 
 START = Any
 
@@ -63,7 +63,9 @@ def test_a_message_that_is_too_large_closes_the_connection_with_its_code(
 ) -> None:
     with start(patrol).client() as client:
         # The head of a frame is enough; a client that is still sending may not hear the answer.
-        client.socket.socket.sendall(b"\x81\xff" + (LARGEST + 10).to_bytes(8, "big") + b"mask")
+        client.socket.socket.sendall(
+            b"\x81\xff" + (MAX_MESSAGE_BYTES + 10).to_bytes(8, "big") + b"mask"
+        )
         with pytest.raises(ConnectionClosed) as caught:
             client.hear("never")
         assert caught.value.rcvd is not None

@@ -1,4 +1,7 @@
-"""From a document to a plan, or to what is wrong with it."""
+"""From a document to a plan, or to what is wrong with it.
+
+Tested through ``studio/test_server``.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +13,9 @@ from viaspline.errors import Change, GaveUpError, MissionError, PlanningError, V
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.studio.document import Document
-from viaspline.studio.keys import Path as Keys
-from viaspline.studio.keys import path_of
-from viaspline.studio.maps import ExpandedDocument, Maps
+from viaspline.studio.key_paths import Path as Keys
+from viaspline.studio.key_paths import path_of
+from viaspline.studio.map_cache import ExpandedDocument, MapCache
 
 
 @dataclass(frozen=True)
@@ -35,12 +38,12 @@ class PlanFault:
 
 
 @dataclass(frozen=True)
-class Planned:
+class PlannedDocument:
     """What came of a document.
 
     Attributes:
         document: That was planned.
-        unfolded: The same without maps.
+        unfolded: The document with the obstacles of its maps in their places.
         mission: If it is sound.
         plan: If there is a path.
         problems: If there is none.
@@ -55,12 +58,12 @@ class Planned:
     seconds: float
 
 
-def planned(document: Document, maps: Maps, base: Path) -> Planned:
+def planned(document: Document, maps: MapCache, base: Path) -> PlannedDocument:
     """Plan a document.
 
     Args:
         document: Sound or not.
-        maps: Of the studio's folder.
+        maps: The maps of the studio's folder.
         base: The folder of the mission's file.
     """
     start = time.perf_counter()
@@ -79,7 +82,7 @@ def planned(document: Document, maps: Maps, base: Path) -> Planned:
     except ViasplineError as error:
         problems = (PlanFault(str(error)),)
     seconds = time.perf_counter() - start
-    return Planned(document, unfolded, mission, found, problems, seconds)
+    return PlannedDocument(document, unfolded, mission, found, problems, seconds)
 
 
 def _faults(error: MissionError, unfolded: ExpandedDocument | None) -> tuple[PlanFault, ...]:

@@ -1,4 +1,7 @@
-"""The column at the right of a map: legend, colour bar, close-up, notes; it hides nothing."""
+"""The column at the right of a map: legend, colour bar, close-up, notes; it hides nothing.
+
+Tested through ``report/test_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +16,13 @@ from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from viaspline.report.drawing import tidy
+from viaspline.report.canvas import tidy
 from viaspline.report.sheet import Sheet
-from viaspline.report.style import INK, MUTED, SMALL
+from viaspline.report.style import INK, MUTED, SMALL_PT
 from viaspline.report.units import nice
 
 
-class Column:
+class SideColumn:
     """Fills the column from the top down."""
 
     def __init__(self, sheet: Sheet) -> None:
@@ -43,7 +46,7 @@ class Column:
         figure = self._sheet.figure
         across, up = figure.get_size_inches()
         legend = figure.legend(
-            handles=list(handles), loc="upper left", fontsize=SMALL, frameon=False,
+            handles=list(handles), loc="upper left", fontsize=SMALL_PT, frameon=False,
             bbox_to_anchor=(self._left / across, self._top / up), borderaxespad=0,
             borderpad=0, handlelength=2.0, labelspacing=0.55,
         )  # fmt: skip
@@ -60,7 +63,7 @@ class Column:
             ScalarMappable(limits, colours), cax=axes, orientation="horizontal"
         )
         tidy(axes)
-        axes.set_title(title, size=SMALL, color=INK, loc="left", pad=3)
+        axes.set_title(title, size=SMALL_PT, color=INK, loc="left", pad=3)
         self._top -= 0.85
 
     def axes(self, height: float, title: str) -> Axes:
@@ -70,7 +73,7 @@ class Column:
         axes = self._sheet.figure.add_axes(box)
         tidy(axes)
         axes.tick_params(left=False, bottom=False, labelleft=False, labelbottom=False)
-        axes.set_title(title, size=SMALL, color=INK, loc="left", pad=3, parse_math=False)
+        axes.set_title(title, size=SMALL_PT, color=INK, loc="left", pad=3, parse_math=False)
         self._top -= height + head + 0.4
         return axes
 
@@ -84,7 +87,7 @@ class Column:
         x = np.array([box.x1 - length * pixels_per_metre / figure.dpi / across, box.x1])
         figure.add_artist(Line2D(x, [y, y], color=INK, linewidth=1.2))
         figure.text(
-            float(x[0]) - 0.06 / across, y, f"{length:g} m", size=SMALL, color=INK, ha="right",
+            float(x[0]) - 0.06 / across, y, f"{length:g} m", size=SMALL_PT, color=INK, ha="right",
             va="center",
         )  # fmt: skip
 
@@ -99,7 +102,7 @@ class Column:
         across, up = self._sheet.figure.get_size_inches()
         x = self._left / across
         figure = self._sheet.figure
-        figure.text(x, self._top / up, title, size=SMALL, color=INK, weight="bold", va="top")
+        figure.text(x, self._top / up, title, size=SMALL_PT, color=INK, weight="bold", va="top")
         for i, line in enumerate(lines):
             y = (self._top - 0.19 - i * step) / up
             figure.text(x, y, line, size=7, color=MUTED, va="top", parse_math=False)

@@ -1,4 +1,7 @@
-"""Frames to a file: a .gif with Pillow, an .mp4 with ffmpeg; a whole file or none."""
+"""Frames to a file: a .gif with Pillow, an .mp4 with ffmpeg; a whole file or none.
+
+Tested through ``report/test_animation``.
+"""
 
 from __future__ import annotations
 
@@ -11,16 +14,16 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from viaspline.errors import OutputError
-from viaspline.report.film_file import FilmFile
 from viaspline.report.result_files import replacing
+from viaspline.report.video_file import VideoFile
 
 Frame = NDArray[np.uint8]  # (height, width, 3)
-RATE = 15  # frames a second
-LAST = 2.0  # the last frame stays [s]
+FRAMES_PER_S = 15  # frames a second
+LAST_FRAME_S = 2.0  # the last frame stays [s]
 
 
 def write_film(
-    film: FilmFile, frames: Iterable[Frame], count: int, progress: Callable[[float], None]
+    film: VideoFile, frames: Iterable[Frame], count: int, progress: Callable[[float], None]
 ) -> None:
     """Write an animation.
 
@@ -47,7 +50,7 @@ def _gif(path: Path, frames: Iterator[Frame], count: int) -> None:
     pictures = list(frames)
     paint = _Paint(pictures[0], pictures[len(pictures) // 2], pictures[-1])
     images = [paint(picture) for picture in pictures]
-    durations = [round(1000 / RATE)] * (count - 1) + [round(1000 * LAST)]
+    durations = [round(1000 / FRAMES_PER_S)] * (count - 1) + [round(1000 * LAST_FRAME_S)]
     images[0].save(
         path, format="GIF", save_all=True, append_images=images[1:], duration=durations, loop=0,
         optimize=False,
@@ -92,7 +95,7 @@ def _mp4(path: Path, frames: Iterator[Frame], ffmpeg: str) -> None:
     height, width, _ = first.shape
     command = [
         ffmpeg, "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24",
-        "-s", f"{width}x{height}", "-r", str(RATE), "-i", "-", "-an", "-c:v", "libx264",
+        "-s", f"{width}x{height}", "-r", str(FRAMES_PER_S), "-i", "-", "-an", "-c:v", "libx264",
         "-pix_fmt", "yuv420p", "-fflags", "+bitexact", "-flags:v", "+bitexact",
         "-map_metadata", "-1", "-movflags", "+faststart", "-f", "mp4", str(path),
     ]  # fmt: skip
@@ -103,7 +106,7 @@ def _mp4(path: Path, frames: Iterator[Frame], ffmpeg: str) -> None:
         process.stdin.write(first.tobytes())
         for last in frames:
             process.stdin.write(last.tobytes())
-        for _ in range(round(LAST * RATE)):
+        for _ in range(round(LAST_FRAME_S * FRAMES_PER_S)):
             process.stdin.write(last.tobytes())
     except BrokenPipeError:
         pass  # it ended early; its message says why

@@ -1,4 +1,7 @@
-"""What a page asks of files: which there are, open, save, export. Each gives an answer to send."""
+"""What a page asks of files: which there are, open, save, export. Each gives an answer to send.
+
+Tested through ``studio/test_server_files``.
+"""
 
 from __future__ import annotations
 
@@ -9,76 +12,81 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from viaspline.errors import ViasplineError
-from viaspline.studio import keeping
-from viaspline.studio.desk import Desk
+from viaspline.studio import yaml_round_trip
 from viaspline.studio.document import Document
 from viaspline.studio.engine import Engine
-from viaspline.studio.messages import Message, text_of
-from viaspline.studio.opening import opened
-from viaspline.studio.refused import RefusedError
-from viaspline.studio.saving import is_yaml, origin_from, waypoints_of
+from viaspline.studio.load_document import opened
+from viaspline.studio.open_mission import OpenMission
+from viaspline.studio.page_messages import Message, text_of
+from viaspline.studio.refused_error import RefusedError
+from viaspline.studio.save_document import is_yaml, origin_from, waypoints_of
 
 if TYPE_CHECKING:
     from viaspline.robot.run import Run
-    from viaspline.studio.planning import Planned
+    from viaspline.studio.plan_document import PlannedDocument
 
 Answer = dict[str, Any]
 Driven = tuple[Document, "Run", int]
 
 
-def files(desk: Desk) -> Answer:
+def files(current: OpenMission) -> Answer:
     """The files of the folder."""
-    return {"type": "files", "missions": desk.folder.missions(), "maps": desk.folder.maps()}
+    return {"type": "files", "missions": current.folder.missions(), "maps": current.folder.maps()}
 
 
-def open_file(desk: Desk, message: Message) -> Answer:
+def open_file(current: OpenMission, message: Message) -> Answer:
     """Open a mission."""
-    return _opened(desk, desk.open(text_of(message, "name")))
+    return _opened(current, current.open(text_of(message, "name")))
 
 
-def new(desk: Desk) -> Answer:
+def new(current: OpenMission) -> Answer:
     """Begin a new mission."""
-    desk.clear()
-    return _opened(desk, ())
+    current.clear()
+    return _opened(current, ())
 
 
-def _opened(desk: Desk, notes: tuple[str, ...]) -> Answer:
+def _opened(current: OpenMission, notes: tuple[str, ...]) -> Answer:
     return {
-        "type": "opened", "name": desk.name, "document": desk.document,
-        "warnings": notes, "origin": desk.origin,
+        "type": "opened", "name": current.name, "document": current.document,
+        "warnings": notes, "origin": current.origin,
     }  # fmt: skip
 
 
-async def save(desk: Desk, message: Message, planned: Callable[[], Awaitable[Planned]]) -> Answer:
+async def save(
+    current: OpenMission, message: Message, planned: Callable[[], Awaitable[PlannedDocument]]
+) -> Answer:
     """Save the document, or ask before another file is replaced.
 
     Args:
-        desk: Its document is saved.
+        current: Its document is saved.
         message: With a ``name`` and perhaps ``replace`` and ``origin``.
         planned: Gives the plan, of whose mission the way points are.
     """
     name = text_of(message, "name")
-    path = desk.folder.to_save(name)
+    path = current.folder.to_save(name)
     if not is_yaml(path):
-        return await _save_waypoints(desk, message, path, planned)
-    if path.exists() and name != desk.name and message.get("replace") is not True:
+        return await _save_waypoints(current, message, path, planned)
+    if path.exists() and name != current.name and message.get("replace") is not True:
         return {"type": "exists", "name": name}
     old = path.read_text(encoding="utf-8", errors="replace") if path.exists() else None
-    if path.parent != desk.base:
-        desk.document = _moved(desk.document, desk.base, path.parent)
-    desk.folder.save(path, keeping.text_of(desk.document, old))
-    desk.name = name
-    return _saved(name, desk.document, (), desk)
+    if path.parent != current.base:
+        current.document = _moved(current.document, current.base, path.parent)
+    current.folder.save(path, yaml_round_trip.text_of(current.document, old))
+    current.name = name
+    return _saved(name, current.document, (), current)
 
 
 async def _save_waypoints(
-    desk: Desk, message: Message, path: Path, planned: Callable[[], Awaitable[Planned]]
+    current: OpenMission,
+    message: Message,
+    path: Path,
+    planned: Callable[[], Awaitable[PlannedDocument]],
 ) -> Answer:
     """Save a file that may not hold the whole mission; then it is a copy of a part of it."""
-    name, document, before = text_of(message, "name"), desk.document, desk.name
-    origin = origin_from(text_of(message, "origin", "")) or desk.origin
+    name, document, before = text_of(message, "name"), current.document, current.name
+    origin = origin_from(text_of(message, "origin", "")) or current.origin
     there = _not_understood(path) if path.exists() else ()
-    if path.exists() and (name != desk.name or there) and message.get("replace") is not True:
+    if path.exists() and (name != current.name or there) and message.get("replace") is not True:
         return {"type": "exists", "name": name, "lost": there}
     mission = (await planned()).mission
     if mission is None:
@@ -86,42 +94,42 @@ async def _save_waypoints(
     text, lost = waypoints_of(mission, path, origin)
     if maps := _maps_in(document):
         lost = (*lost, f"maps, of which the file holds polygons only: {', '.join(maps)}")
-    desk.folder.save(path, text)
-    if desk.name == before:  # nothing else was opened meanwhile
-        desk.origin = origin
-        desk.name = before if lost else name
-    return {**_saved(name, document, lost, desk), "origin": origin}
+    current.folder.save(path, text)
+    if current.name == before:  # nothing else was opened meanwhile
+        current.origin = origin
+        current.name = before if lost else name
+    return {**_saved(name, document, lost, current), "origin": origin}
 
 
-def _saved(name: str, document: Document, lost: tuple[str, ...], desk: Desk) -> Answer:
+def _saved(name: str, document: Document, lost: tuple[str, ...], current: OpenMission) -> Answer:
     return {
-        "type": "saved", "name": name, "document": document, "lost": lost, "origin": desk.origin,
+        "type": "saved", "name": name, "document": document, "lost": lost, "origin": current.origin,
     }  # fmt: skip
 
 
 async def export(
-    desk: Desk,
+    current: OpenMission,
     message: Message,
     engine: Engine,
-    planned: Callable[[], Awaitable[Planned]],
+    planned: Callable[[], Awaitable[PlannedDocument]],
     driven: Driven | None,
 ) -> Answer:
     """A file of the plan or of the newest drive.
 
     Args:
-        desk: Of whose document.
+        current: Of whose document.
         message: With the ``kind``.
         engine: Writes the file.
         planned: Gives the plan.
         driven: The document that was driven last, the run and its seed.
     """
-    from viaspline.studio.exports import OF_RUNS, check_kind
+    from viaspline.studio.exports import RUN_FILES, check_kind
 
     kind = text_of(message, "kind")
     check_kind(kind)
-    stem = Path(desk.name).stem if desk.name is not None else "mission"
-    if kind in OF_RUNS:
-        if driven is None or driven[0] is not desk.document:
+    stem = Path(current.name).stem if current.name is not None else "mission"
+    if kind in RUN_FILES:
+        if driven is None or driven[0] is not current.document:
             raise RefusedError("drive the mission first; it has changed since")
         content = await engine.run_file(driven[1], kind, stem, driven[2])
     else:

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from viaspline.planner import Plan
+from viaspline.report.csv_tables import path_csv, run_csv, spacing
 from viaspline.report.plan_json import plan_json
 from viaspline.report.run_json import changed_spans, run_json, timing_json
-from viaspline.report.tables import path_csv, run_csv, spacing
 from viaspline.robot.run import Run
 
 

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from viaspline.formats.yaml_document import read_document
-from viaspline.studio.keeping import read, text_of
+from viaspline.studio.yaml_round_trip import read, text_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

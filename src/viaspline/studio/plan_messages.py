@@ -1,4 +1,7 @@
-"""Plans as the page draws them: the same numbers as in ``plan.json``, without its white space."""
+"""Plans as the page draws them: the same numbers as in ``plan.json``, without its white space.
+
+Tested through ``studio/test_server``.
+"""
 
 from __future__ import annotations
 
@@ -11,11 +14,11 @@ from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate
-from viaspline.studio.maps import grid_name
-from viaspline.studio.planning import PlanFault, Planned
+from viaspline.studio.map_cache import grid_name
+from viaspline.studio.plan_document import PlanFault, PlannedDocument
 
 
-def answer(planned: Planned, revision: int) -> dict[str, Any]:
+def answer(planned: PlannedDocument, revision: int) -> dict[str, Any]:
     """What the page is told of a plan, or of why there is none."""
     head = {"type": "planned", "rev": revision, "ms": round(1e3 * planned.seconds, 3)}
     maps = grids(planned)
@@ -71,7 +74,7 @@ def _order(plan: Plan) -> list[str]:
     return [via.name for via in plan.path.vias if via.kind == "user"]
 
 
-def ledger(planned: Planned, revision: int) -> dict[str, Any]:
+def ledger(planned: PlannedDocument, revision: int) -> dict[str, Any]:
     """Every group in the way and both of its sides."""
     plan = planned.plan
     assert plan is not None
@@ -103,7 +106,7 @@ def _candidate(candidate: Candidate) -> dict[str, Any]:
     }
 
 
-def grids(planned: Planned) -> list[dict[str, Any]]:
+def grids(planned: PlannedDocument) -> list[dict[str, Any]]:
     """The maps of squares of a mission: their pictures' names and where they lie."""
     if planned.mission is None or planned.unfolded is None:
         return []

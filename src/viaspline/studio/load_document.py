@@ -1,4 +1,7 @@
-"""Mission files of every kind as documents."""
+"""Mission files of every kind as documents.
+
+Tested through ``studio/test_server_files``.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +14,13 @@ from viaspline.errors import Fault, MissionError
 from viaspline.formats.items import LatLon
 from viaspline.formats.yaml_document import read_document
 from viaspline.mission.unplaced_faults import located
-from viaspline.studio import keeping
+from viaspline.studio import yaml_round_trip
 from viaspline.studio.document import Document, check_size
-from viaspline.studio.saving import is_yaml
+from viaspline.studio.save_document import is_yaml
 
 
 @dataclass(frozen=True)
-class Opened:
+class LoadedDocument:
     """A mission file.
 
     Attributes:
@@ -31,10 +34,12 @@ class Opened:
     origin: LatLon | None = None
 
 
-_LAST: dict[tuple[str, int, int], Opened] = {}
+_LAST: dict[tuple[str, int, int], LoadedDocument] = {}
+"""The file that was read last, by its path, time and size: the command reads what the page asks
+for next, and a map may take seconds."""
 
 
-def opened(path: Path) -> Opened:
+def opened(path: Path) -> LoadedDocument:
     """Open a mission file: YAML as it stands there, other kinds as what they mean.
 
     Raises:
@@ -53,7 +58,7 @@ def opened(path: Path) -> Opened:
     return _LAST[stamp]
 
 
-def _opened(path: Path) -> Opened:
+def _opened(path: Path) -> LoadedDocument:
     notes: tuple[str, ...] = ()
     origin: LatLon | None = None
     if is_yaml(path):
@@ -69,7 +74,7 @@ def _opened(path: Path) -> Opened:
         fault = Fault("", "has a number that is infinite or none", "write it out", str(path))
         raise MissionError([fault]) from None
     check_size(document)
-    return Opened(document, notes, origin)
+    return LoadedDocument(document, notes, origin)
 
 
 def _understood(path: Path) -> tuple[Document, tuple[str, ...], LatLon | None]:
@@ -79,5 +84,5 @@ def _understood(path: Path) -> tuple[Document, tuple[str, ...], LatLon | None]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         mission = load(path)
-    document = keeping.read(yaml_text(mission, path.parent))
+    document = yaml_round_trip.read(yaml_text(mission, path.parent))
     return document, tuple(str(warning.message) for warning in caught), origin_of(path)

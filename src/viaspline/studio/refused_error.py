@@ -1,4 +1,7 @@
-"""What the studio answers to a message that it can't or won't obey."""
+"""What the studio answers to a message that it can't or won't obey.
+
+Tested through ``studio/test_document``.
+"""
 
 from __future__ import annotations
 

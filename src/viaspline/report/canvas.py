@@ -1,4 +1,7 @@
-"""What every picture is made with: figures that touch no global state, curves, shapes, bytes."""
+"""What every picture is made with: figures that touch no global state, curves, shapes, bytes.
+
+Tested through ``report/test_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,7 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.report.style import DPI, MUTED, SMALL, TEXT
+from viaspline.report.style import DPI, MUTED, SMALL_PT, TEXT_PT
 
 
 def new_figure(width: float, height: float, dpi: int = DPI) -> Figure:
@@ -96,9 +99,9 @@ def outline(geometry: shapely.Geometry | NDArray[np.object_]) -> Outline:
 
 def tidy(axes: Axes) -> None:
     """Thin grey frame, small ticks, no offsets in tick labels."""
-    axes.tick_params(labelsize=SMALL, color=MUTED, labelcolor=MUTED, width=0.6, length=3)
+    axes.tick_params(labelsize=SMALL_PT, color=MUTED, labelcolor=MUTED, width=0.6, length=3)
     axes.ticklabel_format(useOffset=False, style="plain")
     for spine in axes.spines.values():
         spine.set(color=MUTED, linewidth=0.6)
-    axes.xaxis.label.set(size=TEXT, color=MUTED)
-    axes.yaxis.label.set(size=TEXT, color=MUTED)
+    axes.xaxis.label.set(size=TEXT_PT, color=MUTED)
+    axes.yaxis.label.set(size=TEXT_PT, color=MUTED)

@@ -1,4 +1,7 @@
-"""The file of an animation: what can be written is known before the long work begins."""
+"""The file of an animation: what can be written is known before the long work begins.
+
+Tested through ``report/test_animation``.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,10 @@ from pathlib import Path
 from viaspline.errors import OutputError
 from viaspline.report.result_files import ResultFolder
 
-KINDS = (".gif", ".mp4")
+VIDEO_SUFFIXES = (".gif", ".mp4")
 
 
-class FilmFile:
+class VideoFile:
     """Where an animation goes.
 
     Args:
@@ -24,8 +27,10 @@ class FilmFile:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.kind = path.suffix.lower()
-        if self.kind not in KINDS:
-            raise OutputError(path, f"an animation ends in {' or '.join(KINDS)}; rename it")
+        if self.kind not in VIDEO_SUFFIXES:
+            raise OutputError(
+                path, f"an animation ends in {' or '.join(VIDEO_SUFFIXES)}; rename it"
+            )
         self.ffmpeg = shutil.which("ffmpeg") if self.kind == ".mp4" else None
         if self.kind == ".mp4" and self.ffmpeg is None:
             raise OutputError(

@@ -16,11 +16,11 @@ from typing import Final, TypeVar
 
 T = TypeVar("T")
 
-WHOLE: Final = ("importlib", "_frozen_importlib", "numba", "llvmlite")
+UNBROKEN_PACKAGES: Final = ("importlib", "_frozen_importlib", "numba", "llvmlite")
 """Packages whose work is never broken off: half an import or a kernel would be left behind."""
 
 
-AGAIN: Final = 0.05
+RESEND_AFTER_S: Final = 0.05
 """Pause before an exception that may have been lost is sent once more [s]: a call that is about to
 end has to come through with it, and would not under a hail of them."""
 
@@ -70,7 +70,7 @@ class Stoppable:
         with self._lock:
             if self._thread is None:
                 self._is_over = True
-            elif time.monotonic() - self._sent > AGAIN and _is_free(self._thread):
+            elif time.monotonic() - self._sent > RESEND_AFTER_S and _is_free(self._thread):
                 self._was_stopped, self._sent = True, time.monotonic()
                 _raise_in(self._thread, StoppedCallError)
 
@@ -91,7 +91,7 @@ def _is_free(thread: int) -> bool:
     """Whether a thread is doing nothing that has to be done whole."""
     frame = sys._current_frames().get(thread)
     while frame is not None:
-        if str(frame.f_globals.get("__name__")).split(".")[0] in WHOLE:
+        if str(frame.f_globals.get("__name__")).split(".")[0] in UNBROKEN_PACKAGES:
             return False
         frame = frame.f_back
     return True

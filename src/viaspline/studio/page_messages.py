@@ -6,9 +6,9 @@ import json
 from collections.abc import Mapping
 from typing import Any, Final
 
-from viaspline.studio.refused import RefusedError
+from viaspline.studio.refused_error import RefusedError
 
-LARGEST: Final = 4_000_000
+MAX_MESSAGE_BYTES: Final = 4_000_000
 """Largest message [bytes]; the connection of a larger one is closed with code 1009."""
 
 Message = Mapping[str, Any]

@@ -11,12 +11,12 @@ from viaspline.formats.format_registry import format_to_save, formats
 from viaspline.formats.items import LatLon
 from viaspline.formats.mission_format import Whereabouts, Written
 from viaspline.formats.mission_yaml import MissionYaml
-from viaspline.studio.refused import RefusedError
+from viaspline.studio.refused_error import RefusedError
 
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
 
-SAVED: Final = tuple(ending for each in formats() for ending in each.saved_endings)
+SAVED_SUFFIXES: Final = tuple(ending for each in formats() for ending in each.saved_endings)
 """The endings by which missions are saved."""
 
 

@@ -15,11 +15,11 @@ from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.report.style import without_folder
 from viaspline.report.summary import map_words
+from viaspline.report.terminal_lines import discard_output
 from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
-from viaspline.report.words import deafen
 from viaspline.robot.run import MODES, Run
 
-LINES = 12  # of a long list, before the rest is only counted
+MAX_LIST_LINES = 12  # of a long list, before the rest is only counted
 
 
 class _Console(Console):
@@ -60,7 +60,9 @@ def plan_tables(plan: Plan, name: str) -> RenderableType:
     facts.add_row("largest curvature", curvature(path.max_curvature()[0]))
     stations = [s for s in plan.trajectory.stations if s.dwell > 0]
     if stations:
-        facts.add_row("stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:LINES]))
+        facts.add_row(
+            "stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:MAX_LIST_LINES])
+        )
     return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
 
 
@@ -68,18 +70,18 @@ def ledger_table(ledger: tuple[LedgerEntry, ...]) -> RenderableType:
     """Every group met and every side tried."""
     table = Table(title="Detours", title_justify="left", box=box.SIMPLE_HEAD)
     for column in ("leg", "past", "side", "length", "clearance", "curvature", ""):
-        table.add_column(column, justify="right" if column in _NUMBERS else "left")
-    for entry in ledger[:LINES]:
+        table.add_column(column, justify="right" if column in _COMPARED_FIGURES else "left")
+    for entry in ledger[:MAX_LIST_LINES]:
         leg, past = " → ".join(entry.leg), _members(entry.members)
         for candidate in entry.candidates:
             table.add_row(leg, past, candidate.side, *_candidate(candidate))
             leg = past = ""
-    if len(ledger) > LINES:
-        table.add_row(f"… and {len(ledger) - LINES} more in plan.json")
+    if len(ledger) > MAX_LIST_LINES:
+        table.add_row(f"… and {len(ledger) - MAX_LIST_LINES} more in plan.json")
     return table
 
 
-_NUMBERS = ("length", "clearance", "curvature")
+_COMPARED_FIGURES = ("length", "clearance", "curvature")
 
 
 def _members(members: tuple[str, ...]) -> str:
@@ -104,13 +106,13 @@ def advice_tables(advice: TensionAdvice, name: str) -> RenderableType:
     spans = Table(title=f"Tension · {name}", title_justify="left", box=box.SIMPLE_HEAD)
     for column in ("span", "suggested", "length", "clearance", "peak curvature", "drive"):
         spans.add_column(column, justify="left" if column == "span" else "right")
-    for k, names in enumerate(advice.spans[:LINES]):
+    for k, names in enumerate(advice.spans[:MAX_LIST_LINES]):
         j = int(np.abs(advice.tensions - advice.suggested[k]).argmin())
         rows = (advice.lengths, advice.clearances, advice.curvatures, advice.durations)
         figures = _advised(*(float(row[k, j]) for row in rows))
         spans.add_row(" → ".join(names), f"{advice.suggested[k]:g}", *figures)
-    if len(advice.spans) > LINES:
-        spans.add_row(f"… and {len(advice.spans) - LINES} more spans")
+    if len(advice.spans) > MAX_LIST_LINES:
+        spans.add_row(f"… and {len(advice.spans) - MAX_LIST_LINES} more spans")
     common = Table(title="All spans at once", title_justify="left", box=box.SIMPLE_HEAD)
     for column in ("tension", "length", "clearance", "peak curvature", "drive", ""):
         common.add_column(column, justify="right" if column else "left")
@@ -149,21 +151,21 @@ def run_tables(run: Run, name: str) -> RenderableType:
     served = sum(visit.status == "served" for visit in run.visits)
     facts.add_row("points served", f"{served} of {len(run.visits)}")
     missed = [visit for visit in run.visits if visit.status != "served"]
-    for visit in missed[:LINES]:
+    for visit in missed[:MAX_LIST_LINES]:
         facts.add_row(f"  {visit.name}", f"{visit.status}: {visit.reason or 'no reason given'}")
     if not run.replans:
         return facts
     table = Table(title="Re-plans", title_justify="left", box=box.SIMPLE_HEAD)
     for column in ("time", "at", "because of", "mode", "length before", "after", "jump of heading"):
         table.add_column(column)
-    for replan in run.replans[:LINES]:
+    for replan in run.replans[:MAX_LIST_LINES]:
         table.add_row(
             seconds(replan.time), place(replan.at), _members(replan.obstacles), replan.mode,
             metres(replan.old_path.length, 1), metres(replan.path.length, 1),
             f"{replan.heading_jump:.1g} rad",
         )  # fmt: skip
-    if len(run.replans) > LINES:
-        table.add_row(f"… and {len(run.replans) - LINES} more in run.json")
+    if len(run.replans) > MAX_LIST_LINES:
+        table.add_row(f"… and {len(run.replans) - MAX_LIST_LINES} more in run.json")
     used = {replan.mode for replan in run.replans}
     modes = [f"{mode}: {words}" for mode, words in MODES.items() if mode in used]
     return Group(facts, table, *modes)
@@ -184,4 +186,4 @@ def show(*tables: RenderableType) -> None:
             screen.print(table)
         sys.stdout.flush()
     except BrokenPipeError:
-        deafen()
+        discard_output()

@@ -1,4 +1,7 @@
-"""What is said on the terminal in plain lines: never wrapped, no colour codes in a pipe."""
+"""What is said on the terminal in plain lines: never wrapped, no colour codes in a pipe.
+
+Tested through ``test_cli``.
+"""
 
 from __future__ import annotations
 
@@ -21,16 +24,16 @@ def say(*lines: str) -> None:
             click.echo(line)
         sys.stdout.flush()
     except BrokenPipeError:
-        deafen()
+        discard_output()
 
 
-def deafen() -> None:
+def discard_output() -> None:
     """Send the rest of the output stream nowhere, after its reader has gone."""
     with open(os.devnull, "w") as nowhere:
         os.dup2(nowhere.fileno(), sys.stdout.fileno())
 
 
-def tell(*lines: str, prefix: str = "viaspline: ") -> None:
+def say_error(*lines: str, prefix: str = "viaspline: ") -> None:
     """A message on the error stream; the first line begins with the prefix in red."""
     for i, line in enumerate(lines):
         start = click.style(prefix, fg="red", bold=True) if prefix and i == 0 else ""
@@ -59,7 +62,7 @@ def telling_warnings() -> Iterator[None]:
     """Within the block a warning is one line on the error stream."""
 
     def show(message: Warning | str, *_: Any, **__: Any) -> None:
-        tell(" ".join(str(message).split()), prefix="warning: ")
+        say_error(" ".join(str(message).split()), prefix="warning: ")
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", MissionWarning)
