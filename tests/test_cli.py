@@ -234,7 +234,7 @@ def test_a_film_that_cannot_be_is_found_before_the_work(
 def test_an_animation_is_written(
     clear: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("viaspline.report.animation.FRAMES", 10)
+    monkeypatch.setattr("viaspline.report.animation.MAX_FRAMES", 10)
     film = tmp_path / "film" / "run.gif"
     result = call("run", clear, "--out", tmp_path / "out", "--animate", film)
     assert result.exit_code == 0, result.stderr

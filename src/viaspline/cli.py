@@ -19,15 +19,15 @@ import click
 from viaspline import __version__
 from viaspline.errors import GaveUpError, MissionError, NoPathError, ViasplineError
 from viaspline.report.interrupts import Terminated, remembered
-from viaspline.report.words import gave_up, no_path, say, tell, telling_warnings
+from viaspline.report.terminal_lines import gave_up, no_path, say, say_error, telling_warnings
 
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
     from viaspline.mission.robot_parts import RobotSpec
     from viaspline.planner import Plan
-    from viaspline.report.film_file import FilmFile
-    from viaspline.report.progress_bar import Watch
+    from viaspline.report.progress_bar import ProgressBar
     from viaspline.report.result_files import ResultFolder
+    from viaspline.report.video_file import VideoFile
 
 DEFECT, WRONG, NO_PATH, NOT_REACHED, GAVE_UP = 1, 2, 3, 4, 5
 INTERRUPTED, TERMINATED = 130, 143
@@ -51,27 +51,27 @@ def told(error: BaseException) -> int:
     """Say what happened; returns the exit code."""
     signalled = remembered()
     if isinstance(error, KeyboardInterrupt) or signalled is KeyboardInterrupt:
-        tell("interrupted; no file was left half written")
+        say_error("interrupted; no file was left half written")
         return INTERRUPTED
     if isinstance(error, Terminated) or signalled is Terminated:
-        tell("terminated; no file was left half written")
+        say_error("terminated; no file was left half written")
         return TERMINATED
     if isinstance(error, NoPathError):
-        tell(no_path(error))
+        say_error(no_path(error))
         return NO_PATH
     if isinstance(error, GaveUpError):
-        tell(gave_up(error))
+        say_error(gave_up(error))
         return GAVE_UP
     if isinstance(error, MissionError):
-        tell(*(str(fault) for fault in error.faults), prefix="")
+        say_error(*(str(fault) for fault in error.faults), prefix="")
         return WRONG
     if isinstance(error, ViasplineError):
-        tell(str(error))
+        say_error(str(error))
         return WRONG
     if os.environ.get("VIASPLINE_DEBUG"):
         traceback.print_exception(error)
     problem = " ".join(str(error).split())
-    tell(f"defect: {type(error).__name__}: {problem} (VIASPLINE_DEBUG=1 shows where)")
+    say_error(f"defect: {type(error).__name__}: {problem} (VIASPLINE_DEBUG=1 shows where)")
     return DEFECT
 
 
@@ -134,7 +134,7 @@ def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet:
                     film_run(done, mission.stem, film, watch.fraction)
         files = results.write_all(folder, contents, watch.times, done)
     if not quiet:
-        from viaspline.report.screen import plan_tables, run_tables, show
+        from viaspline.report.terminal_tables import plan_tables, run_tables, show
 
         show(plan_tables(plan, mission.stem), run_tables(done, mission.stem))
         _say_written([*files, *([] if film is None else [film.path])])
@@ -142,7 +142,7 @@ def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet:
         from viaspline.report.units import place, seconds
 
         where = place(tuple(done.positions[-1].tolist()))
-        tell(
+        say_error(
             f"the robot did not reach its goal: {done.reason}",
             f"  it stands at {where} since {seconds(done.duration)}",
         )
@@ -174,7 +174,7 @@ def plan(mission: Path, out: Path | None, quiet: bool) -> None:
             contents = results.plan_contents(planned, mission.stem)
         files = results.write_all(folder, contents, watch.times)
     if not quiet:
-        from viaspline.report.screen import plan_tables, show
+        from viaspline.report.terminal_tables import plan_tables, show
 
         show(plan_tables(planned, mission.stem))
         _say_written(files)
@@ -209,7 +209,7 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
 
             file = folder.write("tension.png", tension_picture(advice, mission.stem))
     if not quiet:
-        from viaspline.report.screen import advice_tables, show
+        from viaspline.report.terminal_tables import advice_tables, show
 
         show(advice_tables(advice, mission.stem))
         _say_written([file])
@@ -307,7 +307,7 @@ def _load(path: Path) -> Mission:
 
     from viaspline.formats.load import load
 
-    patience = Timer(1.0, tell, [f"reading {path} …"], {"prefix": ""})
+    patience = Timer(1.0, say_error, [f"reading {path} …"], {"prefix": ""})
     patience.daemon = True
     patience.start()
     try:
@@ -328,16 +328,16 @@ def _folder(path: Path, names: Iterable[str]) -> Iterator[ResultFolder]:
     except BaseException:
         folder.forget_if_empty()
         if old:
-            tell(f"what {path} holds is from an earlier run", prefix="note: ")
+            say_error(f"what {path} holds is from an earlier run", prefix="note: ")
         raise
 
 
 @contextmanager
-def _film(path: Path | None) -> Iterator[FilmFile | None]:
+def _film(path: Path | None) -> Iterator[VideoFile | None]:
     """The file of the animation, tried before the work."""
-    from viaspline.report.film_file import FilmFile
+    from viaspline.report.video_file import VideoFile
 
-    film = None if path is None else FilmFile(path)
+    film = None if path is None else VideoFile(path)
     try:
         yield film
     except BaseException:
@@ -347,11 +347,11 @@ def _film(path: Path | None) -> Iterator[FilmFile | None]:
 
 
 @contextmanager
-def _watch(quiet: bool, robot: RobotSpec | None = None) -> Iterator[Watch]:
+def _watch(quiet: bool, robot: RobotSpec | None = None) -> Iterator[ProgressBar]:
     """Progress, which hears of every kernel that is compiled within the block."""
-    from viaspline.report.progress_bar import Watch
+    from viaspline.report.progress_bar import ProgressBar
 
-    watch = Watch(quiet=quiet)
+    watch = ProgressBar(quiet=quiet)
     with watch.stage("start", "starting"):
         from viaspline.kernels.jit import compile_progress
         from viaspline.precompile import jobs_for, second_compiler
@@ -360,7 +360,7 @@ def _watch(quiet: bool, robot: RobotSpec | None = None) -> Iterator[Watch]:
         yield watch
 
 
-def _plan(mission: Mission, watch: Watch) -> Plan:
+def _plan(mission: Mission, watch: ProgressBar) -> Plan:
     with watch.stage("plan", "planning"):
         from viaspline import planner
 

@@ -22,6 +22,9 @@ from viaspline.formats.mission_format import Whereabouts, Written
 from viaspline.formats.qgc_plan import QgcPlan
 from viaspline.formats.qgc_wpl import QgcWpl
 from viaspline.mission.model import Mission
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.shapes.rounded_ring import RoundedRing
 
 DATA = Path(__file__).parent / "data"
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -288,3 +291,24 @@ def test_without_an_origin_of_its_own_a_plan_begins_at_its_home(beside: Any) -> 
     plan = json.loads(plan_text(Mission.model_validate(YARD), ORIGIN).text)
     plan["viaspline"] = beside
     assert origin_in(QgcPlan().parse(json.dumps(plan), "x.plan")) == pytest.approx(ORIGIN)
+
+
+class Hedge(Obstacle):
+    """An obstacle that is round without being a disc."""
+
+    @property
+    def ring(self) -> RoundedRing:
+        return RoundedRing([[(30.0, 10.0), (40.0, 20.0)]], 2.0)
+
+
+def test_what_is_round_without_being_a_disc_is_written_as_a_polygon_around_it() -> None:
+    hedge = Hedge(circle=Circle(center=(35.0, 15.0), radius=1.0))
+    world = {**YARD["world"], "known": [hedge]}
+    written = plan_text(Mission.model_validate({**YARD, "world": world}), ORIGIN)
+    [obstacle] = mission_of(QgcPlan().parse(written.text, "x.plan")).world.known
+    assert obstacle.ring is not None
+    drawn, meant = obstacle.ring.outline(), hedge.ring.outline(200)
+    assert drawn.buffer(1e-3).covers(meant)
+    assert meant.buffer(0.022 + 1e-3).covers(drawn)
+    kind = "rounded outline, written as a larger polygon around it"
+    assert f"{kind}: world.known[0] (by up to 0.022 m)" in written.lost

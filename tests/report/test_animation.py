@@ -15,7 +15,7 @@ from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
 from viaspline.report import style
 from viaspline.report.animation import film_run, frames
-from viaspline.report.film_file import FilmFile
+from viaspline.report.video_file import VideoFile
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 
@@ -53,9 +53,9 @@ def test_a_map_that_was_not_known_appears_when_it_is_found() -> None:
 def test_a_gif_is_written_whole_with_progress(
     driven: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("viaspline.report.animation.FRAMES", 12)
+    monkeypatch.setattr("viaspline.report.animation.MAX_FRAMES", 12)
     heard: list[float] = []
-    film_run(driven, "yard", FilmFile(tmp_path / "run.gif"), heard.append)
+    film_run(driven, "yard", VideoFile(tmp_path / "run.gif"), heard.append)
     with Image.open(tmp_path / "run.gif") as film:
         assert film.n_frames == 12
         first = np.asarray(film.convert("RGB"))
@@ -67,21 +67,21 @@ def test_a_gif_is_written_whole_with_progress(
 def test_an_interrupted_film_leaves_nothing(
     driven: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("viaspline.report.animation.FRAMES", 12)
+    monkeypatch.setattr("viaspline.report.animation.MAX_FRAMES", 12)
 
     def interrupt(done: float) -> None:
         if done > 0.5:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        film_run(driven, "yard", FilmFile(tmp_path / "run.gif"), interrupt)
+        film_run(driven, "yard", VideoFile(tmp_path / "run.gif"), interrupt)
     assert os.listdir(tmp_path) == []
 
 
 @pytest.mark.parametrize("name", ["run.avi", "run", "gif"])
 def test_another_kind_of_film_is_refused_with_the_remedy(tmp_path: Path, name: str) -> None:
     with pytest.raises(OutputError, match=r"ends in \.gif or \.mp4"):
-        FilmFile(tmp_path / name)
+        VideoFile(tmp_path / name)
 
 
 def test_an_mp4_without_ffmpeg_names_the_remedy(
@@ -89,7 +89,7 @@ def test_an_mp4_without_ffmpeg_names_the_remedy(
 ) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(OutputError, match=r"ffmpeg; install it, or write a \.gif"):
-        FilmFile(tmp_path / "run.mp4")
+        VideoFile(tmp_path / "run.mp4")
 
 
 def _fake_ffmpeg(folder: Path, script: str) -> None:
@@ -104,8 +104,8 @@ def test_an_mp4_gets_every_frame_and_two_seconds_of_the_last(
 ) -> None:
     _fake_ffmpeg(tmp_path, 'for last; do :; done; cat > "$last"')
     monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
-    monkeypatch.setattr("viaspline.report.animation.FRAMES", 6)
-    film_run(driven, "yard", FilmFile(tmp_path / "run.mp4"), lambda done: None)
+    monkeypatch.setattr("viaspline.report.animation.MAX_FRAMES", 6)
+    film_run(driven, "yard", VideoFile(tmp_path / "run.mp4"), lambda done: None)
     frame = next(frames(driven, "yard", 2))
     assert (tmp_path / "run.mp4").stat().st_size == (6 + 30) * frame.size
 
@@ -116,7 +116,7 @@ def test_a_failing_ffmpeg_is_reported_in_its_own_words(
 ) -> None:
     _fake_ffmpeg(tmp_path, "echo no such encoder >&2; exit 1")
     monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
-    monkeypatch.setattr("viaspline.report.animation.FRAMES", 6)
+    monkeypatch.setattr("viaspline.report.animation.MAX_FRAMES", 6)
     with pytest.raises(OutputError, match=r"no such encoder\); write a \.gif instead"):
-        film_run(driven, "yard", FilmFile(tmp_path / "run.mp4"), lambda done: None)
+        film_run(driven, "yard", VideoFile(tmp_path / "run.mp4"), lambda done: None)
     assert sorted(os.listdir(tmp_path)) == ["ffmpeg"]

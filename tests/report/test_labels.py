@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from viaspline.report.drawing import new_figure
+from viaspline.report.canvas import new_figure
 from viaspline.report.labels import Labels
 
 

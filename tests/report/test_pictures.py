@@ -15,8 +15,8 @@ from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.report import style
 from viaspline.report.plan_picture import plan_picture, via_ticks
+from viaspline.report.profile_strips import shown_range
 from viaspline.report.run_picture import echoes, run_picture
-from viaspline.report.strips import shown
 from viaspline.robot.run import Run
 
 
@@ -171,6 +171,6 @@ def test_a_run_without_a_lidar_has_shown_no_points(driven: Run) -> None:
 def test_a_peak_does_not_flatten_the_rest_of_a_strip() -> None:
     curvature = np.sin(np.linspace(0, 20, 1000))
     curvature[500] = 1e6
-    low, high = shown(curvature)
+    low, high = shown_range(curvature)
     assert (low, high) == (pytest.approx(-1, abs=0.01), pytest.approx(6, abs=0.1))
-    assert shown(np.array([0.0, 0.0, 3.0])) == (0.0, 3.0)
+    assert shown_range(np.array([0.0, 0.0, 3.0])) == (0.0, 3.0)

@@ -9,10 +9,10 @@ import pytest
 
 from viaspline.mission.model import Mission
 from viaspline.planner import plan
+from viaspline.report.csv_tables import run_csv
 from viaspline.report.plan_json import plan_json
 from viaspline.report.run_json import run_json
 from viaspline.report.run_picture import run_picture
-from viaspline.report.tables import run_csv
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 

@@ -183,3 +183,36 @@ def test_areas_are_in_the_picture_that_is_exported(visit: Visit, patrol: Path) -
     svg = page.js('import("/page/js/files/svg.js").then((m) => m.svgOf(studio.store))')
     assert "M1 2L30 2L30 40Z" in svg
     assert "M0 0L500 0L500 500L0 500Z" in svg
+
+
+def test_every_kind_of_obstacle_that_is_drawn_by_hand_can_be_picked_moved_and_exported(
+    visit: Visit, patrol: Path
+) -> None:
+    page = visit(patrol)
+    tools = page.js(
+        'import("/page/js/shapes/registry.js").then('
+        "m => m.DRAWN.map(({shape, tool}) => [shape.key, tool.key, !!tool.close]))"
+    )
+    assert len({letter for _, letter, _ in tools}) == len(tools) > 1
+    for key, letter, by_corners in tools:
+        count = len(page.doc["world"]["known"])
+        page.press(letter.lower())
+        if by_corners:
+            for at in ([60, 150], [100, 150], [80, 190]):
+                page.click(at)
+            page.press("Enter")
+        else:
+            page.drag([70, 160], [85, 165])
+        assert list(page.doc["world"]["known"][count]) == [key]
+        before = page.js(f"studio.store.doc.world.known[{count}]")
+        assert page.js("studio.store.selection") == f"known:{count}"
+        page.press("ArrowRight")
+        assert page.js(f"studio.store.doc.world.known[{count}]") != before
+        page.press("Escape")
+        page.click([80, 163])
+        assert page.js("studio.store.selection") == f"known:{count}"
+        svg = page.js('import("/page/js/files/svg.js").then((m) => m.svgOf(studio.store))')
+        page.press("Delete")
+        assert len(page.doc["world"]["known"]) == count
+        bare = page.js('import("/page/js/files/svg.js").then((m) => m.svgOf(studio.store))')
+        assert svg != bare

@@ -10,7 +10,7 @@ import pytest
 
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
-from viaspline.studio import planning
+from viaspline.studio import plan_document
 
 Visit = Callable[..., Any]
 
@@ -140,7 +140,7 @@ def test_while_a_slow_plan_is_made_the_old_path_is_shown_as_such_and_the_newest_
         return plan(mission)
 
     page = visit(patrol)
-    monkeypatch.setattr(planning, "plan", endless)
+    monkeypatch.setattr(plan_document, "plan", endless)
     move = """x => {
       const doc = structuredClone(studio.store.doc);
       doc.route.via[0] = [x, 330];

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from viaspline.studio import document
 from viaspline.studio.document import changed
-from viaspline.studio.keys import path_of
-from viaspline.studio.messages import decoded
-from viaspline.studio.refused import RefusedError
+from viaspline.studio.key_paths import path_of
+from viaspline.studio.page_messages import decoded
+from viaspline.studio.refused_error import RefusedError
 
 PLAIN = {"route": {"start": [0, 0], "via": [[1, 1], {"at": [2, 2], "name": "b"}], "goal": [9, 0]}}
 
@@ -59,7 +59,7 @@ def test_documents_that_are_too_large_or_too_deep_are_refused() -> None:
     with pytest.raises(RefusedError, match="deeper"):
         changed(PLAIN, [[["world"], {"x": deep}]])
     with pytest.raises(RefusedError):
-        changed(PLAIN, [[["a"], 1]] * (document.MOST_CHANGES + 1))
+        changed(PLAIN, [[["a"], 1]] * (document.MAX_CHANGES_PER_MESSAGE + 1))
 
 
 @pytest.mark.parametrize(

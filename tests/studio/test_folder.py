@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from viaspline.studio.folder import Folder
-from viaspline.studio.refused import RefusedError
+from viaspline.studio.refused_error import RefusedError
 
 
 @pytest.fixture

@@ -19,8 +19,8 @@ from viaspline.cli import cli
 from viaspline.formats.yaml_document import read_document
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
-from viaspline.studio import planning
-from viaspline.studio.page_files import PAGE
+from viaspline.studio import plan_document
+from viaspline.studio.page_files import PAGE_FOLDER
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 START = Any
@@ -48,7 +48,7 @@ def test_the_page_and_all_that_it_needs_are_served_from_the_package(
     assert "https://" not in text
     for name in ("style.css", "panels.css", "icon.svg", "js/main.js", "js/core/store.js"):
         assert fetch(f"{studio.url}page/{name}")[0] == 200
-    modules = {path.relative_to(PAGE).as_posix() for path in PAGE.rglob("*.js")}
+    modules = {path.relative_to(PAGE_FOLDER).as_posix() for path in PAGE_FOLDER.rglob("*.js")}
     assert set(re.findall(r'(?:href|src)="/page/(js/[^"]+)"', text)) == modules
     assert fetch(f"{studio.url}page/../session.py")[0] == 404
     assert fetch(f"{studio.url}page/%2e%2e/session.py")[0] == 404
@@ -163,7 +163,7 @@ def endless_at_99(monkeypatch: pytest.MonkeyPatch) -> list[int]:
             rounds[0] += 1
         return plan(mission)
 
-    monkeypatch.setattr(planning, "plan", endless)
+    monkeypatch.setattr(plan_document, "plan", endless)
     return rounds
 
 

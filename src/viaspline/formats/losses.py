@@ -13,11 +13,13 @@ from typing import Any, Final
 
 from viaspline.formats.interpret import SAME_STOP_M
 from viaspline.mission.model import Mission
+from viaspline.mission.shapes.obstacle import KINDS
+from viaspline.mission.shapes.rounded_ring import RoundedRing
 
 _MAX_SHOWN: Final = 8
 _POINT: Final = frozenset({"at", "dwell_s"})
 _NUMBERED: Final = re.compile(r"exclusion \d+")
-_SHAPES: Final = frozenset({"circle", "polygon"})
+_SHAPES: Final = frozenset(KINDS)
 
 
 def losses(mission: Mission) -> tuple[tuple[str, str], ...]:
@@ -82,6 +84,8 @@ def _of_world(mission: Mission, data: Mapping[str, Any]) -> Iterator[tuple[str, 
         key = f"world.known[{i}]"
         if item.grid is not None:
             yield "map of squares", key
+        if item.ring is not None:
+            yield from _of_ring(item.ring, key)
         unsaid = item.model_dump(exclude={"grid"})
         yield from (
             (name, key) for name in _unsaid(unsaid, _SHAPES) if not _is_numbered(item.name, name)
@@ -92,6 +96,14 @@ def _of_world(mission: Mission, data: Mapping[str, Any]) -> Iterator[tuple[str, 
         yield "speed zone", zone.name or f"world.speed_zones[{i}]"
     told = {"bounds", "fences", "known", "unseen", "speed_zones"}
     yield from (("world", key) for key in data if key not in told)
+
+
+def _of_ring(ring: RoundedRing, key: str) -> Iterator[tuple[str, str]]:
+    """By how much the polygon is larger that stands for a ring, where it isn't the ring itself."""
+    if ring.radius > 0.0 and not ring.is_disc:
+        millimetres = math.ceil(1e3 * ring.polygon_around()[1])
+        larger = f"{key} (by up to {millimetres / 1e3:g} m)"
+        yield "rounded outline, written as a larger polygon around it", larger
 
 
 def _unsaid(data: Mapping[str, Any], said: frozenset[str]) -> Iterator[str]:

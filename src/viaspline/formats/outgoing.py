@@ -18,6 +18,7 @@ from viaspline.formats.losses import losses
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import ViaPoint
+from viaspline.mission.shapes.rounded_ring import Loop, RoundedRing
 
 WAYPOINT: Final = 16
 OVER_HOME: Final = 3
@@ -28,7 +29,8 @@ def itinerary_of(mission: Mission, origin: LatLon | None) -> Itinerary:
     """The way points, home and fences of a mission, its notes being what they can't carry.
 
     Home is the start. Heights are above home; those of a flat mission are 0. Obstacles are
-    exclusion areas, fences and bounds inclusion areas; polygons come before circles.
+    exclusion areas, fences and bounds inclusion areas; polygons come before circles. What is round
+    without being a disc is written as a polygon around it.
 
     Args:
         mission: The mission.
@@ -92,20 +94,27 @@ def _item(number: int, point: ViaPoint, place: LatLon) -> Item:
 
 def _polygons(mission: Mission, frame: LocalFrame) -> Iterator[FenceArea]:
     world = mission.world
-    rings = [(True, ring) for ring in world.fences]
+    rings: list[tuple[bool, Loop]] = [(True, ring) for ring in world.fences]
     if world.bounds is not None:
         x, y, right, top = world.bounds
         rings.append((True, ((x, y), (right, y), (right, top), (x, top))))
-    rings += [(False, item.polygon) for item in world.known if item.polygon is not None]
+    rings += [(False, ring.polygon_around()[0]) for ring in _exclusions(mission, discs=False)]
     for inclusion, ring in rings:
         yield FenceArea(inclusion, _places(frame, np.array(ring)), None, 0.0, Place("geoFence"))
 
 
 def _circles(mission: Mission, frame: LocalFrame) -> Iterator[FenceArea]:
+    for ring in _exclusions(mission, discs=True):
+        (center,) = _places(frame, ring.vertices)
+        yield FenceArea(False, (), center, ring.radius, Place("geoFence"))
+
+
+def _exclusions(mission: Mission, *, discs: bool) -> Iterator[RoundedRing]:
+    """Obstacles on the map that fence circles are for, or those that they are not for."""
     for obstacle in mission.world.known:
-        if obstacle.circle is not None:
-            (center,) = _places(frame, np.array([obstacle.circle.center]))
-            yield FenceArea(False, (), center, obstacle.circle.radius, Place("geoFence"))
+        ring = obstacle.ring
+        if ring is not None and ring.is_disc == discs:
+            yield ring
 
 
 def _places(frame: LocalFrame, local: Floats) -> tuple[LatLon, ...]:

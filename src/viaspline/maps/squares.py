@@ -50,26 +50,17 @@ def signed_distance(grid: Grid, place: Sequence[float], reach: float) -> float:
 
 
 def _nearest(blocked: Flags, wanted: bool, u: float, v: float, reach: float) -> float:
-    """The distance of the nearest square of a kind, in squares; infinite if out of reach.
+    """The distance of the nearest square of a kind, in squares; infinite if out of reach."""
+    import shapely
 
-    In each row only the nearest to the left and the nearest to the right count.
-    """
     height, width = blocked.shape
     bottom, top = max(math.ceil(v - reach) - 1, 0), min(math.floor(v + reach) + 1, height)
     left, right = max(math.ceil(u - reach) - 1, 0), min(math.floor(u + reach) + 1, width)
     if bottom >= top or left >= right:
         return math.inf
-    here = min(max(math.floor(u), left), right)
-    rows = np.arange(bottom, top)
-    aside = np.maximum(np.maximum(rows - v, v - rows - 1), 0.0)
-    window = blocked[bottom:top, left:right] == wanted
-    to_left, to_right = window[:, : here - left][:, ::-1], window[:, here - left :]
-    nearest = math.inf
-    for squares, gap in ((to_left, u - here), (to_right, here - u)):
-        rows_with = np.flatnonzero(squares.any(axis=1))
-        if rows_with.size:
-            along = np.maximum(squares[rows_with].argmax(axis=1) + gap, 0.0)
-            nearest = min(nearest, float(np.hypot(along, aside[rows_with]).min()))
+    rows, starts, ends = _runs(blocked[bottom:top, left:right] == wanted)
+    runs = shapely.box(left + starts, bottom + rows, left + ends, bottom + rows + 1)
+    nearest = float(shapely.distance(runs, shapely.Point(u, v)).min(initial=math.inf))
     return nearest if nearest <= reach else math.inf
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from viaspline.mission.fields import Corners
-from viaspline.mission.polygon_checks import polygon_faults
+from viaspline.mission.shapes.polygon import Polygon
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
 FOOTPRINT_PATH: Path = ("robot", "footprint")
@@ -21,7 +21,7 @@ def footprint_fault(corners: Corners) -> UnplacedFault | None:
         return UnplacedFault(
             FOOTPRINT_PATH, problem, "give three or more, [[x, y], [x, y], [x, y]]"
         )
-    unsound = polygon_faults([FOOTPRINT_PATH], [(corners, ())])
+    unsound = Polygon.faults([(FOOTPRINT_PATH, Polygon(corners))])
     if unsound:
         return unsound[0]
     import shapely

@@ -20,8 +20,9 @@ from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.maps.squares import blocked_ground, signed_distance
 from viaspline.mission.fields import Corners
-from viaspline.mission.polygon_checks import Geometries, polygons_of
+from viaspline.mission.shapes.cores import Geometries, cores_of
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.shapes.rounded_ring import RoundedRing
 
 Indices: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
 
@@ -54,27 +55,19 @@ class FreeSpace:
         margin: float,
     ) -> None:
         self.bounds = bounds
-        self.fences = polygons_of([(rings[0], rings[1:]) for rings in fences])
+        self.fences = cores_of(RoundedRing(rings) for rings in fences).geometries
         self.margin = margin
         self._pack(obstacles)
 
     def _pack(self, obstacles: Sequence[Obstacle]) -> None:
-        """Centres and radii of the circles, polygons, the boxes round all of them; the grids."""
+        """Cores and radii of the rounded rings, the boxes round all of them; the grids."""
         import shapely
 
         self.grids = [(j, item.grid) for j, item in enumerate(obstacles) if item.grid is not None]
         self.order = np.array([j for j, item in enumerate(obstacles) if item.grid is None], np.intp)
-        obstacles = [obstacles[j] for j in self.order]
-        self.is_circle = np.array([item.circle is not None for item in obstacles], dtype=bool)
-        discs = [item.circle for item in obstacles if item.circle is not None]
-        shapes = [(item.polygon, item.holes) for item in obstacles if item.polygon is not None]
-        self.geometries: Geometries = np.empty(len(obstacles), dtype=object)
-        self.radii: Floats = np.zeros(len(obstacles))
-        centers = np.array([disc.center for disc in discs], dtype=float).reshape(-1, 2)
-        self.geometries[self.is_circle] = shapely.points(centers)
-        self.radii[self.is_circle] = [disc.radius for disc in discs]
-        self.geometries[~self.is_circle] = polygons_of(shapes)
-        boxes = shapely.bounds(self.geometries) if obstacles else np.empty((0, 4))
+        rings = (ring for item in obstacles if (ring := item.ring) is not None)
+        self.cores, self.radii = cores_of(rings)
+        boxes = shapely.bounds(self.cores) if len(self.cores) else np.empty((0, 4))
         self.boxes: Floats = boxes + self.radii[:, None] * np.array([-1.0, -1.0, 1.0, 1.0])
 
     def near_bounds(self, places: Sequence[Sequence[float]]) -> Iterator[tuple[int, float]]:
@@ -118,7 +111,7 @@ class FreeSpace:
     def _near_shapes(self, places: Sequence[Sequence[float]]) -> Iterator[tuple[int, int, float]]:
         import shapely
 
-        if not len(self.geometries):
+        if not len(self.cores):
             return
         points = _points(places)
         grown = self.boxes + self.margin * np.array([-1.0, -1.0, 1.0, 1.0])
@@ -135,13 +128,13 @@ class FreeSpace:
         """Signed distances of points to obstacles, pair by pair."""
         import shapely
 
-        shapes = self.geometries[which]
-        distances = np.asarray(shapely.distance(shapes, points), dtype=float) - self.radii[which]
-        inside = np.flatnonzero((distances <= 0) & ~self.is_circle[which])
+        cores = self.cores[which]
+        distances = np.asarray(shapely.distance(cores, points), dtype=float)
+        inside = np.flatnonzero((distances <= 0) & (shapely.get_dimensions(cores) == 2))
         if len(inside):
-            edges = shapely.boundary(shapes[inside])
+            edges = shapely.boundary(cores[inside])
             distances[inside] = -shapely.distance(edges, points[inside])
-        return distances
+        return distances - self.radii[which]
 
     @cached_property
     def _tree(self) -> Any:
@@ -186,7 +179,7 @@ class FreeSpace:
         for fence in self._inner_fences:
             window = shapely.intersection(window, fence)
         grown = shapely.buffer(
-            self.geometries[around],
+            self.cores[around],
             (self.radii[around] + margin) * _CHORD_GROWTH,
             quad_segs=_QUARTER_CHORDS,
         )

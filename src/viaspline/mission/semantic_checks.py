@@ -25,7 +25,7 @@ def semantic_faults(partial: PartialMission) -> list[UnplacedFault]:
     """Everything that is wrong with the meaning of a mission."""
     from viaspline.mission.clearances import clearance_faults
     from viaspline.mission.corridors import corridor_faults
-    from viaspline.mission.polygon_checks import shape_faults
+    from viaspline.mission.shape_checks import shape_faults
 
     faults = _bounds(partial)
     misshapen = shape_faults(partial)

@@ -13,24 +13,24 @@ from matplotlib.text import Text
 
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.report import style
-from viaspline.report.column import Column
-from viaspline.report.drawing import any_name, polyline
-from viaspline.report.film import Frame, write_film
-from viaspline.report.film_file import FilmFile
+from viaspline.report.canvas import any_name, polyline
 from viaspline.report.labels import Labels
-from viaspline.report.marks import draw_vias
+from viaspline.report.path_marks import draw_vias
 from viaspline.report.run_picture import has_lidar, thinned
 from viaspline.report.scene import Scene
+from viaspline.report.sensor_view import sight_of
 from viaspline.report.sheet import Sheet, new_sheet, view_of
-from viaspline.report.sight import sight_of
+from viaspline.report.side_column import SideColumn
+from viaspline.report.video_file import VideoFile
+from viaspline.report.video_writer import Frame, write_film
 from viaspline.robot.run import Run
 
-FRAMES = 180
-DPI = 80
+MAX_FRAMES = 180
+FILM_DPI = 80
 
 
 @any_name()
-def film_run(run: Run, name: str, film: FilmFile, progress: Callable[[float], None]) -> None:
+def film_run(run: Run, name: str, film: VideoFile, progress: Callable[[float], None]) -> None:
     """Film a run.
 
     Args:
@@ -39,7 +39,7 @@ def film_run(run: Run, name: str, film: FilmFile, progress: Callable[[float], No
         film: Where to.
         progress: Hears how much is done, from 0 to 1.
     """
-    count = int(np.clip(len(run.times), 2, FRAMES))
+    count = int(np.clip(len(run.times), 2, MAX_FRAMES))
     write_film(film, frames(run, name, count), count, progress)
 
 
@@ -64,7 +64,7 @@ class _Stage:
         planned = polyline(run.plan.path.spans)
         seen = np.vstack([planned, run.positions[:, :2]])
         view = view_of(seen, scene.corners, scene.box, scene.required)
-        self._sheet = sheet = new_sheet(view, (), style.short(name, 48), (), dpi=DPI)
+        self._sheet = sheet = new_sheet(view, (), style.short(name, 48), (), dpi=FILM_DPI)
         labels = Labels(sheet.map)
         scans = has_lidar(run)
         handles = scene.draw(sheet.map, sheet.pixels_per_metre, reveal=scans, faint=scans)
@@ -72,7 +72,7 @@ class _Stage:
         labels.place(planned, places)
         self._moving = _moving(sheet.map, sheet.pixels_per_metre, run)
         self._sight = sight_of(run, sheet)
-        Column(sheet).legend([*handles, *vias, *self._moving, *self._sight.handles])
+        SideColumn(sheet).legend([*handles, *vias, *self._moving, *self._sight.handles])
         # the few markers of the route are drawn over the trail again
         self._over = [a for a in (*sheet.map.lines, *sheet.map.texts) if a.get_zorder() >= 11][:120]
         self._clock = _clock(sheet)
@@ -113,7 +113,7 @@ def _clock(sheet: Sheet) -> Text:
     _, up = sheet.figure.get_size_inches()
     x = sheet.map.get_position().x0
     return sheet.figure.text(
-        x, 1 - 0.62 / up, "", size=style.TITLE - 2, color=style.MUTED, va="center",
+        x, 1 - 0.62 / up, "", size=style.TITLE_PT - 2, color=style.MUTED, va="center",
         family="DejaVu Sans Mono",
     )  # fmt: skip
 

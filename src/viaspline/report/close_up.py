@@ -1,4 +1,7 @@
-"""The tightest place of a path, close up, beside the map."""
+"""The tightest place of a path, close up, beside the map.
+
+Tested through ``report/test_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -11,17 +14,17 @@ from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.report import style
-from viaspline.report.bodies import draw_body
-from viaspline.report.column import Column
-from viaspline.report.marks import draw_echoes, draw_path
+from viaspline.report.body_marks import draw_body
+from viaspline.report.path_marks import draw_echoes, draw_path
 from viaspline.report.scene import Scene
+from viaspline.report.side_column import SideColumn
 from viaspline.report.units import down
 
-ROOM = 2.9  # in the column, at least [inch]
+CLOSE_UP_ROOM_IN = 2.9  # in the column, at least [inch]
 
 
 def close_up(
-    column: Column,
+    column: SideColumn,
     scene: Scene,
     path: Path,
     certificate: Certificate,
@@ -40,7 +43,7 @@ def close_up(
     half = 5.0 * max(scene.required, 1.2 * certificate.clearance + radius)
     if certificate.obstacle is None or not tight or scene.required <= 0:
         return
-    if column.room < ROOM or 4 * half > column.map_width:
+    if column.room < CLOSE_UP_ROOM_IN or 4 * half > column.map_width:
         return
     height = min(2.3, column.room - 0.65)
     where = style.short(style.without_folder(certificate.obstacle), 36)

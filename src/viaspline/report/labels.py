@@ -11,11 +11,11 @@ from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
 from viaspline.kernels.arrays import Floats
-from viaspline.report.style import INK, SMALL
+from viaspline.report.style import INK, SMALL_PT
 
-_ANGLES = np.radians([35, -35, 145, -145, 0, 180, 90, -90])
-_REACHES = (0.0, 6.0, 15.0, 27.0, 43.0, 66.0)  # beyond the gap, to the label's box [pixels]
-MOST = 150
+_ANGLES_RAD = np.radians([35, -35, 145, -145, 0, 180, 90, -90])
+_REACHES_PX = (0.0, 6.0, 15.0, 27.0, 43.0, 66.0)  # beyond the gap, to the label's box [pixels]
+MAX_LABELS = 150
 _HALO = withStroke(linewidth=2.2, foreground="white", alpha=0.9)
 
 
@@ -44,7 +44,7 @@ class Labels:
         *,
         rank: int = 5,
         colour: str = INK,
-        size: float = SMALL,
+        size: float = SMALL_PT,
         inside: float = 0.0,
         gap: float = 9.0,
     ) -> None:
@@ -54,8 +54,8 @@ class Labels:
             text: One line or more.
             at: What it names [m].
             rank: Lower ranks choose their place first.
-            colour: Of the text.
-            size: Of the font [points].
+            colour: The colour of the text.
+            size: The size of the font [points].
             inside: Width of the thing [m]: the label goes on it when it fits.
             gap: From its place to the label, at least [pixels].
         """
@@ -77,7 +77,7 @@ class Labels:
         frame = self._axes.get_window_extent()
         area = np.array([frame.x0 + 3, frame.y0 + 3, frame.x1 - 3, frame.y1 - 3])
         taken: list[Floats] = []
-        for label in sorted(self._labels, key=lambda item: item.rank)[:MOST]:
+        for label in sorted(self._labels, key=lambda item: item.rank)[:MAX_LABELS]:
             anchor = to_pixels(label.at)
             if not (area[0] <= anchor[0] <= area[2] and area[1] <= anchor[1] <= area[3]):
                 continue
@@ -157,8 +157,8 @@ def _places(
         corners = to_pixels([label.at, (label.at[0] + label.inside, label.at[1])])
         if corners[1, 0] - corners[0, 0] > size[0]:
             places.append((0.0, anchor))
-    for reach in _REACHES:
-        for i, angle in enumerate(_ANGLES):
+    for reach in _REACHES_PX:
+        for i, angle in enumerate(_ANGLES_RAD):
             way = np.array([np.cos(angle), np.sin(angle)])
             lean = np.sign(np.where(np.abs(way) < 0.2, 0.0, way))
             places.append(

@@ -21,14 +21,14 @@ from viaspline.report import style
 from viaspline.report.sheet import Box
 
 FREE, UNKNOWN, BLOCKED = 0, 1, 2
-FINER = 2  # dots to a pixel, each way
-MOST = 2400  # dots aside
+DOTS_PER_PIXEL = 2  # dots to a pixel, each way
+MAX_DOTS_ASIDE = 2400  # dots aside
 UNKNOWN_LABEL = "unknown, kept clear of"
-STRIPES = 12  # from one stripe of unknown ground to the next [dots]
+STRIPE_SPACING_DOTS = 12  # from one stripe of unknown ground to the next [dots]
 
 
 @dataclass(frozen=True)
-class Tone:
+class MapColours:
     """How blocked squares look: their colour, and that of the edge of what they cover."""
 
     fill: str = style.OBSTACLE
@@ -47,7 +47,7 @@ class MapGround:
 
     grid: Grid
     label: str
-    tone: Tone = Tone()
+    tone: MapColours = MapColours()
 
     @property
     def has_unknown(self) -> bool:
@@ -91,8 +91,8 @@ def view_of(axes: Axes) -> Box:
 def dots_of(axes: Axes) -> tuple[int, int]:
     """How many dots a grid is drawn with: down, across."""
     box = axes.get_window_extent()
-    across, up = FINER * box.width, FINER * box.height
-    few = min(1.0, MOST / max(across, up))
+    across, up = DOTS_PER_PIXEL * box.width, DOTS_PER_PIXEL * box.height
+    few = min(1.0, MAX_DOTS_ASIDE / max(across, up))
     return max(round(up * few), 1), max(round(across * few), 1)
 
 
@@ -161,12 +161,12 @@ def _coarser(grid: Grid, rows: slice, columns: slice, size: int) -> Bytes:
     return coarse
 
 
-def _painted(codes: Bytes, tone: Tone) -> NDArray[np.float32]:
+def _painted(codes: Bytes, tone: MapColours) -> NDArray[np.float32]:
     """The colours of the dots; free ones are transparent."""
     blocked = codes == BLOCKED
-    inner = ndimage.binary_erosion(blocked, np.ones((3, 3), bool), FINER, border_value=1)
+    inner = ndimage.binary_erosion(blocked, np.ones((3, 3), bool), DOTS_PER_PIXEL, border_value=1)
     rows, columns = np.ogrid[: codes.shape[0], : codes.shape[1]]
-    striped = (rows + columns) % STRIPES < FINER
+    striped = (rows + columns) % STRIPE_SPACING_DOTS < DOTS_PER_PIXEL
     picture = np.empty((*codes.shape, 4), np.float32)
     picture[:] = (*to_rgb(tone.fill), 0.0)
     picture[codes == UNKNOWN] = (*to_rgb(style.UNKNOWN), 1.0)
@@ -188,7 +188,7 @@ def too_near(grid: Grid, view: Box, dots: tuple[int, int], distance: float) -> s
         distance: [m].
     """
     metre = (view[2] - view[0]) / dots[1]
-    border = min(math.ceil(distance / metre) + 1, MOST)  # of what is just out of sight
+    border = min(math.ceil(distance / metre) + 1, MAX_DOTS_ASIDE)  # of what is just out of sight
     reach = border * metre
     wide = view[0] - reach, view[1] - reach, view[2] + reach, view[3] + reach
     codes = codes_in(grid, wide, (dots[0] + 2 * border, dots[1] + 2 * border))

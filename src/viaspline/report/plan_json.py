@@ -10,7 +10,7 @@ from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import LedgerEntry
-from viaspline.report.plain import dumps
+from viaspline.report.json_text import dumps
 from viaspline.report.summary import tension
 
 
@@ -20,7 +20,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
     Args:
         plan: What was planned.
         name: The mission's name.
-        spacing: Of the points in ``path.csv`` [m].
+        spacing: Distance between the points in ``path.csv`` [m].
     """
     return dumps(
         {

@@ -1,4 +1,7 @@
-"""``plan.png``: the planned path in its world, what it was chosen from, and its time law."""
+"""``plan.png``: the planned path in its world, what it was chosen from, and its time law.
+
+Tested through ``report/test_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -11,19 +14,20 @@ from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.report import strips, style
-from viaspline.report.bodies import draw_swept, draw_zones
+from viaspline.report import style
+from viaspline.report.body_marks import draw_swept, draw_zones
+from viaspline.report.canvas import any_name, png, polyline
 from viaspline.report.close_up import close_up
-from viaspline.report.column import Column
-from viaspline.report.drawing import any_name, png, polyline
 from viaspline.report.labels import Labels
-from viaspline.report.marks import draw_arrows, draw_path, draw_tightest, draw_vias
+from viaspline.report.path_marks import draw_arrows, draw_path, draw_tightest, draw_vias
+from viaspline.report.profile_strips import draw_curvature_limit, fill_strips, strip_names
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Sheet, new_sheet, view_of
+from viaspline.report.side_column import SideColumn
 from viaspline.report.summary import body_words, spline_words
 from viaspline.report.units import asked_words, down, metres, seconds
 
-WAYS_NAMED = 6  # groups; the lengths of their ways are on the picture if they are no more
+MAX_GROUPS_MEASURED = 6  # groups; the lengths of their ways are on the picture if they are no more
 
 
 @any_name()
@@ -45,7 +49,7 @@ def plan_picture(plan: Plan, name: str) -> bytes:
         f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in {seconds(trajectory.duration)}"
     )
     lines = (proof(plan.certificate, plan.tracking_error), subtitle(plan.mission))
-    sheet = new_sheet(view, strips.names(plan.path.spans[:, 0]), title, lines)
+    sheet = new_sheet(view, strip_names(plan.path.spans[:, 0]), title, lines)
     labels = Labels(sheet.map)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre)
     scene.name(labels)
@@ -58,7 +62,7 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     handles += vias + draw_tightest(sheet.map, labels, plan.certificate)
     labels.place(np.vstack([points, *losers]), places)
     _fill_strips(sheet, plan)
-    column = Column(sheet)
+    column = SideColumn(sheet)
     column.legend(handles)
     close_up(column, scene, plan.path, plan.certificate, plan.mission.robot)
     return png(sheet.figure)
@@ -110,7 +114,7 @@ def draw_losers(sheet: Sheet, labels: Labels, plan: Plan) -> list[Artist]:
     """
     handles: list[Artist] = []
     lines = losing(plan)
-    label = f"{len(lines)} ways not taken" if len(lines) > WAYS_NAMED else "way not taken"
+    label = f"{len(lines)} ways not taken" if len(lines) > MAX_GROUPS_MEASURED else "way not taken"
     for line in lines:
         (handle,) = sheet.map.plot(
             *line.T, color=style.LOSER, linewidth=1.1, linestyle=(0, (5, 3)), alpha=0.75,
@@ -118,7 +122,7 @@ def draw_losers(sheet: Sheet, labels: Labels, plan: Plan) -> list[Artist]:
         )  # fmt: skip
         handles = [handle]
     legs: set[tuple[str, str]] = set()
-    for entry in plan.ledger if len(plan.ledger) <= WAYS_NAMED else ():
+    for entry in plan.ledger if len(plan.ledger) <= MAX_GROUPS_MEASURED else ():
         taken = entry.chosen
         if taken is None or taken.length is None or len(entry.candidates) < 2:
             continue
@@ -157,5 +161,5 @@ def _fill_strips(sheet: Sheet, plan: Plan) -> None:
     values = [np.asarray(trajectory.speed_at(distances)), np.asarray(path.curvature(u))]
     if len(sheet.strips) == 3:
         values.append(np.asarray(path.evaluate(u))[:, 2])
-    strips.fill(sheet.strips, distances, values, via_ticks(path, plan.mission), style.PATH)
-    strips.limit(sheet.strips[1], plan.mission.robot.turn_radius)
+    fill_strips(sheet.strips, distances, values, via_ticks(path, plan.mission), style.PATH)
+    draw_curvature_limit(sheet.strips[1], plan.mission.robot.turn_radius)

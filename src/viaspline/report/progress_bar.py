@@ -1,4 +1,7 @@
-"""Progress on the error stream, only of what takes longer than a second."""
+"""Progress on the error stream, only of what takes longer than a second.
+
+Tested through ``test_cli``.
+"""
 
 from __future__ import annotations
 
@@ -13,10 +16,10 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeEl
 
 from viaspline.report.interrupts import come_through
 
-PATIENCE = 1.0  # [s]
+SILENT_S = 1.0  # [s]
 
 
-class Watch:
+class ProgressBar:
     """Says what is going on, and keeps the wall-clock time of every stage.
 
     On a terminal it is a bar that appears after a second; elsewhere one line is written for every
@@ -44,7 +47,7 @@ class Watch:
         come_through()
         start = time.perf_counter()
         self._text, self._depth = text, self._depth + 1
-        timer = Timer(PATIENCE, self._appear)
+        timer = Timer(SILENT_S, self._appear)
         timer.daemon = True
         timer.start()
         try:

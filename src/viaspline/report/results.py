@@ -1,4 +1,7 @@
-"""Everything that a plan or a run leaves in its folder."""
+"""Everything that a plan or a run leaves in its folder.
+
+Tested through ``report/test_result_files``.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +9,15 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from viaspline.planner import Plan
+from viaspline.report.csv_tables import path_csv, run_csv, spacing
 from viaspline.report.plan_json import plan_json
 from viaspline.report.plan_picture import plan_picture
 from viaspline.report.result_files import ResultFolder
 from viaspline.report.run_json import run_json, timing_json
 from viaspline.report.run_picture import run_picture
-from viaspline.report.tables import path_csv, run_csv, spacing
 from viaspline.robot.run import Run
 
-TIMING = "timing.json"
+TIMING_FILE = "timing.json"
 
 Contents = dict[str, bytes | str]
 
@@ -52,5 +55,5 @@ def write_all(
         The paths of the files.
     """
     timing = timing_json(stages, run.compute_times if run is not None else ())
-    everything = {**contents, TIMING: timing}
+    everything = {**contents, TIMING_FILE: timing}
     return [folder.write(name, content) for name, content in everything.items()]

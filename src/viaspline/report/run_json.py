@@ -1,4 +1,7 @@
-"""``run.json``: what was driven, every event and every re-plan; ``timing.json``: the wall clock."""
+"""``run.json``: what was driven, every event and every re-plan; ``timing.json``: the wall clock.
+
+Tested through ``report/test_plan_json``.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from viaspline.curve.path import Path
-from viaspline.report.plain import dumps
+from viaspline.report.json_text import dumps
 from viaspline.report.plan_json import mission_summary, path_data
 from viaspline.robot.run import Replan, Run
 

@@ -1,4 +1,7 @@
-"""``run.png``: what was driven, how fast, what was found under way and what was done about it."""
+"""``run.png``: what was driven, how fast, what was found under way and what was done about it.
+
+Tested through ``report/test_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -11,24 +14,30 @@ from matplotlib.colors import Colormap, ListedColormap, Normalize
 from viaspline.curve.path import PathVia
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.report import strips, style
-from viaspline.report.bodies import draw_headings, draw_swept, draw_zones
-from viaspline.report.close_up import ROOM, close_up
-from viaspline.report.column import Column
-from viaspline.report.drawing import any_name, png, polyline
+from viaspline.report import style
+from viaspline.report.body_marks import draw_headings, draw_swept, draw_zones
+from viaspline.report.canvas import any_name, png, polyline
+from viaspline.report.close_up import CLOSE_UP_ROOM_IN, close_up
 from viaspline.report.labels import Labels
-from viaspline.report.marks import draw_arrows, draw_echoes, draw_tightest, draw_vias
+from viaspline.report.path_marks import draw_arrows, draw_echoes, draw_tightest, draw_vias
 from viaspline.report.plan_picture import proof, subtitle, via_ticks
+from viaspline.report.profile_strips import fill_strips, strip_names
 from viaspline.report.scene import Scene, nearest_on
 from viaspline.report.sheet import Sheet, new_sheet, view_of
+from viaspline.report.side_column import SideColumn
 from viaspline.report.units import metres, seconds
 from viaspline.robot.run import Event, Replan, Run
 
-ASIDE = "left of path [m]"  # the strip of what a robot with a drive was off
-PIECES = 4000  # of the coloured line, at most
-NOTED = ("detected", "replanned", "skipped", "braked", "stopped", "contact")
-MARKED = {"detected": ("x", "detected"), "braked": ("v", "braked"), "stopped": ("X", "stopped"),
-          "skipped": ("P", "gave up a via point"), "contact": ("*", "contact")}  # fmt: skip
+CROSS_TRACK_STRIP = "left of path [m]"  # the strip of what a robot with a drive was off
+MAX_LINE_PIECES = 4000  # of the coloured line, at most
+NOTED_EVENTS = ("detected", "replanned", "skipped", "braked", "stopped", "contact")
+EVENT_MARKS = {
+    "detected": ("x", "detected"),
+    "braked": ("v", "braked"),
+    "stopped": ("X", "stopped"),
+    "skipped": ("P", "gave up a via point"),
+    "contact": ("*", "contact"),
+}
 
 
 @any_name()
@@ -46,7 +55,9 @@ def run_picture(run: Run, name: str) -> bytes:
     driven = run.positions[:, :2]
     seen = np.vstack([planned, driven])
     view = view_of(seen, scene.corners, scene.box, required)
-    rows = strips.names(run.positions) + ([ASIDE] if run.tracking is not None else [])
+    rows = strip_names(run.positions)
+    if run.tracking is not None:
+        rows.append(CROSS_TRACK_STRIP)
     sheet = new_sheet(view, rows, *_heading(run, name))
     labels = Labels(sheet.map)
     scans = has_lidar(run)
@@ -70,11 +81,11 @@ def run_picture(run: Run, name: str) -> bytes:
     noted = [event.at[:2] for event in run.events if event.kind in _told(run)]
     labels.place(np.vstack([planned, thinned(driven)]), np.vstack([places, *noted]))
     _fill_strips(sheet, run)
-    column = Column(sheet)
+    column = SideColumn(sheet)
     column.colour_bar(colours, limits, "speed of the driven path [m/s]")
     column.legend(handles)
     column_notes = _notes(run)
-    if column.room > ROOM + 0.155 * min(len(column_notes), 6):
+    if column.room > CLOSE_UP_ROOM_IN + 0.155 * min(len(column_notes), 6):
         close_up(
             column,
             scene,
@@ -113,12 +124,13 @@ def echoes(run: Run) -> Floats:
     if run.known is None or not has_lidar(run):
         return np.zeros((0, 2))
     shown = run.known.obstacles[len(run.plan.world) :]
-    return np.array([o.circle.center for o in shown if o.circle is not None]).reshape(-1, 2)
+    rings = [ring for obstacle in shown if (ring := obstacle.ring) is not None and ring.is_disc]
+    return np.array([ring.loops[0][0] for ring in rings]).reshape(-1, 2)
 
 
 def _told(run: Run) -> tuple[str, ...]:
     """The kinds of events that are told; what a lidar shows is more than anybody wants to read."""
-    return tuple(kind for kind in NOTED if kind != "detected" or not has_lidar(run))
+    return tuple(kind for kind in NOTED_EVENTS if kind != "detected" or not has_lidar(run))
 
 
 def _notes(run: Run) -> list[str]:
@@ -148,7 +160,7 @@ def speed_colours(speeds: Floats) -> tuple[Colormap, Normalize]:
     return ListedColormap(whole(np.linspace(0.0, 0.88, 256))), Normalize(0.0, max(top, 1e-3))
 
 
-def thinned(points: Floats, most: int = PIECES) -> Floats:
+def thinned(points: Floats, most: int = MAX_LINE_PIECES) -> Floats:
     """At most so many of the points, the last one among them."""
     if len(points) <= most:
         return points
@@ -189,9 +201,9 @@ def _all_vias(run: Run) -> list[PathVia]:
 def _draw_events(sheet: Sheet, labels: Labels, run: Run) -> list[Artist]:
     handles: dict[str, Artist] = {}
     for event in run.events:
-        if event.kind not in MARKED or event.kind not in _told(run):
+        if event.kind not in EVENT_MARKS or event.kind not in _told(run):
             continue
-        marker, words = MARKED[event.kind]
+        marker, words = EVENT_MARKS[event.kind]
         (handles[event.kind],) = sheet.map.plot(
             *event.at[:2], marker=marker, markersize=6.5, color=style.UNSEEN, linestyle="none",
             markeredgecolor=style.UNSEEN if marker == "x" else "white",
@@ -241,12 +253,12 @@ def _fill_strips(sheet: Sheet, run: Run) -> None:
     distances = np.concatenate([[0.0], np.cumsum(steps)])
     keep = thinned(np.arange(len(distances), dtype=float), 6000).astype(int)
     values = [run.speeds[keep], run.curvatures[keep]]
-    if len(strips.names(run.positions)) == 3:
+    if len(strip_names(run.positions)) == 3:
         values.append(run.positions[keep, 2])
     if run.tracking is not None:
         off = np.interp(run.times, run.tracking.times, run.tracking.cross_track)
         values.append(off[keep])
-    strips.fill(
+    fill_strips(
         sheet.strips, distances[keep], values, via_ticks(run.path, run.plan.mission), style.PATH
     )
     for replan in run.replans:

@@ -1,4 +1,7 @@
-"""A world on a map: obstacles, the clearance that is required around them, bounds and fences."""
+"""A world on a map: obstacles, the clearance that is required around them, bounds and fences.
+
+Tested through ``report/test_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +14,7 @@ import numpy as np
 import shapely
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import PathCollection
-from matplotlib.patches import PathPatch, Rectangle
+from matplotlib.patches import PathPatch
 from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
@@ -21,20 +23,26 @@ from viaspline.maps.grid import Grid
 from viaspline.mission.map_edge import edge_of
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.report import style
-from viaspline.report.drawing import outline, shape_of, shapes_of
+from viaspline.report.canvas import outline, shape_of, shapes_of
 from viaspline.report.labels import Labels
 from viaspline.report.map_ground import (
-    UNKNOWN_LABEL,
+    MapColours,
     MapGround,
-    Tone,
     nearest_point,
     too_near,
     view_of,
 )
+from viaspline.report.scene_layers import (
+    MAX_OBSTACLES_NAMED,
+    counted,
+    draw_grids,
+    draw_known,
+    draw_outside,
+    draw_unseen,
+    grown,
+)
 from viaspline.report.sheet import Box
 from viaspline.world.world import World
-
-NAMED = 30  # obstacles with a name on the picture, at most
 
 
 @dataclass
@@ -113,17 +121,17 @@ class Scene:
         view = view_of(axes)
         artists: list[Artist] = []
         if self.free is not None:
-            artists += _draw_outside(axes, view, self.free, self.frame)
+            artists += draw_outside(axes, view, self.free, self.frame)
         grids = (*self.grids, *(self.unseen_grids if reveal else ()))
-        artists += _draw_grids(axes, grids)
+        artists += draw_grids(axes, grids)
         known, unseen = _within(self.known, view), _within(self.unseen, view)
         if not reveal:
             unseen = unseen[:0]
         if known.size:
-            words = _how_many(len(self.known), "obstacle")
-            artists.append(_draw_known(axes, known, pixels_per_metre, words))
+            words = counted(len(self.known), "obstacle")
+            artists.append(draw_known(axes, known, pixels_per_metre, words))
         if unseen.size:
-            artists.append(_draw_unseen(axes, unseen, len(self.unseen), faint))
+            artists.append(draw_unseen(axes, unseen, len(self.unseen), faint))
         if self.required * pixels_per_metre >= (3.0 if grids else 1.0):
             ring = self._ring(np.concatenate([known, unseen]), grids, view, pixels_per_metre)
             if not ring.is_empty:
@@ -147,7 +155,7 @@ class Scene:
         areas += [too_near(ground.grid, view, dots, self.required) for ground in grids]
         if self.free is not None:
             inner = self.free.buffer(-self.required)
-            areas.append(shapely.box(*_grown(view, 2 * self.required)).difference(inner))
+            areas.append(shapely.box(*grown(view, 2 * self.required)).difference(inner))
         return shapely.union_all(np.array(areas, object))
 
     def name(self, labels: Labels) -> None:
@@ -157,7 +165,7 @@ class Scene:
             for name, shape in zip(self.names, [*self.known, *self.unseen], strict=True)
             if name is not None
         ]
-        for name, shape in named if len(named) <= NAMED else []:
+        for name, shape in named if len(named) <= MAX_OBSTACLES_NAMED else []:
             middle = shape.representative_point() if not _centred(shape) else shape.centroid
             width = shape.bounds[2] - shape.bounds[0]
             labels.add(
@@ -214,7 +222,7 @@ def _grounds(obstacles: Sequence[Obstacle]) -> tuple[MapGround, ...]:
     grids = [obstacle for obstacle in obstacles if obstacle.grid is not None]
     if len(grids) == 1:
         return tuple(MapGround(o.grid, o.name or "blocked on the map") for o in grids if o.grid)
-    tones = [Tone(*colours) for colours in style.OBSTACLES]
+    tones = [MapColours(*colours) for colours in style.OBSTACLES]
     return tuple(
         MapGround(o.grid, style.short(o.name or _file_of(o.grid)), tones[i % len(tones)])
         for i, o in enumerate(grids)
@@ -227,7 +235,7 @@ def _file_of(grid: Grid) -> str:
 
 
 def _hidden(obstacles: Sequence[Obstacle]) -> tuple[MapGround, ...]:
-    tone = Tone(style.UNSEEN_FILL, style.UNSEEN)
+    tone = MapColours(style.UNSEEN_FILL, style.UNSEEN)
     label = "blocked, but not on the map"
     return tuple(MapGround(o.grid, label, tone) for o in obstacles if o.grid is not None)
 
@@ -236,74 +244,6 @@ def _centred(shape: BaseGeometry) -> bool:
     return bool(shape.contains(shape.centroid))
 
 
-def _grown(view: Box, by: float) -> Box:
-    return view[0] - by, view[1] - by, view[2] + by, view[3] + by
-
-
 def _within(shapes: NDArray[np.object_], view: Box) -> NDArray[np.object_]:
     seen: NDArray[np.object_] = shapes[shapely.intersects(shapes, shapely.box(*view))]
     return seen
-
-
-def _draw_outside(axes: Axes, view: Box, free: BaseGeometry, name: str) -> list[Artist]:
-    outside = shapely.box(*_grown(view, 0.05 * (view[2] - view[0]))).difference(free)
-    axes.add_artist(
-        PathPatch(outline(outside), facecolor=style.OUTSIDE, edgecolor="none", zorder=0)
-    )
-    edge = PathPatch(
-        outline(free), facecolor="none", edgecolor=style.INK, linewidth=1.0, zorder=2,
-        label=name,
-    )  # fmt: skip
-    axes.add_artist(edge)
-    return [edge]
-
-
-def _draw_grids(axes: Axes, grids: Sequence[MapGround]) -> list[Artist]:
-    """The first on top; each kind has one entry in the legend."""
-    handles: dict[str, Artist] = {}
-    for i, ground in enumerate(grids):
-        for handle in ground.draw(axes, zorder=2.4 - 0.01 * i):
-            handles.setdefault(str(handle.get_label()), handle)
-    unknown = handles.pop(UNKNOWN_LABEL, None)
-    return [*handles.values(), *([] if unknown is None else [unknown])]
-
-
-def _how_many(number: int, what: str) -> str:
-    """So many that nobody wants to read their names are counted."""
-    return f"{number} {what}s" if number > NAMED else what
-
-
-def _draw_known(axes: Axes, shapes: NDArray[np.object_], scale: float, label: str) -> Artist:
-    sizes = np.sqrt(shapely.area(shapes)) * scale
-    width = 0.8 if np.median(sizes) > 8 else 0.3
-    axes.add_collection(
-        PathCollection(
-            [outline(shape) for shape in shapes], facecolors=style.OBSTACLE,
-            edgecolors=style.OBSTACLE_EDGE, linewidths=width, zorder=2.5,
-        ),
-        autolim=False,
-    )  # fmt: skip
-    return Rectangle(
-        (0, 0), 1, 1, facecolor=style.OBSTACLE, edgecolor=style.OBSTACLE_EDGE, linewidth=0.8,
-        label=label,
-    )  # fmt: skip
-
-
-def _draw_unseen(axes: Axes, shapes: NDArray[np.object_], number: int, faint: bool) -> Artist:
-    look = {"facecolor": style.UNSEEN_FILL, "edgecolor": style.UNSEEN, "hatch": "////"}
-    if faint:
-        look = {"facecolor": style.FAINT_FILL, "edgecolor": style.FAINT, "hatch": ""}
-    width = 0.5 if faint else 0.9
-    axes.add_collection(
-        PathCollection(
-            [outline(shape) for shape in shapes], facecolors=look["facecolor"],
-            edgecolors=look["edgecolor"], hatch=look["hatch"], linewidths=width, zorder=2.6,
-        ),
-        autolim=False,
-    )  # fmt: skip
-    many = number > NAMED
-    label = f"{number} obstacles, none on the map" if many else "obstacle that was not on the map"
-    return Rectangle(
-        (0, 0), 1, 1, facecolor=look["facecolor"], edgecolor=look["edgecolor"],
-        hatch=look["hatch"], linewidth=width, label=label,
-    )  # fmt: skip

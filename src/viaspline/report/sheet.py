@@ -1,4 +1,7 @@
-"""The page of a picture: a map at equal scales, strips below it, a column at its right."""
+"""The page of a picture: a map at equal scales, strips below it, a column at its right.
+
+Tested through ``report/test_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from viaspline.kernels.arrays import Floats
-from viaspline.report.drawing import new_figure, tidy
-from viaspline.report.style import DPI, INK, MUTED, SMALL, TEXT, TITLE
+from viaspline.report.canvas import new_figure, tidy
+from viaspline.report.style import DPI, INK, MUTED, SMALL_PT, TEXT_PT, TITLE_PT
 from viaspline.report.units import nice
 
 Box = tuple[float, float, float, float]  # x_min, y_min, x_max, y_max [m]
@@ -56,7 +59,7 @@ def view_of(points: Floats, others: Floats, bounds: Box | None, margin: float) -
     Args:
         points: What has to be seen [m], shape (n, 2).
         others: Corners of the boxes of the obstacles [m], shape (k, 2).
-        bounds: Of the world.
+        bounds: The bounds of the world [m].
         margin: Least free space around it all [m].
     """
     low, high = points.min(0), points.max(0)
@@ -120,13 +123,13 @@ def _heading(figure: Figure, title: str, subtitles: Sequence[str]) -> None:
     for i, line in enumerate((title, *subtitles)):
         text = figure.text(
             LEFT / across, 1 - (0.3 + 0.26 * bool(i) + 0.2 * max(i - 1, 0)) / up, line,
-            size=TEXT if i else TITLE, weight="normal" if i else "bold",
+            size=TEXT_PT if i else TITLE_PT, weight="normal" if i else "bold",
             color=MUTED if i else INK, va="center", parse_math=False,
         )  # fmt: skip
         width = text.get_window_extent(canvas.get_renderer()).width / figure.dpi  # type: ignore[no-untyped-call]
         room = across - LEFT - 0.25
         if width > room:
-            text.set_fontsize((TEXT if i else TITLE) * room / width)
+            text.set_fontsize((TEXT_PT if i else TITLE_PT) * room / width)
 
 
 def _scale_bar(sheet: Sheet, scale: float, right: float, bottom: float) -> None:
@@ -141,5 +144,5 @@ def _scale_bar(sheet: Sheet, scale: float, right: float, bottom: float) -> None:
         sheet.figure.add_artist(Line2D([end, end], [y - tick, y + tick], color=INK, linewidth=1.2))
     text = f"{length / 1000:g} km" if length >= 1000 else f"{length:g} m"
     sheet.figure.text(
-        float(x[0]) - 0.06 / across, y, text, size=SMALL, color=INK, ha="right", va="center"
+        float(x[0]) - 0.06 / across, y, text, size=SMALL_PT, color=INK, ha="right", va="center"
     )

@@ -41,11 +41,11 @@ ZONE = "#fbeecb"
 ZONE_INK = "#8a5a00"
 SPEED_MAP = "viridis"
 
-TITLE = 13.0  # points
-TEXT = 9.0
-SMALL = 7.5
+TITLE_PT = 13.0  # points
+TEXT_PT = 9.0
+SMALL_PT = 7.5
 
-PATH_WIDTH = 2.0
+PATH_WIDTH_PT = 2.0
 
 
 def without_folder(name: str) -> str:

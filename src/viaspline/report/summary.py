@@ -16,7 +16,7 @@ from viaspline.mission.sensor_spec import Sensor
 from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
 from viaspline.report.units import metres
 
-MAPS = 4  # in the words about a world, before the rest is only counted
+MAX_MAPS_NAMED = 4  # in the words about a world, before the rest is only counted
 
 
 def tension(mission: Mission) -> float | list[float]:
@@ -93,9 +93,9 @@ def _route(mission: Mission) -> str:
 def _world(mission: Mission) -> str:
     world = mission.world
     grids = [obstacle.grid for obstacle in (*world.known, *world.unseen) if obstacle.grid]
-    words = [map_words(grid) for grid in grids[:MAPS]]
-    if len(grids) > MAPS:
-        words.append(f"{len(grids) - MAPS} more maps")
+    words = [map_words(grid) for grid in grids[:MAX_MAPS_NAMED]]
+    if len(grids) > MAX_MAPS_NAMED:
+        words.append(f"{len(grids) - MAX_MAPS_NAMED} more maps")
     for obstacles, kind in ((world.known, "known"), (world.unseen, "unseen")):
         shapes = [obstacle for obstacle in obstacles if obstacle.grid is None]
         if shapes or (kind == "known" and not grids):

@@ -1,4 +1,7 @@
-"""The studio as an ASGI application: the page, the pictures of maps, and the connection."""
+"""The studio as an ASGI application: the page, the pictures of maps, and the connection.
+
+Tested through ``studio/test_server``.
+"""
 
 from __future__ import annotations
 

@@ -8,17 +8,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
-from viaspline.studio.refused import RefusedError
+from viaspline.studio.refused_error import RefusedError
 
 Step = str | int
 Document = Mapping[str, Any]
 
-DEEPEST: Final = 16
-MOST_VALUES: Final = 400_000  # numbers, texts, lists and mappings in all
-MOST_ITEMS: Final = {"known": 5_000, "unseen": 5_000, "fences": 500, "via": 2_000}
-MOST_CHANGES: Final = 20_000
+MAX_NESTING_LEVELS: Final = 16
+MAX_DOCUMENT_VALUES: Final = 400_000  # numbers, texts, lists and mappings in all
+MAX_LIST_ITEMS: Final = {"known": 5_000, "unseen": 5_000, "fences": 500, "via": 2_000}
+MAX_CHANGES_PER_MESSAGE: Final = 20_000
 
-EMPTY: Final[Document] = {
+EMPTY_DOCUMENT: Final[Document] = {
     "world": {"bounds": [0, 0, 100, 100]},
     "robot": {"radius_m": 0.5, "clearance_m": 0.5, "max_speed_mps": 2},
     "route": {"start": [10, 50], "goal": [90, 50]},
@@ -41,7 +41,7 @@ def changed(document: Document, changes: Any) -> Document:
     >>> changed({"route": {"start": [0, 0]}}, [[["route", "start", 1], 5], [["robot"], {}]])
     {'route': {'start': [0, 5]}, 'robot': {}}
     """
-    if not isinstance(changes, list) or len(changes) > MOST_CHANGES:
+    if not isinstance(changes, list) or len(changes) > MAX_CHANGES_PER_MESSAGE:
         raise RefusedError("changes are a list of [path, value]")
     result: Any = document
     for change in changes:
@@ -54,20 +54,20 @@ def changed(document: Document, changes: Any) -> Document:
     return result
 
 
-_GONE: Final = object()
+_NO_VALUE: Final = object()
 
 
 def _change(change: Any) -> tuple[Sequence[Step], Any]:
     if not isinstance(change, list) or len(change) not in (1, 2):
         raise RefusedError("a change is [path, value], or [path] to take something out")
     path = change[0]
-    if not isinstance(path, list) or len(path) > DEEPEST:
-        raise RefusedError(f"a path is a list of at most {DEEPEST} keys and indices")
+    if not isinstance(path, list) or len(path) > MAX_NESTING_LEVELS:
+        raise RefusedError(f"a path is a list of at most {MAX_NESTING_LEVELS} keys and indices")
     if not all(
         isinstance(s, str) or (isinstance(s, int) and not isinstance(s, bool)) for s in path
     ):
         raise RefusedError("a path is made of keys and indices")
-    return path, change[1] if len(change) == 2 else _GONE
+    return path, change[1] if len(change) == 2 else _NO_VALUE
 
 
 def _with(node: Any, path: Sequence[Step], value: Any) -> Any:
@@ -82,7 +82,7 @@ def _with(node: Any, path: Sequence[Step], value: Any) -> Any:
 
 
 def _in_mapping(node: Mapping[str, Any], key: str, rest: Sequence[Step], value: Any) -> Any:
-    if value is _GONE and not rest:
+    if value is _NO_VALUE and not rest:
         return {name: item for name, item in node.items() if name != key}
     if rest and key not in node:
         raise RefusedError(f"there is nothing at {key!r}")
@@ -90,9 +90,9 @@ def _in_mapping(node: Mapping[str, Any], key: str, rest: Sequence[Step], value: 
 
 
 def _in_list(node: list[Any], index: int, rest: Sequence[Step], value: Any) -> list[Any]:
-    if index == len(node) and (rest or value is _GONE):
+    if index == len(node) and (rest or value is _NO_VALUE):
         raise RefusedError(f"there is nothing at {index}")
-    if value is _GONE and not rest:
+    if value is _NO_VALUE and not rest:
         return [*node[:index], *node[index + 1 :]]
     old = node[index] if index < len(node) else None
     return [*node[:index], _with(old, rest, value), *node[index + 1 :]]
@@ -108,16 +108,16 @@ def check_size(document: Document) -> None:
         section = document.get(part)
         if not isinstance(section, Mapping):
             continue
-        for key, most in MOST_ITEMS.items():
+        for key, most in MAX_LIST_ITEMS.items():
             items = section.get(key)
             if isinstance(items, list) and len(items) > most:
                 raise RefusedError(f"{part}.{key} has {len(items)} items; the studio takes {most}")
     level: list[Any] = [document]
     count = 0
-    for _ in range(DEEPEST):
+    for _ in range(MAX_NESTING_LEVELS):
         count += len(level)
-        if count > MOST_VALUES:
-            raise RefusedError(f"the mission has more than {MOST_VALUES} values")
+        if count > MAX_DOCUMENT_VALUES:
+            raise RefusedError(f"the mission has more than {MAX_DOCUMENT_VALUES} values")
         inner: list[Any] = []
         for node in level:
             if isinstance(node, Mapping):
@@ -127,4 +127,4 @@ def check_size(document: Document) -> None:
         if not inner:
             return
         level = inner
-    raise RefusedError(f"the mission is nested deeper than {DEEPEST} levels")
+    raise RefusedError(f"the mission is nested deeper than {MAX_NESTING_LEVELS} levels")

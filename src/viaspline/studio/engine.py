@@ -2,6 +2,8 @@
 
 Kernels let go of Python's lock. Whatever needs them is imported by the threads as well: the page
 is there before numba is.
+
+Tested through ``studio/test_server``.
 """
 
 from __future__ import annotations
@@ -15,22 +17,23 @@ from pathlib import Path
 from threading import Event as Flag
 from typing import TYPE_CHECKING, Any, Final
 
-from viaspline.studio.document import EMPTY, Document
+from viaspline.studio.document import EMPTY_DOCUMENT, Document
 from viaspline.studio.folder import Folder
-from viaspline.studio.messages import encoded
-from viaspline.studio.stopping import Stoppable, StoppedCallError
+from viaspline.studio.page_messages import encoded
+from viaspline.studio.stoppable_calls import Stoppable, StoppedCallError
 from viaspline.studio.worker import Worker
 
 if TYPE_CHECKING:
     from viaspline.planner import Plan
     from viaspline.robot.run import Run
-    from viaspline.studio.maps import Maps
-    from viaspline.studio.planning import Planned
+    from viaspline.studio.map_cache import MapCache
+    from viaspline.studio.plan_document import PlannedDocument
 
-SWITCH: Final = 0.0005  # how long a thread keeps Python's lock from another at first [s]
-CHEAP: Final = 0.003  # a ledger that takes less is drawn up for every plan [s]
-FIRST: Final[Document] = {
-    **EMPTY,
+STARTUP_SWITCH_INTERVAL_S: Final = 0.0005
+"""How long a thread keeps Python's lock from another at first [s]."""
+CHEAP_LEDGER_S: Final = 0.003  # a ledger that takes less is drawn up for every plan [s]
+WARM_UP_DOCUMENT: Final[Document] = {
+    **EMPTY_DOCUMENT,
     "world": {"bounds": [0, 0, 100, 100], "known": [{"circle": {"center": [50, 50], "radius": 9}}]},
 }
 """What is planned before anybody asks, so that the kernels are there when somebody does."""
@@ -50,7 +53,7 @@ class Engine:
         self._folder = folder
         self._planner = Worker("planner")
         self._others = Worker("drives and files")
-        self._maps: Maps | None = None
+        self._maps: MapCache | None = None
         self._ledger_cost = 0.0
         self._pictures: dict[str, bytes] = {}
         self._compiled = 0
@@ -66,7 +69,7 @@ class Engine:
     def _prepare(self) -> None:
         # While this is imported and compiled the page is to be served all the same.
         usual = sys.getswitchinterval()
-        sys.setswitchinterval(SWITCH)
+        sys.setswitchinterval(STARTUP_SWITCH_INTERVAL_S)
         try:
             self._load()
         finally:
@@ -81,13 +84,13 @@ class Engine:
     def _load(self) -> None:
         from viaspline.kernels.jit import compile_progress
         from viaspline.precompile import second_compiler
-        from viaspline.studio import answers
+        from viaspline.studio import plan_messages
 
         # Never left: drives and pictures may compile more.
         self._listening.enter_context(compile_progress(self._hear))
         with second_compiler():
-            planned, _ = self._planned(FIRST, self._folder.root, 0)
-            answers.ledger(planned, 0)
+            planned, _ = self._planned(WARM_UP_DOCUMENT, self._folder.root, 0)
+            plan_messages.ledger(planned, 0)
 
     def _hear(self, kernel: str) -> None:
         self._compiled += 1
@@ -97,7 +100,7 @@ class Engine:
 
     async def plan(
         self, document: Document, base: Path, revision: int, running: Stoppable
-    ) -> tuple[Planned, str] | None:
+    ) -> tuple[PlannedDocument, str] | None:
         """Plan a document: what came of it, and the answer as text.
 
         Args:
@@ -107,7 +110,7 @@ class Engine:
             running: Stops it; then there is no answer.
         """
 
-        def work() -> tuple[Planned, str] | None:
+        def work() -> tuple[PlannedDocument, str] | None:
             try:
                 return running.run(lambda: self._planned(document, base, revision))
             except StoppedCallError:
@@ -115,36 +118,38 @@ class Engine:
 
         return await self._planner.run(work)
 
-    def _planned(self, document: Document, base: Path, revision: int) -> tuple[Planned, str]:
-        from viaspline.studio import answers, planning
-        from viaspline.studio.maps import Maps
+    def _planned(
+        self, document: Document, base: Path, revision: int
+    ) -> tuple[PlannedDocument, str]:
+        from viaspline.studio import plan_document, plan_messages
+        from viaspline.studio.map_cache import MapCache
 
         if self._maps is None:
-            self._maps = Maps(self._folder)
-        planned = planning.planned(document, self._maps, base)
+            self._maps = MapCache(self._folder)
+        planned = plan_document.planned(document, self._maps, base)
         self._keep_pictures(planned)
-        return planned, encoded(answers.answer(planned, revision))
+        return planned, encoded(plan_messages.answer(planned, revision))
 
     @property
     def ledgers_are_cheap(self) -> bool:
         """Whether the page can have one with every plan while something is dragged."""
-        return self._ledger_cost < CHEAP
+        return self._ledger_cost < CHEAP_LEDGER_S
 
-    async def ledger(self, planned: Planned, revision: int) -> str:
+    async def ledger(self, planned: PlannedDocument, revision: int) -> str:
         """The ledger of a plan as text."""
 
         def work() -> str:
-            from viaspline.studio import answers
+            from viaspline.studio import plan_messages
 
             start = time.perf_counter()
-            text = encoded(answers.ledger(planned, revision))
+            text = encoded(plan_messages.ledger(planned, revision))
             self._ledger_cost = time.perf_counter() - start
             return text
 
         return await self._planner.run(work)
 
-    def _keep_pictures(self, planned: Planned) -> None:
-        from viaspline.studio.maps import grid_name, grid_png
+    def _keep_pictures(self, planned: PlannedDocument) -> None:
+        from viaspline.studio.map_cache import grid_name, grid_png
 
         if planned.mission is None:
             return
@@ -174,13 +179,13 @@ class Engine:
         """
 
         def work() -> tuple[Run, str] | None:
-            from viaspline.studio import driving
+            from viaspline.studio import simulated_drive
 
             try:
-                run = driving.drive(plan, seed=seed, stop=stop, tell=tell)
-            except driving.StoppedError:
+                run = simulated_drive.drive(plan, seed=seed, stop=stop, tell=tell)
+            except simulated_drive.StoppedError:
                 return None
-            return run, encoded({**head, **driving.driven(run)})
+            return run, encoded({**head, **simulated_drive.driven(run)})
 
         return await self._others.run(work)
 

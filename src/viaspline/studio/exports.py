@@ -1,18 +1,21 @@
-"""What the page can take away: the very files that the command line writes."""
+"""What the page can take away: the very files that the command line writes.
+
+Tested through ``studio/test_server_files``.
+"""
 
 from __future__ import annotations
 
 from typing import Final
 
 from viaspline.planner import Plan
+from viaspline.report.csv_tables import path_csv, run_csv, spacing
 from viaspline.report.plan_json import plan_json
 from viaspline.report.run_json import run_json
-from viaspline.report.tables import path_csv, run_csv, spacing
 from viaspline.robot.run import Run
-from viaspline.studio.refused import RefusedError
+from viaspline.studio.refused_error import RefusedError
 
-OF_PLANS: Final = ("plan.json", "path.csv", "plan.png")
-OF_RUNS: Final = ("run.json", "run.csv", "run.png")
+PLAN_FILES: Final = ("plan.json", "path.csv", "plan.png")
+RUN_FILES: Final = ("run.json", "run.csv", "run.png")
 
 
 def plan_file(plan: Plan, kind: str, name: str) -> bytes:
@@ -49,5 +52,5 @@ def check_kind(kind: str) -> None:
     Raises:
         RefusedError: Naming what can.
     """
-    if kind not in OF_PLANS + OF_RUNS:
-        raise RefusedError(f"'{kind}' can't be exported; {', '.join(OF_PLANS + OF_RUNS)} can")
+    if kind not in PLAN_FILES + RUN_FILES:
+        raise RefusedError(f"'{kind}' can't be exported; {', '.join(PLAN_FILES + RUN_FILES)} can")

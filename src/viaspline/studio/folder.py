@@ -9,14 +9,16 @@ from typing import Final
 from viaspline.errors import OutputError
 from viaspline.formats.format_registry import formats
 from viaspline.report.result_files import write
-from viaspline.studio.refused import RefusedError
-from viaspline.studio.saving import SAVED
+from viaspline.studio.refused_error import RefusedError
+from viaspline.studio.save_document import SAVED_SUFFIXES
 
-MISSIONS: Final = tuple(dict.fromkeys(ending for each in formats() for ending in each.endings))
-MAPS: Final = (".map", ".svg", ".geojson")
-DEEPEST: Final = 3
-MOST_FILES: Final = 500
-SKIPPED: Final = ("node_modules", "__pycache__", "viaspline-out")
+MISSION_SUFFIXES: Final = tuple(
+    dict.fromkeys(ending for each in formats() for ending in each.endings)
+)
+MAP_SUFFIXES: Final = (".map", ".svg", ".geojson")
+MAX_FOLDER_LEVELS: Final = 3
+MAX_FILES_LISTED: Final = 500
+SKIPPED_FOLDERS: Final = ("node_modules", "__pycache__", "viaspline-out")
 
 
 class Folder:
@@ -60,8 +62,8 @@ class Folder:
             RefusedError: It lies elsewhere, its folder isn't there, or its ending means no mission.
         """
         path = self._named(name)
-        if path.suffix.lower() not in SAVED:
-            problem = f"missions are saved as {', '.join(SAVED)}"
+        if path.suffix.lower() not in SAVED_SUFFIXES:
+            problem = f"missions are saved as {', '.join(SAVED_SUFFIXES)}"
             raise RefusedError(f"{problem}: call it '{Path(name).stem}.yaml'")
         if not path.parent.is_dir():
             raise RefusedError(f"there is no folder '{Path(name).parent}' to save it in")
@@ -91,7 +93,7 @@ class Folder:
 
     def missions(self) -> list[str]:
         """Names of the files that may be missions, in order."""
-        found = (path for path in self._files() if path.suffix.lower() in MISSIONS)
+        found = (path for path in self._files() if path.suffix.lower() in MISSION_SUFFIXES)
         return [self.name_of(path) for path in found if not is_map(path)]
 
     def maps(self) -> list[str]:
@@ -100,8 +102,8 @@ class Folder:
 
     def _files(self) -> list[Path]:
         found: list[Path] = []
-        for path in self._walk(self.root, DEEPEST):
-            if len(found) >= MOST_FILES:
+        for path in self._walk(self.root, MAX_FOLDER_LEVELS):
+            if len(found) >= MAX_FILES_LISTED:
                 break
             found.append(path)
         return sorted(found)
@@ -114,9 +116,9 @@ class Folder:
         for path in entries:
             if path.name.startswith(".") or not path.resolve().is_relative_to(self.root):
                 continue
-            if path.is_file() and path.suffix.lower() in MISSIONS + MAPS:
+            if path.is_file() and path.suffix.lower() in MISSION_SUFFIXES + MAP_SUFFIXES:
                 yield path
-            elif depth > 1 and path.is_dir() and path.name not in SKIPPED:
+            elif depth > 1 and path.is_dir() and path.name not in SKIPPED_FOLDERS:
                 yield from self._walk(path, depth - 1)
 
 
@@ -124,7 +126,7 @@ def is_map(path: Path) -> bool:
     """Whether a file is a map rather than a mission; YAML is when it names a picture."""
     suffix = path.suffix.lower()
     if suffix not in (".yaml", ".yml"):
-        return suffix in MAPS
+        return suffix in MAP_SUFFIXES
     try:
         with path.open("rb") as file:
             lines = file.read(4096).splitlines()

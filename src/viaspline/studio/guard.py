@@ -15,9 +15,9 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-OPEN: Final = "/page/"  # what is no secret: the page's own files
+PUBLIC_PATH: Final = "/page/"  # what is no secret: the page's own files
 
-HEADERS: Final = {
+SECURITY_HEADERS: Final = {
     "content-security-policy": (
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
         "connect-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; "
@@ -56,7 +56,7 @@ class Guard:
         elif scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": 1008, "reason": problem})
         else:
-            response = PlainTextResponse(f"{problem}\n", 403, HEADERS)
+            response = PlainTextResponse(f"{problem}\n", 403, SECURITY_HEADERS)
             await response(scope, receive, send)
 
     def _problem(self, scope: Scope) -> str | None:
@@ -69,7 +69,7 @@ class Guard:
         is_foreign = origin is not None and origin != f"http://{host}"
         if is_foreign or (scope["type"] == "websocket" and origin is None):
             return "only the studio's own page may talk to it"
-        if self.token is not None and not scope["path"].startswith(OPEN):
+        if self.token is not None and not scope["path"].startswith(PUBLIC_PATH):
             query = parse_qs(scope["query_string"].decode("latin-1"))
             given = query.get("token", [""])[0]
             if not hmac.compare_digest(given.encode(), self.token.encode()):
@@ -81,7 +81,7 @@ def _with_headers(send: Send) -> Send:
     async def sent(message: Message) -> None:
         if message["type"] == "http.response.start":
             headers = MutableHeaders(scope=message)
-            for name, value in HEADERS.items():
+            for name, value in SECURITY_HEADERS.items():
                 headers[name] = value
         await send(message)
 

@@ -7,9 +7,12 @@ from mimetypes import types_map
 from pathlib import Path
 from typing import Final
 
-PAGE: Final = Path(__file__).parent / "page"
+PAGE_FOLDER: Final = Path(__file__).parent / "page"
 
-TYPES: Final = {
+PRELOAD_MARK: Final = b"<!-- modulepreload -->"
+"""Where the page names its modules, so that a browser asks for all of them at once."""
+
+MEDIA_TYPES: Final = {
     **types_map,
     ".js": "text/javascript",  # whatever this machine calls it: the page is served with nosniff
     ".css": "text/css",
@@ -24,8 +27,15 @@ def page_files() -> Mapping[str, tuple[bytes, str]]:
     >>> page_files()["js/main.js"][1]
     'text/javascript'
     """
-    return {
-        path.relative_to(PAGE).as_posix(): (path.read_bytes(), TYPES[path.suffix])
-        for path in PAGE.rglob("*")
-        if path.is_file() and path.suffix in TYPES
+    files = {
+        path.relative_to(PAGE_FOLDER).as_posix(): (path.read_bytes(), MEDIA_TYPES[path.suffix])
+        for path in PAGE_FOLDER.rglob("*")
+        if path.is_file() and path.suffix in MEDIA_TYPES
     }
+    page, kind = files["index.html"]
+    links = (_preload(name) for name in sorted(files) if name.endswith(".js"))
+    return {**files, "index.html": (page.replace(PRELOAD_MARK, b"\n  ".join(links)), kind)}
+
+
+def _preload(name: str) -> bytes:
+    return f'<link rel="modulepreload" href="/page/{name}">'.encode()

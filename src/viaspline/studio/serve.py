@@ -16,14 +16,14 @@ from typing import TYPE_CHECKING, Final
 from urllib.parse import quote
 
 from viaspline.errors import StudioError
-from viaspline.studio.messages import LARGEST
+from viaspline.studio.page_messages import MAX_MESSAGE_BYTES
 
 if TYPE_CHECKING:
     import uvicorn
 
-PORT: Final = 8474
-LOOPBACK: Final = "127.0.0.1"
-NEEDED: Final = ("starlette", "uvicorn", "websockets")
+DEFAULT_PORT: Final = 8474
+LOOPBACK_HOST: Final = "127.0.0.1"
+STUDIO_PACKAGES: Final = ("starlette", "uvicorn", "websockets")
 
 
 def check_installed() -> None:
@@ -32,7 +32,7 @@ def check_installed() -> None:
     Raises:
         StudioError: Saying what to install.
     """
-    missing = [name for name in NEEDED if find_spec(name) is None]
+    missing = [name for name in STUDIO_PACKAGES if find_spec(name) is None]
     if missing:
         raise StudioError(
             f"the studio needs {' and '.join(missing)}, which "
@@ -74,9 +74,8 @@ class Address:
                 host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
             )[0]
         except (socket.gaierror, UnicodeError):
-            raise StudioError(
-                f"there is no address '{host}' on this machine; leave out --host for {LOOPBACK}"
-            ) from None
+            problem = f"there is no address '{host}' on this machine"
+            raise StudioError(f"{problem}; leave out --host for {LOOPBACK_HOST}") from None
         listener = socket.socket(family, kind, protocol)
         try:
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -102,7 +101,7 @@ class Address:
         """What a browser may call it; None: anything."""
         if not is_loopback(self.host):
             return None
-        return frozenset(f"{name}:{self.port}" for name in (LOOPBACK, "localhost", "[::1]"))
+        return frozenset(f"{name}:{self.port}" for name in (LOOPBACK_HOST, "localhost", "[::1]"))
 
 
 def is_loopback(host: str) -> bool:
@@ -126,9 +125,11 @@ def _taken(host: str, port: int, error: OSError) -> str:
             f"(--port {port + 1}) or any that is free (--port 0)"
         )
     if error.errno in (errno.EACCES, errno.EPERM):
-        return f"port {port} is not for everyone; give one above 1023 (--port {PORT})"
+        return f"port {port} is not for everyone; give one above 1023 (--port {DEFAULT_PORT})"
     reason = (error.strerror or str(error)).lower()
-    return f"{host} port {port} can't be listened on ({reason}); leave out --host for {LOOPBACK}"
+    return (
+        f"{host} port {port} can't be listened on ({reason}); leave out --host for {LOOPBACK_HOST}"
+    )
 
 
 def server_of(address: Address, mission: Path | None) -> uvicorn.Server:
@@ -148,7 +149,7 @@ def server_of(address: Address, mission: Path | None) -> uvicorn.Server:
     from viaspline.studio.app import application
     from viaspline.studio.engine import Engine
     from viaspline.studio.folder import Folder
-    from viaspline.studio.opening import opened
+    from viaspline.studio.load_document import opened
 
     name = None
     root = Path() if mission is None else mission
@@ -162,7 +163,7 @@ def server_of(address: Address, mission: Path | None) -> uvicorn.Server:
     engine.prepare()
     app = application(folder, engine, name=name, hosts=address.hosts, token=address.token)
     config = uvicorn.Config(
-        app, ws="websockets-sansio", ws_max_size=LARGEST, ws_per_message_deflate=False,
+        app, ws="websockets-sansio", ws_max_size=MAX_MESSAGE_BYTES, ws_per_message_deflate=False,
         lifespan="off", log_config=None, access_log=False, server_header=False,
         timeout_graceful_shutdown=1,
     )  # fmt: skip
@@ -172,8 +173,8 @@ def server_of(address: Address, mission: Path | None) -> uvicorn.Server:
 def serve(
     mission: Path | None,
     *,
-    host: str = LOOPBACK,
-    port: int = PORT,
+    host: str = LOOPBACK_HOST,
+    port: int = DEFAULT_PORT,
     token: str | None = None,
     browser: bool = True,
     say: Callable[[str], None] = print,

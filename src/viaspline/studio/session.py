@@ -1,4 +1,7 @@
-"""One open page: what it says, and what it is answered."""
+"""One open page: what it says, and what it is answered.
+
+Tested through ``studio/test_server``.
+"""
 
 from __future__ import annotations
 
@@ -13,17 +16,17 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from viaspline import __version__
 from viaspline.errors import ViasplineError
-from viaspline.studio import filing
-from viaspline.studio.desk import Desk
-from viaspline.studio.document import EMPTY, changed
+from viaspline.studio import file_requests
+from viaspline.studio.document import EMPTY_DOCUMENT, changed
 from viaspline.studio.drive_forms import drive_forms
 from viaspline.studio.engine import Engine
 from viaspline.studio.folder import Folder
-from viaspline.studio.live import Live
-from viaspline.studio.messages import Message, count_of, decoded, encoded
-from viaspline.studio.refused import RefusedError
+from viaspline.studio.live_planning import LivePlan
+from viaspline.studio.open_mission import OpenMission
+from viaspline.studio.page_messages import Message, count_of, decoded, encoded
+from viaspline.studio.refused_error import RefusedError
 
-MOST_JOBS: Final = 32
+MAX_RUNNING_JOBS: Final = 32
 
 
 class Session:
@@ -39,9 +42,9 @@ class Session:
     def __init__(self, socket: WebSocket, engine: Engine, folder: Folder, name: str | None) -> None:
         self._socket = socket
         self._engine = engine
-        self._desk = Desk(folder, name)
-        self._live = Live(engine, self._desk, self._send_text, self._refuse_edit)
-        self._driven: filing.Driven | None = None
+        self._current = OpenMission(folder, name)
+        self._live = LivePlan(engine, self._current, self._send_text, self._refuse_edit)
+        self._driven: file_requests.Driven | None = None
         self._sending = asyncio.Lock()
         self._stop = Flag()
         self._jobs: set[asyncio.Task[None]] = set()
@@ -66,22 +69,22 @@ class Session:
                 task.cancel()
 
     async def _greet(self) -> None:
-        desk = self._desk
+        current = self._current
         problem: str | None = None
         notes: tuple[str, ...] = ()
-        if desk.name is not None:
+        if current.name is not None:
             try:
-                notes = desk.open(desk.name)
+                notes = current.open(current.name)
             except ViasplineError as error:
                 problem = str(error)
         await self._send(
             type="hello",
             version=__version__,
-            folder=desk.folder.root.name,
-            name=desk.name,
-            document=desk.document,
-            origin=desk.origin,
-            empty=EMPTY,
+            folder=current.folder.root.name,
+            name=current.name,
+            document=current.document,
+            origin=current.origin,
+            empty=EMPTY_DOCUMENT,
             drives=drive_forms(),
             problem=problem,
             warnings=notes,
@@ -105,7 +108,7 @@ class Session:
             await self._refuse(error, number, kind)
 
     def _spawn(self, work: Coroutine[Any, Any, None], number: Any, kind: str) -> None:
-        if len(self._jobs) >= MOST_JOBS:
+        if len(self._jobs) >= MAX_RUNNING_JOBS:
             work.close()
             raise RefusedError("too many things are asked for at once")
 
@@ -153,7 +156,7 @@ class Session:
 
     async def _edit(self, message: Message) -> None:
         revision = count_of(message, "rev")
-        self._desk.document = changed(self._desk.document, message.get("changes"))
+        self._current.document = changed(self._current.document, message.get("changes"))
         self._live.want(revision)
 
     async def _drive(self, message: Message) -> None:
@@ -183,27 +186,29 @@ class Session:
         self._stop.set()
 
     async def _files(self, message: Message) -> None:
-        await self._answer(message, filing.files(self._desk))
+        await self._answer(message, file_requests.files(self._current))
 
     async def _open(self, message: Message) -> None:
-        answer = filing.open_file(self._desk, message)
+        answer = file_requests.open_file(self._current, message)
         self._live.forget()
         await self._answer(message, answer)
 
     async def _new(self, message: Message) -> None:
         self._live.forget()
-        await self._answer(message, filing.new(self._desk))
+        await self._answer(message, file_requests.new(self._current))
 
     async def _save(self, message: Message) -> None:
-        await self._answer(message, await filing.save(self._desk, message, self._live.planned))
+        await self._answer(
+            message, await file_requests.save(self._current, message, self._live.planned)
+        )
 
     async def _export(self, message: Message) -> None:
-        answer = await filing.export(
-            self._desk, message, self._engine, self._live.planned, self._driven
+        answer = await file_requests.export(
+            self._current, message, self._engine, self._live.planned, self._driven
         )
         await self._answer(message, answer)
 
-    async def _answer(self, message: Message, answer: filing.Answer) -> None:
+    async def _answer(self, message: Message, answer: file_requests.Answer) -> None:
         await self._send(id=message.get("id"), **answer)
 
 

@@ -1,4 +1,7 @@
-"""A thread that works off calls one after the other and never keeps the program from ending."""
+"""A thread that works off calls one after the other and never keeps the program from ending.
+
+Tested through ``studio/test_server``.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,7 @@ class Worker:
     """One daemon thread; an executor's would be waited for at the end of the program.
 
     Args:
-        name: Of the thread.
+        name: What the thread is called.
     """
 
     def __init__(self, name: str) -> None:

@@ -1,18 +1,24 @@
 """A disc.
 
-Tested through ``mission/test_model``.
+Tested through ``mission/shapes/test_obstacle``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import ClassVar, Final, Self
+
 from viaspline.mission.fields import Length, Point2
 from viaspline.mission.shapes.rounded_ring import RoundedRing
+from viaspline.mission.unplaced_faults import Path, UnplacedFault
 from viaspline.mission.value import Value
+
+CIRCLE_WORDS: Final = "{center: [x, y], radius: 5}"
 
 
 class Circle(
     Value,
-    expected="{center: [x, y], radius: 5}",
+    expected=CIRCLE_WORDS,
 ):
     """A disc.
 
@@ -21,9 +27,16 @@ class Circle(
         radius: Its radius [m].
     """
 
+    EXAMPLE: ClassVar[str] = f"circle: {CIRCLE_WORDS}"
+
     center: Point2
     radius: Length
 
     def ring(self) -> RoundedRing:
         """One vertex with a radius."""
         return RoundedRing((((self.center[0], self.center[1]),),), self.radius)
+
+    @classmethod
+    def faults(cls, placed: Iterable[tuple[Path, Self]]) -> list[UnplacedFault]:
+        """None: a centre and a positive radius are all it takes."""
+        return []

@@ -5,8 +5,8 @@ Tested through ``mission/test_model``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, InstanceOf
 from pydantic.json_schema import SkipJsonSchema
@@ -15,12 +15,17 @@ from viaspline.maps.grid import Grid
 from viaspline.maps.reading import Reading
 from viaspline.mission.fields import Name, Ring, Rings
 from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.polygon import Polygon
 from viaspline.mission.shapes.rounded_ring import RoundedRing
+from viaspline.mission.shapes.shape_protocol import Shape
 from viaspline.mission.value import Value
 
 Side = Literal["left", "right"]
 
-SHAPES = ("circle", "polygon", "grid")
+KINDS: Final[Mapping[str, type[Shape]]] = {"circle": Circle, "polygon": Polygon}
+"""The kinds that are rounded rings, by the keys that give them: each a file of its own here."""
+
+SHAPES: Final = (*KINDS, "grid")
 """The keys that give an obstacle its shape."""
 
 
@@ -61,13 +66,18 @@ class Obstacle(
     pass_on: Side | None = None
     never_pass_on: Side | None = None
 
+    def shapes(self) -> Iterator[tuple[str, Shape]]:
+        """Its shape with the key that gives it; a sound obstacle has one at most, a grid none."""
+        if self.circle is not None:
+            yield "circle", self.circle
+        if self.polygon is not None:
+            yield "polygon", Polygon(self.polygon, self.holes)
+
     @property
     def ring(self) -> RoundedRing | None:
         """Its shape as a rounded ring; None if it is a grid, or has no shape."""
-        if self.circle is not None:
-            return self.circle.ring()
-        if self.polygon is not None:
-            return RoundedRing((self.polygon, *self.holes))
+        for _, shape in self.shapes():
+            return shape.ring()
         return None
 
     @property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -52,6 +53,26 @@ class RoundedRing:
         ring = self.vertices
         x, y = (0.5 * (ring.min(axis=0) + ring.max(axis=0))).tolist()
         return x, y, float(np.hypot(*(ring - (x, y)).T).max()) + self.radius
+
+    def polygon_around(self, segments: int = 8) -> tuple[Loop, float]:
+        """Corners of a polygon without holes that it lies in, for those who know no rounded ones.
+
+        Args:
+            segments: Sides for each quarter circle.
+
+        Returns:
+            The corners [m], and how far at most the polygon reaches beyond the ring [m].
+
+        >>> corners, beyond = RoundedRing([[(0, 0), (4, 0)]], 1.0).polygon_around()
+        >>> len(corners), round(beyond, 4)
+        (34, 0.0109)
+        """
+        if self.radius == 0.0:
+            return self.loops[0], 0.0
+        # Sides of an arc that is no whole number of steps may be half as long again.
+        grown = self.radius / math.cos(0.75 * math.pi / (2 * segments))
+        outline = self.core().buffer(grown, quad_segs=segments).exterior
+        return [(x, y) for x, y in outline.coords[:-1]], grown - self.radius
 
     def core(self) -> Any:
         """The core as a geometry of shapely: a point, a line or a polygon."""

@@ -1,4 +1,7 @@
-"""The figure that the paper lacks: curvature along the path, which a cardinal spline lets jump."""
+"""The figure that the paper lacks: curvature along the path, which a cardinal spline lets jump.
+
+Tested through ``report/test_figures``.
+"""
 
 from __future__ import annotations
 
@@ -10,12 +13,12 @@ from matplotlib.axes import Axes
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.kernels.arrays import Floats
 from viaspline.report import style
-from viaspline.report.drawing import png, polyline
+from viaspline.report.canvas import png, polyline
 from viaspline.report.figures.paper import dots, fit, headline, page
 
-POINTS = np.array([(0, 0), (20, 26), (50, 22), (62, -2), (92, 2), (106, 28), (134, 18.0)])
-COMB = 160.0  # [m] for a curvature of 1/m
-PER_SPAN = 90
+VIA_POINTS_M = np.array([(0, 0), (20, 26), (50, 22), (62, -2), (92, 2), (106, 28), (134, 18.0)])
+COMB_M2 = 160.0  # [m] for a curvature of 1/m
+POINTS_PER_SPAN = 90
 
 
 def curvature_figure() -> bytes:
@@ -30,8 +33,11 @@ def curvature_figure() -> bytes:
         widths=[4.3, 3.9], heights=[2.25, 2.25], left=0.75,
     )  # fmt: skip
     cases = (
-        ("cardinal", CardinalSpline(POINTS, tension=0.0, knots="chordal")),
-        ("continuous", CardinalSpline(POINTS, tension=0.0, knots="chordal", tangents="continuous")),
+        ("cardinal", CardinalSpline(VIA_POINTS_M, tension=0.0, knots="chordal")),
+        (
+            "continuous",
+            CardinalSpline(VIA_POINTS_M, tension=0.0, knots="chordal", tangents="continuous"),
+        ),
     )
     tops = []
     for (left, right), (name, spline) in zip(rows, cases, strict=True):
@@ -44,7 +50,7 @@ def curvature_figure() -> bytes:
         words = (
             f"jumps of up to {largest:.3f} 1/m at the via points" if largest > 1e-6 else "no jumps"
         )
-        headline(right, words, size=style.TEXT)
+        headline(right, words, size=style.TEXT_PT)
         right.set_ylabel("curvature [1/m]", labelpad=1)
     reach = 1.3 * max(tops)
     for _, right in rows:
@@ -57,7 +63,7 @@ def _pieces(spline: CardinalSpline) -> list[Floats]:
     """Parameters from via point to via point, which are seen from inside."""
     joints = spline.via_parameters
     inset = 1e-9 * (joints[-1] - joints[0])
-    return [np.linspace(a + inset, b - inset, PER_SPAN) for a, b in pairwise(joints)]
+    return [np.linspace(a + inset, b - inset, POINTS_PER_SPAN) for a, b in pairwise(joints)]
 
 
 def _comb(axes: Axes, spline: CardinalSpline) -> None:
@@ -67,14 +73,14 @@ def _comb(axes: Axes, spline: CardinalSpline) -> None:
         points, heading = np.asarray(spline.evaluate(u)), np.asarray(spline.heading(u))
         normal = np.stack([-np.sin(heading), np.cos(heading)], axis=1)
         # on the outside of the bend
-        tip = points - COMB * np.asarray(spline.curvature(u))[:, None] * normal
+        tip = points - COMB_M2 * np.asarray(spline.curvature(u))[:, None] * normal
         tips.append(tip)
         for start, end in zip(points[::6], tip[::6], strict=True):
             axes.plot(*np.array([start, end]).T, color=style.DETOUR, linewidth=0.5, alpha=0.8)
         axes.plot(*tip.T, color=style.DETOUR, linewidth=1.0)
     fit(axes, np.vstack([curve, *tips]), 0.05)
     axes.plot(*curve.T, color=style.PATH, linewidth=2)
-    dots(axes, POINTS, [str(number) for number in range(len(POINTS))], away=-9)
+    dots(axes, VIA_POINTS_M, [str(number) for number in range(len(VIA_POINTS_M))], away=-9)
 
 
 def _plot(axes: Axes, spline: CardinalSpline, jumps: Floats) -> float:
@@ -96,11 +102,11 @@ def _plot(axes: Axes, spline: CardinalSpline, jumps: Floats) -> float:
         axes.annotate(
             f"{jumps[i]:.3f}" if jumps[i] > 1e-6 else "0",
             (where, max(before, after) if above else min(before, after)),
-            xytext=(0, 7 if above else -8), textcoords="offset points", size=style.SMALL - 0.5,
+            xytext=(0, 7 if above else -8), textcoords="offset points", size=style.SMALL_PT - 0.5,
             color=style.TIGHTEST, ha="center", va="center",
         )  # fmt: skip
         axes.text(
             where, 0.015, str(i + 1), transform=axes.get_xaxis_transform(),
-            size=style.SMALL - 0.5, color=style.MUTED, ha="center", va="bottom",
+            size=style.SMALL_PT - 0.5, color=style.MUTED, ha="center", va="bottom",
         )  # fmt: skip
     return top

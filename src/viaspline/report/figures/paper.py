@@ -1,4 +1,7 @@
-"""Pages for figures: panels at equal scales, a title above, a caption below."""
+"""Pages for figures: panels at equal scales, a title above, a caption below.
+
+Tested through ``report/test_figures``.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +14,10 @@ from matplotlib.figure import Figure
 
 from viaspline.kernels.arrays import Floats
 from viaspline.report import style
-from viaspline.report.drawing import new_figure, tidy
+from viaspline.report.canvas import new_figure, tidy
 
 SIDE, BETWEEN, ABOVE = 0.45, 0.55, 0.75  # margins [inch]
-LINE = 0.185  # of a caption [inch]
+CAPTION_LINE_IN = 0.185  # of a caption [inch]
 
 
 def page(
@@ -31,8 +34,8 @@ def page(
     Args:
         title: Above everything, bold.
         caption: Below everything, wrapped.
-        widths: Of the columns [inch].
-        heights: Of the rows [inch].
+        widths: How wide the columns are [inch].
+        heights: How high the rows are [inch].
         left: Margin [inch], wider where there are labels.
         titled: Whether to leave room for a title over each row.
 
@@ -42,17 +45,17 @@ def page(
     between = BETWEEN if titled else 0.35
     gap = max(left - 0.1, 0.35)
     across = left + sum(widths) + gap * (len(widths) - 1) + 0.3
-    lines = textwrap.wrap(caption, int((across - left - 0.2) * 72 / (0.51 * style.TEXT)))
-    below = 0.8 + LINE * len(lines)
+    lines = textwrap.wrap(caption, int((across - left - 0.2) * 72 / (0.51 * style.TEXT_PT)))
+    below = 0.8 + CAPTION_LINE_IN * len(lines)
     up = below + sum(heights) + between * (len(heights) - 1) + ABOVE + (0.15 if titled else 0)
     figure = new_figure(across, up)
     figure.text(
-        left / across, 1 - 0.32 / up, title, size=style.TITLE, weight="bold", color=style.INK,
+        left / across, 1 - 0.32 / up, title, size=style.TITLE_PT, weight="bold", color=style.INK,
         va="center",
     )  # fmt: skip
     for i, line in enumerate(lines):
-        y = (below - 0.6 - i * LINE) / up
-        figure.text(left / across, y, line, size=style.TEXT, color=style.INK, va="center")
+        y = (below - 0.6 - i * CAPTION_LINE_IN) / up
+        figure.text(left / across, y, line, size=style.TEXT_PT, color=style.INK, va="center")
     rows = []
     top = up - ABOVE - (0.15 if titled else 0)
     for height in heights:
@@ -69,7 +72,7 @@ def page(
     return figure, rows
 
 
-def headline(axes: Axes, text: str, *, size: float = style.TEXT) -> None:
+def headline(axes: Axes, text: str, *, size: float = style.TEXT_PT) -> None:
     """A title over one panel."""
     axes.set_title(text, size=size, color=style.INK, loc="left", pad=5)
 
@@ -106,5 +109,5 @@ def dots(axes: Axes, points: Floats, names: Sequence[str] = (), *, away: float =
         outside *= away / np.linalg.norm(outside)
         axes.annotate(
             name, tuple(points[k]), xytext=tuple(outside), textcoords="offset points",
-            size=style.TEXT, color=style.INK, ha="center", va="center", zorder=11,
+            size=style.TEXT_PT, color=style.INK, ha="center", va="center", zorder=11,
         )  # fmt: skip

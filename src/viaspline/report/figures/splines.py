@@ -1,4 +1,7 @@
-"""Figures 2, 3 and 5: what a cardinal spline is."""
+"""Figures 2, 3 and 5: what a cardinal spline is.
+
+Tested through ``report/test_figures``.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +9,15 @@ import numpy as np
 
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.report import style
-from viaspline.report.drawing import png, polyline
+from viaspline.report.canvas import png, polyline
 from viaspline.report.figures.paper import dots, fit, headline, page
 
-POINTS = np.array([(0, 1.0), (1.5, 3.2), (4.0, 2.6), (5.0, 0.4), (7.6, 0.9), (8.6, 3.3), (11, 2.4)])
+VIA_POINTS_M = np.array(
+    [(0, 1.0), (1.5, 3.2), (4.0, 2.6), (5.0, 0.4), (7.6, 0.9), (8.6, 3.3), (11, 2.4)]
+)
 SLACKS = (0.0, 0.5, 1.0, 1.5)
 _NO_SHRINK = {"shrinkA": 0, "shrinkB": 0}
-MEANINGS = (
+SLACK_MEANINGS = (
     "infinite physical tension: the polyline",
     "Catmull-Rom",
     "no physical tension",
@@ -34,22 +39,22 @@ def fig2() -> bytes:
         "alone: the thick one, from P2 to P3, on P1 to P4.",
         widths=[7.4], heights=[3.1], titled=False,
     )  # fmt: skip
-    spline = CardinalSpline(POINTS, slack=0.5, knots="uniform")
+    spline = CardinalSpline(VIA_POINTS_M, slack=0.5, knots="uniform")
     spans = np.asarray(spline.spans)
     curve = polyline(spans)
-    fit(axes, np.vstack([curve, POINTS]))
-    axes.plot(*POINTS.T, color=style.MUTED, linewidth=0.7, linestyle=(0, (4, 3)))
+    fit(axes, np.vstack([curve, VIA_POINTS_M]))
+    axes.plot(*VIA_POINTS_M.T, color=style.MUTED, linewidth=0.7, linestyle=(0, (4, 3)))
     axes.plot(*curve.T, color=style.PATH, linewidth=1.8)
     axes.plot(*polyline(spans[2:3]).T, color=style.PATH, linewidth=4.5, solid_capstyle="butt")
     for k in (2, 4):
-        axes.plot(*POINTS[[k - 1, k + 1]].T, color=style.DETOUR, linewidth=1.0, linestyle=":")
-        step = 0.25 * (POINTS[k + 1] - POINTS[k - 1])
+        axes.plot(*VIA_POINTS_M[[k - 1, k + 1]].T, color=style.DETOUR, linewidth=1.0, linestyle=":")
+        step = 0.25 * (VIA_POINTS_M[k + 1] - VIA_POINTS_M[k - 1])
         axes.annotate(
-            "", tuple(POINTS[k] + step), tuple(POINTS[k] - step),
+            "", tuple(VIA_POINTS_M[k] + step), tuple(VIA_POINTS_M[k] - step),
             zorder=9,
             arrowprops={"arrowstyle": "-|>", "color": style.DETOUR, "linewidth": 1.8} | _NO_SHRINK,
         )  # fmt: skip
-    dots(axes, POINTS, _names(len(POINTS)))
+    dots(axes, VIA_POINTS_M, _names(len(VIA_POINTS_M)))
     return png(figure)
 
 
@@ -64,28 +69,28 @@ def fig3() -> bytes:
         widths=[4.0, 4.0], heights=[2.0, 2.0],
     )  # fmt: skip
     panels = [axes for row in rows for axes in row]
-    every = [CardinalSpline(POINTS, slack=slack, knots="uniform") for slack in SLACKS]
+    every = [CardinalSpline(VIA_POINTS_M, slack=slack, knots="uniform") for slack in SLACKS]
     extent = np.vstack([polyline(np.asarray(spline.spans)) for spline in every])
-    for axes, spline, slack, meaning in zip(panels, every, SLACKS, MEANINGS, strict=True):
+    for axes, spline, slack, meaning in zip(panels, every, SLACKS, SLACK_MEANINGS, strict=True):
         fit(axes, extent, 0.05)
-        axes.plot(*POINTS.T, color=style.MUTED, linewidth=0.7, linestyle=(0, (4, 3)))
+        axes.plot(*VIA_POINTS_M.T, color=style.MUTED, linewidth=0.7, linestyle=(0, (4, 3)))
         axes.plot(*polyline(np.asarray(spline.spans)).T, color=style.PATH, linewidth=2)
-        dots(axes, POINTS)
+        dots(axes, VIA_POINTS_M)
         headline(axes, f"slack s = {slack:g}, tension t = {1 - 2 * slack:g}")
         axes.text(
-            0.03, 0.93, meaning, transform=axes.transAxes, size=style.SMALL, color=style.MUTED,
+            0.03, 0.93, meaning, transform=axes.transAxes, size=style.SMALL_PT, color=style.MUTED,
             va="center",
         )  # fmt: skip
         axes.text(
             0.97, 0.93, f"length {spline.length:.2f}", transform=axes.transAxes, ha="right",
-            size=style.SMALL, color=style.MUTED, va="center",
+            size=style.SMALL_PT, color=style.MUTED, va="center",
         )  # fmt: skip
     return png(figure)
 
 
 def fig5() -> bytes:
     """The end points, repeated or not."""
-    points = POINTS[:6]
+    points = VIA_POINTS_M[:6]
     figure, ((without, with_both),) = page(
         "Fig. 5  Why the end points are repeated",
         "A span needs a control point before it and one after it. Six control points alone give "
@@ -117,7 +122,7 @@ def fig5() -> bytes:
             for point in missed:
                 axes.annotate(
                     "not reached", tuple(point), xytext=(12, 0), textcoords="offset points",
-                    size=style.SMALL, color=style.TIGHTEST, ha="left", va="center",
+                    size=style.SMALL_PT, color=style.TIGHTEST, ha="left", va="center",
                 )  # fmt: skip
         else:
             axes.plot(

@@ -1,4 +1,7 @@
-"""Figures 6, 7 and 8: missions planned, and one driven, by the package itself."""
+"""Figures 6, 7 and 8: missions planned, and one driven, by the package itself.
+
+Tested through ``report/test_figures``.
+"""
 
 from __future__ import annotations
 
@@ -12,14 +15,14 @@ from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.report import style
-from viaspline.report.column import Column
-from viaspline.report.drawing import png, polyline
+from viaspline.report.canvas import png, polyline
 from viaspline.report.figures.missions import OBSTACLES, PATROL, SURVEY
 from viaspline.report.labels import Labels
-from viaspline.report.marks import draw_arrows, draw_path, draw_vias
+from viaspline.report.path_marks import draw_arrows, draw_path, draw_vias
 from viaspline.report.plan_picture import draw_losers, losing, proof
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Sheet, new_sheet, view_of
+from viaspline.report.side_column import SideColumn
 from viaspline.report.units import metres, seconds
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
@@ -86,7 +89,7 @@ def _picture(planned: Plan, title: str, lines: Sequence[str], run: Run | None = 
     more, places = draw_vias(sheet.map, labels, vias, mission)
     draw_arrows(sheet.map, lines_drawn[0], style.PATH, avoid=places)
     labels.place(np.vstack(lines_drawn), places)
-    Column(sheet).legend([*handles, *more])
+    SideColumn(sheet).legend([*handles, *more])
     return png(sheet.figure)
 
 

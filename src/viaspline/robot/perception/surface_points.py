@@ -180,5 +180,5 @@ def _disc(point: Floats, radius: float) -> Obstacle:
 
 
 def _center(obstacle: Obstacle) -> tuple[float, float]:
-    assert obstacle.circle is not None
-    return obstacle.circle.center
+    assert obstacle.ring is not None
+    return obstacle.ring.loops[0][0]

@@ -2,9 +2,9 @@
 
 import { replaced, toggleUnseen } from "./core/edits.js";
 import { Link } from "./core/link.js";
-import { areasOf, exists, isObstacle, obstaclesOf, pointsOf, refOf, whole } from "./core/mission.js";
+import { areasOf, exists, isObstacle, obstaclesOf, pointsOf, refOf, shapedAt, whole } from "./core/mission.js";
 import { Store } from "./core/store.js";
-import { Drive } from "./drive.js";
+import { Drive } from "./replay.js";
 import { onTheme } from "./draw/theme.js";
 import { Scene } from "./draw/scene.js";
 import { Files } from "./files/files.js";
@@ -60,7 +60,7 @@ app.describe = (id) => {
   if (point) return `${point.name} at ${place(/** @type {number[]} */ (point.at))}`;
   const one = [...obstaclesOf(doc), ...areasOf(doc)].find((o) => o.id === whole(id));
   const ref = refOf(id);
-  const corner = ref && ref.vertex >= 0 ? `, corner ${ref.vertex + 1}` : "";
+  const corner = ref && ref.vertex >= 0 ? `, ${shapedAt(doc, id)?.shape.vertexName} ${ref.vertex + 1}` : "";
   return `${one?.name ?? id}${corner}${id.startsWith("unseen") ? ", unseen" : ""}${id.startsWith("zone") ? ", speed zone" : ""}`;
 };
 

@@ -37,6 +37,9 @@ export function bend(value) {
   return radius > 10000 ? "nearly straight" : `r ${radius.toFixed(radius < 10 ? 2 : 1)} m`;
 }
 
+/** A length without the noise of sums [m]. @param {number} value */
+export const tidy = (value) => Math.round(value * 1e4) / 1e4;
+
 /** A number without needless zeros. @param {number} value @param {number} [digits] */
 export const number = (value, digits = 3) => String(Number(value.toFixed(digits)));
 

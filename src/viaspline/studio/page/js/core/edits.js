@@ -1,8 +1,7 @@
 /** What can be done to a mission: each edit takes a document and gives another one. */
 
-import {
-  anchorOf, isArea, isPoint, part, pathOf, placeOf, pointsOf, refOf, replaced, ringPathOf, spanCount, tensionsOf,
-} from "./mission.js";
+import { tidy } from "../units.js";
+import { isArea, isObstacle, isPoint, part, pathOf, placeOf, pointsOf, refOf, replaced, shapedAt, spanCount, tensionsOf } from "./mission.js";
 
 /** @typedef {any} Doc */
 
@@ -17,13 +16,7 @@ export function moveTo(doc, id, at) {
     return replaced(doc, Array.isArray(item) ? path : [...path, "at"], place);
   }
   if (ref.kind === "bounds") return replaced(doc, path, withCorner(item, ref.vertex, at));
-  if (ref.vertex >= 0) return replaced(doc, [...ringPathOf(id), ref.vertex], at);
-  if (item?.circle) return replaced(doc, [...path, "circle", "center"], at);
-  if (item?.polygon || isArea(id)) {
-    const from = /** @type {number[]} */ (anchorOf(doc, id));
-    return shifted(doc, id, at[0] - from[0], at[1] - from[1]);
-  }
-  return doc;
+  return reshaped(doc, id, (shape, one) => (ref.vertex >= 0 ? shape.withVertex(one, ref.vertex, at) : shape.movedTo(one, at)));
 }
 
 /** @param {number[]} box @param {number} corner @param {number[]} at */
@@ -34,23 +27,17 @@ function withCorner(box, corner, at) {
   return sides[0] < sides[2] && sides[1] < sides[3] ? sides : box;
 }
 
-/** Move a polygon with its holes. @param {Doc} doc @param {string} id @param {number} dx @param {number} dy */
-export function shifted(doc, id, dx, dy) {
-  const path = pathOf(id);
-  const item = part(doc, path);
-  const move = (/** @type {number[][]} */ ring) => ring.map(([x, y]) => [tidy(x + dx), tidy(y + dy)]);
-  if (Array.isArray(item)) return replaced(doc, path, move(item));
-  const moved = { ...item, polygon: move(item.polygon) };
-  if (Array.isArray(item.holes)) moved.holes = item.holes.map(move);
-  return replaced(doc, path, moved);
+/**
+ * Let the kind of an obstacle or an area change it.
+ * @param {Doc} doc @param {string} id
+ * @param {(shape: import("../shapes/shape.js").Shape, item: import("../shapes/shape.js").Item) => import("../shapes/shape.js").Item|null} change
+ * @returns {Doc} the same if it can't be done
+ */
+export function reshaped(doc, id, change) {
+  const found = shapedAt(doc, id);
+  const next = found && change(found.shape, found.item);
+  return found && next && next !== found.item ? found.put(next) : doc;
 }
-
-/** A length without the noise of sums [m]. @param {number} value */
-export const tidy = (value) => Math.round(value * 1e4) / 1e4;
-
-/** @param {Doc} doc @param {string} id @param {number} radius */
-export const setRadius = (doc, id, radius) =>
-  replaced(doc, [...pathOf(id), "circle", "radius"], Math.max(radius, 0.01));
 
 /**
  * Set a key of a point, whichever of its two forms it has; undefined takes it out.
@@ -92,16 +79,9 @@ export function remove(doc, id) {
     const next = replaced(doc, ["route", "goal"], undefined);
     return withTensions(next, (list) => list.slice(0, -1), doc);
   }
-  if (ref.kind === "known" || ref.kind === "unseen") {
-    const corners = part(doc, [...pathOf(id), "polygon"]);
-    if (ref.vertex < 0) return replaced(doc, pathOf(id), undefined);
-    if (corners.length > 3) return replaced(doc, [...pathOf(id), "polygon", ref.vertex], undefined);
-  }
-  if (isArea(id)) {
-    if (ref.vertex < 0) return withoutEmpty(replaced(doc, pathOf(id), undefined), pathOf(id).slice(0, -1));
-    if (part(doc, ringPathOf(id))?.length > 3) return replaced(doc, [...ringPathOf(id), ref.vertex], undefined);
-  }
-  return doc;
+  if (ref.vertex >= 0) return reshaped(doc, id, (shape, item) => shape.withoutVertex(item, ref.vertex));
+  if (isArea(id)) return withoutEmpty(replaced(doc, pathOf(id), undefined), pathOf(id).slice(0, -1));
+  return isObstacle(id) ? replaced(doc, pathOf(id), undefined) : doc;
 }
 
 /** Take out a list that is empty. @param {Doc} doc @param {(string|number)[]} path */
@@ -156,12 +136,8 @@ export function toggleUnseen(doc, id) {
   return [next, `${other}:${next.world[other].length - 1}`];
 }
 
-/** Insert a corner after another. @param {Doc} doc @param {string} id @param {number} after @param {number[]} at */
-export function addCorner(doc, id, after, at) {
-  const path = ringPathOf(id);
-  const ring = part(doc, path);
-  return replaced(doc, path, [...ring.slice(0, after + 1), at, ...ring.slice(after + 1)]);
-}
+/** Insert a vertex after another. @param {Doc} doc @param {string} id @param {number} after @param {number[]} at */
+export const addVertex = (doc, id, after, at) => reshaped(doc, id, (shape, item) => shape.withNewVertex(item, after, at));
 
 /** Set the tension of one span, or of all. @param {Doc} doc @param {number|null} span @param {number} tension */
 export function setTension(doc, span, tension) {

@@ -1,12 +1,14 @@
 /**
  * A mission document in the page's words: its points and obstacles, each with an id.
  *
- * Ids: `start`, `goal`, `via:2`, `known:0`, `unseen:1`, a polygon's corner `known:0:3`, the span
+ * Ids: `start`, `goal`, `via:2`, `known:0`, `unseen:1`, an obstacle's vertex `known:0:3`, the span
  * after the second point `span:1`, the bounds' corner `bounds:2`, a fence `fence:0`, a speed zone
  * `zone:1`, their corners `fence:0:1` and `zone:1:2`.
  * What is not understood here is left as it is.
  */
 
+import { polygon } from "../shapes/polygon.js";
+import { shapeOf, vertexAt } from "../shapes/registry.js";
 import { part, replaced } from "./diff.js";
 
 /** @typedef {import("./diff.js").Path} Path */
@@ -21,11 +23,11 @@ export function refOf(id) {
 
 /** Whether an id is a point of the route. @param {string|null} id */
 export const isPoint = (id) => id === "start" || id === "goal" || !!id?.startsWith("via:");
-/** Whether an id is an obstacle or a corner of one. @param {string|null} id */
+/** Whether an id is an obstacle or a vertex of one. @param {string|null} id */
 export const isObstacle = (id) => !!id && (id.startsWith("known:") || id.startsWith("unseen:"));
 /** Whether an id is a fence, a speed zone, or a corner of one. @param {string|null} id */
 export const isArea = (id) => !!id && (id.startsWith("fence:") || id.startsWith("zone:"));
-/** The obstacle or area that a corner belongs to; other ids as they are. @param {string} id */
+/** The obstacle or area that a vertex belongs to; other ids as they are. @param {string} id */
 export const whole = (id) => id.split(":").slice(0, 2).join(":");
 
 /** Where in the document an id stands. @param {string} id @returns {Path} */
@@ -39,22 +41,42 @@ export function pathOf(id) {
   return ["world", ref.kind, ref.index];
 }
 
-/** Where the corners of an id's polygon stand. @param {string} id @returns {Path} */
-export const ringPathOf = (id) => (id.startsWith("fence:") ? pathOf(id) : [...pathOf(id), "polygon"]);
+/**
+ * What has a shape at an id: an obstacle, a speed zone or a fence, or a vertex of one.
+ * @typedef {object} Shaped
+ * @property {import("../shapes/shape.js").Shape} shape
+ * @property {import("../shapes/shape.js").Item} item as its kind takes it
+ * @property {(item: import("../shapes/shape.js").Item) => any} put the document with another item in its place
+ */
+
+/** @param {any} doc @param {string|null} id @returns {Shaped|null} null also if it can't be drawn */
+export function shapedAt(doc, id) {
+  if (!isObstacle(id) && !isArea(id)) return null;
+  const path = pathOf(/** @type {string} */ (id));
+  const item = part(doc, path);
+  if (isObstacle(id)) {
+    const shape = shapeOf(item);
+    return shape && { shape, item, put: (next) => replaced(doc, path, next) };
+  }
+  const isRing = Array.isArray(item); // a fence is nothing but its corners
+  const area = isRing ? { polygon: item } : item ?? {};
+  return polygon.isSound(area) ? { shape: polygon, item: area, put: (next) => replaced(doc, path, isRing ? next.polygon : next) } : null;
+}
 
 /** The id of what stands at a path; null if nothing that can be selected. @param {Path} path */
 export function idAt(path) {
-  const [a, b, c, d, e] = path;
+  const [a, b, c, d] = path;
+  const withVertex = (/** @type {string} */ owner, /** @type {number} */ vertex) => (vertex < 0 ? owner : `${owner}:${vertex}`);
   if (a === "route" && (b === "start" || b === "goal")) return b;
   if (a === "route" && b === "via" && typeof c === "number") return `via:${c}`;
   if (a === "world" && (b === "known" || b === "unseen") && typeof c === "number") {
-    return d === "polygon" && typeof e === "number" ? `${b}:${c}:${e}` : `${b}:${c}`;
+    return withVertex(`${b}:${c}`, vertexAt(path.slice(3)));
   }
   if (a === "world" && b === "speed_zones" && typeof c === "number") {
-    return d === "polygon" && typeof e === "number" ? `zone:${c}:${e}` : `zone:${c}`;
+    return withVertex(`zone:${c}`, polygon.vertexAt(path.slice(3)));
   }
   if (a === "world" && b === "fences" && typeof c === "number") {
-    return typeof d === "number" ? `fence:${c}:${d}` : `fence:${c}`;
+    return withVertex(`fence:${c}`, typeof d === "number" ? d : -1);
   }
   return null;
 }
@@ -87,12 +109,21 @@ export function pointsOf(doc) {
 }
 
 /**
- * The obstacles of a list, with what the page can draw of them.
- * @param {any} doc
- * @returns {{id: string, list: "known"|"unseen", index: number, name: string, given: string|null,
- *   circle: {center: number[], radius: number}|null, polygon: number[][]|null, holes: number[][][],
- *   map: string|null, side: string|null}[]}
+ * An obstacle with its kind; null if it is none that can be drawn.
+ * @typedef {object} Obstacle
+ * @property {string} id
+ * @property {"known"|"unseen"} list
+ * @property {number} index
+ * @property {string} name
+ * @property {string|null} given the name that the document gives it
+ * @property {import("../shapes/shape.js").Shape|null} shape
+ * @property {import("../shapes/shape.js").Item} item
+ * @property {string|null} side the only one on which it may be passed
  */
+
+/** @typedef {Obstacle & {shape: import("../shapes/shape.js").Shape}} Outlined */
+
+/** The obstacles of both lists. @param {any} doc @returns {Obstacle[]} */
 export function obstaclesOf(doc) {
   /** @type {any[]} */ const found = [];
   let number = 0;
@@ -101,24 +132,22 @@ export function obstaclesOf(doc) {
     if (!Array.isArray(items)) continue;
     items.forEach((item, index) => {
       number += 1;
-      const circle = item?.circle;
-      const isRound = Array.isArray(circle?.center) && Number.isFinite(circle?.radius);
-      const polygon = Array.isArray(item?.polygon) && item.polygon.length > 2 ? item.polygon : null;
-      const map = typeof item?.map === "string" ? item.map : null;
+      const shape = shapeOf(item);
       found.push({
         id: `${list}:${index}`, list, index,
-        name: item?.name ?? (map ? map.replace(/^.*\//, "") : `obstacle ${number}`),
+        name: item?.name ?? shape?.usualName(item) ?? `obstacle ${number}`,
         given: item?.name ?? null,
-        circle: isRound ? circle : null,
-        polygon,
-        holes: Array.isArray(item?.holes) ? item.holes : [],
-        map,
+        shape,
+        item,
         side: item?.pass_on ?? (item?.never_pass_on === "left" ? "right" : item?.never_pass_on === "right" ? "left" : null),
       });
     });
   }
   return found;
 }
+
+/** Those that the page draws. @param {Obstacle[]} obstacles */
+export const outlined = (obstacles) => /** @type {Outlined[]} */ (obstacles.filter((one) => one.shape?.hasOutline));
 
 /**
  * Fences and speed zones.
@@ -144,7 +173,7 @@ export function idsOf(doc) {
   const ids = pointsOf(doc).filter((point) => point.at).map((point) => point.id);
   for (const obstacle of obstaclesOf(doc)) {
     ids.push(obstacle.id);
-    obstacle.polygon?.forEach((_, i) => ids.push(`${obstacle.id}:${i}`));
+    obstacle.shape?.vertices(obstacle.item).forEach((_, i) => ids.push(`${obstacle.id}:${i}`));
   }
   for (const area of areasOf(doc)) {
     ids.push(area.id);
@@ -161,11 +190,11 @@ export function exists(doc, id) {
   const ref = /** @type {Ref} */ (refOf(id));
   if (item === undefined || item === null) return false;
   if (ref.vertex < 0 || ref.kind === "bounds") return true;
-  const ring = part(doc, ringPathOf(id));
-  return Array.isArray(ring) && ref.vertex < ring.length;
+  const found = shapedAt(doc, id);
+  return !!found && ref.vertex < found.shape.vertices(found.item).length;
 }
 
-/** The place of a point, a corner, or the middle of an obstacle [m]. @param {any} doc @param {string} id */
+/** The place of a point or a vertex, or what moves an obstacle or an area [m]; null if nothing does. @param {any} doc @param {string} id */
 export function anchorOf(doc, id) {
   const ref = /** @type {Ref} */ (refOf(id));
   const item = part(doc, pathOf(id));
@@ -173,16 +202,9 @@ export function anchorOf(doc, id) {
   if (ref.kind === "bounds" && Array.isArray(item)) {
     return [[item[0], item[1]], [item[2], item[1]], [item[2], item[3]], [item[0], item[3]]][ref.vertex] ?? null;
   }
-  if (item?.circle) return item.circle.center;
-  const ring = part(doc, ringPathOf(id));
-  if (ref.vertex >= 0) return ring?.[ref.vertex] ?? null;
-  return Array.isArray(ring) ? middle(ring) : null;
-}
-
-/** The middle of a ring's box. @param {number[][]} ring */
-export function middle(ring) {
-  const x = ring.map((p) => p[0]), y = ring.map((p) => p[1]);
-  return [(Math.min(...x) + Math.max(...x)) / 2, (Math.min(...y) + Math.max(...y)) / 2];
+  const found = shapedAt(doc, id);
+  if (!found) return null;
+  return ref.vertex >= 0 ? found.shape.vertices(found.item)[ref.vertex] ?? null : found.shape.anchor(found.item);
 }
 
 /** How many spans there are between the points of the route. @param {any} doc */

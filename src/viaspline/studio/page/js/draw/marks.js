@@ -1,18 +1,17 @@
 /** Marks on the map: the tightest place, where there is no way, the cursor along the path, the scale. */
 
-import { edgeNear } from "../geometry/shapes.js";
 import { outline, sizeOf } from "./body.js";
 import { viridis } from "./theme.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
 
-/** The tightest place with the gap that was proven. @param {Pen} pen @param {any} certificate @param {any[]} known */
+/** The tightest place with the gap that was proven. @param {Pen} pen @param {any} certificate @param {import("../core/mission.js").Outlined[]} known */
 export function drawTightest(pen, certificate, known) {
   const { ctx, camera, colours } = pen;
   if (certificate.clearance === null) return;
   const [x, y] = camera.toScreen(certificate.at[0], certificate.at[1]);
   const nearest = known.find((obstacle) => obstacle.name === certificate.nearest);
-  const edge = nearest ? edgeNear(certificate.at, nearest) : null;
+  const edge = nearest ? nearest.shape.edgeNear(certificate.at, nearest.item) : null;
   if (edge) {
     const [ex, ey] = camera.toScreen(edge[0], edge[1]);
     ctx.beginPath();
@@ -118,9 +117,9 @@ export function drawCross(pen, at) {
 /** What a tool is about to make. @param {Pen} pen @param {any} draft */
 export function drawDraft(pen, draft) {
   const { ctx, camera, colours } = pen;
-  if (draft.circle) {
+  if (draft.item) {
     ctx.beginPath();
-    pen.disc(draft.circle.center[0], draft.circle.center[1], draft.circle.radius);
+    pen.shape(draft);
     pen.fill(colours.selectSoft);
     pen.stroke(colours.select, 2, [5, 4]);
   }

@@ -1,8 +1,12 @@
 /** Obstacles, the room that is kept round them, and what is not on the robot's map. */
 
-/** @typedef {import("./pen.js").Pen} Pen */
+import { outlined } from "../core/mission.js";
 
-/** One ring round all obstacles together: strokes that join, an edge first and then its inside. @param {Pen} pen @param {any[]} known @param {number} required [m] */
+/** @typedef {import("./pen.js").Pen} Pen */
+/** @typedef {import("../core/mission.js").Obstacle} Obstacle */
+/** @typedef {import("../core/mission.js").Outlined} Outlined */
+
+/** One ring round all obstacles together: strokes that join, an edge first and then its inside. @param {Pen} pen @param {Outlined[]} known @param {number} required [m] */
 export function drawHalos(pen, known, required) {
   const { ctx, camera, colours } = pen;
   const reach = required * camera.scale;
@@ -14,7 +18,7 @@ export function drawHalos(pen, known, required) {
   pen.stroke(colours.halo, 2 * reach - 0.4);
 }
 
-/** @param {Pen} pen @param {any[]} known */
+/** @param {Pen} pen @param {Outlined[]} known */
 export function drawKnown(pen, known) {
   const { ctx, colours } = pen;
   ctx.lineJoin = "round";
@@ -25,7 +29,7 @@ export function drawKnown(pen, known) {
   for (const obstacle of known) if (obstacle.side) drawSide(pen, obstacle);
 }
 
-/** @param {Pen} pen @param {any[]} known @param {string|null} hover */
+/** @param {Pen} pen @param {Outlined[]} known @param {string|null} hover */
 export function drawHovered(pen, known, hover) {
   const under = hover ? known.find((obstacle) => obstacle.id === hover) : null;
   if (!under) return;
@@ -34,7 +38,7 @@ export function drawHovered(pen, known, hover) {
   pen.stroke(pen.colours.select, 1.5);
 }
 
-/** Polygons with holes can't be filled together with others. @param {Pen} pen @param {any} obstacle */
+/** Polygons with holes can't be filled together with others. @param {Pen} pen @param {Outlined} obstacle */
 export function drawPierced(pen, obstacle) {
   pen.ctx.beginPath();
   pen.shape(obstacle);
@@ -42,12 +46,11 @@ export function drawPierced(pen, obstacle) {
   pen.stroke(pen.colours.obstacleEdge, 1.2);
 }
 
-/** @param {Pen} pen @param {any[]} unseen @param {(obstacle: any, index: number) => boolean} isFound @param {string|null} hover */
+/** @param {Pen} pen @param {Obstacle[]} unseen @param {(obstacle: Obstacle) => boolean} isFound @param {string|null} hover */
 export function drawUnseen(pen, unseen, isFound, hover) {
   const { ctx, colours } = pen;
-  unseen.forEach((obstacle, i) => {
-    if (!obstacle.circle && !obstacle.polygon) return;
-    const found = isFound(obstacle, i);
+  for (const obstacle of outlined(unseen)) {
+    const found = isFound(obstacle);
     ctx.beginPath();
     pen.shape(obstacle);
     pen.fill(found ? colours.unseenFill : colours.paper, "evenodd");
@@ -59,10 +62,10 @@ export function drawUnseen(pen, unseen, isFound, hover) {
     pen.shape(obstacle);
     const isHovered = obstacle.id === hover;
     pen.stroke(isHovered ? colours.select : colours.unseen, found ? 2 : 1.2, found ? [] : [5, 3]);
-  });
+  }
 }
 
-/** @param {Pen} pen @param {any} obstacle @param {string} colour */
+/** @param {Pen} pen @param {Outlined} obstacle @param {string} colour */
 function hatch(pen, obstacle, colour) {
   const { ctx, camera } = pen;
   const box = screenBox(camera, obstacle);
@@ -76,19 +79,14 @@ function hatch(pen, obstacle, colour) {
   pen.stroke(colour, 1.2);
 }
 
-/** @param {import("../geometry/camera.js").Camera} camera @param {any} obstacle */
-export function screenBox(camera, obstacle) {
-  if (obstacle.circle) {
-    const [x, y] = camera.toScreen(obstacle.circle.center[0], obstacle.circle.center[1]);
-    const r = obstacle.circle.radius * camera.scale;
-    return [x - r, y - r, x + r, y + r];
-  }
-  const points = (obstacle.polygon ?? []).map((/** @type {number[]} */ p) => camera.toScreen(p[0], p[1]));
-  const xs = points.map((/** @type {number[]} */ p) => p[0]), ys = points.map((/** @type {number[]} */ p) => p[1]);
-  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+/** The box round an obstacle [CSS pixel]. @param {import("../geometry/camera.js").Camera} camera @param {Outlined} obstacle */
+export function screenBox(camera, { shape, item }) {
+  const [x0, y0, x1, y1] = shape.box(item) ?? [0, 0, 0, 0];
+  const [left, bottom] = camera.toScreen(x0, y0), [right, top] = camera.toScreen(x1, y1);
+  return [left, top, right, bottom];
 }
 
-/** The side that is asked for, as a letter in the obstacle's middle. @param {Pen} pen @param {any} obstacle */
+/** The side that is asked for, as a letter in the obstacle's middle. @param {Pen} pen @param {Outlined} obstacle */
 function drawSide(pen, obstacle) {
   const { ctx, camera, colours } = pen;
   const [x0, y0, x1, y1] = screenBox(camera, obstacle);

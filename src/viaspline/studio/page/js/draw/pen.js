@@ -29,10 +29,9 @@ export class Pen {
     this.ctx.arc(px, py, r, 0, 2 * Math.PI);
   }
 
-  /** The outline of an obstacle with its holes. @param {any} obstacle */
-  shape(obstacle) {
-    if (obstacle.circle) this.disc(obstacle.circle.center[0], obstacle.circle.center[1], obstacle.circle.radius);
-    else if (obstacle.polygon) [obstacle.polygon, ...obstacle.holes].forEach((ring) => this.ring(ring));
+  /** The outline of an obstacle with its holes. @param {import("../core/mission.js").Outlined} obstacle */
+  shape({ shape, item }) {
+    shape.trace(this, item);
   }
 
   /** Bézier spans as they are, exact. @param {number[]} spans @param {number} [from] @param {number} [to] */

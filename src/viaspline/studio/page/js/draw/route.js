@@ -1,6 +1,6 @@
 /** The points of the route, their headings, the detour points, and the handles of what is selected. */
 
-import { anchorOf, isArea, isPoint, part, pathOf, ringPathOf } from "../core/mission.js";
+import { anchorOf, isPoint, part, pathOf, shapedAt, whole } from "../core/mission.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
 
@@ -81,7 +81,8 @@ export function drawDetours(pen, vias) {
 export function handlesOf(doc, selection, camera) {
   if (!selection || selection.startsWith("span:")) return [];
   const handles = [];
-  const owner = selection.split(":").slice(0, 2).join(":");
+  const owner = whole(selection);
+  const shaped = shapedAt(doc, selection);
   const item = part(doc, pathOf(selection));
   const on = (/** @type {number} */ x, /** @type {number} */ y) => {
     const [px, py] = camera.toScreen(x, y);
@@ -96,18 +97,10 @@ export function handlesOf(doc, selection, camera) {
       const role = Number.isFinite(heading) ? "heading" : "free-heading";
       handles.push({ id: selection, role, x: x + Math.cos(angle) * HEADING_REACH, y: y + Math.sin(angle) * HEADING_REACH });
     }
-  } else if (item?.circle) {
-    const { center: [x, y], radius } = item.circle;
-    handles.push({ id: owner, role: "radius", ...on(x + radius, y) });
-  } else if (Array.isArray(part(doc, ringPathOf(selection)))) {
-    const ring = part(doc, ringPathOf(selection));
-    ring.forEach((/** @type {number[]} */ p, /** @type {number} */ i) => handles.push({ id: `${owner}:${i}`, role: "corner", ...on(p[0], p[1]) }));
-    ring.forEach((/** @type {number[]} */ p, /** @type {number} */ i) => {
-      const q = ring[(i + 1) % ring.length];
-      const mid = on((p[0] + q[0]) / 2, (p[1] + q[1]) / 2);
-      const ends = [on(p[0], p[1]), on(q[0], q[1])];
-      if (Math.hypot(ends[0].x - ends[1].x, ends[0].y - ends[1].y) > 44) handles.push({ id: `${owner}:${i}`, role: "new-corner", ...mid });
-    });
+  } else if (shaped) {
+    for (const { role, at, vertex } of shaped.shape.handles(shaped.item, camera.scale)) {
+      handles.push({ id: vertex < 0 ? owner : `${owner}:${vertex}`, role, ...on(at[0], at[1]) });
+    }
   } else if (selection.startsWith("bounds") && Array.isArray(item)) {
     for (let i = 0; i < 4; i += 1) {
       const [x, y] = /** @type {number[]} */ (anchorOf(doc, `bounds:${i}`));
@@ -120,14 +113,10 @@ export function handlesOf(doc, selection, camera) {
 /** @param {Pen} pen @param {any} doc @param {string|null} selection */
 export function drawHandles(pen, doc, selection) {
   const { ctx, colours, camera } = pen;
-  const item = selection && !selection.startsWith("span:") ? part(doc, pathOf(selection)) : null;
-  if (item?.circle || item?.polygon) {
+  const shaped = shapedAt(doc, selection);
+  if (shaped) {
     ctx.beginPath();
-    pen.shape({ circle: item.circle ?? null, polygon: item.polygon ?? null, holes: item.holes ?? [] });
-    pen.stroke(colours.select, 2);
-  } else if (isArea(selection)) {
-    ctx.beginPath();
-    pen.ring(part(doc, ringPathOf(/** @type {string} */ (selection))) ?? []);
+    shaped.shape.trace(pen, shaped.item);
     pen.stroke(colours.select, 2);
   }
   for (const handle of handlesOf(doc, selection, camera)) {

@@ -1,10 +1,11 @@
 /** The whole picture, layer by layer; it is drawn at most once a frame, when something has changed. */
 
-import { areasOf, bodyOf, obstaclesOf, pointsOf, requiredOf } from "../core/mission.js";
+import { areasOf, bodyOf, obstaclesOf, outlined, pointsOf, requiredOf } from "../core/mission.js";
+import { polygon } from "../shapes/polygon.js";
 import { metres, down } from "../units.js";
 import { drawCorridor, drawZones, wordsOf } from "./areas.js";
 import { drawBody, drawSwept } from "./body.js";
-import { drawFollowed, drawRobot, drawSight, drawTrail } from "./drive.js";
+import { drawFollowed, drawRobot, drawSight, drawTrail } from "./drive_marks.js";
 import { drawGrid, drawLimits, drawOutside, MapPictures } from "./ground.js";
 import { drawLabels } from "./labels.js";
 import { drawCross, drawCursor, drawDraft, drawProblem, drawScale, drawTightest } from "./marks.js";
@@ -14,6 +15,8 @@ import { Pen } from "./pen.js";
 import { drawDetours, drawHandles, drawPoints } from "./route.js";
 import { theme } from "./theme.js";
 
+/** @typedef {import("../core/mission.js").Outlined} Outlined */
+
 const PATIENCE_MS = 30;
 
 export class Scene {
@@ -21,7 +24,7 @@ export class Scene {
    * @param {HTMLCanvasElement} canvas
    * @param {import("../core/store.js").Store} store
    * @param {import("../geometry/camera.js").Camera} camera
-   * @param {import("../drive.js").Drive} drive
+   * @param {import("../replay.js").Drive} drive
    */
   constructor(canvas, store, camera, drive) {
     this.canvas = canvas;
@@ -97,7 +100,7 @@ export class Scene {
 
   /**
    * What stands still while points are dragged, drawn once: it is most of what there is to draw.
-   * @param {any[]} known @param {import("./theme.js").Theme} colours
+   * @param {Outlined[]} known @param {import("./theme.js").Theme} colours
    */
   ground(known, colours) {
     const { canvas, camera, store } = this;
@@ -121,13 +124,14 @@ export class Scene {
     ctx.fillRect(0, 0, camera.width, camera.height);
     drawOutside(pen, doc);
     this.maps.draw(pen, grids, required, show.rings);
-    const areas = grids.filter((/** @type {any} */ g) => g.rings && g.list === "known").map((/** @type {any} */ g) => ({ id: "", circle: null, polygon: g.rings[0], holes: g.rings.slice(1), side: null }));
+    const areas = grids.filter((/** @type {any} */ g) => g.rings && g.list === "known").map((/** @type {any} */ g) => ({ id: "", shape: polygon, item: { polygon: g.rings[0], holes: g.rings.slice(1) }, side: null }));
     const shapes = [...known, ...areas];
+    const isPierced = (/** @type {Outlined} */ one) => one.shape.isPierced(one.item);
     if (show.rings) drawHalos(pen, shapes, required);
     if (show.grid) drawGrid(pen);
     drawZones(pen, areasOf(doc));
-    drawKnown(pen, shapes.filter((o) => !o.holes.length));
-    shapes.filter((o) => o.holes.length).forEach((o) => drawPierced(pen, o));
+    drawKnown(pen, shapes.filter((o) => !isPierced(o)));
+    shapes.filter(isPierced).forEach((o) => drawPierced(pen, o));
     drawLimits(pen, doc, required, show.rings);
     return this.still;
   }
@@ -139,7 +143,7 @@ export class Scene {
     const pen = new Pen(ctx, camera, colours);
     const ratio = canvas.width / camera.width;
     const obstacles = obstaclesOf(doc);
-    const known = obstacles.filter((o) => o.list === "known" && (o.circle || o.polygon));
+    const known = outlined(obstacles.filter((o) => o.list === "known"));
     const unseen = obstacles.filter((o) => o.list === "unseen");
     const maxSpeed = Number(doc.robot?.max_speed_mps ?? 2) || 1;
     ctx.setTransform(1, 0, 0, 1, 0, 0);
@@ -149,7 +153,7 @@ export class Scene {
     drawHovered(pen, known, store.hover);
     const isDriving = !!drive.run;
     if (isDriving) drawSight(pen, drive);
-    drawUnseen(pen, unseen, (_, i) => isDriving && drive.hasSeen(i), store.hover);
+    drawUnseen(pen, unseen, ({ index }) => isDriving && drive.hasSeen(index), store.hover);
     this.drawWays(pen, isDriving, maxSpeed);
     if (show.detours && store.curve && store.plan?.ok && !isDriving) drawDetours(pen, store.curve.vias);
     const body = bodyOf(doc);
@@ -205,7 +209,7 @@ export class Scene {
     return pointsOf(this.store.doc).find((point) => point.id === id)?.at ?? null;
   }
 
-  /** @param {Pen} pen @param {any[]} points @param {any[]} obstacles @param {boolean} isDriving */
+  /** @param {Pen} pen @param {any[]} points @param {import("../core/mission.js").Obstacle[]} obstacles @param {boolean} isDriving */
   drawNames(pen, points, obstacles, isDriving) {
     const { camera, store } = this;
     const { colours } = pen;
@@ -231,8 +235,8 @@ export class Scene {
         const dwell = point.dwell > 0 ? ` · ${point.dwell} s` : "";
         labels.push({ text: point.name + dwell, x, y, away: 13, colour: colours.label, bold: true, rank: store.selection === point.id ? 0 : 1 });
       }
-      for (const obstacle of obstacles) {
-        if (!obstacle.given || (!obstacle.circle && !obstacle.polygon)) continue;
+      for (const obstacle of outlined(obstacles)) {
+        if (!obstacle.given) continue;
         const box = screenBox(camera, obstacle);
         const w = box[2] - box[0];
         if (box[2] < 0 || box[3] < 0 || box[0] > camera.width || box[1] > camera.height || w < 10) continue;

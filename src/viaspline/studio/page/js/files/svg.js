@@ -1,29 +1,27 @@
 /** The scene as SVG: the path as the very Bézier curves that were proven, in metres. */
 
-import { areasOf, obstaclesOf, pointsOf, requiredOf } from "../core/mission.js";
-import { boxOf } from "../geometry/shapes.js";
+import { areasOf, obstaclesOf, outlined, pointsOf, requiredOf } from "../core/mission.js";
+import { boxOf } from "../geometry/rings.js";
+import { polygon } from "../shapes/polygon.js";
 
 /** @param {import("../core/store.js").Store} store @returns {string} */
 export function svgOf(store) {
   const { doc } = store;
-  const obstacles = obstaclesOf(doc).filter((o) => o.circle || o.polygon);
+  const obstacles = outlined(obstaclesOf(doc));
   const required = requiredOf(doc);
   const box = boxAll(store) ?? [0, 0, 1, 1];
   const size = Math.max(box[2] - box[0], box[3] - box[1]);
   const pad = size * 0.04, line = size / 400;
   const spans = store.goodPlan?.spans ?? [];
-  const shape = (/** @type {any} */ o, /** @type {string} */ rest) => o.circle
-    ? `<circle cx="${o.circle.center[0]}" cy="${o.circle.center[1]}" r="${o.circle.radius}" ${rest}/>`
-    : `<path d="${[o.polygon, ...o.holes].map((ring) => `M${ring.map((/** @type {number[]} */ p) => p.slice(0, 2).join(" ")).join("L")}Z`).join("")}" fill-rule="evenodd" ${rest}/>`;
   const bounds = doc.world?.bounds;
-  const rings = (/** @type {number[][][]} */ all, /** @type {string} */ rest) => all.length ? shape({ polygon: all[0], holes: all.slice(1) }, rest) : "";
+  const rings = (/** @type {number[][][]} */ all, /** @type {string} */ rest) => all.length ? polygon.svg({ polygon: all[0], holes: all.slice(1) }, rest) : "";
   const areas = areasOf(doc).filter((area) => area.ring.length);
   const parts = [
     ...areas.filter((a) => a.kind === "zone").map((a) => rings([a.ring], `fill="#fdf1da" stroke="#8a6200" stroke-width="${line / 2}" stroke-dasharray="${line / 2} ${line}"`)),
     rings(store.goodPlan?.corridor ?? [], `fill="none" stroke="#00795a" stroke-width="${line / 2}" stroke-dasharray="${3 * line} ${1.5 * line}"`),
     ...areas.filter((a) => a.kind === "fence").map((a) => rings([a.ring], `fill="none" stroke="#6f7985" stroke-width="${line / 2}"`)),
-    ...obstacles.filter((o) => o.list === "known").map((o) => shape(o, `fill="#f0f2f5" stroke="#f0f2f5" stroke-width="${2 * required}" stroke-linejoin="round"`)),
-    ...obstacles.map((o) => shape(o, o.list === "known" ? `fill="#aeb5bf" stroke="#4d5661" stroke-width="${line / 2}"` : `fill="#fbe3d3" stroke="#c24e00" stroke-width="${line / 2}" stroke-dasharray="${2 * line} ${line}"`)),
+    ...obstacles.filter((o) => o.list === "known").map((o) => o.shape.svg(o.item, `fill="#f0f2f5" stroke="#f0f2f5" stroke-width="${2 * required}" stroke-linejoin="round"`)),
+    ...obstacles.map((o) => o.shape.svg(o.item, o.list === "known" ? `fill="#aeb5bf" stroke="#4d5661" stroke-width="${line / 2}"` : `fill="#fbe3d3" stroke="#c24e00" stroke-width="${line / 2}" stroke-dasharray="${2 * line} ${line}"`)),
     Array.isArray(bounds) ? `<rect x="${bounds[0]}" y="${bounds[1]}" width="${bounds[2] - bounds[0]}" height="${bounds[3] - bounds[1]}" fill="none" stroke="#6f7985" stroke-width="${line / 2}"/>` : "",
     `<path d="${pathData(spans)}" fill="none" stroke="#0072b2" stroke-width="${line}" stroke-linecap="round"/>`,
     ...pointsOf(doc).filter((p) => p.at).map((p) => {
@@ -61,11 +59,9 @@ export function boxOfInterest(store) {
 export function boxAll(store, what = { bounds: true }) {
   const { doc } = store;
   const points = pointsOf(doc).flatMap((p) => (p.at ? [p.at] : []));
-  for (const o of obstaclesOf(doc)) {
-    if (o.circle) {
-      const { center: [x, y], radius: r } = o.circle;
-      points.push([x - r, y - r], [x + r, y + r]);
-    } else points.push(...(o.polygon ?? []));
+  for (const { shape, item } of obstaclesOf(doc)) {
+    const box = shape?.box(item);
+    if (box) points.push(box.slice(0, 2), box.slice(2));
   }
   const bounds = doc.world?.bounds;
   if (!what.bounds) {

@@ -1,7 +1,7 @@
 /** What is dragged on the map: points, obstacles and areas, their handles, spans of the path. */
 
-import { addCorner, addVia as withVia, moveTo, setOnPoint, setRadius, setTension } from "../core/edits.js";
-import { anchorOf, pointsOf, refOf, tensionsOf } from "../core/mission.js";
+import { addVertex, addVia as withVia, moveTo, reshaped, setOnPoint, setTension } from "../core/edits.js";
+import { anchorOf, isObstacle, pointsOf, refOf, tensionsOf } from "../core/mission.js";
 
 /** @typedef {import("./pointer.js").Gesture} Gesture */
 
@@ -47,18 +47,17 @@ export class Dragging {
     return {
       move: (at, event) => {
         let doc = store.doc;
-        if (handle.role === "radius") {
-          const [radius] = this.snapped([Math.hypot(at[0] - center[0], at[1] - center[1])]);
-          doc = setRadius(doc, id, radius);
-        } else if (handle.role === "new-corner") {
+        if (handle.role === "new-corner") {
           const ref = /** @type {import("../core/mission.js").Ref} */ (refOf(handle.id));
           if (id === handle.id) {
             id = `${ref.kind}:${ref.index}:${ref.vertex + 1}`;
-            doc = addCorner(doc, handle.id, ref.vertex, this.snapped(at));
+            doc = addVertex(doc, handle.id, ref.vertex, this.snapped(at));
             store.edit(doc, { merge, select: id, inputAt: event.timeStamp });
             return;
           }
           doc = moveTo(doc, id, this.snapped(at));
+        } else if (isObstacle(id)) {
+          doc = reshaped(doc, id, (shape, item) => shape.dragged(item, handle.role, at, this.snapped));
         } else {
           const degrees = (Math.atan2(at[1] - center[1], at[0] - center[0]) * 180) / Math.PI;
           const step = event.shiftKey || store.show.snap ? 15 : 1;

@@ -1,11 +1,14 @@
-/** What the tools draw: circles, and polygons corner by corner, which become obstacles or areas. */
+/** What the tools draw, by a drag or corner by corner; it becomes an obstacle or an area. */
 
-import { addArea, addObstacle, tidy } from "../core/edits.js";
+import { addArea, addObstacle } from "../core/edits.js";
+import { shapeOf } from "../shapes/registry.js";
+import { shapeToolOf } from "./tools.js";
 
 /** @typedef {import("./pointer.js").Gesture} Gesture */
+/** @typedef {import("../shapes/shape.js").Item} Item */
 
-/** The tools that draw polygons. */
-export const POLYGONS = ["polygon", "zone", "fence"];
+const CLICKED_PX = 40; // the size of what a click makes
+const CLOSING_PX = 12; // from the first corner, where a click closes the ring
 
 export class Drawing {
   /**
@@ -23,31 +26,36 @@ export class Drawing {
     this.say = say;
   }
 
-  /** @param {number[]} from @returns {Gesture} */
-  circle(from) {
-    const center = this.snapped(from);
-    const put = (/** @type {number[]} */ at) => {
-      const [radius] = this.snapped([Math.hypot(at[0] - center[0], at[1] - center[1])]);
-      this.scene.draft = { circle: { center, radius } };
-      this.scene.later();
-    };
+  /** From where the mouse is pressed to where it is let go. @param {number[]} from @returns {Gesture} */
+  drag(from) {
+    const { drag } = shapeToolOf(this.store.tool) ?? {};
+    if (!drag) return { move: () => {} };
     return {
-      move: (at) => put(at),
+      move: (at) => {
+        const item = drag(from, at, this.snapped);
+        this.scene.draft = { item, shape: shapeOf(item) };
+        this.scene.later();
+      },
       end: (moved, at) => {
-        if (moved) put(at);
-        const radius = moved ? this.scene.draft?.circle.radius : tidy(this.camera.step(40));
         this.scene.draft = null;
-        this.finishObstacle({ circle: { center, radius: Math.max(radius || 0, 0.05) } });
+        if (moved) this.finishObstacle(drag(from, at, this.snapped));
+        else this.click(from);
       },
     };
   }
 
-  /** @param {number} px @param {number} py @returns {Gesture} */
-  polygon(px, py) {
+  /** Something of a size that can be seen. @param {number[]} at */
+  click(at) {
+    const { click } = shapeToolOf(this.store.tool) ?? {};
+    if (click) this.finishObstacle(click(this.snapped(at), this.camera.step(CLICKED_PX)));
+  }
+
+  /** One corner more, or the first one again. @param {number} px @param {number} py @returns {Gesture} */
+  corner(px, py) {
     const { scene, camera } = this;
     const corners = scene.draft?.corners ?? [];
     const first = corners[0] ? camera.toScreen(corners[0][0], corners[0][1]) : null;
-    if (first && corners.length > 2 && Math.hypot(first[0] - px, first[1] - py) < 12) {
+    if (first && corners.length > 2 && Math.hypot(first[0] - px, first[1] - py) < CLOSING_PX) {
       this.close();
       return { move: () => {} };
     }
@@ -71,17 +79,20 @@ export class Drawing {
     this.scene.draft = null;
     if (corners.length < 3) this.say("a polygon needs three corners");
     else if (tool === "zone" || tool === "fence") this.finishArea(tool, corners);
-    else this.finishObstacle({ polygon: corners });
+    else {
+      const item = shapeToolOf(tool)?.close?.(corners);
+      if (item) this.finishObstacle(item);
+    }
     this.scene.later();
   }
 
-  /** @param {any} obstacle */
+  /** @param {Item} obstacle */
   finishObstacle(obstacle) {
     const { store } = this;
     const doc = addObstacle(store.doc, "known", obstacle);
     store.edit(doc, { select: `known:${doc.world.known.length - 1}` });
     store.setTool("select");
-    this.say("obstacle added");
+    this.say(`${shapeOf(obstacle)?.name ?? "obstacle"} added`);
   }
 
   /** @param {"fence"|"zone"} kind @param {number[][]} corners */

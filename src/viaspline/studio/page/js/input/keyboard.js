@@ -1,12 +1,9 @@
 /** Everything by keyboard. What the keys do stands in the help sheet as well. */
 
-import {
-  addObstacle, moveTo, moveVia, remove, setTension, shifted,
-} from "../core/edits.js";
-import { anchorOf, idsOf, isArea, isObstacle, refOf, tensionsOf } from "../core/mission.js";
-import { POLYGONS } from "./drawing.js";
+import { moveTo, moveVia, remove, setTension } from "../core/edits.js";
+import { anchorOf, idsOf, isObstacle, refOf, tensionsOf } from "../core/mission.js";
+import { TOOLS, goesByCorners, makes, shapeToolOf } from "./tools.js";
 
-const TOOLS = { v: "select", a: "via", c: "circle", p: "polygon", z: "zone", b: "fence", h: "pan" };
 const SHOWN = { g: "grid", s: "snap", l: "losers", r: "rings", k: "comb", d: "detours", x: "speed", o: "body" };
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
@@ -89,6 +86,7 @@ export function erase({ store, say }) {
 function single(app, event, onSlider) {
   const { store, scene, drive, pointer } = app;
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  const tool = TOOLS.find((one) => one.key.toLowerCase() === key);
   const isButton = event.target instanceof HTMLButtonElement || event.target instanceof HTMLInputElement;
   if (event.key === "?") app.help();
   else if (event.key === "Escape") {
@@ -102,10 +100,10 @@ function single(app, event, onSlider) {
   } else if (event.key === " ") {
     if (isButton && !onSlider) return false;
     drive.run ? (drive.isPlaying ? drive.pause() : drive.play()) : app.timeline.drive();
-  } else if (key in TOOLS) {
-    store.setTool(/** @type {any} */ (TOOLS)[key]);
+  } else if (tool) {
+    store.setTool(tool.name);
     scene.canvas.focus();
-    if (store.tool !== "select" && store.tool !== "pan") showCross(app);
+    if (makes(store.tool)) showCross(app);
   } else if (key in SHOWN) store.toggle(/** @type {any} */ (SHOWN)[key]);
   else if (key === "u" && isObstacle(store.selection)) app.toggleUnseen();
   else if (key === "n" && store.selection) app.inspector.focus();
@@ -165,10 +163,7 @@ function arrow({ store, scene, camera, pointer, say }, way, far) {
     return;
   }
   const at = pointer.snapped([anchor[0] + dx, anchor[1] + dy]);
-  const ref = /** @type {import("../core/mission.js").Ref} */ (refOf(id));
-  const isWhole = ref.vertex < 0 && (isArea(id) || (isObstacle(id) && !store.doc.world[ref.kind][ref.index].circle));
-  const doc = isWhole ? shifted(store.doc, id, at[0] - anchor[0], at[1] - anchor[1]) : moveTo(store.doc, id, at);
-  store.edit(doc, { merge: `nudge:${id}` });
+  store.edit(moveTo(store.doc, id, at), { merge: `nudge:${id}` });
   say(`${at[0]}, ${at[1]}`);
 }
 
@@ -181,12 +176,12 @@ function showCross({ scene, camera, pointer, say }) {
 
 /** @param {any} app */
 function place(app) {
-  const { store, scene, pointer, camera } = app;
+  const { store, scene, pointer } = app;
   if (store.tool === "via") {
     pointer.dragging.count += 1;
     pointer.dragging.addVia(scene.cross, null);
     app.say("via point added");
-  } else if (POLYGONS.includes(store.tool)) {
+  } else if (goesByCorners(store.tool)) {
     const corners = scene.draft?.corners ?? [];
     const [x, y] = pointer.snapped(scene.cross);
     const last = corners.at(-1);
@@ -194,12 +189,9 @@ function place(app) {
       scene.cross = null;
       pointer.drawing.close();
     } else pointer.drawing.addCorner(scene.cross);
-  } else if (store.tool === "circle") {
-    const doc = addObstacle(store.doc, "known", { circle: { center: scene.cross, radius: camera.step(40) } });
+  } else if (shapeToolOf(store.tool)) {
+    pointer.drawing.click(scene.cross);
     scene.cross = null;
-    store.edit(doc, { select: `known:${doc.world.known.length - 1}` });
-    store.setTool("select");
-    app.say("circle added");
   }
   scene.later();
 }

@@ -1,8 +1,8 @@
 /** What lies under a pixel. */
 
-import { areasOf, obstaclesOf, pointsOf, spanCount } from "../core/mission.js";
+import { areasOf, obstaclesOf, outlined, pointsOf, spanCount } from "../core/mission.js";
 import { HEADING_REACH, handlesOf } from "../draw/route.js";
-import { covers, edgeNear, toRing } from "../geometry/shapes.js";
+import { toRing } from "../geometry/rings.js";
 
 /**
  * @typedef {{kind: "handle", handle: {id: string, role: string}}
@@ -51,10 +51,10 @@ export function pick(store, camera, px, py, reach) {
   if (curve && onPath && pathAway < reach) {
     return { kind: "path", leg: curve.legOf(onPath.span) % Math.max(spanCount(store.doc), 1), s: onPath.s, span: onPath.span };
   }
-  for (const obstacle of obstaclesOf(store.doc).reverse()) {
-    if (covers(at, obstacle)) return { kind: "item", id: obstacle.id };
-    const edge = edgeNear(at, obstacle);
-    if (edge && Math.hypot(edge[0] - at[0], edge[1] - at[1]) * camera.scale < reach * 0.6) return { kind: "item", id: obstacle.id };
+  for (const { id, shape, item } of outlined(obstaclesOf(store.doc)).reverse()) {
+    if (shape.covers(at, item)) return { kind: "item", id };
+    const edge = shape.edgeNear(at, item);
+    if (edge && Math.hypot(edge[0] - at[0], edge[1] - at[1]) * camera.scale < reach * 0.6) return { kind: "item", id };
   }
   for (const area of areasOf(store.doc).reverse()) { // by their edges: the map within can be moved
     if (area.ring.length && toRing(at, area.ring).away * camera.scale < reach * 0.6) return { kind: "item", id: area.id };

@@ -2,8 +2,9 @@
 
 import { forceSide } from "../core/edits.js";
 import { Dragging } from "./dragging.js";
-import { Drawing, POLYGONS } from "./drawing.js";
+import { Drawing } from "./drawing.js";
 import { pick } from "./pick.js";
+import { goesByCorners, makes, shapeToolOf } from "./tools.js";
 
 const SLOP = 4; // pixels that a click may move
 
@@ -138,7 +139,7 @@ export class Pointer {
   double(event) {
     const { store } = this;
     const [px, py] = this.place(event);
-    if (POLYGONS.includes(store.tool)) this.drawing.close();
+    if (goesByCorners(store.tool)) this.drawing.close();
     if (store.tool !== "select") return;
     const found = pick(store, this.camera, px, py, 10);
     if (found?.kind === "path") this.dragging.addVia(this.camera.toWorld(px, py), found.leg);
@@ -162,8 +163,8 @@ export class Pointer {
   begin(px, py, reach) {
     const { store, camera } = this;
     const at = camera.toWorld(px, py);
-    if (store.tool === "circle") return this.drawing.circle(at);
-    if (POLYGONS.includes(store.tool)) return this.drawing.polygon(px, py);
+    if (goesByCorners(store.tool)) return this.drawing.corner(px, py);
+    if (shapeToolOf(store.tool)) return this.drawing.drag(at);
     const found = pick(store, camera, px, py, reach);
     if (store.tool === "via" && found?.kind !== "item" && found?.kind !== "handle") {
       const id = this.dragging.addVia(at, found?.kind === "path" ? found.leg : null);
@@ -206,9 +207,8 @@ export class Pointer {
       scene.later();
     }
     this.hover(found?.kind === "item" ? found.id : null);
-    const drawing = store.tool === "circle" || store.tool === "via" || POLYGONS.includes(store.tool);
     this.canvas.style.cursor = found?.kind === "handle" ? "move"
-      : store.tool === "pan" ? "grab" : drawing ? "crosshair" : found ? "pointer" : "";
+      : store.tool === "pan" ? "grab" : makes(store.tool) ? "crosshair" : found ? "pointer" : "";
     this.canvas.title = side ? `pass on the ${side} instead: click` : "";
     this.store.tell("place");
     this.at = camera.toWorld(px, py);

@@ -1,12 +1,10 @@
 /** The bar with the file and its deeds, the tools, what is shown, the tabs of a narrow screen. */
 
+import { TOOLS, makes } from "../input/tools.js";
+import { DRAWN } from "../shapes/registry.js";
 import { fill, h, icon } from "./dom.js";
 import { place } from "../units.js";
 
-const TOOLS = [
-  ["select", "Select and drag", "V"], ["via", "Add via points", "A"], ["circle", "Draw a circle", "C"],
-  ["polygon", "Draw a polygon", "P"], ["zone", "Draw a speed zone", "Z"], ["fence", "Draw a fence to stay inside of", "B"], ["pan", "Move the map", "H"],
-];
 const SHOWN = [
   ["rings", "Clearance rings", "R"], ["losers", "Sides not taken", "L"], ["speed", "Speed as colour", "X"],
   ["comb", "Curvature comb", "K"], ["detours", "Detour points", "D"], ["grid", "Grid", "G"],
@@ -36,6 +34,7 @@ export function listenToBars(app) {
   for (const [id, name] of /** @type {[string, any][]} */ ([["#new", "plus"], ["#open", "folder"], ["#save", "save"], ["#export", "export"], ["#link", "link"], ["#undo", "undo"], ["#redo", "redo"], ["#show-help", "help"], ["#fit", "fit"], ["#add-map", "map"], ["#save-as", "save"], ["#menu-show", "layers"], ["#menu-more", "more"], ["#step-back", "prev"], ["#step-on", "next"]])) {
     find(id).prepend(icon(name));
   }
+  explainTools();
   listenToTools(app);
   listenToShown(app);
   listenToMenus();
@@ -57,18 +56,29 @@ export function listenToBars(app) {
   });
 }
 
+/** Put the keys of the tools into the help sheet. */
+function explainTools() {
+  const kinds = DRAWN.flatMap(({ tool }) => [
+    h("dt", {}, h("kbd", {}, tool.key)),
+    h("dd", {}, tool.words, ...(tool.close ? ["; ", h("kbd", {}, "Enter"), " closes it"] : [])),
+  ]);
+  document.querySelector("#help-areas")?.before(...kinds);
+  const crossed = TOOLS.filter(({ name }) => makes(name)).flatMap(({ key }) => [h("kbd", {}, key), " "]);
+  document.querySelector("#help-cross")?.replaceChildren(...crossed.slice(0, -1));
+}
+
 /** @param {any} app */
 function listenToTools({ store, scene }) {
   const bar = /** @type {HTMLElement} */ (document.querySelector("#tools"));
-  const render = () => fill(bar, ...TOOLS.map(([name, label, key]) => h("button", {
+  const render = () => fill(bar, ...TOOLS.map(({ name, label, key }) => h("button", {
     type: "button", class: "icon-button tool", "aria-pressed": String(store.tool === name), "aria-label": label, "aria-keyshortcuts": key, title: `${label} (${key})`,
     onclick: () => { store.setTool(name); scene.canvas.focus(); },
-  }, icon(/** @type {any} */ (name), 20))));
+  }, icon(name, 20))));
   render();
   store.on("tool", () => {
     render();
     scene.canvas.dataset.tool = store.tool;
-    if (store.tool === "select" || store.tool === "pan") {
+    if (!makes(store.tool)) {
       scene.cross = null;
       scene.later();
     }

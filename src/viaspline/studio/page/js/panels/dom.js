@@ -1,5 +1,7 @@
 /** Elements in one call, and the few controls that every panel is made of. */
 
+import { SHAPES } from "../shapes/registry.js";
+
 /**
  * @param {string} tag @param {Record<string, any>} [props] listeners begin with `on`
  * @param {...(Node|string|null|undefined|false)} children
@@ -18,11 +20,11 @@ export function h(tag, props = {}, ...children) {
   return element;
 }
 
+/** @type {Record<string, string>} */
 const ICONS = {
+  ...Object.fromEntries(SHAPES.map((shape) => [shape.key, shape.icon])),
   select: "M5 3l14 8-6 1.5L10 19z",
   via: "M12 21s7-6.2 7-11.5A7 7 0 0 0 5 9.500C5 14.800 12 21 12 21zM12 6.500v6M9 9.500h6",
-  circle: "M12 4a8 8 0 1 0 0 16 8 8 0 0 0 0-16z",
-  polygon: "M5 9l7-5 8 6-3 10H8z",
   zone: "M4 18a9 9 0 1 1 16 0M12 16l4-6M12 16.500v.5",
   fence: "M4 8h16M4 15h16M7 4l-1 16M18 4l-1 16M12 4v16",
   pan: "M8 12V6.500a1.500 1.500 0 0 1 3 0V11 5a1.500 1.500 0 0 1 3 0v6-4a1.500 1.500 0 0 1 3 0v7c0 4-2.500 6.500-6 6.500-3 0-4.500-1.500-6-4.500l-2-4a1.500 1.500 0 0 1 2.600-1.400L8 13",
@@ -45,7 +47,6 @@ const ICONS = {
   trash: "M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13",
   eye: "M2 12s4-7 10-7 10 7 10 7-4 7-10 7S2 12 2 12zM12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6z",
   hidden: "M4 4l16 16M9 6a9 9 0 0 1 3-.5c6 0 10 6.500 10 6.500a18 18 0 0 1-3 3.500M6 8a17 17 0 0 0-4 4s4 6.500 10 6.500a9 9 0 0 0 4-1",
-  map: "M9 4L3 6.500v14L9 18l6 2.500 6-2.500v-14L15 6.500zM9 4v14M15 6.500v14",
   layers: "M12 3l9 5-9 5-9-5zM3 13l9 5 9-5",
   more: "M5 12h.01M12 12h.01M19 12h.01",
   plus: "M12 5v14M5 12h14",
@@ -53,7 +54,7 @@ const ICONS = {
   warn: "M12 3L2 20h20zM12 10v4M12 17v.5",
 };
 
-/** @param {keyof typeof ICONS} name @param {number} [size] */
+/** @param {string} name @param {number} [size] */
 export function icon(name, size = 18) {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
@@ -65,7 +66,7 @@ export function icon(name, size = 18) {
   return svg;
 }
 
-/** A button with a picture; its label is read out and shown on hovering. @param {keyof typeof ICONS} name @param {string} label @param {() => void} onclick @param {Record<string, any>} [props] */
+/** A button with a picture; its label is read out and shown on hovering. @param {string} name @param {string} label @param {() => void} onclick @param {Record<string, any>} [props] */
 export const iconButton = (name, label, onclick, props = {}) =>
   h("button", { type: "button", class: "icon-button", "aria-label": label, title: label, onclick, ...props }, icon(name));
 

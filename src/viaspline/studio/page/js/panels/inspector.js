@@ -1,7 +1,7 @@
 /** What is selected, in fields: name, place, dwell, heading, size, side, tension. */
 
-import { forceSide, moveTo, setKey, setOnPoint, setRadius, setTension } from "../core/edits.js";
-import { anchorOf, areasOf, isArea, isPoint, obstaclesOf, part, pathOf, pointsOf, refOf, tensionsOf, whole } from "../core/mission.js";
+import { forceSide, moveTo, reshaped, setKey, setOnPoint, setTension } from "../core/edits.js";
+import { anchorOf, areasOf, isArea, isPoint, obstaclesOf, pointsOf, refOf, tensionsOf, whole } from "../core/mission.js";
 import { erase } from "../input/keyboard.js";
 import { metres } from "../units.js";
 import { checkbox, choice, fill, h, icon, lazily, numberField, textField } from "./dom.js";
@@ -75,26 +75,35 @@ export class Inspector {
     const ref = /** @type {import("../core/mission.js").Ref} */ (refOf(id));
     const one = obstaclesOf(store.doc).find((o) => o.id === owner);
     if (!one) return [];
-    const item = part(store.doc, pathOf(owner));
+    const { shape, item } = one;
     const isUnseen = one.list === "unseen";
     const at = anchorOf(store.doc, id);
     return [
-      this.title(one.name, `${one.map ? "map" : one.circle ? "circle" : `polygon of ${one.polygon?.length ?? 0} corners`}${ref.vertex >= 0 ? `, corner ${ref.vertex + 1}` : ""}`),
+      this.title(one.name, `${shape?.title(item) ?? "no shape"}${ref.vertex >= 0 ? `, ${shape?.vertexName} ${ref.vertex + 1}` : ""}`),
       textField({ label: "Name", value: one.given ?? "", placeholder: one.name, set: (value) => store.edit(setKey(store.doc, owner, "name", value || undefined)) }),
-      at && !one.map ? this.placeFields(id, at) : null,
-      one.circle ? numberField({ label: "Radius", value: one.circle.radius, unit: "m", min: 0.01, set: (value) => value !== null && store.edit(setRadius(store.doc, owner, value), { merge: `radius:${owner}` }) }) : null,
-      one.map ? h("p", { class: "hint" }, item.map) : null,
-      one.map ? choice({
-        label: "Squares that nobody has seen", value: item.unknown ?? "", options: [["", "blocked, as usual"], ["blocked", "blocked"], ["free", "free"]],
-        set: (value) => store.edit(setKey(store.doc, owner, "unknown", value || undefined)),
-      }) : null,
+      at ? this.placeFields(id, at) : null,
+      ...(shape?.fields(item) ?? []).map((field) => this.shapeField(owner, field)),
       checkbox({ label: "Unseen: only the sensor finds it", value: isUnseen, set: () => app.toggleUnseen() }),
-      !isUnseen && !one.map ? choice({
+      !isUnseen && (shape?.hasSides ?? true) ? choice({
         label: "Pass on", value: one.side ?? "", options: [["", "either side"], ["left", "left"], ["right", "right"]],
         set: (value) => store.edit(forceSide(store.doc, [one.index], value || null)),
       }) : null,
-      this.delete(ref.vertex >= 0 ? "Delete corner" : "Delete"),
+      this.delete(ref.vertex >= 0 ? `Delete ${shape?.vertexName}` : "Delete"),
     ];
+  }
+
+  /** A field that a kind of obstacle has. @param {string} id @param {import("../shapes/shape.js").ShapeField} field */
+  shapeField(id, field) {
+    const { store } = this.app;
+    if (field.type === "note") return h("p", { class: "hint" }, field.text);
+    if (field.type === "choice") {
+      const set = (/** @type {string} */ value) => store.edit(reshaped(store.doc, id, (_, item) => field.put(item, value)));
+      return choice({ label: field.label, value: field.value, options: field.options, set });
+    }
+    const set = (/** @type {number|null} */ value) => {
+      if (value !== null) store.edit(reshaped(store.doc, id, (_, item) => field.put(item, value)), { merge: `${field.label}:${id}` });
+    };
+    return numberField({ label: field.label, value: field.value, unit: field.unit, min: field.min, set });
   }
 
   /** @param {string} id of a fence or a speed zone */

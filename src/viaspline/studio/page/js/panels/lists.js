@@ -3,7 +3,10 @@
 import { moveVia } from "../core/edits.js";
 import { areasOf, obstaclesOf, pointsOf, refOf, whole } from "../core/mission.js";
 import { erase, reorder } from "../input/keyboard.js";
+import { DRAWN } from "../shapes/registry.js";
 import { fill, h, icon, iconButton, lazily } from "./dom.js";
+
+const HOW = DRAWN.map(({ tool }) => `a ${tool.words} (${tool.key})`).join(" or ");
 
 export class Lists {
   /** @param {any} app */
@@ -48,14 +51,14 @@ export class Lists {
     // Rows say nothing of places, so while something is dragged they stay as they are.
     const signature = JSON.stringify([
       store.selection, store.doc.route?.order, points.map((p) => [p.id, p.name, p.dwell]),
-      obstacles.map((o) => [o.id, o.name, o.side, !!o.circle, !!o.map]), areas.map((a) => [a.id, a.name, a.speed]),
+      obstacles.map((o) => [o.id, o.name, o.side, o.shape?.key]), areas.map((a) => [a.id, a.name, a.speed]),
     ]);
     if (signature === this.signature) return;
     this.signature = signature;
     fill(this.route, ...points.map((point, i) => this.pointRow(point, i)));
     fill(
       this.obstacles,
-      ...(obstacles.length ? obstacles.map((one) => this.obstacleRow(one)) : [h("li", { class: "empty" }, "None yet: draw a circle (C) or a polygon (P).")]),
+      ...(obstacles.length ? obstacles.map((one) => this.obstacleRow(one)) : [h("li", { class: "empty" }, `None yet: draw ${HOW}.`)]),
     );
     fill(this.areas, ...areas.map((one) => this.areaRow(one)));
     /** @type {HTMLElement} */ (document.querySelector("#area-section")).hidden = !areas.length;
@@ -137,18 +140,17 @@ export class Lists {
     );
   }
 
-  /** @param {any} one */
+  /** @param {import("../core/mission.js").Obstacle} one */
   obstacleRow(one) {
     const { app } = this;
     const { store } = app;
     const isSelected = store.selection !== null && whole(store.selection) === one.id;
-    const kind = one.map ? "map" : one.circle ? "circle" : "polygon";
     const isUnseen = one.list === "unseen";
     return h(
       "li", { class: `row${isSelected ? " is-selected" : ""}` },
       h(
-        "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${kind}${isUnseen ? ", unseen" : ""}`, onclick: () => store.select(one.id) },
-        h("span", { class: `glyph${isUnseen ? " is-unseen" : ""}` }, icon(kind, 16)),
+        "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${one.shape?.name ?? "no shape"}${isUnseen ? ", unseen" : ""}`, onclick: () => store.select(one.id) },
+        h("span", { class: `glyph${isUnseen ? " is-unseen" : ""}` }, icon(one.shape?.key ?? "warn", 16)),
         h("span", { class: "row-name" }, one.name),
         one.side ? h("span", { class: "row-note" }, `pass ${one.side}`) : null,
         isUnseen ? h("span", { class: "row-note is-unseen" }, "unseen") : null,

@@ -1,6 +1,6 @@
 /** Drive: play, pause, step, scrub, how fast; every event is a mark on the line of time. */
 
-import { FACTORS } from "../drive.js";
+import { FACTORS } from "../replay.js";
 import { clock, metres, seconds } from "../units.js";
 import { fill, h, icon } from "./dom.js";
 

@@ -1,0 +1,78 @@
+"""``path.csv`` and ``run.csv``."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.planner import Plan
+from viaspline.report.units import nice
+from viaspline.robot.run import Run
+
+CsvColumn = tuple[str, NDArray[np.float64], int]  # header, values, decimals
+
+
+def spacing(length: float) -> float:
+    """How far apart the points of ``path.csv`` are [m], by the path's length [m].
+
+    A 1, 2 or 5 times a power of ten: 0.1 m up to 200 m, 1 m from 1 km on; finer for a path of a
+    few metres and coarser beyond 50 km, so that a file has 50 to 50,000 lines.
+
+    Example:
+        >>> spacing(3.0), spacing(80.0), spacing(640.0), spacing(7000.0), spacing(2e6)
+        (0.05, 0.1, 0.5, 1.0, 50.0)
+    """
+    usual = min(max(length / 2000, 0.1), 1.0)
+    if length > 50_000:
+        usual = length / 50_000
+    if length < 5:
+        usual = max(length, 1e-9) / 100
+    return nice(usual)
+
+
+def path_csv(plan: Plan) -> str:
+    """Points of the planned path, equally far apart; the last one is the path's end."""
+    path = plan.path
+    u, distance, points = path.sample(spacing(path.length))
+    columns: list[CsvColumn] = [
+        ("distance_m", distance, 6),
+        *_places(points),
+        ("heading_rad", np.asarray(path.heading(u)), 9),
+        ("curvature_1pm", np.asarray(path.curvature(u)), 9),
+        ("speed_mps", np.asarray(plan.trajectory.speed_at(distance)), 6),
+        ("time_s", np.asarray(plan.trajectory.time_at(distance)), 6),
+    ]
+    return _csv(columns)
+
+
+def run_csv(run: Run) -> str:
+    """What was driven, over time."""
+    columns: list[CsvColumn] = [
+        ("time_s", run.times, 6),
+        *_places(run.positions),
+        ("heading_rad", run.headings, 9),
+        ("speed_mps", run.speeds, 6),
+        ("curvature_1pm", run.curvatures, 9),
+    ]
+    if run.tracking is not None:
+        track = run.tracking
+        columns += [
+            ("cross_track_m", np.interp(run.times, track.times, track.cross_track), 6),
+            ("along_track_m", np.interp(run.times, track.times, track.along_track), 6),
+        ]
+    return _csv(columns)
+
+
+def _places(points: NDArray[np.float64]) -> list[CsvColumn]:
+    return [(f"{axis}_m", points[:, i], 6) for i, axis in enumerate("xyz"[: points.shape[1]])]
+
+
+def _csv(columns: list[CsvColumn]) -> str:
+    """Comma-separated text; a cell that is not finite is empty."""
+    cells = []
+    for _, values, decimals in columns:
+        rounded = np.round(values, decimals) + 0.0
+        cells.append([f"{x:.{decimals}f}" if np.isfinite(x) else "" for x in rounded.tolist()])
+    lines = [",".join(name for name, _, _ in columns)]
+    lines.extend(",".join(row) for row in zip(*cells, strict=True))
+    return "\n".join(lines) + "\n"

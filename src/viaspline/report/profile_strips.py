@@ -1,0 +1,93 @@
+"""What changes along the path: speed, curvature and height over distance, below the map.
+
+Tested through ``report/test_pictures``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from viaspline.kernels.arrays import Floats
+from viaspline.report.style import INK, MUTED, OBSTACLE, SMALL_PT, TEXT_PT, TIGHTEST
+
+Ticks = Sequence[tuple[float, str]]  # distance [m] and the number of a via point
+
+
+def strip_names(points: Floats) -> list[str]:
+    """The strips that a path needs: the height only when there is one that changes."""
+    heights = ["height [m]"] if points.shape[1] == 3 and np.ptp(points[:, 2]) > 1e-6 else []
+    return ["speed [m/s]", "curvature [1/m]", *heights]
+
+
+def fill_strips(
+    strips: Sequence[Axes], distances: Floats, values: Sequence[Floats], ticks: Ticks, colour: str
+) -> None:
+    """Draw one value in every strip.
+
+    Args:
+        strips: From ``new_sheet``.
+        distances: Along the path [m], not decreasing, shape (n,).
+        values: One array of shape (n,) for each strip: speed, signed curvature, and more.
+        ticks: Via points: how far along the path, and their number.
+        colour: The colour of the lines.
+    """
+    last = max(float(distances[-1]), 1e-9)
+    for i, (axes, value) in enumerate(zip(strips, values, strict=True)):
+        axes.plot(distances, value, color=colour, linewidth=1.1)
+        axes.set_xlim(0, last)
+        axes.margins(y=0.1)
+        for distance, _ in ticks:
+            axes.axvline(distance, color=OBSTACLE, linewidth=0.5, zorder=0)
+        if i == 0:
+            top = max(float(np.nanmax(value)), 1e-9) if value.size else 1.0
+            axes.set_ylim(0, 1.15 * top)
+            axes.fill_between(distances, value, color=colour, alpha=0.12, linewidth=0)
+        elif i == 1:
+            axes.axhline(0, color=MUTED, linewidth=0.5)
+            low, high = shown_range(value)
+            pad = 0.15 * (high - low) if high - low > 1e-8 else 0.01  # or it is straight
+            axes.set_ylim(low - pad, high + pad)
+        elif value.size and float(np.nanmin(value)) < 0.0:
+            axes.axhline(0, color=MUTED, linewidth=0.5)
+    strips[-1].set_xlabel("distance along the path [m]", size=TEXT_PT, color=MUTED, labelpad=2)
+    _number(strips[0], ticks, last)
+
+
+def draw_curvature_limit(axes: Axes, radius: float | None) -> None:
+    """The curvature of a robot's turning circle, to either side, as far as the strip shows it."""
+    if radius is None:
+        return
+    low, high = axes.get_ylim()
+    for bound in (-1.0 / radius, 1.0 / radius):
+        if 1.4 * low < bound < 1.4 * high:
+            axes.axhline(bound, color=TIGHTEST, linewidth=0.8, linestyle=(0, (4, 2)))
+            axes.set_ylim(
+                min(axes.get_ylim()[0], 1.1 * bound), max(axes.get_ylim()[1], 1.1 * bound)
+            )
+
+
+def shown_range(value: Floats) -> tuple[float, float]:
+    """From where to where a strip shows a value; a few peaks don't flatten all the rest."""
+    low, high = min(0.0, float(np.nanmin(value))), max(0.0, float(np.nanmax(value)))
+    usual = float(np.nanpercentile(np.abs(value), 98))
+    most = 6.0 * usual if usual > 0 else np.inf
+    return (max(low, -most), min(high, most)) if max(high, -low) > 3 * most else (low, high)
+
+
+def _number(axes: Axes, ticks: Ticks, last: float) -> None:
+    """Numbers of the via points above the first strip, as far as they fit."""
+    free = -np.inf
+    per_metre = axes.get_window_extent().width / last
+    for distance, text in ticks:
+        pixels = distance * per_metre
+        width = 9.0 * len(text)
+        if pixels - width / 2 < free:
+            continue
+        free = pixels + width / 2 + 4
+        axes.annotate(
+            text, (distance, 1), xycoords=("data", "axes fraction"), xytext=(0, 2),
+            textcoords="offset points", size=SMALL_PT - 1, color=INK, ha="center", va="bottom",
+        )  # fmt: skip

@@ -1,0 +1,189 @@
+"""Tables for the terminal."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+from rich import box
+from rich.console import Console, Group, RenderableType
+from rich.table import Table
+
+from viaspline.advice import TensionAdvice
+from viaspline.curve.path import GUIDE
+from viaspline.planner import Plan
+from viaspline.planning.problem.ledger import Candidate, LedgerEntry
+from viaspline.report.style import without_folder
+from viaspline.report.summary import map_words
+from viaspline.report.terminal_lines import discard_output
+from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
+from viaspline.robot.run import MODES, Run
+
+MAX_LIST_LINES = 12  # of a long list, before the rest is only counted
+
+
+class _Console(Console):
+    """A console that leaves it to us what happens when nobody is listening any more."""
+
+    def on_broken_pipe(self) -> None:
+        raise BrokenPipeError
+
+
+def console() -> Console:
+    """A console that takes names as they are, and hardly wraps when it is not a terminal."""
+    plain = _Console(markup=False, highlight=False, emoji=False)
+    if not plain.is_terminal:
+        plain = _Console(markup=False, highlight=False, emoji=False, width=160)
+    return plain
+
+
+def plan_tables(plan: Plan, name: str) -> RenderableType:
+    """The path in figures, and its ledger."""
+    path, certificate = plan.path, plan.certificate
+    facts = _facts(f"Plan · {name}")
+    users = [via for via in path.vias if via.kind == "user"]
+    detours = sum(via.kind == "detour" and via.name != GUIDE for via in path.vias)
+    for obstacle in plan.world.obstacles:
+        if obstacle.grid is not None:
+            facts.add_row("map", map_words(obstacle.grid).removeprefix("map").lstrip(" :"))
+    facts.add_row("length", metres(path.length, 1))
+    facts.add_row("duration", seconds(plan.trajectory.duration))
+    facts.add_row("points of the route", f"{len(users)}, and {detours} of detours")
+    asked = asked_words(certificate.required, plan.tracking_error)
+    facts.add_row("clearance, proven", f"{down(certificate.clearance)} (asked {asked})")
+    if certificate.obstacle is not None:
+        facts.add_row(
+            "tightest place",
+            f"{place(certificate.tightest_at)} at {metres(certificate.tightest_distance, 1)}, "
+            f"beside {certificate.obstacle}",
+        )
+    facts.add_row("largest curvature", curvature(path.max_curvature()[0]))
+    stations = [s for s in plan.trajectory.stations if s.dwell > 0]
+    if stations:
+        facts.add_row(
+            "stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:MAX_LIST_LINES])
+        )
+    return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
+
+
+def ledger_table(ledger: tuple[LedgerEntry, ...]) -> RenderableType:
+    """Every group met and every side tried."""
+    table = Table(title="Detours", title_justify="left", box=box.SIMPLE_HEAD)
+    for column in ("leg", "past", "side", "length", "clearance", "curvature", ""):
+        table.add_column(column, justify="right" if column in _COMPARED_FIGURES else "left")
+    for entry in ledger[:MAX_LIST_LINES]:
+        leg, past = " → ".join(entry.leg), _members(entry.members)
+        for candidate in entry.candidates:
+            table.add_row(leg, past, candidate.side, *_candidate(candidate))
+            leg = past = ""
+    if len(ledger) > MAX_LIST_LINES:
+        table.add_row(f"… and {len(ledger) - MAX_LIST_LINES} more in plan.json")
+    return table
+
+
+_COMPARED_FIGURES = ("length", "clearance", "curvature")
+
+
+def _members(members: tuple[str, ...]) -> str:
+    more = f" and {len(members) - 3} more" if len(members) > 3 else ""
+    return ", ".join(_short(name) for name in members[:3]) + more
+
+
+def _short(name: str) -> str:
+    return without_folder(name).removeprefix("what is ")
+
+
+def _candidate(candidate: Candidate) -> tuple[str, str, str, str]:
+    if candidate.impossible is not None:
+        return "–", "–", "–", f"impossible: {candidate.impossible}"
+    clearance = "–" if candidate.clearance is None else down(candidate.clearance)
+    bend = "–" if candidate.max_curvature is None else f"{candidate.max_curvature:.3g} 1/m"
+    return metres(candidate.length, 1), clearance, bend, "taken" if candidate.chosen else ""
+
+
+def advice_tables(advice: TensionAdvice, name: str) -> RenderableType:
+    """What is suggested for each span, and one tension for all spans at once."""
+    spans = Table(title=f"Tension · {name}", title_justify="left", box=box.SIMPLE_HEAD)
+    for column in ("span", "suggested", "length", "clearance", "peak curvature", "drive"):
+        spans.add_column(column, justify="left" if column == "span" else "right")
+    for k, names in enumerate(advice.spans[:MAX_LIST_LINES]):
+        j = int(np.abs(advice.tensions - advice.suggested[k]).argmin())
+        rows = (advice.lengths, advice.clearances, advice.curvatures, advice.durations)
+        figures = _advised(*(float(row[k, j]) for row in rows))
+        spans.add_row(" → ".join(names), f"{advice.suggested[k]:g}", *figures)
+    if len(advice.spans) > MAX_LIST_LINES:
+        spans.add_row(f"… and {len(advice.spans) - MAX_LIST_LINES} more spans")
+    common = Table(title="All spans at once", title_justify="left", box=box.SIMPLE_HEAD)
+    for column in ("tension", "length", "clearance", "peak curvature", "drive", ""):
+        common.add_column(column, justify="right" if column else "left")
+    for t, row in zip(advice.tensions.tolist(), advice.common.T.tolist(), strict=True):
+        common.add_row(f"{t:g}", *_advised(*row), "best" if t == advice.best else "")
+    together = f"suggested together: {seconds(advice.duration)}; before any detour"
+    return Group(spans, common, together)
+
+
+def _advised(length: float, clearance: float, peak: float, time: float) -> tuple[str, ...]:
+    gap = down(clearance) if np.isfinite(clearance) else "–"
+    return metres(length, 1), gap, f"{peak:.3g} 1/m", seconds(time)
+
+
+def run_tables(run: Run, name: str) -> RenderableType:
+    """What was driven in figures, the via points and the re-plans."""
+    facts = _facts(f"Run · {name}")
+    facts.add_row("reached its goal", "yes" if run.reached else f"NO: {run.reason}")
+    facts.add_row("driven", f"{metres(run.path.length, 1)} in {seconds(run.duration)}")
+    planned = f"{metres(run.plan.path.length, 1)} in {seconds(run.plan.trajectory.duration)}"
+    facts.add_row("planned before", planned)
+    asked = asked_words(run.certificate.required)
+    facts.add_row("clearance, proven", f"{down(run.certificate.clearance)} (asked {asked})")
+    if run.certificate.obstacle is not None:
+        facts.add_row(
+            "tightest place",
+            f"{place(run.certificate.tightest_at)} beside {run.certificate.obstacle}",
+        )
+    if run.tracking is not None:
+        cross = run.tracking.cross
+        facts.add_row(
+            "beside its path",
+            f"{metres(cross.p99, 3)} in 99 % of the time, at most {metres(cross.max, 3)} "
+            f"(allowed {metres(run.plan.tracking_error, 3)})",
+        )
+    served = sum(visit.status == "served" for visit in run.visits)
+    facts.add_row("points served", f"{served} of {len(run.visits)}")
+    missed = [visit for visit in run.visits if visit.status != "served"]
+    for visit in missed[:MAX_LIST_LINES]:
+        facts.add_row(f"  {visit.name}", f"{visit.status}: {visit.reason or 'no reason given'}")
+    if not run.replans:
+        return facts
+    table = Table(title="Re-plans", title_justify="left", box=box.SIMPLE_HEAD)
+    for column in ("time", "at", "because of", "mode", "length before", "after", "jump of heading"):
+        table.add_column(column)
+    for replan in run.replans[:MAX_LIST_LINES]:
+        table.add_row(
+            seconds(replan.time), place(replan.at), _members(replan.obstacles), replan.mode,
+            metres(replan.old_path.length, 1), metres(replan.path.length, 1),
+            f"{replan.heading_jump:.1g} rad",
+        )  # fmt: skip
+    if len(run.replans) > MAX_LIST_LINES:
+        table.add_row(f"… and {len(run.replans) - MAX_LIST_LINES} more in run.json")
+    used = {replan.mode for replan in run.replans}
+    modes = [f"{mode}: {words}" for mode, words in MODES.items() if mode in used]
+    return Group(facts, table, *modes)
+
+
+def _facts(title: str) -> Table:
+    table = Table(title=title, title_justify="left", show_header=False, box=box.SIMPLE_HEAD)
+    table.add_column(style="dim", no_wrap=True)
+    table.add_column()
+    return table
+
+
+def show(*tables: RenderableType) -> None:
+    """Print tables on the output stream; nobody listening any more is no error."""
+    try:
+        screen = console()
+        for table in tables:
+            screen.print(table)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        discard_output()

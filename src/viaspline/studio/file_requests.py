@@ -1,0 +1,171 @@
+"""What a page asks of files: which there are, open, save, export. Each gives an answer to send.
+
+Tested through ``studio/test_server_files``.
+"""
+
+from __future__ import annotations
+
+import base64
+import os
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from viaspline.errors import ViasplineError
+from viaspline.studio import yaml_round_trip
+from viaspline.studio.document import Document
+from viaspline.studio.engine import Engine
+from viaspline.studio.load_document import opened
+from viaspline.studio.open_mission import OpenMission
+from viaspline.studio.page_messages import Message, text_of
+from viaspline.studio.refused_error import RefusedError
+from viaspline.studio.save_document import is_yaml, origin_from, waypoints_of
+
+if TYPE_CHECKING:
+    from viaspline.robot.run import Run
+    from viaspline.studio.plan_document import PlannedDocument
+
+Answer = dict[str, Any]
+Driven = tuple[Document, "Run", int]
+
+
+def files(current: OpenMission) -> Answer:
+    """The files of the folder."""
+    return {"type": "files", "missions": current.folder.missions(), "maps": current.folder.maps()}
+
+
+def open_file(current: OpenMission, message: Message) -> Answer:
+    """Open a mission."""
+    return _opened(current, current.open(text_of(message, "name")))
+
+
+def new(current: OpenMission) -> Answer:
+    """Begin a new mission."""
+    current.clear()
+    return _opened(current, ())
+
+
+def _opened(current: OpenMission, notes: tuple[str, ...]) -> Answer:
+    return {
+        "type": "opened", "name": current.name, "document": current.document,
+        "warnings": notes, "origin": current.origin,
+    }  # fmt: skip
+
+
+async def save(
+    current: OpenMission, message: Message, planned: Callable[[], Awaitable[PlannedDocument]]
+) -> Answer:
+    """Save the document, or ask before another file is replaced.
+
+    Args:
+        current: Its document is saved.
+        message: With a ``name`` and perhaps ``replace`` and ``origin``.
+        planned: Gives the plan, of whose mission the way points are.
+    """
+    name = text_of(message, "name")
+    path = current.folder.to_save(name)
+    if not is_yaml(path):
+        return await _save_waypoints(current, message, path, planned)
+    if path.exists() and name != current.name and message.get("replace") is not True:
+        return {"type": "exists", "name": name}
+    old = path.read_text(encoding="utf-8", errors="replace") if path.exists() else None
+    if path.parent != current.base:
+        current.document = _moved(current.document, current.base, path.parent)
+    current.folder.save(path, yaml_round_trip.text_of(current.document, old))
+    current.name = name
+    return _saved(name, current.document, (), current)
+
+
+async def _save_waypoints(
+    current: OpenMission,
+    message: Message,
+    path: Path,
+    planned: Callable[[], Awaitable[PlannedDocument]],
+) -> Answer:
+    """Save a file that may not hold the whole mission; then it is a copy of a part of it."""
+    name, document, before = text_of(message, "name"), current.document, current.name
+    origin = origin_from(text_of(message, "origin", "")) or current.origin
+    there = _not_understood(path) if path.exists() else ()
+    if path.exists() and (name != current.name or there) and message.get("replace") is not True:
+        return {"type": "exists", "name": name, "lost": there}
+    mission = (await planned()).mission
+    if mission is None:
+        raise RefusedError("only a sound mission has way points: save it as YAML, or mend it")
+    text, lost = waypoints_of(mission, path, origin)
+    if maps := _maps_in(document):
+        lost = (*lost, f"maps, of which the file holds polygons only: {', '.join(maps)}")
+    current.folder.save(path, text)
+    if current.name == before:  # nothing else was opened meanwhile
+        current.origin = origin
+        current.name = before if lost else name
+    return {**_saved(name, document, lost, current), "origin": origin}
+
+
+def _saved(name: str, document: Document, lost: tuple[str, ...], current: OpenMission) -> Answer:
+    return {
+        "type": "saved", "name": name, "document": document, "lost": lost, "origin": current.origin,
+    }  # fmt: skip
+
+
+async def export(
+    current: OpenMission,
+    message: Message,
+    engine: Engine,
+    planned: Callable[[], Awaitable[PlannedDocument]],
+    driven: Driven | None,
+) -> Answer:
+    """A file of the plan or of the newest drive.
+
+    Args:
+        current: Of whose document.
+        message: With the ``kind``.
+        engine: Writes the file.
+        planned: Gives the plan.
+        driven: The document that was driven last, the run and its seed.
+    """
+    from viaspline.studio.exports import RUN_FILES, check_kind
+
+    kind = text_of(message, "kind")
+    check_kind(kind)
+    stem = Path(current.name).stem if current.name is not None else "mission"
+    if kind in RUN_FILES:
+        if driven is None or driven[0] is not current.document:
+            raise RefusedError("drive the mission first; it has changed since")
+        content = await engine.run_file(driven[1], kind, stem, driven[2])
+    else:
+        plan = (await planned()).plan
+        if plan is None:
+            raise RefusedError("there is no path to export")
+        content = await engine.plan_file(plan, kind, stem)
+    data = base64.b64encode(content).decode()
+    return {"type": "exported", "name": f"{stem}-{kind}", "kind": kind, "data": data}
+
+
+def _not_understood(path: Path) -> tuple[str, ...]:
+    """What stands in a file of way points that saving over it would drop."""
+    try:
+        return opened(path).warnings
+    except ViasplineError as error:
+        return (str(error),)
+
+
+def _moved(document: Document, old: Path, new: Path) -> Document:
+    """The document for another folder: maps are named from there."""
+    world = dict(document.get("world") or {})
+    for key in ("known", "unseen"):
+        items = world.get(key)
+        if isinstance(items, list):
+            world[key] = [_renamed(item, old, new) for item in items]
+    return {**document, "world": world} if "world" in document else document
+
+
+def _maps_in(document: Document) -> list[str]:
+    """The files of maps that a sound document names."""
+    items = (document.get("world") or {}).get("known") or []
+    return [str(item["map"]) for item in items if isinstance(item, dict) and "map" in item]
+
+
+def _renamed(item: Any, old: Path, new: Path) -> Any:
+    if not isinstance(item, dict) or not isinstance(item.get("map"), str):
+        return item
+    return {**item, "map": Path(os.path.relpath(old / item["map"], new)).as_posix()}

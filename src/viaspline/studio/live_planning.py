@@ -1,0 +1,116 @@
+"""The plan of what is on the screen: the newest document, and none that was overtaken.
+
+While a document is planned, newer ones replace each other; only the newest is planned next. A plan
+that takes long is broken off as soon as a newer document is there.
+
+Tested through ``studio/test_server``.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from typing import TYPE_CHECKING, Final
+
+from starlette.websockets import WebSocketDisconnect
+
+from viaspline.studio.engine import Engine
+from viaspline.studio.open_mission import OpenMission
+from viaspline.studio.stoppable_calls import Stoppable
+
+if TYPE_CHECKING:
+    from viaspline.studio.plan_document import PlannedDocument
+
+LEDGER_AFTER_S: Final = 0.1  # so long without an edit, and an expensive ledger is drawn up [s]
+OVERTAKEN_AFTER_S: Final = 0.25  # a plan that is done by then is drawn, overtaken or not [s]
+STOP_RETRY_S: Final = 0.02  # between two attempts to break a plan off [s]
+
+Sends = Callable[[str], Awaitable[None]]
+Refuses = Callable[[Exception], Awaitable[None]]
+
+
+class LivePlan:
+    """Plans what lies on a current whenever it has changed.
+
+    Args:
+        engine: Plans.
+        current: Whose document is planned.
+        send: Hears the plan and its ledger, as text.
+        refuse: Hears of a defect.
+    """
+
+    def __init__(self, engine: Engine, current: OpenMission, send: Sends, refuse: Refuses) -> None:
+        self._engine = engine
+        self._current = current
+        self._send = send
+        self._refuse = refuse
+        self._wanted = asyncio.Event()
+        self._revision = 0
+        self._running = Stoppable()
+        self._latest: PlannedDocument | None = None
+
+    def want(self, revision: int) -> None:
+        """The document has changed: plan it."""
+        self._revision = revision
+        self._wanted.set()
+
+    def close(self) -> None:
+        """Nobody waits any more."""
+        self._running.stop()
+
+    async def forever(self) -> None:
+        """Plan and tell, until nobody hears it."""
+        while True:
+            await self._wanted.wait()
+            self._wanted.clear()
+            try:
+                await self._once(self._revision)
+            except WebSocketDisconnect:
+                return
+            except Exception as error:
+                await self._refuse(error)
+
+    async def _once(self, revision: int) -> None:
+        self._running = running = Stoppable()
+        overtaking = asyncio.create_task(self._overtake(running))
+        try:
+            found = await self._engine.plan(
+                self._current.document, self._current.base, revision, running
+            )
+        finally:
+            overtaking.cancel()
+        if found is None:
+            return  # overtaken
+        self._latest, text = found
+        await self._send(text)
+        if self._latest.plan is None:
+            return
+        if self._engine.ledgers_are_cheap or await self._is_idle():
+            await self._send(await self._engine.ledger(self._latest, revision))
+
+    async def _overtake(self, running: Stoppable) -> None:
+        await asyncio.sleep(OVERTAKEN_AFTER_S)
+        await self._wanted.wait()
+        while True:
+            running.stop()
+            await asyncio.sleep(STOP_RETRY_S)
+
+    async def _is_idle(self) -> bool:
+        try:
+            await asyncio.wait_for(self._wanted.wait(), LEDGER_AFTER_S)
+        except TimeoutError:
+            return True
+        return False
+
+    async def planned(self) -> PlannedDocument:
+        """The plan of the document as it is now."""
+        document = self._current.document
+        if self._latest is not None and self._latest.document is document:
+            return self._latest
+        found = await self._engine.plan(document, self._current.base, self._revision, Stoppable())
+        assert found is not None
+        return found[0]
+
+    def forget(self) -> None:
+        """Another document has been opened."""
+        self._latest = None

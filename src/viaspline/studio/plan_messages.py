@@ -1,0 +1,154 @@
+"""Plans as the page draws them: the same numbers as in ``plan.json``, without its white space.
+
+Tested through ``studio/test_server``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.maps.grid import Grid
+from viaspline.planner import Plan
+from viaspline.planning.problem.ledger import Candidate
+from viaspline.studio.map_cache import grid_name
+from viaspline.studio.plan_document import PlanFault, PlannedDocument
+
+
+def answer(planned: PlannedDocument, revision: int) -> dict[str, Any]:
+    """What the page is told of a plan, or of why there is none."""
+    head = {"type": "planned", "rev": revision, "ms": round(1e3 * planned.seconds, 3)}
+    maps = grids(planned)
+    if planned.plan is None:
+        problems = [_problem(problem) for problem in planned.problems]
+        return {**head, "ok": False, "problems": problems, "grids": maps}
+    return {**head, "ok": True, **_plan(planned.plan), "grids": maps}
+
+
+def _problem(problem: PlanFault) -> dict[str, Any]:
+    return {
+        "text": problem.text,
+        "remedy": problem.remedy,
+        "path": problem.path,
+        "where": None if problem.where is None else problem.where[:2],
+        "changes": [{"path": path, "value": value} for path, value in problem.changes],
+    }
+
+
+def _plan(plan: Plan) -> dict[str, Any]:
+    path, trajectory, proof = plan.path, plan.trajectory, plan.certificate
+    joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
+    return {
+        "spans": flat(path.spans),
+        "joints": rounded(joints),
+        "vias": [
+            [via.name, *via.at[:2], via.kind, via.u, round(float(distance), 6), via.dwell]
+            for via, distance in zip(path.vias, path.via_distances, strict=True)
+        ],
+        "length": path.length,
+        "curvature": finite(path.max_curvature()[0]),
+        "certificate": {
+            "clearance": finite(proof.clearance),
+            "required": proof.required,
+            "holds": proof.holds,
+            "at": proof.tightest_at[:2],
+            "distance": finite(proof.tightest_distance),
+            "nearest": proof.obstacle,
+        },
+        "law": {
+            "distances": rounded(trajectory.distances),
+            "speeds": rounded(trajectory.speeds),
+            "times": rounded(trajectory.times),
+        },
+        "duration": trajectory.duration,
+        "order": _order(plan),
+        "corridor": [[rounded(point, 3) for point in ring] for ring in plan.world.corridor],
+    }
+
+
+def _order(plan: Plan) -> list[str]:
+    """Names of the route's points as they are served."""
+    return [via.name for via in plan.path.vias if via.kind == "user"]
+
+
+def ledger(planned: PlannedDocument, revision: int) -> dict[str, Any]:
+    """Every group in the way and both of its sides."""
+    plan = planned.plan
+    assert plan is not None
+    assert planned.unfolded is not None
+    names = {name: i for i, name in enumerate(plan.world.names)}
+    grids = {i for i, obstacle in enumerate(plan.world.obstacles) if obstacle.grid is not None}
+    entries = []
+    for entry in plan.ledger:
+        members = [names[name] for name in entry.members if name in names]
+        items = [planned.unfolded.original(("world", "known", i))[2] for i in members]
+        entries.append({
+            "members": entry.members,
+            "items": sorted(set(items)),
+            "leg": entry.leg,
+            "forceable": bool(members) and not grids.intersection(members),
+            "candidates": [_candidate(candidate) for candidate in entry.candidates],
+        })  # fmt: skip
+    return {"type": "ledger", "rev": revision, "entries": entries}
+
+
+def _candidate(candidate: Candidate) -> dict[str, Any]:
+    return {
+        "side": candidate.side,
+        "chosen": candidate.chosen,
+        "spans": [] if candidate.chosen else flat(candidate.spans),
+        "length": candidate.length,
+        "clearance": finite(candidate.clearance),
+        "impossible": candidate.impossible,
+    }
+
+
+def grids(planned: PlannedDocument) -> list[dict[str, Any]]:
+    """The maps of squares of a mission: their pictures' names and where they lie."""
+    if planned.mission is None or planned.unfolded is None:
+        return []
+    found = []
+    for key, obstacles in (
+        ("known", planned.mission.world.known),
+        ("unseen", planned.mission.world.unseen),
+    ):
+        for i, obstacle in enumerate(obstacles):
+            if obstacle.grid is not None:
+                place = planned.unfolded.original(("world", key, i))
+                found.append({**_grid(obstacle.grid), "list": key, "item": place[2]})
+            elif key in planned.unfolded.places and (ring := obstacle.ring) is not None:
+                place = planned.unfolded.original(("world", key, i))
+                if "map" in planned.document["world"][key][place[2]]:
+                    found.append({"rings": ring.loops, "list": key, "item": place[2]})
+    return found
+
+
+def _grid(grid: Grid) -> dict[str, Any]:
+    return {
+        "picture": grid_name(grid),
+        "origin": grid.origin,
+        "resolution": grid.resolution,
+        "width": grid.width,
+        "height": grid.height,
+        "extent": grid.extent,
+    }
+
+
+def flat(spans: Floats) -> list[float]:
+    """Bézier control polygons as x, y, x, y, …, seen from above."""
+    values: list[float] = np.ascontiguousarray(spans[:, :, :2]).reshape(-1).tolist()
+    return values
+
+
+def rounded(values: Any, digits: int = 5) -> list[float]:
+    """Numbers that are only drawn: to a hundredth of a millimetre."""
+    numbers: list[float] = (np.round(np.asarray(values, np.float64), digits) + 0.0).tolist()
+    return numbers
+
+
+def finite(value: float | None) -> float | None:
+    """The number, or None where it is infinite."""
+    return None if value is None or not math.isfinite(value) else float(value)
