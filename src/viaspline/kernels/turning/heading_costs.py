@@ -1,6 +1,6 @@
 """The heading at every via point: what each leg costs from each heading to each other one.
 
-Tested through ``planning/turning/test_turn_planner``.
+Tested through ``planning/methods/test_ordered``.
 """
 
 from __future__ import annotations

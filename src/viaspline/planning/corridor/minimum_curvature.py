@@ -11,6 +11,8 @@ Source: F. Braghin et al., Race driver model (2008), for the objective; A. Heilm
 curvature trajectory planning and control for an autonomous race car (2019), for solving it again
 about its own result. Both move the points of an interpolating spline; control points make the
 matrices sparse.
+
+Tested through ``planning/corridor/test_corridor_planner``.
 """
 
 from __future__ import annotations
