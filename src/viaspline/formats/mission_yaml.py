@@ -90,7 +90,7 @@ def yaml_text(mission: Mission, folder: str | Path = ".") -> str:
       start: [0, 0]
       goal: [9.5, 0]
     """
-    data = mission.model_dump(exclude_defaults=True)
+    data = mission.model_dump(exclude_defaults=True, by_alias=True)
     data = {**data, "world": _world(mission.world, data.get("world", {}), Path(folder))}
     corridor = mission.route.corridor
     if corridor is not None and corridor.csv is not None:
