@@ -89,6 +89,12 @@ def test_the_robot_gets_a_polygon_for_a_body_and_a_drive(visit: Visit, patrol: P
     field("Wheelbase").fill("2")
     page.press("Tab")
     assert page.doc["robot"]["drive"]["ackermann"] == {"wheelbase_m": 2, "max_steer_deg": 30}
+    field("Drive", exact=True).select_option("omnidirectional")
+    page.settle()
+    field("Keeps heading").fill("-90")
+    page.press("Tab")
+    drive = page.doc["robot"]["drive"]["omnidirectional"]
+    assert drive == {"max_speed_along_mps": 1, "max_speed_across_mps": 0.7, "hold_heading_deg": -90}
     field("Drive", exact=True).select_option("")
     page.settle()
     assert "drive" not in page.doc["robot"]

@@ -17,6 +17,9 @@ class Omnidirectional(
 ):
     """Mecanum, omni or swerve wheels: the body goes any way, whichever way it looks.
 
+    A lidar looks with the body: one that doesn't see all round may be blind where a robot goes that
+    holds its heading, and then the robot waits there.
+
     Attributes:
         max_speed_along_mps: The greatest speed along the body, ROS's ``max_vel_x`` [m/s].
         max_speed_across_mps: The greatest speed across the body, ROS's ``max_vel_y`` [m/s]; it
