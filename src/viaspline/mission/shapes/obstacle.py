@@ -14,6 +14,7 @@ from pydantic.json_schema import SkipJsonSchema
 from viaspline.maps.grid import Grid
 from viaspline.maps.reading import Reading
 from viaspline.mission.fields import Name, Ring, Rings
+from viaspline.mission.shapes.capsule import Capsule
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.polygon import Polygon
 from viaspline.mission.shapes.rounded_ring import RoundedRing
@@ -22,7 +23,11 @@ from viaspline.mission.value import Value
 
 Side = Literal["left", "right"]
 
-KINDS: Final[Mapping[str, type[Shape]]] = {"circle": Circle, "polygon": Polygon}
+KINDS: Final[Mapping[str, type[Shape]]] = {
+    "circle": Circle,
+    "capsule": Capsule,
+    "polygon": Polygon,
+}
 """The kinds that are rounded rings, by the keys that give them: each a file of its own here."""
 
 SHAPES: Final = (*KINDS, "grid")
@@ -44,10 +49,11 @@ class Obstacle(
     exactly_one=SHAPES,
     needing=(("holes", "polygon"),),
 ):
-    """Something to keep clear of: a circle, a polygon that may have holes, or a map's squares.
+    """Something to keep clear of: a circle, a capsule, a polygon with holes, or a map's squares.
 
     Attributes:
         circle: The disc, if it is one.
+        capsule: The line with a radius, if it is one.
         polygon: The outer ring ``[[x, y], ...]`` [m], in either direction. A last point that
             repeats the first is dropped.
         holes: Free areas inside the polygon, each a ring of its own.
@@ -59,6 +65,7 @@ class Obstacle(
     """
 
     circle: Circle | None = None
+    capsule: Capsule | None = None
     polygon: Ring | None = None
     holes: Rings = ()
     grid: Annotated[SkipJsonSchema[InstanceOf[Grid] | None], BeforeValidator(_as_grid)] = None
@@ -70,6 +77,8 @@ class Obstacle(
         """Its shape with the key that gives it; a sound obstacle has one at most, a grid none."""
         if self.circle is not None:
             yield "circle", self.circle
+        if self.capsule is not None:
+            yield "capsule", self.capsule
         if self.polygon is not None:
             yield "polygon", Polygon(self.polygon, self.holes)
 

@@ -1,5 +1,6 @@
 /** The kinds of obstacles that the page knows, in the order of their tools. */
 
+import { capsule } from "./capsule.js";
 import { circle } from "./circle.js";
 import { map } from "./map.js";
 import { polygon } from "./polygon.js";
@@ -9,6 +10,7 @@ import { polygon } from "./polygon.js";
 /** @type {readonly Shape[]} */
 export const SHAPES = [
   circle,
+  capsule,
   polygon,
   map,
 ];
