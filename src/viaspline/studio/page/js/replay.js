@@ -1,6 +1,6 @@
 /** A drive that is played: where the robot is at a time, what it has seen, what it is doing. */
 
-export const FACTORS = [0.5, 1, 2, 5, 10, 20, 50];
+export const PLAY_FACTORS = [0.5, 1, 2, 5, 10, 20, 50];
 
 export class Drive {
   /** @param {import("./core/store.js").Store} store */

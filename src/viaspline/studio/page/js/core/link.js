@@ -7,7 +7,7 @@
 import { diff } from "./diff.js";
 
 const RETRY_MS = [200, 500, 1000, 2000, 4000];
-const LONG_MS = 300;
+const BUSY_AFTER_MS = 300;
 
 export class Link {
   /** @param {(message: any) => void} hear every message that nobody waits for */
@@ -76,7 +76,7 @@ export class Link {
 
   pump() {
     if (!this.wanted || this.socket?.readyState !== WebSocket.OPEN) return;
-    const wait = this.underway === null ? 0 : this.sentAt + LONG_MS - performance.now();
+    const wait = this.underway === null ? 0 : this.sentAt + BUSY_AFTER_MS - performance.now();
     if (wait > 0) {
       this.overtaking ||= setTimeout(() => {
         this.overtaking = 0;

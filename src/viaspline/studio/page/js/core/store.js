@@ -9,7 +9,7 @@ import { exists } from "./mission.js";
 
 /** @typedef {{doc: any, selection: string|null, merge: string|null, time: number}} Entry */
 
-const MOST_UNDONE = 500;
+const MAX_UNDO_STEPS = 500;
 const MERGE_MS = 900;
 
 export class Store {
@@ -72,7 +72,7 @@ export class Store {
       if (joins && last) last.time = now;
       else {
         this.past.push({ doc: this.doc, selection: this.selection, merge, time: now });
-        if (this.past.length > MOST_UNDONE) this.past.shift();
+        if (this.past.length > MAX_UNDO_STEPS) this.past.shift();
       }
       this.future = [];
       this.put(doc, inputAt);

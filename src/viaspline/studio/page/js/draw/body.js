@@ -4,8 +4,8 @@
 /** @typedef {{footprint: number[][]|null, radius: number}} Body */
 /** @typedef {{x: number, y: number, heading: number}} Pose */
 
-const MOST = 1000; // bodies along the path
-const NEAR = 2.5; // pixels between two of them
+const MAX_BODIES = 1000; // bodies along the path
+const BODY_SPACING_PX = 2.5; // pixels between two of them
 
 /** Put the outline of a body into the path of the canvas. @param {Pen} pen @param {Body} body @param {Pose} pose */
 export function outline(pen, { footprint, radius }, { x, y, heading }) {
@@ -33,7 +33,7 @@ export function drawSwept(pen, curve, body) {
     pen.stroke(colours.swept, 2 * body.radius * camera.scale);
     return;
   }
-  const count = Math.max(1, Math.min(MOST, Math.ceil((curve.length * camera.scale) / NEAR)));
+  const count = Math.max(1, Math.min(MAX_BODIES, Math.ceil((curve.length * camera.scale) / BODY_SPACING_PX)));
   for (let i = 0; i <= count; i += 1) outline(pen, body, curve.at((curve.length * i) / count));
   pen.fill(colours.swept); // one area: bodies on each other don't add up
 }

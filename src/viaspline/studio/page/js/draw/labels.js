@@ -2,10 +2,10 @@
 
 /** @typedef {{text: string, x: number, y: number, away: number, colour: string, bold?: boolean, rank: number, plate?: boolean}} Label */
 
-const FONT = "Inter, system-ui, sans-serif";
+const FONT_FAMILY = "Inter, system-ui, sans-serif";
 const DIRECTIONS = [[1, 0], [-1, 0], [0, -1], [0, 1], [0.8, -0.8], [0.8, 0.8], [-0.8, -0.8], [-0.8, 0.8]];
 
-const MIDDLE = [[0, 0], [0, -1.1], [0, 1.1]]; // on what is large enough
+const MIDDLE_OFFSETS = [[0, 0], [0, -1.1], [0, 1.1]]; // on what is large enough
 
 /** @type {Map<string, number>} */ const widths = new Map();
 
@@ -15,7 +15,7 @@ function widthOf(ctx, text, bold) {
   let width = widths.get(key);
   if (width === undefined) {
     if (widths.size > 2000) widths.clear();
-    ctx.font = `${bold ? 600 : 500} 12px ${FONT}`;
+    ctx.font = `${bold ? 600 : 500} 12px ${FONT_FAMILY}`;
     width = ctx.measureText(text).width;
     widths.set(key, width);
   }
@@ -39,7 +39,7 @@ export function drawLabels(pen, labels, avoid, line) {
     const w = widthOf(ctx, label.text, !!label.bold) + 8, h = 18;
     /** @type {number[]|null} */ let best = null;
     let least = Infinity;
-    (label.away ? DIRECTIONS : MIDDLE).forEach(([dx, dy], i) => {
+    (label.away ? DIRECTIONS : MIDDLE_OFFSETS).forEach(([dx, dy], i) => {
       const away = label.away || 20;
       const x = label.x + dx * away + (dx > 0.1 ? 0 : dx < -0.1 ? -w : -w / 2);
       const y = label.y + dy * away + (label.away === 0 ? -h / 2 : dy > 0.1 ? 0 : dy < -0.1 ? -h : -h / 2);
@@ -56,7 +56,7 @@ export function drawLabels(pen, labels, avoid, line) {
     if (!best || (least >= 40 && label.rank > 2)) continue;
     const box = /** @type {number[]} */ (best);
     taken.push(box);
-    ctx.font = `${label.bold ? 600 : 500} 12px ${FONT}`;
+    ctx.font = `${label.bold ? 600 : 500} 12px ${FONT_FAMILY}`;
     ctx.beginPath();
     ctx.roundRect(box[0], box[1], w, h, 4);
     if (label.plate) {

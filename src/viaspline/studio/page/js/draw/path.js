@@ -5,7 +5,7 @@ import { viridis } from "./theme.js";
 /** @typedef {import("./pen.js").Pen} Pen */
 /** @typedef {import("../geometry/curve.js").Curve} Curve */
 
-const SHADES = 24;
+const SPEED_SHADES = 24;
 
 /** @param {Pen} pen @param {Curve} curve @param {{speed: boolean, isStale: boolean, maxSpeed: number}} how */
 export function drawPath(pen, curve, { speed, isStale, maxSpeed }) {
@@ -35,18 +35,18 @@ function drawShaded(pen, curve, maxSpeed) {
   for (let i = 0; i < list.length; i += 1) {
     const sample = list[i];
     const [x, y] = camera.toScreen(sample.x, sample.y);
-    const next = i % per === per - 1 ? shade : Math.round((sample.speed / maxSpeed) * (SHADES - 1));
+    const next = i % per === per - 1 ? shade : Math.round((sample.speed / maxSpeed) * (SPEED_SHADES - 1));
     if (next !== shade && i % per !== per - 1) {
       if (shade >= 0) {
         ctx.lineTo(x, y);
-        pen.stroke(viridis(shade / (SHADES - 1)), 3);
+        pen.stroke(viridis(shade / (SPEED_SHADES - 1)), 3);
       }
       ctx.beginPath();
       ctx.moveTo(x, y);
       shade = next;
     } else ctx.lineTo(x, y);
   }
-  pen.stroke(viridis(shade / (SHADES - 1)), 3);
+  pen.stroke(viridis(shade / (SPEED_SHADES - 1)), 3);
 }
 
 /** Curvature as teeth that stand on the path, on the outer side. @param {Pen} pen @param {Curve} curve */

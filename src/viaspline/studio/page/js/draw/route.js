@@ -4,7 +4,7 @@ import { anchorOf, isPoint, part, pathOf, shapedAt, whole } from "../core/missio
 
 /** @typedef {import("./pen.js").Pen} Pen */
 
-export const HEADING_REACH = 44; // pixels from a point to the handle of its heading
+export const HEADING_REACH_PX = 44; // pixels from a point to the handle of its heading
 
 /** @param {Pen} pen @param {any[]} points @param {{selection: string|null, hover: string|null}} state */
 export function drawPoints(pen, points, { selection, hover }) {
@@ -39,7 +39,7 @@ export function drawPoints(pen, points, { selection, hover }) {
 function drawHeading(pen, x, y, heading, isSelected) {
   const { ctx, colours } = pen;
   const angle = (-heading * Math.PI) / 180;
-  const [hx, hy] = [x + Math.cos(angle) * HEADING_REACH, y + Math.sin(angle) * HEADING_REACH];
+  const [hx, hy] = [x + Math.cos(angle) * HEADING_REACH_PX, y + Math.sin(angle) * HEADING_REACH_PX];
   ctx.beginPath();
   ctx.moveTo(x, y);
   ctx.lineTo(hx, hy);
@@ -95,7 +95,7 @@ export function handlesOf(doc, selection, camera) {
       const angle = (-(Number.isFinite(heading) ? heading : 0) * Math.PI) / 180;
       const { x, y } = on(at[0], at[1]);
       const role = Number.isFinite(heading) ? "heading" : "free-heading";
-      handles.push({ id: selection, role, x: x + Math.cos(angle) * HEADING_REACH, y: y + Math.sin(angle) * HEADING_REACH });
+      handles.push({ id: selection, role, x: x + Math.cos(angle) * HEADING_REACH_PX, y: y + Math.sin(angle) * HEADING_REACH_PX });
     }
   } else if (shaped) {
     for (const { role, at, vertex } of shaped.shape.handles(shaped.item, camera.scale)) {

@@ -1,10 +1,10 @@
 /** Edits that aren't saved yet are kept by the browser, so that a closed tab loses nothing. */
 
-const PREFIX = "viaspline-studio:";
-const KEPT = 20;
+const KEY_PREFIX = "viaspline-studio:";
+const MAX_KEPT_MISSIONS = 20;
 
 /** @param {string} folder @param {string|null} name */
-const keyOf = (folder, name) => `${PREFIX}${folder}/${name ?? ""}`;
+const keyOf = (folder, name) => `${KEY_PREFIX}${folder}/${name ?? ""}`;
 
 /** @param {import("../core/store.js").Store} store */
 export function keepSaving(store) {
@@ -40,7 +40,7 @@ export function kept(folder, name, doc) {
 }
 
 function forgetOldest() {
-  const keys = Object.keys(localStorage).filter((key) => key.startsWith(PREFIX));
+  const keys = Object.keys(localStorage).filter((key) => key.startsWith(KEY_PREFIX));
   const age = (/** @type {string} */ key) => JSON.parse(localStorage.getItem(key) ?? "{}").time ?? 0;
-  keys.sort((a, b) => age(a) - age(b)).slice(0, Math.max(1, keys.length - KEPT)).forEach((key) => localStorage.removeItem(key));
+  keys.sort((a, b) => age(a) - age(b)).slice(0, Math.max(1, keys.length - MAX_KEPT_MISSIONS)).forEach((key) => localStorage.removeItem(key));
 }

@@ -5,26 +5,26 @@ import { fill, h, icon } from "../panels/dom.js";
 import { packed } from "./share.js";
 import { svgOf } from "./svg.js";
 
-const EXPORTS = [
+const PLAN_EXPORTS = [
   ["plan.json", "The exact curve, its proof and what was weighed: the bytes that viaspline plan writes"],
   ["path.csv", "The path as equally spaced points with heading, curvature, speed and time"],
   ["plan.png", "The picture that viaspline plan draws"],
   ["scene.svg", "The scene as curves, in metres"],
   ["scene.png", "The map as it is on the screen"],
 ];
-const OF_RUNS = [
+const RUN_EXPORTS = [
   ["run.json", "What was driven, every event and every re-plan"],
   ["run.csv", "The driven path over time"],
   ["run.png", "The picture of the drive"],
 ];
 
-const ENDINGS = [
+const SAVED_ENDINGS = [
   [".yaml", "viaspline, the whole mission (.yaml)"],
   [".plan", "QGroundControl (.plan)"],
   [".waypoints", "QGC WPL 110 (.waypoints)"],
   [".txt", "QGC WPL 110 (.txt)"],
 ];
-const SAVED = /\.(ya?ml|plan|waypoints|txt)$/i;
+const SAVED_NAME = /\.(ya?ml|plan|waypoints|txt)$/i;
 
 export class Files {
   /** @param {any} app */
@@ -93,32 +93,32 @@ export class Files {
 
   saveAs() {
     const { name, origin } = this.app.store;
-    const value = !name ? "mission.yaml" : SAVED.test(name) ? name : name.replace(/\.[^.]+$/, ".yaml");
+    const value = !name ? "mission.yaml" : SAVED_NAME.test(name) ? name : name.replace(/\.[^.]+$/, ".yaml");
     const input = h("input", { type: "text", class: "wide-input", value, "aria-label": "File name", spellcheck: "false" });
-    const kind = h("select", { class: "wide-input", "aria-label": "Kind of file" }, ...ENDINGS.map(([ending, words]) => h("option", { value: ending }, words)));
+    const kind = h("select", { class: "wide-input", "aria-label": "Kind of file" }, ...SAVED_ENDINGS.map(([ending, words]) => h("option", { value: ending }, words)));
     const place = h("input", { type: "text", class: "wide-input", value: origin ? origin.join(", ") : "", placeholder: "47.3977, 8.5456", "aria-label": "Origin", spellcheck: "false" });
     const asked = h("label", { class: "field" }, h("span", { class: "field-name" }, "Latitude and longitude of 0, 0"), place);
     const follow = () => {
-      const ending = input.value.trim().match(SAVED)?.[0].toLowerCase() ?? ".yaml";
+      const ending = input.value.trim().match(SAVED_NAME)?.[0].toLowerCase() ?? ".yaml";
       kind.value = ending === ".yml" ? ".yaml" : ending;
       asked.hidden = kind.value === ".yaml";
     };
     input.addEventListener("input", follow);
     kind.addEventListener("change", () => {
-      input.value = input.value.trim().replace(SAVED, "") + kind.value;
+      input.value = input.value.trim().replace(SAVED_NAME, "") + kind.value;
       follow();
     });
     follow();
     const go = (/** @type {Event} */ event) => {
       event.preventDefault();
       const wanted = input.value.trim();
-      this.attempt(() => this.write(SAVED.test(wanted) ? wanted : `${wanted}.yaml`, false, place.value));
+      this.attempt(() => this.write(SAVED_NAME.test(wanted) ? wanted : `${wanted}.yaml`, false, place.value));
     };
     this.show(`Save in ${this.app.store.folder}`, h("form", { onsubmit: go }, h("label", { class: "field" }, h("span", { class: "field-name" }, "File name"), input),
       h("label", { class: "field" }, h("span", { class: "field-name" }, "Kind of file"), kind), asked,
       h("div", { class: "dialog-buttons" }, h("button", { type: "button", class: "button", onclick: () => this.dialog.close() }, "Cancel"), h("button", { type: "submit", class: "button is-primary" }, "Save"))));
     input.focus();
-    input.setSelectionRange(0, input.value.replace(SAVED, "").length);
+    input.setSelectionRange(0, input.value.replace(SAVED_NAME, "").length);
   }
 
   /** @param {string} name @param {boolean} replace @param {string} [origin] */
@@ -147,7 +147,7 @@ export class Files {
 
   export() {
     const { store } = this.app;
-    const list = [...EXPORTS, ...(store.run ? OF_RUNS : [])];
+    const list = [...PLAN_EXPORTS, ...(store.run ? RUN_EXPORTS : [])];
     this.show("Export", h("ul", { class: "file-list" }, ...list.map(([kind, words]) => h("li", {}, h("button", { type: "button", class: "file", onclick: () => this.attempt(() => this.take(kind)) }, icon("export", 16), h("span", {}, h("strong", {}, kind), h("small", {}, words)))))),
       store.run ? null : h("p", { class: "hint" }, "After a drive its files are here as well."));
   }

@@ -1,7 +1,7 @@
 /** From metres to pixels and back: y is up in the world and down on the screen. */
 
-const NEAREST = 4000; // pixels a metre
-const FARTHEST = 1e-4;
+const MAX_PX_PER_M = 4000; // pixels a metre
+const MIN_PX_PER_M = 1e-4;
 
 export class Camera {
   constructor() {
@@ -25,7 +25,7 @@ export class Camera {
   /** Zoom so that what is under a pixel stays there. @param {number} factor @param {number} px @param {number} py */
   zoom(factor, px, py) {
     const [x, y] = this.toWorld(px, py);
-    this.scale = Math.min(NEAREST, Math.max(FARTHEST, this.scale * factor));
+    this.scale = Math.min(MAX_PX_PER_M, Math.max(MIN_PX_PER_M, this.scale * factor));
     const [nx, ny] = this.toWorld(px, py);
     this.x += x - nx;
     this.y += y - ny;
@@ -41,7 +41,7 @@ export class Camera {
   fit(box, inset) {
     const w = Math.max(box[2] - box[0], 1e-3), h = Math.max(box[3] - box[1], 1e-3);
     const room = [this.width - inset.left - inset.right, this.height - inset.top - inset.bottom];
-    this.scale = Math.min(NEAREST, Math.max(FARTHEST, Math.min(Math.max(room[0], 40) / w, Math.max(room[1], 40) / h)));
+    this.scale = Math.min(MAX_PX_PER_M, Math.max(MIN_PX_PER_M, Math.min(Math.max(room[0], 40) / w, Math.max(room[1], 40) / h)));
     this.x = (box[0] + box[2]) / 2 - (inset.left - inset.right) / 2 / this.scale;
     this.y = (box[1] + box[3]) / 2 + (inset.top - inset.bottom) / 2 / this.scale;
   }

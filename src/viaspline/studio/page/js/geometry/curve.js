@@ -3,7 +3,7 @@
  * distance, heading, curvature and speed. Samples serve eyes and cursors only.
  */
 
-const PER_SPAN = 20;
+const SAMPLES_PER_SPAN = 20;
 
 /** @typedef {{x: number, y: number, s: number, heading: number, curvature: number, speed: number}} Sample */
 
@@ -46,7 +46,7 @@ export class Curve {
   get samples() {
     if (this.cached) return this.cached;
     const found = [];
-    const per = this.count > 400 ? 6 : this.count > 120 ? 10 : PER_SPAN;
+    const per = this.count > 400 ? 6 : this.count > 120 ? 10 : SAMPLES_PER_SPAN;
     for (let k = 0; k < this.count; k += 1) {
       const speeds = [];
       for (let j = 0; j <= per; j += 1) {

@@ -4,8 +4,8 @@ import { moveTo, moveVia, remove, setTension } from "../core/edits.js";
 import { anchorOf, idsOf, isObstacle, refOf, tensionsOf } from "../core/mission.js";
 import { TOOLS, goesByCorners, makes, shapeToolOf } from "./tools.js";
 
-const SHOWN = { g: "grid", s: "snap", l: "losers", r: "rings", k: "comb", d: "detours", x: "speed", o: "body" };
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const LAYERS = { g: "grid", s: "snap", l: "losers", r: "rings", k: "comb", d: "detours", x: "speed", o: "body" };
+const ARROW_STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /** @param {any} app */
 export function listenToKeys(app) {
@@ -28,8 +28,8 @@ export function listenToKeys(app) {
       event.preventDefault();
       return;
     }
-    if (onMap && event.key in ARROWS) {
-      arrow(app, /** @type {number[]} */ (/** @type {any} */ (ARROWS)[event.key]), event.shiftKey);
+    if (onMap && event.key in ARROW_STEPS) {
+      arrow(app, /** @type {number[]} */ (/** @type {any} */ (ARROW_STEPS)[event.key]), event.shiftKey);
       event.preventDefault();
     } else if (onMap && onKey(app, event)) event.preventDefault();
     else if (!event.altKey && single(app, event, onSlider)) event.preventDefault();
@@ -104,7 +104,7 @@ function single(app, event, onSlider) {
     store.setTool(tool.name);
     scene.canvas.focus();
     if (makes(store.tool)) showCross(app);
-  } else if (key in SHOWN) store.toggle(/** @type {any} */ (SHOWN)[key]);
+  } else if (key in LAYERS) store.toggle(/** @type {any} */ (LAYERS)[key]);
   else if (key === "u" && isObstacle(store.selection)) app.toggleUnseen();
   else if (key === "n" && store.selection) app.inspector.focus();
   else if (key === "f") app.fit();

@@ -1,7 +1,7 @@
 /** What lies under a pixel. */
 
 import { areasOf, obstaclesOf, outlined, pointsOf, spanCount } from "../core/mission.js";
-import { HEADING_REACH, handlesOf } from "../draw/route.js";
+import { HEADING_REACH_PX, handlesOf } from "../draw/route.js";
 import { toRing } from "../geometry/rings.js";
 
 /**
@@ -37,7 +37,7 @@ export function pick(store, camera, px, py, reach) {
     }
     if (point.heading !== null && !found) {
       const angle = (-point.heading * Math.PI) / 180;
-      if (near(x + Math.cos(angle) * HEADING_REACH, y + Math.sin(angle) * HEADING_REACH, reach)) {
+      if (near(x + Math.cos(angle) * HEADING_REACH_PX, y + Math.sin(angle) * HEADING_REACH_PX, reach)) {
         found = { kind: "handle", handle: { id: point.id, role: "heading" } };
       }
     }

@@ -6,7 +6,7 @@ import { Drawing } from "./drawing.js";
 import { pick } from "./pick.js";
 import { goesByCorners, makes, shapeToolOf } from "./tools.js";
 
-const SLOP = 4; // pixels that a click may move
+const CLICK_SLOP_PX = 4; // pixels that a click may move
 
 /** @typedef {{move: (at: number[], event: PointerEvent) => void, end?: (moved: boolean, at: number[]) => void}} Gesture */
 
@@ -97,7 +97,7 @@ export class Pointer {
   /** @param {PointerEvent} event */
   drag(event) {
     const [px, py] = this.place(event);
-    if (!this.moved && Math.hypot(px - this.start[0], py - this.start[1]) < SLOP) return;
+    if (!this.moved && Math.hypot(px - this.start[0], py - this.start[1]) < CLICK_SLOP_PX) return;
     if (this.moved && px === this.last[0] && py === this.last[1]) return; // told raw already
     this.moved = true;
     this.last = [px, py];

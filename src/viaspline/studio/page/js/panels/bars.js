@@ -5,7 +5,7 @@ import { DRAWN } from "../shapes/registry.js";
 import { fill, h, icon } from "./dom.js";
 import { place } from "../units.js";
 
-const SHOWN = [
+const LAYERS = [
   ["rings", "Clearance rings", "R"], ["losers", "Sides not taken", "L"], ["speed", "Speed as colour", "X"],
   ["comb", "Curvature comb", "K"], ["detours", "Detour points", "D"], ["grid", "Grid", "G"],
   ["snap", "Snap to the grid", "S"], ["body", "Body and what it sweeps", "O"], ["names", "Names", ""],
@@ -88,7 +88,7 @@ function listenToTools({ store, scene }) {
 /** @param {any} app */
 function listenToShown({ store }) {
   const menu = /** @type {HTMLElement} */ (document.querySelector("#shown"));
-  const render = () => fill(menu, ...SHOWN.map(([name, label, key]) => h("button", {
+  const render = () => fill(menu, ...LAYERS.map(([name, label, key]) => h("button", {
     type: "button", class: "menu-item", role: "menuitemcheckbox", "aria-checked": String(store.show[name]), "aria-label": label, onclick: () => store.toggle(name),
   }, h("span", { class: "tick" }, store.show[name] ? icon("check", 14) : ""), h("span", {}, label), h("kbd", {}, key))));
   render();

@@ -6,7 +6,7 @@ import { erase, reorder } from "../input/keyboard.js";
 import { DRAWN } from "../shapes/registry.js";
 import { fill, h, icon, iconButton, lazily } from "./dom.js";
 
-const HOW = DRAWN.map(({ tool }) => `a ${tool.words} (${tool.key})`).join(" or ");
+const DRAWING_WORDS = DRAWN.map(({ tool }) => `a ${tool.words} (${tool.key})`).join(" or ");
 
 export class Lists {
   /** @param {any} app */
@@ -58,7 +58,7 @@ export class Lists {
     fill(this.route, ...points.map((point, i) => this.pointRow(point, i)));
     fill(
       this.obstacles,
-      ...(obstacles.length ? obstacles.map((one) => this.obstacleRow(one)) : [h("li", { class: "empty" }, `None yet: draw ${HOW}.`)]),
+      ...(obstacles.length ? obstacles.map((one) => this.obstacleRow(one)) : [h("li", { class: "empty" }, `None yet: draw ${DRAWING_WORDS}.`)]),
     );
     fill(this.areas, ...areas.map((one) => this.areaRow(one)));
     /** @type {HTMLElement} */ (document.querySelector("#area-section")).hidden = !areas.length;

@@ -4,7 +4,7 @@ import { pointsOf } from "../core/mission.js";
 import { onTheme, theme } from "../draw/theme.js";
 import { lazily } from "./dom.js";
 
-const LEFT = 58, RIGHT = 14, TOP = 18, GAP = 24, BOTTOM = 20;
+const LEFT_PX = 58, RIGHT_PX = 14, TOP_PX = 18, GAP_PX = 24, BOTTOM_PX = 20;
 
 export class Plots {
   /** @param {any} app */
@@ -38,7 +38,7 @@ export class Plots {
   follow(event) {
     const { curve } = this.app.store;
     if (!curve || !this.width) return;
-    const part = (event.offsetX - LEFT) / (this.width - LEFT - RIGHT);
+    const part = (event.offsetX - LEFT_PX) / (this.width - LEFT_PX - RIGHT_PX);
     this.app.store.lookAt(part < 0 || part > 1 ? null : part * curve.length);
   }
 
@@ -65,17 +65,17 @@ export class Plots {
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
     ctx.clearRect(0, 0, width, height);
     if (!curve) return;
-    const tall = (height - TOP - BOTTOM - GAP) / 2;
-    const x = (/** @type {number} */ s) => LEFT + (s / (curve.length || 1)) * (width - LEFT - RIGHT);
+    const tall = (height - TOP_PX - BOTTOM_PX - GAP_PX) / 2;
+    const x = (/** @type {number} */ s) => LEFT_PX + (s / (curve.length || 1)) * (width - LEFT_PX - RIGHT_PX);
     ctx.globalAlpha = store.plan?.ok === false ? 0.4 : 1;
     this.ticks(curve, x, colours);
     /** @type {import("../geometry/curve.js").Sample[]} */ const list = curve.samples;
     const most = Math.max(...list.map((p) => Math.abs(p.curvature)).filter(Number.isFinite), 1e-3);
     const top = Number(store.doc.robot?.max_speed_mps ?? 2) || 1;
-    this.strip("curvature", "1/m", [-most, most], TOP, tall, colours);
-    this.line(list.map((p) => [x(p.s), TOP + tall * (0.5 - p.curvature / most / 2)]), colours.comb);
-    this.strip("speed", "m/s", [0, top], TOP + tall + GAP, tall, colours);
-    const fast = TOP + tall + GAP;
+    this.strip("curvature", "1/m", [-most, most], TOP_PX, tall, colours);
+    this.line(list.map((p) => [x(p.s), TOP_PX + tall * (0.5 - p.curvature / most / 2)]), colours.comb);
+    this.strip("speed", "m/s", [0, top], TOP_PX + tall + GAP_PX, tall, colours);
+    const fast = TOP_PX + tall + GAP_PX;
     const even = Array.from({ length: Math.ceil(width) + 1 }, (_, i) => (i / Math.ceil(width)) * curve.length);
     const places = [...even, ...curve.law.distances].sort((a, b) => a - b); // the stops themselves as well
     this.line(places.map((s) => [x(s), fast + tall * (1 - curve.speedAt(s) / top)]), colours.path);
@@ -104,8 +104,8 @@ export class Plots {
       ctx.strokeStyle = colours.gridBold;
       ctx.lineWidth = 1;
       ctx.beginPath();
-      ctx.moveTo(px, TOP);
-      ctx.lineTo(px, /** @type {number} */ (height) - BOTTOM);
+      ctx.moveTo(px, TOP_PX);
+      ctx.lineTo(px, /** @type {number} */ (height) - BOTTOM_PX);
       ctx.stroke();
       const { route } = this.app.store.doc;
       const number = route?.closed ? count % pointsOf(this.app.store.doc).length : count; // of a lap
@@ -126,17 +126,17 @@ export class Plots {
     ctx.lineWidth = 1;
     ctx.beginPath();
     const base = range[0] < 0 ? y + tall / 2 : y + tall;
-    ctx.moveTo(LEFT, Math.round(base) + 0.5);
-    ctx.lineTo(width - RIGHT, Math.round(base) + 0.5);
+    ctx.moveTo(LEFT_PX, Math.round(base) + 0.5);
+    ctx.lineTo(width - RIGHT_PX, Math.round(base) + 0.5);
     ctx.stroke();
     ctx.font = "500 10px Inter, system-ui, sans-serif";
     ctx.textAlign = "right";
     ctx.textBaseline = "middle";
     ctx.fillStyle = colours.muted;
-    ctx.fillText(String(Number(range[1].toPrecision(2))), LEFT - 6, y + 4);
-    ctx.fillText(String(Number(range[0].toPrecision(2))), LEFT - 6, y + tall - 3);
+    ctx.fillText(String(Number(range[1].toPrecision(2))), LEFT_PX - 6, y + 4);
+    ctx.fillText(String(Number(range[0].toPrecision(2))), LEFT_PX - 6, y + tall - 3);
     ctx.textAlign = "left";
-    ctx.fillText(`${name} [${unit}]`, LEFT, y - 9);
+    ctx.fillText(`${name} [${unit}]`, LEFT_PX, y - 9);
   }
 
   /** @param {number[][]} points @param {string} colour */
@@ -157,13 +157,13 @@ export class Plots {
     const at = curve.at(s);
     const px = x(s);
     ctx.beginPath();
-    ctx.moveTo(px, TOP);
-    ctx.lineTo(px, height - BOTTOM);
+    ctx.moveTo(px, TOP_PX);
+    ctx.lineTo(px, height - BOTTOM_PX);
     ctx.strokeStyle = colours.ink;
     ctx.lineWidth = 1.2;
     ctx.stroke();
     const speed = this.app.drive.run ? this.app.drive.state().speed : at.speed;
-    const texts = [[`${at.curvature.toFixed(3)}`, TOP + tall * (0.5 - at.curvature / most / 2)], [`${speed.toFixed(2)} m/s`, TOP + tall + GAP + 10], [`${s.toFixed(1)} m · ${(this.app.drive.run ? this.app.drive.time : curve.timeAt(s)).toFixed(1)} s`, height - 9]];
+    const texts = [[`${at.curvature.toFixed(3)}`, TOP_PX + tall * (0.5 - at.curvature / most / 2)], [`${speed.toFixed(2)} m/s`, TOP_PX + tall + GAP_PX + 10], [`${s.toFixed(1)} m · ${(this.app.drive.run ? this.app.drive.time : curve.timeAt(s)).toFixed(1)} s`, height - 9]];
     ctx.font = "600 11px Inter, system-ui, sans-serif";
     for (const [text, y] of /** @type {[string, number][]} */ (texts)) {
       const w = ctx.measureText(text).width + 8;

@@ -1,11 +1,11 @@
 /** Drive: play, pause, step, scrub, how fast; every event is a mark on the line of time. */
 
-import { FACTORS } from "../replay.js";
+import { PLAY_FACTORS } from "../replay.js";
 import { clock, metres, seconds } from "../units.js";
 import { fill, h, icon } from "./dom.js";
 
 /** Each kind of event has a sign of its own, so that colour is not all. */
-const SIGNS = {
+const EVENT_SIGNS = {
   started: ["▶", "is-plain"], detected: ["◉", "is-seen"], replanned: ["↝", "is-replan"], via: ["•", "is-plain"],
   arrived: ["■", "is-stop"], dwell: ["□", "is-stop"], skipped: ["✕", "is-bad"], braked: ["▼", "is-seen"],
   stopped: ["■", "is-bad"], reached: ["⚑", "is-good"], contact: ["✕", "is-bad"],
@@ -24,7 +24,7 @@ export class Timeline {
     this.note = find("#drive-note");
     this.factor = find("#factor");
     this.isAsked = false;
-    fill(this.factor, ...FACTORS.map((f) => h("option", { value: String(f), selected: f === app.drive.factor }, `${f}×`)));
+    fill(this.factor, ...PLAY_FACTORS.map((f) => h("option", { value: String(f), selected: f === app.drive.factor }, `${f}×`)));
     this.factor.addEventListener("change", () => { app.drive.factor = Number(this.factor.value); });
     this.button.addEventListener("click", () => (app.drive.run ? (app.drive.isPlaying ? app.drive.pause() : app.drive.play()) : this.drive()));
     this.scrub.addEventListener("input", () => {
@@ -80,7 +80,7 @@ export class Timeline {
 
   /** A factor with which a drive takes about half a minute. @param {number} duration */
   fitting(duration) {
-    return FACTORS.reduce((best, f) => (Math.abs(duration / f - 30) < Math.abs(duration / best - 30) ? f : best));
+    return PLAY_FACTORS.reduce((best, f) => (Math.abs(duration / f - 30) < Math.abs(duration / best - 30) ? f : best));
   }
 
   leave() {
@@ -142,7 +142,7 @@ export class Timeline {
     const wide = this.marks.clientWidth || 400;
     let free = -Infinity; // events at the same time stand side by side
     fill(this.marks, ...(run?.events ?? []).map((/** @type {any} */ event) => {
-      const [sign, kind] = /** @type {any} */ (SIGNS)[event.kind] ?? ["•", "is-plain"];
+      const [sign, kind] = /** @type {any} */ (EVENT_SIGNS)[event.kind] ?? ["•", "is-plain"];
       const mark = h("button", { type: "button", class: `mark ${kind}`, tabindex: "-1", title: `${clock(event.time)} ${event.message}`, "aria-label": `${clock(event.time)} ${event.message}`, "data-time": event.time, onclick: () => { drive.pause(); drive.seek(event.time); } }, sign);
       const left = Math.max((wide * event.time) / run.duration, free);
       free = left + 15;
