@@ -118,18 +118,12 @@ def _distinct(ring: Sequence[tuple[float, float]]) -> Sequence[tuple[float, floa
 
 
 def _edges(rings: Sequence[Rings]) -> tuple[Floats, Ints, Ints]:
-    vertices: list[tuple[float, float]] = []
-    loop_starts = [0]
-    ring_loops = [0]
-    for loops in rings:
-        for loop in loops:
-            vertices.extend(_distinct(loop) if len(loop) > 2 else loop)
-            loop_starts.append(len(vertices))
-        ring_loops.append(len(loop_starts) - 1)
+    loops = [loop if len(loop) < 3 else _distinct(loop) for ring in rings for loop in ring]
+    vertices = [vertex for loop in loops for vertex in loop]
     packed: tuple[Floats, Ints, Ints] = pack_rings(
         np.array(vertices, np.float64).reshape(-1, 2),
-        np.array(loop_starts, np.int64),
-        np.array(ring_loops, np.int64),
+        np.cumsum([0, *map(len, loops)], dtype=np.int64),
+        np.cumsum([0, *map(len, rings)], dtype=np.int64),
     )
     return packed
 

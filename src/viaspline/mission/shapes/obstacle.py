@@ -6,6 +6,7 @@ Tested through ``mission/test_model``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, InstanceOf
@@ -82,9 +83,12 @@ class Obstacle(
         if self.polygon is not None:
             yield "polygon", Polygon(self.polygon, self.holes)
 
-    @property
+    @cached_property
     def ring(self) -> RoundedRing | None:
-        """Its shape as a rounded ring; None if it is a grid, or has no shape."""
+        """Its shape as a rounded ring; None if it is a grid, or has no shape.
+
+        Made once: a robot with a lidar packs what it has seen after every scan.
+        """
         for _, shape in self.shapes():
             return shape.ring()
         return None

@@ -14,7 +14,7 @@ from viaspline.kernels.arrays import Floats
 Loop = Sequence[tuple[float, float]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class RoundedRing:
     """All places no farther than a radius from a core.
 
