@@ -75,7 +75,7 @@ class Navigator:
         period: Usual time between two steps; only the control of a robot with a drive asks [s].
 
     Raises:
-        NoPathError: When there is no path at all.
+        PlanningError: When there is no path at all, or none was found.
         GaveUpError: When a budget ran out before that was known.
         GeometryError: When the sensor sees no farther than the robot's body.
 

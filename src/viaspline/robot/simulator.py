@@ -54,7 +54,7 @@ def simulate(
         What was driven, whether the robot reached its goal or not: see ``Run.reached``.
 
     Raises:
-        NoPathError: When there is no path at all.
+        PlanningError: When there is no path at all, or none was found.
         GaveUpError: When a budget ran out before that was known.
         GeometryError: When the step is not above 0, the sensor sees no farther than the robot's
             body, or a robot with a drive is sent on a route with heights.
