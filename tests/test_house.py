@@ -64,6 +64,11 @@ def test_a_file_has_tests_of_its_name_or_says_through_which_it_is_tested(path: P
         assert (ROOT / "tests" / f"{name}.py").exists(), f"{relative(path)} names {name}"
 
 
+def test_a_docstring_says_what_a_thing_is_and_not_that_it_is_the_same() -> None:
+    found = [relative(path) for path in FILES if '"""The same' in path.read_text()]
+    assert not found
+
+
 def test_tests_stand_where_their_files_do() -> None:
     rooms = {path.parent.relative_to(SOURCE).as_posix() for path in FILES}
     for test in (ROOT / "tests").rglob("test_*.py"):

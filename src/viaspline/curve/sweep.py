@@ -138,7 +138,7 @@ def _poses(curve: PiecewiseCubic, reach: float, tolerance: float) -> tuple[Float
 def _with_turns(
     curve: PiecewiseCubic, at: Floats, heading: Floats, widest: float
 ) -> tuple[Floats, Floats]:
-    """The same with poses between neighbours that turn too far: the turns on the spot."""
+    """Poses with more between neighbours that turn too far: the turns on the spot."""
     turn = np.diff(heading)
     turn[np.abs(turn) > math.pi - 1e-6] = math.tau  # back: either way round
     steps = np.maximum(1, np.ceil(np.abs(turn) / widest - 1e-9).astype(int))

@@ -151,7 +151,7 @@ class System(NamedTuple):
         return bare.on(_marks(cells.along, rests, stage, cell_size), limits, stage, cell_size)
 
     def on(self, marks: Floats, limits: Limits, stage: Stage, cell_size: CellSize) -> System:
-        """The same on the grid of some marks and all ends of cells."""
+        """The system on the grid of some marks and all ends of cells."""
         cells, slip = self.cells, 1e-9 * (1.0 + stage.end)
         line, cell, ends = time_grid.divide(cells.along, marks, slip)
         tops = np.full(cell.size, cell_size.square)

@@ -67,7 +67,7 @@ class Rows:
     limits: Floats
 
     def spared(self) -> Rows:
-        """The same with a little less, so that a robot that is re-planned under way has room."""
+        """The rows with a little less, so that a robot that is re-planned under way has room."""
         return Rows(self.weights, self.limits * INTERIOR_SHARE)
 
 
@@ -198,7 +198,7 @@ class SpeedProblem:
     def narrowed(
         self, true: SpeedProblem, m: Floats, scale: Floats, share: float, least: float
     ) -> SpeedProblem:
-        """The same with limits nearer to the true ones, that are still kept."""
+        """The problem with limits nearer to the true ones, that are still kept."""
         linear, jerk, _ = self.slacks(m)
         finite = np.isfinite(self.limits)
         linear = np.where(finite, linear, 0.0)

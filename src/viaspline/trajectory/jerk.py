@@ -90,7 +90,7 @@ def smooth_law(
 
 
 def reachable(limits: Limits) -> Limits:
-    """The same with a jerk that a motor may have."""
+    """The limits with a jerk that a motor may have."""
     assert limits.max_jerk is not None
     jerk = max(limits.max_accel, limits.brake) / QUICKEST_S
     return replace(limits, max_jerk=min(limits.max_jerk, jerk))

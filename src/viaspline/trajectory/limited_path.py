@@ -129,7 +129,7 @@ class LimitedSampledPath:
 
     Attributes:
         path: The curve.
-        limits: Of the Limits.
+        limits: What is kept along it.
         along_cells: Its cells.
         u: Their ends as parameters, shape (n + 1,).
     """

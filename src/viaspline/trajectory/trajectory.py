@@ -99,11 +99,11 @@ class Trajectory:
         return self.end_time - self.start_time
 
     def delayed(self, seconds: float) -> Trajectory:
-        """The same, so much later [s]."""
+        """The time law begun so much later [s]."""
         return replace(self, times=self.times + seconds)
 
     def until(self, distance: float) -> Trajectory:
-        """The same as far as the first rest at a distance along the path [m] or beyond it."""
+        """The time law as far as the first rest at a distance along the path [m] or beyond it."""
         rests = np.flatnonzero((self.speeds == 0.0) & (self.distances >= distance))
         if not rests.size:
             return self

@@ -86,7 +86,7 @@ class World:
         return world
 
     def with_side(self, index: int, side: Side) -> World:
-        """The same with one obstacle that may be passed on this side only."""
+        """A world with one obstacle that may be passed on this side only."""
         asked = self.obstacles[index].model_copy(update={"pass_on": side, "never_pass_on": None})
         world = object.__new__(World)
         world.obstacles = (*self.obstacles[:index], asked, *self.obstacles[index + 1 :])
@@ -203,7 +203,7 @@ class World:
     def body_nearest(
         self, positions: ArrayLike, headings: ArrayLike, footprint: ArrayLike
     ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """The same and what is nearest to the body, as in ``nearest``."""
+        """Distance of a body from the world [m], and what is nearest to it, as in ``nearest``."""
         from viaspline.kernels.clearance.footprint_pose import body_distances
 
         flat, shape = _as_points(positions)

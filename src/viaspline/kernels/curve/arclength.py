@@ -75,7 +75,7 @@ def _longest(rows: Floats, k: int, start: float, end: float) -> float:
 
 @inner
 def _larger(array: Floats) -> Floats:
-    """The same numbers with as much room again."""
+    """Numbers in a table with as much room again."""
     larger = np.zeros(2 * array.shape[0])
     for i in range(array.shape[0]):
         larger[i] = array[i]

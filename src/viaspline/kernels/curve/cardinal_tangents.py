@@ -252,7 +252,7 @@ def continuous_spans(
     has_end: bool,
     closed: bool,
 ) -> Floats:
-    """The same with continuous curvature, three cubics a span; arguments as ``cardinal_spans``.
+    """Spans with continuous curvature, three cubics a span; arguments as ``cardinal_spans``.
 
     Returns:
         Bézier control polygons, (3 m, 4, d) [m].

@@ -127,7 +127,7 @@ def _end_tangent(span: Floats, at_end: bool, tangent: Floats) -> float:
 
 @inner
 def _grown(distances: Floats, caps: Floats, rests: Flags) -> tuple[Floats, Floats, Flags]:
-    """The same with twice the room."""
+    """A table with twice the room."""
     size = caps.shape[0]
     more = np.zeros(2 * size + 1), np.zeros(2 * size), np.zeros(2 * size + 1, np.bool_)
     for k in range(size + 1):

@@ -23,7 +23,7 @@ MIN_SHORTCUT_M = 1e-4  # by which a shortcut has to be shorter [m]
 
 @kernel
 def merged(segments: Floats, rho: float) -> Floats:
-    """The same chain with as few segments as it has.
+    """A chain with as few segments as it has.
 
     Args:
         segments: See ``cache``, (n, 3).
@@ -53,7 +53,7 @@ def merged(segments: Floats, rho: float) -> Floats:
 
 @inner
 def _divided(segments: Floats, spacing: float) -> Floats:
-    """The same with every line in equal parts of at most ``spacing`` [m]."""
+    """A chain with every line in equal parts of at most ``spacing`` [m]."""
     count = 0
     for k in range(segments.shape[0]):
         flat = segments[k, FROM] == 0.0 and segments[k, TO] == 0.0

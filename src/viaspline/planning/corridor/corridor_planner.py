@@ -27,8 +27,8 @@ from viaspline.planning.corridor.corridor_refusals import (
 )
 from viaspline.planning.corridor.initial_line import seed
 from viaspline.planning.corridor.minimum_curvature import (
-    PER_SPAN,
-    SHARE,
+    SAMPLES_PER_SPAN,
+    SPAN_WIDTHS,
     Gate,
     Line,
     StripProblem,
@@ -81,7 +81,7 @@ def line_through(
     """
     if world is None:
         world = World(corridor=rings_of(strip.area))
-    strip = strip.finer(SHARE * float(np.median(strip.widths)))
+    strip = strip.finer(SPAN_WIDTHS * float(np.median(strip.widths)))
     refuse_narrow(strip, margin)
     rows = [int(strip.nearest_row(place)) for place in places]
     aims = directions or [None] * len(rows)
@@ -155,7 +155,7 @@ def proven(line: Line, problem: StripProblem, world: World) -> Line:
         extra = line.extra.copy()
         for span in close.tolist():
             lower = tightest(world.packed, spans[span : span + 1], STILL, FAILURE_TOLERANCE_M)[0]
-            at = np.arange(PER_SPAN * span, PER_SPAN * (span + 1) + 1)
+            at = np.arange(SAMPLES_PER_SPAN * span, SAMPLES_PER_SPAN * (span + 1) + 1)
             at = at % extra.size if line.knots.closed else at
             extra[at] += MOVE_FACTOR * max(problem.margin - lower, 0.0) + FAILURE_TOLERANCE_M
         for _ in range(2):

@@ -13,7 +13,7 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.spline_spec import SplineSpec
 from viaspline.mission.strip import Strip, rings_of
 from viaspline.planning.checking.conflicts import CLEAR, too_close
-from viaspline.planning.corridor.minimum_curvature import SHARE, Line, StripProblem
+from viaspline.planning.corridor.minimum_curvature import SPAN_WIDTHS, Line, StripProblem
 from viaspline.planning.methods.clear_spline import ClearSpline
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import Leg, RouteVia, ViaSequence
@@ -90,7 +90,7 @@ def _piece_led_round(points: Floats, piece: Strip, problem: StripProblem, world:
     local = World(
         world.obstacles, bounds=world.bounds, fences=world.fences, corridor=rings_of(piece.area)
     )
-    free = local.distance(points) > problem.margin + 0.1 * SHARE * problem.width
+    free = local.distance(points) > problem.margin + 0.1 * SPAN_WIDTHS * problem.width
     free[[0, -1]] = True
     vias = tuple(RouteVia("the corridor", place, None) for place in points[free])
     legs = tuple(Leg.straight(0.5, 2) for _ in vias[1:])
@@ -103,4 +103,4 @@ def _piece_led_round(points: Floats, piece: Strip, problem: StripProblem, world:
             f"the corridor is blocked: {error.reason}", where=error.where, remedy=error.remedy,
             obstacles=error.obstacles,
         ) from error  # fmt: skip
-    return PiecewiseCubic(spans).sample(0.5 * SHARE * problem.width)[2]
+    return PiecewiseCubic(spans).sample(0.5 * SPAN_WIDTHS * problem.width)[2]

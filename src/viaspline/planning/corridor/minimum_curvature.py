@@ -33,20 +33,22 @@ from viaspline.planning.corridor.quadratic_program import Programme, solve
 from viaspline.planning.corridor.strip_edges import StripEdge
 from viaspline.world.world import World
 
-PER_SPAN = 3  # samples
-FINE = 8  # samples a span where the line is laid through anew
-SHARE = 0.4  # of the strip's width: the length of a span
-MOST = 2000  # spans
-STRIDE = 0.25  # of the width: farthest that a control point moves at once
-SETTLED = 0.05  # of the width: below it the line isn't laid through equal distances again
-STILL = 2e-3  # of the width: such a step is the last
-ROUNDS = 40
-SNAP = 5e-3  # a gate so near to a joint is moved onto it, as a parameter
-NEWTON = 8  # steps to the place that is nearest to a gate
-PRICE = 1.5e5  # of room that is missing
-LENGTH = 0.03  # what a metre is worth beside curvature, with the width as the unit
-PEAK = 1.0  # weight of the fourth power of the curvature beside its square, in the same units
-GRADIENT = 1e-5  # step of differences [m]
+SAMPLES_PER_SPAN = 3  # samples
+FINE_SAMPLES_PER_SPAN = 8  # samples a span where the line is laid through anew
+SPAN_WIDTHS = 0.4  # of the strip's width: the length of a span
+MAX_SPANS = 2000  # spans
+MAX_STRIDE_WIDTHS = 0.25  # of the width: farthest that a control point moves at once
+SETTLED_WIDTHS = 0.05  # of the width: below it the line isn't laid through equal distances again
+LAST_STEP_WIDTHS = 2e-3  # of the width: such a step is the last
+MAX_STEPS_OF_LINE = 40
+GATE_SNAP = 5e-3  # a gate so near to a joint is moved onto it, as a parameter
+NEWTON_STEPS = 8  # steps to the place that is nearest to a gate
+ROOM_PRICE = 1.5e5  # of room that is missing
+LENGTH_WEIGHT = 0.03  # what a metre is worth beside curvature, with the width as the unit
+PEAK_WEIGHT = (
+    1.0  # weight of the fourth power of the curvature beside its square, in the same units
+)
+GRADIENT_STEP_M = 1e-5  # step of differences [m]
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,12 +134,12 @@ class Line:
         closed = task.strip.closed
         ring = np.vstack((points, points[:1])) if closed else points
         along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(ring, axis=0), axis=1))]
-        long = max(SHARE * task.width, along[-1] / MOST)
+        long = max(SPAN_WIDTHS * task.width, along[-1] / MAX_SPANS)
         knots = Knots(max(round(along[-1] / long), 8), closed)
         curve = CubicSpline(along, ring, bc_type="periodic" if closed else "natural")
         equal = np.linspace(0.0, along[-1], knots.count + 1)
         controls = knots.through(curve(equal[:-1] if closed else equal))
-        at = samples(knots, PER_SPAN)
+        at = samples(knots, SAMPLES_PER_SPAN)
         count = len(task.strip.middle)
         unwrapped = np.unwrap(rows, period=count) if closed else rows
         if closed:
@@ -161,7 +163,7 @@ class Line:
             apart = np.minimum(apart % size, -apart % size)
         gap = np.linalg.norm(places - aims[:, None], axis=2)
         found = at[np.where(apart <= task.window, gap, np.inf).argmin(axis=1)]
-        for _ in range(NEWTON):
+        for _ in range(NEWTON_STEPS):
             here = found % count if closed else np.clip(found, 0.0, count)
             place, slope, bend = (self.knots.matrix(here, k) @ self.controls for k in range(3))
             away = place - aims
@@ -186,13 +188,13 @@ def samples(knots: Knots, each: int) -> Floats:
 
 def settled(line: Line, task: StripProblem) -> Line:
     """The line of least curvature that is reached from a line."""
-    for _ in range(ROUNDS):
+    for _ in range(MAX_STEPS_OF_LINE):
         line, moved = improved(line, task)
-        if moved <= STILL * task.width:
+        if moved <= LAST_STEP_WIDTHS * task.width:
             break
-        if moved > SETTLED * task.width:
-            at = samples(line.knots, FINE)
-            rows = line.rows[np.minimum((at * PER_SPAN).astype(int), len(line.rows) - 1)]
+        if moved > SETTLED_WIDTHS * task.width:
+            at = samples(line.knots, FINE_SAMPLES_PER_SPAN)
+            rows = line.rows[np.minimum((at * SAMPLES_PER_SPAN).astype(int), len(line.rows) - 1)]
             line = Line.through(line.knots.matrix(at) @ line.controls, rows, task)
     return line
 
@@ -203,20 +205,20 @@ def improved(line: Line, task: StripProblem) -> tuple[Line, float]:
     Returns:
         (line, farthest that a control point was moved [m]).
     """
-    at = samples(line.knots, PER_SPAN)
+    at = samples(line.knots, SAMPLES_PER_SPAN)
     normals = _normals(line)
     moves = [_Moves(line.knots.matrix(at, order), line.controls, normals) for order in range(3)]
     hessian, gradient, bend_rows, bend_floors = _bending(moves, task)
     room_rows, room_floors = _rooms(line, moves[0], task)
     still = eye_array(line.knots.controls)
-    stride = np.full(line.knots.controls, -STRIDE * task.width)
+    stride = np.full(line.knots.controls, -MAX_STRIDE_WIDTHS * task.width)
     equal, values = _gate_rows(line, normals, task)
     answer = solve(
         Programme(
             hessian, gradient,
             csr_array(vstack([*room_rows, *bend_rows, still, -still])),
             np.concatenate([*room_floors, *bend_floors, stride, stride]),
-            PRICE / task.width**2, equal, values,
+            ROOM_PRICE / task.width**2, equal, values,
         )
     )  # fmt: skip
     moved = replace(line, controls=line.controls + answer[:, None] * normals)
@@ -231,7 +233,7 @@ def fixed(line: Line, task: StripProblem) -> Line:
     if not task.gates:
         return line
     whole = np.rint(line.at)
-    line = replace(line, at=np.where(np.abs(line.at - whole) < SNAP, whole, line.at))
+    line = replace(line, at=np.where(np.abs(line.at - whole) < GATE_SNAP, whole, line.at))
     for _ in range(3):
         rows = line.knots.matrix(line.at).toarray()
         off = np.array([gate.place for gate in task.gates]) - rows @ line.controls
@@ -283,17 +285,17 @@ def _bending(
     by_slope = -left_of(bend) / speed[:, None] ** 3
     by_slope -= 3.0 * (curvature / speed**2)[:, None] * slope
     change = moves[1].along(by_slope) + moves[2].along(turned)
-    step = speed / PER_SPAN
+    step = speed / SAMPLES_PER_SPAN
     unit = task.width
     across = moves[1].along(left_of(slope) / speed[:, None])
     along = moves[1].along(slope / speed[:, None])
-    worth = LENGTH / unit**2
-    sharp = PEAK * (unit * curvature) ** 2
+    worth = LENGTH_WEIGHT / unit**2
+    sharp = PEAK_WEIGHT * (unit * curvature) ** 2
     hessian = change.T @ diags_array(step * (1.0 + 4.0 * sharp)) @ change
-    hessian += across.T @ diags_array(worth / (speed * PER_SPAN)) @ across
+    hessian += across.T @ diags_array(worth / (speed * SAMPLES_PER_SPAN)) @ across
     hessian += 1e-9 / unit**3 * eye_array(hessian.shape[0])
     gradient = change.T @ (step * curvature * (1.0 + 2.0 * sharp)) + along.T @ np.full(
-        step.size, worth / PER_SPAN
+        step.size, worth / SAMPLES_PER_SPAN
     )
     if task.max_curvature is None:
         return hessian, gradient, [], []
@@ -305,7 +307,7 @@ def _bending(
 
 def _rooms(line: Line, places: _Moves, task: StripProblem) -> tuple[list[Any], list[Floats]]:
     """What keeps samples away from the edges and from what stands in the strip."""
-    reach = task.margin + line.extra + 1.5 * STRIDE * task.width
+    reach = task.margin + line.extra + 1.5 * MAX_STRIDE_WIDTHS * task.width
     found = [edge.room(places.values, line.rows) for edge in task.edges]
     if task.obstacles is not None:
         found.append(_free(task.obstacles, places.values))
@@ -322,7 +324,7 @@ def _free(world: World, places: Floats) -> tuple[Floats, Floats]:
     distance = world.distance(places)
     slope = np.column_stack([
         world.distance(places + step) - world.distance(places - step)
-        for step in (np.array([GRADIENT, 0.0]), np.array([0.0, GRADIENT]))
+        for step in (np.array([GRADIENT_STEP_M, 0.0]), np.array([0.0, GRADIENT_STEP_M]))
     ])  # fmt: skip
     size = np.linalg.norm(slope, axis=1)
     return distance, slope / np.where(size > 0.0, size, 1.0)[:, None]

@@ -19,11 +19,13 @@ from scipy.sparse.linalg import splu
 
 from viaspline.kernels.arrays import Floats
 
-STEPS = 60
-GAP = 1e-9  # complementarity that is left of a constraint, as a part of the price
-OFF = 1e-9  # what may lack of the constraints, and of the gradient as a part of the price
-BOUNDARY = 0.995  # part of the way to the boundary that a step may go
-SOFT = 1e-12  # of the equalities: keeps the system regular
+MAX_STEPS = 60
+COMPLEMENTARITY_GAP = 1e-9  # complementarity that is left of a constraint, as a part of the price
+RESIDUAL_TOLERANCE = (
+    1e-9  # what may lack of the constraints, and of the gradient as a part of the price
+)
+BOUNDARY_SHARE = 0.995  # part of the way to the boundary that a step may go
+EQUALITY_SOFTNESS = 1e-12  # of the equalities: keeps the system regular
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,7 @@ class Programme:
     values: Floats
 
 
-def solve(task: Programme, gap: float = GAP) -> Floats:
+def solve(task: Programme, gap: float = COMPLEMENTARITY_GAP) -> Floats:
     """The minimum, by a primal-dual interior-point method with predictor and corrector.
 
     The price bounds the multipliers, so that there is always an answer: where the constraints
@@ -72,8 +74,8 @@ def solve(task: Programme, gap: float = GAP) -> Floats:
     array([1.])
     """
     state = _State.first(task)
-    for _ in range(STEPS):
-        if state.gap < gap * task.price and state.off < OFF:
+    for _ in range(MAX_STEPS):
+        if state.gap < gap * task.price and state.off < RESIDUAL_TOLERANCE:
             break
         system = _System(task, state)
         ahead = system.step(-state.room * state.force, -state.spare * state.counter)
@@ -83,7 +85,7 @@ def solve(task: Programme, gap: float = GAP) -> Floats:
             centre - state.room * state.force - ahead.room * ahead.force,
             centre - state.spare * state.counter + ahead.spare * ahead.force,
         )
-        state = state.moved(step, min(1.0, BOUNDARY * state.reach(step)))
+        state = state.moved(step, min(1.0, BOUNDARY_SHARE * state.reach(step)))
     return state.x
 
 
@@ -182,7 +184,7 @@ class _System:
         across = task.rows.T.tocsr()
         whole = task.hessian + across @ diags_array(self._stiff) @ task.rows
         if task.values.size:
-            zero = -SOFT * eye_array(task.values.size)
+            zero = -EQUALITY_SOFTNESS * eye_array(task.values.size)
             whole = block_array([[whole, task.equal.T], [task.equal, zero]])
         self._factor = splu(csc_array(whole))
 
@@ -202,4 +204,4 @@ class _System:
 
 def _reach(value: Floats, change: Floats) -> float:
     falling = change < 0.0
-    return float(min(1.0 / BOUNDARY, (-value[falling] / change[falling]).min(initial=np.inf)))
+    return float(min(1.0 / BOUNDARY_SHARE, (-value[falling] / change[falling]).min(initial=np.inf)))

@@ -131,7 +131,7 @@ def add(
 
 @inner
 def sized(search: PolyanyaSearch, room: int) -> PolyanyaSearch:
-    """The same with room for that many nodes."""
+    """The search with room for that many nodes."""
     count = search.sizes[0, 0]
     return PolyanyaSearch(
         sized_floats(search.places, count, room),
