@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.routing.narrow_gaps import narrow_places, narrowest
+from viaspline.kernels.routing.narrow_gaps import narrow_places
 from viaspline.kernels.routing.string_pulling.pull import pulled_taut
 from viaspline.kernels.routing.tangent_arcs import taut_length
+from viaspline.kernels.world.segment import nearest_to_segment
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.routing.lattice import Lattice
 from viaspline.planning.routing.route_problem import (
@@ -83,30 +84,26 @@ class LatticeRoute:
             goal: [m], at least (2,).
             closed: Segments that no route crosses, (n, 4).
         """
-        is_proof = True
         if len(closed):
             lattice = lattice.without(closed)
         for _ in range(self.max_gaps):
-            guide = lattice.guide(start, goal)
+            guide = _guide(space, lattice, start, goal)
             if guide is None:
-                return Followed(None, closed, is_proof)
+                return Followed(None, closed, is_proof=True)
             bends, corners, stuck = pulled_taut(
-                space.world.packed, guide, space.required + np.array(TURN_MARGINS_M), space.floor,
-                lattice.side, np.array(TURN_STEPS_RAD),
+                space.world.packed, guide, lattice.kept, space.required + np.array(TURN_MARGINS_M),
+                space.floor, lattice.side, np.array(TURN_STEPS_RAD),
             )  # fmt: skip
             if len(bends):
                 taut_path = TautPath(corners, bends, float(taut_length(corners, bends)))
-                return Followed(taut_path, closed, is_proof)
-            gap = _gap_at(space, guide, stuck, lattice.side)
-            lattice = lattice.without(gap)
-            proven = narrow_places(space.world.packed, guide, space.floor)
-            if _is_too_narrow(space, gap):
-                proven = np.vstack((proven, gap))
-            else:
-                is_proof = False
-            if len(proven):
-                closed = np.vstack((closed, proven))
-                lattice = lattice.without(proven)
+                return Followed(taut_path, closed, is_proof=True)
+            narrow = narrow_places(space.world.packed, guide, space.floor)
+            if stuck[0, 4] < 0.0 and _is_too_narrow(space, stuck[:, :4]):
+                narrow = np.vstack((narrow, stuck[:, :4]))
+            if not len(narrow):
+                break
+            closed = np.vstack((closed, narrow))
+            lattice = lattice.without(narrow)
         return Followed(None, closed, is_proof=False)
 
     def _gave_up(self, finest: Lattice, count: int, *, is_open: bool) -> GaveUp:
@@ -138,10 +135,24 @@ def _is_too_narrow(space: SearchSpace, gap: Floats) -> bool:
     )
 
 
-def _gap_at(space: SearchSpace, guide: Floats, stuck: Floats, side: float) -> Floats:
-    """The segment across the gap at which a guide through cells got stuck, (1, 4)."""
-    if stuck[0, 4] < 0.0:
-        return np.ascontiguousarray(stuck[:, :4])
-    near = max(space.floor, 0.5 * side)  # what is required may be nothing at all
-    found: Floats = narrowest(space.world.packed, guide, stuck[0, 4], near)
-    return found
+def _guide(space: SearchSpace, lattice: Lattice, start: Floats, goal: Floats) -> Floats | None:
+    """The guide between two places, which are led to free cells first where theirs are blocked."""
+    ends = [_entry(space, lattice, place) for place in (start, goal)]
+    if ends[0] is None or ends[1] is None:
+        return None
+    guide = lattice.guide(ends[0], ends[1])
+    return None if guide is None else np.vstack((start[:2], guide, goal[:2]))
+
+
+def _entry(space: SearchSpace, lattice: Lattice, place: Floats) -> Floats | None:
+    """The place itself if its cell is free, else the next free one in a straight line."""
+    middles = lattice.free_middles_near(place)
+    if not len(middles):
+        return None
+    if np.abs(middles[0] - place[:2]).max() <= 0.5 * lattice.side * (1.0 + 1e-9):
+        return np.asarray(place[:2])
+    packed = space.world.packed
+    for x, y in middles.tolist():
+        if nearest_to_segment(packed, place[0], place[1], x, y, np.inf)[0] >= space.floor:
+            return np.array((x, y))
+    return None

@@ -16,7 +16,8 @@ from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.kernels.world.segment import mark_near_segment
-from viaspline.planning.routing.lattice import Lattice, lattices
+from viaspline.planning.routing.lattice import Lattice
+from viaspline.planning.routing.lattices import lattices
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
@@ -55,12 +56,14 @@ class SearchSpace:
     @cached_property
     def lattice(self) -> Lattice:
         """The coarsest lattice."""
-        return next(lattices(self.world, self.required, self.places))
+        return next(self._all_lattices())
 
     def ever_finer(self) -> Iterator[Lattice]:
         """The lattices of this space, the coarsest first."""
-        finer = islice(lattices(self.world, self.required, self.places), 1, None)
-        return chain((self.lattice,), finer)
+        return chain((self.lattice,), islice(self._all_lattices(), 1, None))
+
+    def _all_lattices(self) -> Iterator[Lattice]:
+        return lattices(self.world, self.required, self.floor, self.places)
 
 
 @dataclass(frozen=True)

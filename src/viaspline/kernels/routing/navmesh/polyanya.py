@@ -7,10 +7,12 @@ last place where the path turned. The path that it finds is the shortest of all 
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
-from viaspline.kernels.growable import new_floats, new_ints, sized_floats
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.growable import new_floats, new_ints, sized_floats, sized_ints
 from viaspline.kernels.jit import inlined, inner, kernel
 from viaspline.kernels.routing.navmesh.polyanya_nodes import (
     GOAL,
@@ -28,6 +30,7 @@ from viaspline.kernels.routing.navmesh.polyanya_nodes import (
 )
 from viaspline.kernels.routing.navmesh.polyanya_successors import expand, spread_interval
 from viaspline.kernels.routing.navmesh.rectangles import (
+    BOTTOM,
     FIRST_ABOVE,
     FIRST_BELOW,
     HEIGHT,
@@ -82,8 +85,12 @@ def _begun(mesh: Mesh, start: Floats, goal: Floats, room: int) -> PolyanyaSearch
 
 
 @kernel
-def shortest_path(mesh: Mesh, start: Floats, goal: Floats) -> Floats:
-    """The shortest path between two places of a mesh.
+def shortest_path(mesh: Mesh, start: Floats, goal: Floats) -> tuple[Floats, Floats]:
+    """The shortest path between two places of a mesh, and one through the middles of cells.
+
+    The other path goes through the same portals in the same order, so that one can be bent into
+    the other. It is nowhere nearer than half a cell to what is blocked, but in the cells of start
+    and goal.
 
     Args:
         mesh: Mesh.
@@ -91,16 +98,19 @@ def shortest_path(mesh: Mesh, start: Floats, goal: Floats) -> Floats:
         goal: (2,) [cells].
 
     Returns:
-        Start, the corners where it turns, goal, (k, 2) [cells]; no rows where there is no path.
+        (start, the corners where the shortest path turns, goal, (k, 2); start, middles of cells,
+        goal, (m, 2)) [cells]; no rows where there is no path.
     """
     room = rectangle_at(mesh, start[0], start[1])
     last_room = rectangle_at(mesh, goal[0], goal[1])
     if room < 0 or last_room < 0:
-        return new_floats(0, 2)
+        return new_floats(0, 2), new_floats(0, 2)
     if mesh.rectangles[room, PIECE] != mesh.rectangles[last_room, PIECE]:
-        return new_floats(0, 2)
+        return new_floats(0, 2), new_floats(0, 2)
     if room == last_room:
-        return _path(new_floats(0, 2), 0, start, goal)
+        chain = new_ints(0, 2)
+        path = _path(new_floats(0, 2), 0, start, goal)
+        return path, _middles(mesh, chain, 0, room, room, start, goal)
     search = _begun(mesh, start, goal, room)
     here = next_node(search)
     while here >= 0 and search.links[here, PORTAL] != GOAL:
@@ -110,7 +120,9 @@ def shortest_path(mesh: Mesh, start: Floats, goal: Floats) -> Floats:
         expand(mesh, search, here, last_room)
         here = next_node(search)
     turns, count = _turns(mesh, search, here)
-    return _path(turns, count, start, goal)
+    chain, size = _chain(search, here)
+    middles = _middles(mesh, chain, size, room, last_room, start, goal)
+    return _path(turns, count, start, goal), middles
 
 
 @inner
@@ -141,6 +153,60 @@ def _turns(mesh: Mesh, search: PolyanyaSearch, last: int) -> tuple[Floats, int]:
             count += 1
         node = search.links[node, PARENT]
     return turns, count
+
+
+@inner
+def _chain(search: PolyanyaSearch, last: int) -> tuple[Ints, int]:
+    """The portals of the path to the last node and whether it goes up, from its end to its start.
+
+    A turn on a portal's own line has two nodes for the one portal.
+    """
+    chain = new_ints(16, 2)
+    count = 0
+    node = search.links[last, PARENT]
+    while node >= 0:
+        portal = search.links[node, PORTAL]
+        if count == 0 or chain[count - 1, 0] != portal:
+            if count == chain.shape[0]:
+                chain = sized_ints(chain, count, 2 * count)
+            chain[count, 0] = portal
+            chain[count, 1] = search.links[node, UP]
+            count += 1
+        node = search.links[node, PARENT]
+    return chain, count
+
+
+@inlined
+def _middle_in(mesh: Mesh, room: int, place: float, low: int) -> float:
+    """The middle of the cell of a rectangle that holds a coordinate, or the next one to it."""
+    first = mesh.rectangles[room, low] + 0.5
+    last = mesh.rectangles[room, low + 1] - 0.5
+    return min(max(math.floor(place) + 0.5, first), last)
+
+
+@inner
+def _middles(
+    mesh: Mesh, chain: Ints, count: int, room: int, last_room: int, start: Floats, goal: Floats
+) -> Floats:
+    """A path through the middles of the cells on both sides of every portal of a chain."""
+    path = new_floats(2 * count + 4, 2)
+    for axis in range(2):
+        path[0, axis] = start[axis]
+        path[1, axis] = _middle_in(mesh, room, start[axis], LEFT if axis == 0 else BOTTOM)
+    for k in range(count):
+        portal = chain[count - 1 - k, 0]
+        first = mesh.portals[portal, LEFT] + 0.5
+        last = mesh.portals[portal, RIGHT] - 0.5
+        x = min(max(path[2 * k + 1, 0], first), last)
+        sense = 1.0 if chain[count - 1 - k, 1] == 1 else -1.0
+        for side in range(2):
+            path[2 * k + 2 + side, 0] = x
+            path[2 * k + 2 + side, 1] = mesh.portals[portal, HEIGHT] + (side - 0.5) * sense
+    end = 2 * count + 2
+    for axis in range(2):
+        path[end, axis] = _middle_in(mesh, last_room, goal[axis], LEFT if axis == 0 else BOTTOM)
+        path[end + 1, axis] = goal[axis]
+    return path
 
 
 @inner

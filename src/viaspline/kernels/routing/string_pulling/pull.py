@@ -16,8 +16,9 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.growable import new_floats, sized_floats
 from viaspline.kernels.jit import fused, inlined, kernel
+from viaspline.kernels.routing.string_pulling.drawn import drawn
 from viaspline.kernels.routing.string_pulling.features import features_near
-from viaspline.kernels.routing.string_pulling.guide import foot, side_of, turn_at
+from viaspline.kernels.routing.string_pulling.guide import foot, side_of
 from viaspline.kernels.routing.string_pulling.string_conflicts import SAME_DISTANCE_M, next_conflict
 from viaspline.kernels.routing.string_pulling.string_rows import (
     PLACE,
@@ -25,7 +26,6 @@ from viaspline.kernels.routing.string_pulling.string_rows import (
     insert,
     is_row,
     write,
-    write_end,
 )
 from viaspline.kernels.routing.string_pulling.tighten import slacken
 from viaspline.kernels.routing.tangent_arcs import (
@@ -43,66 +43,8 @@ from viaspline.kernels.world.segment import nearest_to_segment
 
 MAX_FEATURES_NEAR = 256  # features that are looked at near one place
 MAX_INSERTIONS = 2  # times that a feature may be put in anew on one side
-
-
-@fused
-def _inside(
-    world: PackedWorld, guide: Floats, k: int, nx: float, ny: float, rho: float, side: float,
-    found: Floats,
-) -> int:  # fmt: skip
-    """The feature that the guide goes round at a corner: what is most in its way.
-
-    Args:
-        world: PackedWorld.
-        guide: (k, 2) [m].
-        k: The corner.
-        nx: To the inside of the turn.
-        ny: The same.
-        rho: Distance at which the string turns [m].
-        side: How far the corner may be from the feature [m].
-        found: Room for features.
-
-    Returns:
-        Its row in ``found``, -1 where there is none.
-    """
-    x = guide[k, 0] + 0.7 * side * nx
-    y = guide[k, 1] + 0.7 * side * ny
-    distance, _ = nearest(world, x, y, rho + 3.0 * side)
-    near = features_near(world, x, y, max(distance, 0.0) + 0.75 * side, found)
-    best = -np.inf
-    chosen = -1
-    for j in range(near):
-        inwards = (found[j, FEATURE_X] - x) * nx + (found[j, FEATURE_Y] - y) * ny
-        reach = found[j, FEATURE_RADIUS] - inwards
-        if reach > best:
-            best = reach
-            chosen = j
-    return chosen
-
-
-@fused
-def _begin(
-    world: PackedWorld, guide: Floats, rho: float, side: float, found: Floats
-) -> tuple[Floats, int]:
-    """One row for every feature that a corner of the guide goes round, and the two ends."""
-    corners = guide.shape[0]
-    rows = new_floats(max(16, 2 * corners), ROW_COLUMNS)
-    write_end(rows, 0, guide, 0)
-    count = 1
-    for k in range(1, corners - 1):
-        turn, nx, ny = turn_at(guide, k)
-        if turn == 0.0:
-            continue
-        chosen = _inside(world, guide, k, nx, ny, rho, side, found)
-        if chosen < 0:
-            continue
-        lean = math.copysign(1.0, turn)
-        if not is_row(rows, count - 1, found, chosen, lean):
-            write(rows, count, found, chosen, rho, lean, float(k))
-            count += 1
-        rows[count - 1, TURN] += abs(turn)
-    write_end(rows, count, guide, corners - 1)
-    return rows, count + 1
+GUIDE_TURN_RAD = np.pi / 16  # at one corner of a string that is the guide of a wider one
+MAX_GROWTH = 0.1  # of the distance at a time, as a share of the whole
 
 
 @inlined
@@ -174,12 +116,12 @@ def _remember(history: Floats, count: int, found: Floats, j: int, side: float) -
 
 
 @fused
-def _pulled(
-    world: PackedWorld, guide: Floats, rho: float, floor: float, side: float, stuck: Floats
-) -> tuple[Floats, int]:
-    """The rows of a taut string; none where it gets stuck, and ``stuck`` says where."""
+def _settled(
+    world: PackedWorld, rows: Floats, count: int, guide: Floats, rho: float, floor: float,
+    side: float, stuck: Floats,
+) -> tuple[Floats, int]:  # fmt: skip
+    """A string's rows, put in and left out until it is clear; none where it gets stuck."""
     found = new_floats(MAX_FEATURES_NEAR, 5)
-    rows, count = _begin(world, guide, rho, side, found)
     history = new_floats(64, ROW_COLUMNS)
     insertions = 0
     k = 0
@@ -219,6 +161,45 @@ def _pulled(
 
 
 @fused
+def _as_guide(rows: Floats, count: int) -> Floats:
+    """The string as a guide for one that keeps a little more; its rows get their places on it."""
+    corners = corners_round(rows[:count], GUIDE_TURN_RAD)
+    guide = new_floats(corners.shape[0], 2)
+    for k in range(corners.shape[0]):
+        guide[k, 0] = corners[k, 0]
+        guide[k, 1] = corners[k, 1]
+    at = 0.0
+    for k in range(1, count):
+        parts = max(1.0, np.ceil(rows[k, TURN] / GUIDE_TURN_RAD)) if k < count - 1 else 1.0
+        rows[k, PLACE] = at + 0.5 * (parts + 1.0)
+        at += parts
+    return guide
+
+
+@fused
+def _pulled(
+    world: PackedWorld, guide: Floats, kept: float, rho: float, floor: float, side: float,
+    stuck: Floats,
+) -> tuple[Floats, int]:  # fmt: skip
+    """The rows of a taut string; none where it gets stuck, and ``stuck`` says where."""
+    spare = rho - floor
+    now = min(rho, kept)
+    rows, count, place = drawn(world, guide, now, now - spare, side)
+    if count == 0:
+        stuck[0, 4] = place
+        return rows, 0
+    while True:
+        rows, count = _settled(world, rows, count, guide, now, now - spare, side, stuck)
+        if count == 0 or now == rho:
+            return rows, count
+        guide = _as_guide(rows, count)
+        wider = min(rho, now + MAX_GROWTH * rho)
+        for k in range(1, count - 1):
+            rows[k, BEND_RADIUS] += wider - now
+        now = wider
+
+
+@fused
 def _is_clear(world: PackedWorld, corners: Floats, floor: float) -> bool:
     """Whether every piece of a row of corners keeps ``floor``."""
     for k in range(corners.shape[0] - 1):
@@ -232,16 +213,18 @@ def _is_clear(world: PackedWorld, corners: Floats, floor: float) -> bool:
 
 @kernel
 def pulled_taut(
-    world: PackedWorld, guide: Floats, rhos: Floats, floor: float, side: float, steps: Floats
-) -> tuple[Floats, Floats, Floats]:
+    world: PackedWorld, guide: Floats, kept: float, rhos: Floats, floor: float, side: float,
+    steps: Floats,
+) -> tuple[Floats, Floats, Floats]:  # fmt: skip
     """The taut string of a guide.
 
     Args:
         world: PackedWorld.
         guide: Places from start to goal that pass everything on the right sides, (k, 2) [m].
+        kept: Distance that the guide keeps [m]; the string is drawn at that, and then widened.
         rhos: Distances from features at which the string may turn [m], the best first, (r,).
         floor: Distance that the string keeps [m].
-        side: How far the guide's corners may be from the features that they go round [m].
+        side: How far the string's end is drawn at a time [m].
         steps: Largest turns at one corner that may be taken [rad], the coarsest first, (s,).
 
     Returns:
@@ -253,7 +236,7 @@ def pulled_taut(
     """
     stuck = new_floats(1, 5)
     for r in range(rhos.size):
-        rows, count = _pulled(world, guide, rhos[r], floor, side, stuck)
+        rows, count = _pulled(world, guide, kept, rhos[r], floor, side, stuck)
         if count == 0:
             continue
         bends = new_floats(count, PLACE)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import fused
+from viaspline.kernels.jit import fused, inner
 from viaspline.kernels.routing.tangent_arcs import (
     BEND_RADIUS,
     BEND_X,
@@ -44,17 +44,26 @@ def _closest_on(
     return 0.5 * (ax + bx), 0.5 * (ay + by)
 
 
-@fused
-def _arc_conflict(
-    world: PackedWorld, rows: Floats, k: int, floor: float
+@inner
+def arc_conflict(
+    world: PackedWorld, rows: Floats, k: int, begin: float, end: float, floor: float
 ) -> tuple[float, float, float]:
-    """Where along the turn of row k the arc comes too close to something: place and turn so far.
+    """Where the arc of row k comes too close to something: place and turn so far.
 
-    The turn is below 0 where it is clear.
+    Args:
+        world: PackedWorld.
+        rows: The string.
+        k: The row.
+        begin: Turn at which the arc begins, from the heading with which the string comes [rad].
+        end: Turn at which it ends [rad].
+        floor: Distance to keep [m].
+
+    Returns:
+        (x [m], y [m], turn [rad]); the turn is below 0 where the arc is clear.
     """
-    turn = 0.0
+    turn = begin
     radius = rows[k, BEND_RADIUS]
-    while turn < rows[k, TURN]:
+    while turn < end:
         heading = rows[k, HEADING_IN] + rows[k, SIDE] * turn
         x = rows[k, BEND_X] + rows[k, SIDE] * radius * math.sin(heading)
         y = rows[k, BEND_Y] - rows[k, SIDE] * radius * math.cos(heading)
@@ -85,7 +94,7 @@ def _conflict(
     if distance < floor:
         x, y = _closest_on(world, ax, ay, bx, by, floor)
         return k, heading, x, y
-    x, y, turned = _arc_conflict(world, rows, k, floor)
+    x, y, turned = arc_conflict(world, rows, k, 0.0, rows[k, TURN], floor)
     if turned < 0.0:
         return -1, heading, x, y
     at = k if turned >= 0.5 * rows[k, TURN] else k - 1
