@@ -32,6 +32,7 @@ from viaspline.kernels.routing.tangent_arcs import (
     BEND_RADIUS,
     BEND_X,
     BEND_Y,
+    HEADING_IN,
     SIDE,
     TURN,
     corners_round,
@@ -78,6 +79,11 @@ def _most_in_the_way(
     reach = rows[k, SIDE] * rows[k, BEND_RADIUS]
     ax = rows[k, BEND_X] + reach * dy
     ay = rows[k, BEND_Y] - reach * dx
+    reach = rows[k + 1, SIDE] * rows[k + 1, BEND_RADIUS]
+    bx = rows[k + 1, BEND_X] + reach * dy
+    by = rows[k + 1, BEND_Y] - reach * dx
+    length = math.hypot(bx - ax, by - ay)
+    is_on_line = heading == rows[k + 1, HEADING_IN]  # else it is on the arc before
     first = int(rows[at, PLACE])
     last = max(first + 1, min(math.ceil(rows[k + 1, PLACE]), guide.shape[0] - 1))
     best = 1e-9 * (1.0 + rho)
@@ -88,8 +94,11 @@ def _most_in_the_way(
         there = foot(guide, first, last, found[j, FEATURE_X], found[j, FEATURE_Y])
         here = side_of(guide, there, found, j)
         left = dx * (found[j, FEATURE_Y] - ay) - dy * (found[j, FEATURE_X] - ax)
-        violation = found[j, FEATURE_RADIUS] + rho - here * left
-        if violation <= best:
+        radius = found[j, FEATURE_RADIUS] + rho
+        along = dx * (found[j, FEATURE_X] - ax) + dy * (found[j, FEATURE_Y] - ay)
+        violation = radius - here * left
+        beyond = max(-along, along - length, 0.0) if is_on_line else 0.0
+        if violation <= best or (beyond > 0.0 and math.hypot(beyond, left) >= radius):
             continue
         is_there = False
         for row in range(at, k + 2):
