@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from itertools import count
 
@@ -29,7 +30,7 @@ def cell_problem(seed: int) -> Problem:
     for attempt in count():
         thin = kind.startswith("thin")
         required = side * float(random.uniform(0.05, 0.49) if thin else random.uniform(0.51, 2.4))
-        cells, share = _cells(random, aside, kind, attempt)
+        cells, share = _cells(random, aside, kind, required / side, attempt)
         obstacles = _disc(random, aside * side, kind)
         bounds = (0.0, 0.0, aside * side, aside * side)
         problem = Problem(
@@ -59,12 +60,13 @@ def _split(random: np.random.Generator, problem: Problem, start: Place, goal: Pl
     return replace(problem, radius=radius, clearance=clearance, start=start, goal=goal)
 
 
-def _cells(random: np.random.Generator, aside: int, kind: str, attempt: int):
-    """True where blocked; less and less of it where a wide robot found no room."""
+def _cells(random: np.random.Generator, aside: int, kind: str, required: float, attempt: int):
+    """True where blocked; for a wide robot about as much of it as leaves a way through."""
     share = float(random.choice(SHARES))
-    if kind.startswith("wide"):
-        share *= random.uniform(0.1, 1.0) / (1 + attempt)
     size = int(random.integers(2, 8)) if kind.endswith("clumps") else 1
+    if kind.startswith("wide"):
+        grown = 1.0 + 4.0 * required / size + math.pi * (required / size) ** 2  # by one clump
+        share = min(0.4, float(random.uniform(0.3, 1.6)) / grown) / (1 + attempt)
     coarse = random.random((-(-aside // size), -(-aside // size))) < share
     return coarse.repeat(size, axis=0).repeat(size, axis=1)[:aside, :aside].copy(), share
 

@@ -1,7 +1,7 @@
 """If there is a way, it is found; if there is none, it is refused: looked for at random.
 
     python benchmarks/completeness.py [cells] [thin] [--plans N] [--budget S] [--seed N]
-        [--only KIND] [--processes N] [--limit S]
+        [--only KIND] [--processes N] [--limit S] [--reasons]
 
 Oracles that share no code with the planner tell whether there is a way (``connectivity.py``) and
 how near a path comes (``path_room.py``). Every failure is printed with its seed; to see it again:
@@ -59,8 +59,13 @@ class Outcome:
     words: str = ""
 
 
-def tried(problem: Problem) -> Outcome:
-    """A problem planned, and held against the oracles."""
+def tried(problem: Problem, *, reasons: bool = False) -> Outcome:
+    """A problem planned, and held against the oracles.
+
+    Args:
+        problem: What is planned.
+        reasons: Whether the reason of a refusal is asked for, which is found out only then.
+    """
     mission = problem.mission()
     seconds, result = clock(lambda: _planned(mission))
     truth = verdict(problem)
@@ -68,7 +73,11 @@ def tried(problem: Problem) -> Outcome:
     if isinstance(result, vs.Plan):
         wrong = wrong_path(result, problem, truth)
         return outcome(result="planned", wrong=wrong, words=f"{result.path.length:.3f} m")
-    telling, words = clock(lambda: f"{type(result).__name__}: {result}")
+    telling, words = 0.0, type(result).__name__
+    if reasons or not isinstance(result, vs.PlanningError):
+        telling, words = clock(lambda: f"{type(result).__name__}: {result}")
+    elif isinstance(result, vs.GaveUpError):
+        words = f"GaveUpError: tried {'; '.join(result.tried)}"
     named = {vs.NoPathError: "refused", vs.GaveUpError: "gave up"}
     name = next((n for kind, n in named.items() if isinstance(result, kind)), "error")
     wrong = {"error": "error", "gave up": "gave up"}.get(name, "")
@@ -96,11 +105,11 @@ def wrong_path(plan: vs.Plan, problem: Problem, truth: Verdict) -> str:
     return ""
 
 
-def job_done(job: tuple[str, int]) -> Outcome:
+def job_done(job: tuple[str, int], *, reasons: bool) -> Outcome:
     """The problem of a set and a seed; kernels are loaded before the first is timed."""
     _warm()
     name, seed = job
-    return tried(SETS[name](seed))
+    return tried(SETS[name](seed), reasons=reasons)
 
 
 _warmed: list[bool] = []
@@ -129,12 +138,13 @@ def seeds_of(name: str, first: int, count: int, only: str | None) -> list[tuple[
 
 def _shown(job: tuple[str, int], outcome: Outcome | None, limit: float) -> None:
     what = outcome.wrong if outcome else f"took longer than {limit:g} s, or died"
-    about = f"{outcome.kind}, {outcome.truth}: {outcome.words}" if outcome else ""
-    note = SETS[job[0]](job[1]).note if outcome else ""
-    print(f"  {job[0]} --seed {job[1]}: {what} ({about}) [{note}]"[:400], flush=True)
+    about = f"{outcome.truth}: {outcome.words}" if outcome else ""
+    problem = SETS[job[0]](job[1])
+    size = f"{problem.kind}, {problem.note}, radius {problem.radius:.4f} m"
+    print(f"  {job[0]} --seed {job[1]}: {what} ({about}) [{size}]"[:500], flush=True)
 
 
-HEAD = ("plans", "planned", "refused", "unknown", "wrong refusals", "wrong paths", "gave up",
+HEAD = ("plans", "open", "closed", "planned", "refused", "wrong refusals", "wrong paths", "gave up",
         "errors", "too long", "median ms", "99 %", "worst", "reason worst")  # fmt: skip
 
 
@@ -144,9 +154,10 @@ def _row(name: str, outcomes: list[Outcome | None]) -> str:
     seconds = 1e3 * np.array([o.seconds for o in known] or [np.nan])
     cells = (
         len(outcomes),
+        sum(o.truth == "open" for o in known),
+        sum(o.truth == "closed" for o in known),
         sum(o.result == "planned" for o in known),
         sum(o.result == "refused" for o in known),
-        sum(o.truth == "unknown" for o in known),
         wrong.count("wrong refusal"),
         sum(o.result == "planned" and bool(o.wrong) for o in known),
         wrong.count("gave up"),
@@ -166,14 +177,16 @@ def main() -> None:
     asked.add_argument("--limit", type=float, default=60.0, help="of each plan [s]")
     asked.add_argument("--seed", type=int, default=0, help="the first one")
     asked.add_argument("--only", help="problems of this kind: " + str(KINDS))
+    asked.add_argument("--reasons", action="store_true", help="ask refusals for their reasons")
     asked.add_argument("--processes", type=int, default=1, choices=(1, 2))
     given = asked.parse_args()
     for name in given.sets:
         found: dict[str, list[Outcome | None]] = defaultdict(list)
         jobs = seeds_of(name, given.seed, given.plans, given.only)
-        for job, outcome in done(job_done, jobs, given.processes, given.budget, given.limit):
+        do = partial(job_done, reasons=given.reasons)
+        for job, outcome in done(do, jobs, given.processes, given.budget, given.limit):
             found["all"].append(outcome)
-            found[outcome.kind if outcome else "?"].append(outcome)
+            found[SETS[name](job[1]).kind].append(outcome)
             if outcome is None or outcome.wrong or given.plans == 1:
                 _shown(job, outcome, given.limit)
         print(f"\n| {name} | " + " | ".join(HEAD) + " |\n" + "|---" * (len(HEAD) + 1) + "|")

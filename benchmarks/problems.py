@@ -31,9 +31,14 @@ class Solids:
     bounds: Box
 
     @cached_property
-    def tree(self) -> shapely.STRtree:
-        """Finds the cores near a place."""
-        return shapely.STRtree(self.cores)
+    def trees(self) -> list[tuple[shapely.STRtree, np.ndarray]]:
+        """Find the cores near a place, those that aren't grown by one of their own."""
+        bare = self.radii == 0.0
+        return [
+            (shapely.STRtree(self.cores[some]), self.radii[some])
+            for some in (bare, ~bare)
+            if some.any()
+        ]
 
     def room(self, lines: np.ndarray, reach: float) -> np.ndarray:
         """Distance of geometries to the nearest solid and the bounds [m], ``reach`` at most, (k,).
@@ -44,10 +49,10 @@ class Solids:
         low_x, low_y, high_x, high_y = shapely.bounds(lines).T
         edges = np.column_stack((low_x - x0, low_y - y0, x1 - high_x, y1 - high_y))
         found = np.minimum(reach, edges.min(axis=1))
-        if len(self.cores):
-            far = reach + float(self.radii.max())
-            of, core = self.tree.query(lines, predicate="dwithin", distance=far)
-            gaps = shapely.distance(lines[of], self.cores[core]) - self.radii[core]
+        for tree, radii in self.trees:
+            far = reach + float(radii.max())
+            of, core = tree.query(lines, predicate="dwithin", distance=far)
+            gaps = shapely.distance(lines[of], tree.geometries[core]) - radii[core]
             np.minimum.at(found, of, gaps)
         return found
 
