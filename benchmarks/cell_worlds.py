@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import count
 
 import numpy as np
-from problems import Place, Problem, places_with_room
+from problems import Problem, places_with_room
 
 SHARES = (0.1, 0.2, 0.25, 0.3, 0.35, 0.4)
 """Of the cells that are blocked."""
@@ -48,16 +48,8 @@ def cell_problem(seed: int) -> Problem:
             random, problem.solids, bounds, required + LEAST_SPARE * side, 2, tries=2000
         )
         if len(ends) == 2:
-            return _split(random, problem, *ends)
+            return replace(problem, start=ends[0], goal=ends[1]).shared_out(random)
     raise AssertionError
-
-
-def _split(random: np.random.Generator, problem: Problem, start: Place, goal: Place) -> Problem:
-    """Between the places, what is required shared out between radius and clearance."""
-    share = float(random.choice((1.0, 1.0, random.uniform(0.2, 0.9))))
-    radius = share * problem.required
-    clearance = problem.required - radius
-    return replace(problem, radius=radius, clearance=clearance, start=start, goal=goal)
 
 
 def _cells(random: np.random.Generator, aside: int, kind: str, required: float, attempt: int):

@@ -1,11 +1,18 @@
 """If there is a way, it is found; if there is none, it is refused: looked for at random.
 
-    python benchmarks/completeness.py [cells] [thin] [--plans N] [--budget S] [--seed N]
-        [--only KIND] [--processes N] [--limit S] [--reasons]
+    python benchmarks/completeness.py [cells] [thin] [maps] [radii] [reasons] [--plans N]
+        [--budget S] [--seed N] [--only KIND] [--maps FOLDER] [--processes N] [--limit S] [--tcod]
 
 Oracles that share no code with the planner tell whether there is a way (``connectivity.py``) and
-how near a path comes (``path_room.py``). Every failure is printed with its seed; to see it again:
-``completeness.py SET --seed SEED --plans 1``, with ``--only KIND`` if that was given before.
+how near a path comes (``path_room.py``). The sets:
+
+- ``cells``: maps of random cells; ``maps``: MovingAI's; ``thin``: thin walls at odd angles;
+- ``radii``: worlds of cells and thin walls for ever fatter robots, which may not find more;
+- ``reasons``: what refusals tell, and whether their remedies serve.
+
+Every failure is printed with its seed. To see one again: ``completeness.py SET --seed SEED --plans
+1``, with ``--only KIND`` if that was given before. ``--tcod`` (``pip install ".[bench]"``) also has
+tcod's A* search the same maps.
 """
 
 from __future__ import annotations
@@ -13,185 +20,172 @@ from __future__ import annotations
 import argparse
 import os
 from collections import defaultdict
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import count, islice
+from typing import NamedTuple
 
 import numpy as np
 from cell_worlds import KINDS as CELL_KINDS
 from cell_worlds import cell_problem
-from connectivity import Verdict, verdict
-from path_room import CHORD_ERROR_M, ends_missed, least_room
+from map_worlds import map_problem
 from problems import Problem
 from thin_worlds import KINDS as THIN_KINDS
 from thin_worlds import thin_problem
 from timing import clock
+from trials import Outcome, plan_tried, planned, radii_tried, refusal_tried
 from work_pool import done
 
-import viaspline as vs
-
-PROOF_SLACK_M = 1e-6  # that the package allows itself
-TOLERANCE_M = CHORD_ERROR_M + 2 * PROOF_SLACK_M
-SETS: dict[str, Callable[[int], Problem]] = {"cells": cell_problem, "thin": thin_problem}
-KINDS = {"cells": tuple(dict.fromkeys(CELL_KINDS)), "thin": tuple(THIN_KINDS)}
+SMALL = 100  # cells aside, of maps that are searched again and again
+STRIDE = 1009  # of their seeds
 
 
-@dataclass(frozen=True, kw_only=True)
-class Outcome:
-    """What came of one plan.
+class Job(NamedTuple):
+    """A problem by its set and seed, and the folder of maps."""
 
-    Attributes:
-        kind: Of the problem.
-        truth: What the oracle says.
-        result: ``planned``, ``refused``, ``gave up`` or ``error``.
-        wrong: What is wrong with it; empty if nothing is.
-        seconds: Of the planner [s].
-        telling: Of finding the reason of a refusal [s].
-        words: The error's, or the path's length.
-    """
-
-    kind: str
-    truth: Verdict
-    result: str
-    wrong: str
-    seconds: float
-    telling: float = 0.0
-    words: str = ""
+    name: str
+    seed: int
+    maps: str
 
 
-def tried(problem: Problem, *, reasons: bool = False) -> Outcome:
-    """A problem planned, and held against the oracles.
-
-    Args:
-        problem: What is planned.
-        reasons: Whether the reason of a refusal is asked for, which is found out only then.
-    """
-    mission = problem.mission()
-    seconds, result = clock(lambda: _planned(mission))
-    truth = verdict(problem)
-    outcome = partial(Outcome, kind=problem.kind, truth=truth, seconds=seconds)
-    if isinstance(result, vs.Plan):
-        wrong = wrong_path(result, problem, truth)
-        return outcome(result="planned", wrong=wrong, words=f"{result.path.length:.3f} m")
-    telling, words = 0.0, type(result).__name__
-    if reasons or not isinstance(result, vs.PlanningError):
-        telling, words = clock(lambda: f"{type(result).__name__}: {result}")
-    elif isinstance(result, vs.GaveUpError):
-        words = f"GaveUpError: tried {'; '.join(result.tried)}"
-    named = {vs.NoPathError: "refused", vs.GaveUpError: "gave up"}
-    name = next((n for kind, n in named.items() if isinstance(result, kind)), "error")
-    wrong = {"error": "error", "gave up": "gave up"}.get(name, "")
-    if name == "refused" and truth == "open":
-        wrong = "wrong refusal"
-    return outcome(result=name, wrong=wrong, telling=telling, words=words)
+def small_problem(seed: int) -> Problem:
+    """Thin walls for two seeds, cells of a small map for the next."""
+    if seed % 3:
+        return thin_problem(seed // 3 * 2 + seed % 3 - 1)
+    found = (cell_problem(s) for s in count(STRIDE * seed))
+    return next(p for p in found if p.cells is not None and len(p.cells) <= SMALL)
 
 
-def _planned(mission: vs.Mission):
-    try:
-        return vs.plan(mission)
-    except Exception as error:  # whatever it is, it is counted
-        return error
+def problem_of(job: Job) -> Problem:
+    """The problem of a job."""
+    if job.name == "maps":
+        return map_problem(job.seed, job.maps)
+    made: dict[str, Callable[[int], Problem]] = {"cells": cell_problem, "thin": thin_problem}
+    return made.get(job.name, small_problem)(job.seed)
 
 
-def wrong_path(plan: vs.Plan, problem: Problem, truth: Verdict) -> str:
-    """What is wrong with a path; empty if nothing is."""
-    if truth == "closed":
-        return "path where there is none"
-    lacks = problem.required - least_room(plan.path.spans, problem)
-    if lacks > TOLERANCE_M:
-        return f"too near by {lacks:.2e} m"
-    if not plan.certificate.holds or ends_missed(plan.path.spans, problem) > PROOF_SLACK_M:
-        return "not certified, or beside its ends"
-    return ""
+TRIALS: dict[str, Callable[[Problem], Outcome]] = {
+    "cells": plan_tried,
+    "thin": plan_tried,
+    "maps": plan_tried,
+    "radii": radii_tried,
+    "reasons": refusal_tried,
+}
 
 
-def job_done(job: tuple[str, int], *, reasons: bool) -> Outcome:
-    """The problem of a set and a seed; kernels are loaded before the first is timed."""
+def job_done(job: Job, *, tcod: bool) -> tuple[Outcome, float]:
+    """A trial, and how long tcod takes for it [s]; kernels are loaded before the first is timed."""
     _warm()
-    name, seed = job
-    return tried(SETS[name](seed), reasons=reasons)
+    problem = problem_of(job)
+    outcome = TRIALS[job.name](problem)
+    return outcome, tcod_seconds(problem) if tcod and problem.cells is not None else np.nan
 
 
 _warmed: list[bool] = []
 
 
 def _warm() -> None:
-    if _warmed:
-        return
-    _warmed.append(True)
-    for seed in range(6):
-        _planned(thin_problem(seed).mission())
-    _planned(cell_problem(0).mission())
+    if not _warmed:
+        _warmed.append(True)
+        for seed in range(len(THIN_KINDS)):
+            planned(thin_problem(seed).mission())
+        planned(cell_problem(0).mission())
 
 
-def seeds_of(name: str, first: int, count: int, only: str | None) -> list[tuple[str, int]]:
-    """Jobs of a set, of one kind if asked for."""
-    kinds = CELL_KINDS if name == "cells" else KINDS[name]
-    jobs: list[tuple[str, int]] = []
-    seed = first
-    while len(jobs) < count:
+def tcod_seconds(problem: Problem) -> float:
+    """How long tcod's A* takes from cell to cell, its graph made before [s]."""
+    try:
+        from grids import tcod_graph, tcod_path
+    except ImportError as error:
+        raise SystemExit(f'{error}; pip install ".[bench]"') from None
+    graph = tcod_graph(problem.cells)
+    start, goal = (
+        (int(y / problem.resolution), int(x / problem.resolution))
+        for x, y in (problem.start, problem.goal)
+    )
+    seconds, _ = clock(lambda: tcod_path(graph, start, goal))
+    return seconds
+
+
+def jobs_of(name: str, first: int, only: str | None, maps: str) -> Iterator[Job]:
+    """The jobs of a set from a seed on, of one kind if asked for."""
+    kinds = {"cells": CELL_KINDS, "thin": tuple(THIN_KINDS)}.get(name, ())
+    if only is not None and only not in kinds:
+        raise SystemExit(f"{only!r} is no kind of {name}; there are {', '.join(kinds) or 'none'}")
+    for seed in count(first):
         if only is None or kinds[seed % len(kinds)] == only:
-            jobs.append((name, seed))
-        seed += 1
-    return jobs
+            yield Job(name, seed, maps)
 
 
-def _shown(job: tuple[str, int], outcome: Outcome | None, limit: float) -> None:
-    what = outcome.wrong if outcome else f"took longer than {limit:g} s, or died"
-    about = f"{outcome.truth}: {outcome.words}" if outcome else ""
-    problem = SETS[job[0]](job[1])
-    size = f"{problem.kind}, {problem.note}, radius {problem.radius:.4f} m"
-    print(f"  {job[0]} --seed {job[1]}: {what} ({about}) [{size}]"[:500], flush=True)
+def _show(job: Job, problem: Problem, outcome: Outcome | None, limit: float) -> None:
+    size = f"{problem.kind}, {problem.note}, radius {problem.radius:.4f} m + {problem.clearance:g}"
+    what = f"took longer than {limit:g} s, or died"
+    if outcome is not None:
+        what = f"{outcome.wrong or outcome.result} ({outcome.truth}) {outcome.words}"
+    print(f"  {job.name} --seed {job.seed} [{size}]: {what}"[:700], flush=True)
 
 
 HEAD = ("plans", "open", "closed", "planned", "refused", "wrong refusals", "wrong paths", "gave up",
-        "errors", "too long", "median ms", "99 %", "worst", "reason worst")  # fmt: skip
+        "errors", "else wrong", "too long", "median ms", "99 %", "worst", "reason worst",
+        "tcod median")  # fmt: skip
 
 
-def _row(name: str, outcomes: list[Outcome | None]) -> str:
-    known = [o for o in outcomes if o is not None]
-    wrong = [o.wrong for o in known]
+def _row(kind: str, found: list[tuple[Outcome, float] | None]) -> str:
+    known = [one[0] for one in found if one is not None]
+    tcod = [1e3 * one[1] for one in found if one is not None and np.isfinite(one[1])]
     seconds = 1e3 * np.array([o.seconds for o in known] or [np.nan])
+    results, wrong = [o.result for o in known], [o for o in known if o.wrong]
+    counts = {
+        "wrong refusals": sum(o.wrong == "wrong refusal" for o in wrong),
+        "wrong paths": sum(o.result == "planned" and o.truth != "unknown" for o in wrong),
+        "gave up": results.count("gave up"),
+        "errors": results.count("error"),
+    }
     cells = (
-        len(outcomes),
+        len(found),
         sum(o.truth == "open" for o in known),
         sum(o.truth == "closed" for o in known),
-        sum(o.result == "planned" for o in known),
-        sum(o.result == "refused" for o in known),
-        wrong.count("wrong refusal"),
-        sum(o.result == "planned" and bool(o.wrong) for o in known),
-        wrong.count("gave up"),
-        wrong.count("error"),
-        outcomes.count(None),
+        results.count("planned"),
+        results.count("refused"),
+        *counts.values(),
+        max(len(wrong) - sum(counts.values()), 0),
+        found.count(None),
         *(f"{v:.1f}" for v in (np.median(seconds), np.quantile(seconds, 0.99), seconds.max())),
         f"{1e3 * max((o.telling for o in known), default=0.0):.0f}",
+        f"{np.median(tcod):.1f}" if tcod else "",
     )
-    return f"| {name} | " + " | ".join(map(str, cells)) + " |"
+    return f"| {kind} | " + " | ".join(map(str, cells)) + " |"
 
 
-def main() -> None:
+def _asked() -> argparse.Namespace:
     asked = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    asked.add_argument("sets", nargs="*", default=list(SETS))
+    asked.add_argument("sets", nargs="*", choices=[*TRIALS, []], help="cells and thin if none")
     asked.add_argument("--plans", type=int, default=60, help="of each set")
     asked.add_argument("--budget", type=float, default=120.0, help="of each set [s]")
     asked.add_argument("--limit", type=float, default=60.0, help="of each plan [s]")
     asked.add_argument("--seed", type=int, default=0, help="the first one")
-    asked.add_argument("--only", help="problems of this kind: " + str(KINDS))
-    asked.add_argument("--reasons", action="store_true", help="ask refusals for their reasons")
+    asked.add_argument("--only", help=f"cells: {set(CELL_KINDS)}, thin: {set(THIN_KINDS)}")
+    asked.add_argument("--maps", default=".", help="folder of MovingAI's .map files")
     asked.add_argument("--processes", type=int, default=1, choices=(1, 2))
-    given = asked.parse_args()
-    for name in given.sets:
-        found: dict[str, list[Outcome | None]] = defaultdict(list)
-        jobs = seeds_of(name, given.seed, given.plans, given.only)
-        do = partial(job_done, reasons=given.reasons)
-        for job, outcome in done(do, jobs, given.processes, given.budget, given.limit):
-            found["all"].append(outcome)
-            found[SETS[name](job[1]).kind].append(outcome)
-            if outcome is None or outcome.wrong or given.plans == 1:
-                _shown(job, outcome, given.limit)
+    asked.add_argument("--tcod", action="store_true", help="have tcod's A* search the maps as well")
+    return asked.parse_args()
+
+
+def main() -> None:
+    given = _asked()
+    do = partial(job_done, tcod=given.tcod)
+    for name in given.sets or ("cells", "thin"):
+        found: dict[str, list[tuple[Outcome, float] | None]] = defaultdict(list)
+        jobs = islice(jobs_of(name, given.seed, given.only, given.maps), given.plans)
+        for job, one in done(do, jobs, given.processes, given.budget, given.limit):
+            problem = problem_of(job)
+            found["all"].append(one)
+            found[problem.kind].append(one)
+            if one is None or one[0].wrong or given.plans == 1:
+                _show(job, problem, one and one[0], given.limit)
         print(f"\n| {name} | " + " | ".join(HEAD) + " |\n" + "|---" * (len(HEAD) + 1) + "|")
         for kind in sorted(found):
-            print(_row(kind, found[kind]))
+            print(_row(kind, found[kind]), flush=True)
 
 
 if __name__ == "__main__":

@@ -24,13 +24,13 @@ from scipy.ndimage import distance_transform_edt, label
 
 Verdict = Literal["open", "closed", "unknown"]
 
-MARGIN_M = 1e-3
+MARGIN_M = 2e-4
 """By which other worlds are grown more and less than is required [m]."""
 
 CELL_MARGIN_M = 1e-4
 """Nearer to a level of a map's gaps than this, nothing is told [m]."""
 
-SAGITTA_M = 1e-4
+SAGITTA_M = 5e-5
 """Of a grown polygon's arcs, at most [m]."""
 
 NODES_A_CELL = 8

@@ -91,22 +91,29 @@ class Problem:
         """Distance that the path keeps from everything [m]."""
         return self.radius + self.clearance
 
-    def with_radius(self, radius: float) -> Problem:
-        """The same for another robot."""
-        return replace(self, radius=radius)
+    def for_robot(self, radius: float, clearance: float = 0.0) -> Problem:
+        """The same for another robot [m]."""
+        return replace(self, radius=radius, clearance=clearance)
 
-    def mission(self) -> vs.Mission:
-        """As it is asked of the planner."""
+    def shared_out(self, random: np.random.Generator) -> Problem:
+        """The same, with some of what is required as clearance now and then."""
+        share = float(random.choice((1.0, 1.0, random.uniform(0.2, 0.9))))
+        return self.for_robot(share * self.required, (1.0 - share) * self.required)
+
+    def asked(self) -> dict[str, Any]:
+        """The mission as a file would have it."""
         known: list[Any] = list(self.obstacles)
         if self.cells is not None:
             known.insert(0, vs.Obstacle(grid=vs.Grid(self.cells, self.resolution)))
-        return vs.Mission.model_validate(
-            {
-                "world": {"bounds": self.bounds, "known": known},
-                "robot": {"radius_m": self.radius, "clearance_m": self.clearance},
-                "route": {"start": self.start, "goal": self.goal},
-            }
-        )
+        return {
+            "world": {"bounds": self.bounds, "known": known},
+            "robot": {"radius_m": self.radius, "clearance_m": self.clearance},
+            "route": {"start": {"at": self.start}, "goal": {"at": self.goal}},
+        }
+
+    def mission(self) -> vs.Mission:
+        """As it is asked of the planner."""
+        return vs.Mission.model_validate(self.asked())
 
     @cached_property
     def solids(self) -> Solids:

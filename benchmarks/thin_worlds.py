@@ -46,7 +46,7 @@ def thin_problem(seed: int, only: str | None = None) -> Problem:
     for _ in count():
         found = KINDS[kind](random, kind)
         if found is not None:
-            return found
+            return found.shared_out(random)
     raise AssertionError
 
 
@@ -54,6 +54,13 @@ def nearly(random: np.random.Generator, needed: float) -> float:
     """A width [m] that is more or less than is needed, by a millimetre or by a lot."""
     more = 10 ** random.uniform(NEAREST_DECADE, FARTHEST_DECADE)
     return max(needed + float(random.choice((-1, 1)) * more), 0.02 * needed)
+
+
+def gaps(random: np.random.Generator, needed: float, count_of: int) -> np.ndarray:
+    """Widths that are all more than is needed, but one that may be less [m], (count_of,)."""
+    widths = needed + 10 ** random.uniform(NEAREST_DECADE, FARTHEST_DECADE, count_of)
+    widths[random.integers(count_of)] = nearly(random, needed)
+    return widths
 
 
 def _of_walls(lay: Callable[[np.random.Generator, float], Walls]):
@@ -179,11 +186,8 @@ def comb(random: np.random.Generator, thickness: float) -> Walls:
     pitch = 2 * required * float(random.uniform(1.05, 3.0)) + thickness + 0.02
     height = max(6.0, 6 * required)
     lines = []
-    for k in range(teeth):
-        x, gap = (k + 1) * pitch, nearly(random, 2 * required) + thickness
-        if random.random() < 0.7:
-            gap = max(gap, 2 * required + thickness + 2 * 10**NEAREST_DECADE)
-        gap = min(gap, 0.9 * height)
+    for k, width in enumerate(gaps(random, 2 * required, teeth)):
+        x, gap = (k + 1) * pitch, min(width + thickness, 0.9 * height)
         lines.append([[x, 0], [x, height - gap]] if k % 2 else [[x, gap], [x, height]])
     width = (teeth + 1) * pitch
     box = (0.0, 0.0, width, height)
@@ -194,21 +198,32 @@ def comb(random: np.random.Generator, thickness: float) -> Walls:
 
 
 def spiral(random: np.random.Generator, thickness: float) -> Walls:
-    """A square spiral whose lane is a little wider than the robot, or a little narrower."""
+    """A square spiral with stubs across its lane, which leave nearly what the robot needs."""
     required = float(random.uniform(0.1, 0.8))
-    lane = max(nearly(random, 2 * required), 0.5 * required) + thickness
+    lane = 2 * required * float(random.uniform(1.1, 3.0)) + thickness
     turns = int(random.integers(4, 22))
-    corners, at = [np.zeros(2)], np.zeros(2)
+    ring, at = [np.zeros(2)], np.zeros(2)
     for k in range(turns):
         heading = ((1, 0), (0, 1), (-1, 0), (0, -1))[k % 4]
         at = at + lane * (1 + k // 2) * np.array(heading)
-        corners.append(at)
-    ring = np.array(corners)
-    low, high = ring.min(axis=0) - 3 * lane, ring.max(axis=0) + 3 * lane
-    middle = (0.0, 0.0, lane, lane)
-    goal = (float(low[0]), float(low[1]), float(high[0]), float(ring[:, 1].min()))
-    lines = np.stack((ring[:-1], ring[1:]), axis=1)
-    return Walls(lines, required, middle, goal, (*low.tolist(), *high.tolist()))
+        ring.append(at)
+    lines = list(np.stack((ring[:-1], ring[1:]), axis=1))
+    at_walls = sorted({int(k) for k in random.integers(2, turns, 3)})
+    for k, width in zip(at_walls, gaps(random, 2 * required, len(at_walls)), strict=True):
+        lines.append(_stub(lines[k], lane - width - thickness, float(random.uniform(0.3, 0.7))))
+    corners = np.array(ring)
+    low, high = corners.min(axis=0) - 3 * lane, corners.max(axis=0) + 3 * lane
+    goal = (float(low[0]), float(low[1]), float(high[0]), float(corners[:, 1].min()))
+    lines = [line for line in lines if np.linalg.norm(line[1] - line[0]) > 1e-3]
+    edge = (*low.tolist(), *high.tolist())
+    return Walls(np.array(lines), required, (0.0, 0.0, lane, lane), goal, edge)
+
+
+def _stub(wall: np.ndarray, length: float, share: float) -> np.ndarray:
+    """A wall that stands on another's left, towards the middle of the spiral."""
+    along = (wall[1] - wall[0]) / np.linalg.norm(wall[1] - wall[0])
+    foot = wall[0] + share * (wall[1] - wall[0])
+    return np.array((foot, foot + max(length, 0.0) * np.array([-along[1], along[0]])))
 
 
 def traps(random: np.random.Generator, thickness: float) -> Walls:
@@ -234,11 +249,8 @@ def ring_walls(random: np.random.Generator, thickness: float) -> Walls:
     required = float(random.uniform(0.1, 0.8))
     radius, lines = 3 * required + 0.5, []
     inner = 0.5 * radius
-    for _ in range(int(random.integers(1, 5))):
-        sides = int(random.integers(3, 25))
-        gap = nearly(random, 2 * required) + thickness
-        if random.random() < 0.5:
-            gap = max(gap, 2 * required + thickness + 2 * 10**NEAREST_DECADE)
+    for width in gaps(random, 2 * required, int(random.integers(1, 5))):
+        sides, gap = int(random.integers(3, 25)), float(width) + thickness
         lines.extend(_broken_ring(random, radius, sides, gap))
         radius = radius / math.cos(math.pi / sides) + gap + 2.2 * required + thickness
     box = (-radius, -radius, radius, radius)
