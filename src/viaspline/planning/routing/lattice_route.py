@@ -103,7 +103,9 @@ class LatticeRoute:
             if not len(narrow):
                 break
             closed = np.vstack((closed, narrow))
-            lattice = lattice.without(narrow)
+            before, lattice = lattice, lattice.without(narrow)
+            if (before.cells == lattice.cells).all():
+                break  # what is too narrow there is none of these
         return Followed(None, closed, is_proof=False)
 
     def _gave_up(self, finest: Lattice, count: int, *, is_open: bool) -> GaveUp:

@@ -67,16 +67,32 @@ def length_of(path: Floats) -> float:
     return float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum()) if len(path) else np.inf
 
 
+def check_middles(
+    blocked: Bytes, start: Floats, goal: Floats, middles: Floats, *, found: bool
+) -> None:
+    """The path through middles of cells is half a cell from what is blocked, its ends aside."""
+    assert (len(middles) > 0) == found
+    if found:
+        np.testing.assert_array_equal(middles[[0, -1]], [start, goal])
+        walls = solid(np.pad(blocked, 1, constant_values=1))
+        inner = shapely.LineString(middles[1:-1])
+        assert inner.distance(walls) >= 0.5 - 1e-9
+        for end, first in ((start, middles[1]), (goal, middles[-2])):
+            assert np.abs(end - first).max() <= 0.5 + 1e-9
+            assert not shapely.LineString((end, first)).intersects(walls.buffer(-1e-9))
+
+
 def check(blocked: Bytes, start: Any, goal: Any) -> None:
     start, goal = np.array(start, float), np.array(goal, float)
-    path = shortest_path(mesh_of(blocked), start, goal)
+    path, middles = shortest_path(mesh_of(blocked), start, goal)
+    check_middles(blocked, start, goal, middles, found=len(path) > 0)
     assert length_of(path) == pytest.approx(visibility_length(blocked, start, goal), abs=1e-6)
     if len(path):
         np.testing.assert_array_equal(path[[0, -1]], [start, goal])
         walled = np.pad(blocked, 1, constant_values=1)
         assert not shapely.LineString(path).intersects(solid(walled))
         assert {tuple(turn) for turn in path[1:-1]} <= set(corners(walled))
-        back = shortest_path(mesh_of(blocked), goal, start)
+        back, _ = shortest_path(mesh_of(blocked), goal, start)
         assert length_of(back) == pytest.approx(length_of(path))
 
 
@@ -113,7 +129,7 @@ def test_a_place_is_as_far_from_itself_as_nothing() -> None:
 
 def test_nothing_leads_through_a_pinch() -> None:
     blocked = np.array([[0, 1], [1, 0]], np.uint8)
-    assert len(shortest_path(mesh_of(blocked), np.array([0.5, 0.5]), np.array([1.5, 1.5]))) == 0
+    assert len(shortest_path(mesh_of(blocked), np.array([0.5, 0.5]), np.array([1.5, 1.5]))[0]) == 0
 
 
 @given(lattices, st.floats(-1, 9), st.floats(-1, 9))
@@ -126,13 +142,13 @@ def test_a_place_is_found_where_it_is_in_a_free_cell_or_on_its_border(
     place = np.array([x, y])
     gap = free.distance(shapely.Point(place))
     if gap == 0.0 or gap > 1e-8:  # else within rounding
-        assert len(shortest_path(mesh_of(blocked), place, place)) == (2 if gap == 0.0 else 0)
+        assert len(shortest_path(mesh_of(blocked), place, place)[0]) == (2 if gap == 0.0 else 0)
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (0, 3), (3, 0)])
 def test_nothing_leads_through_a_lattice_without_cells(shape: tuple[int, int]) -> None:
     mesh = mesh_of(np.zeros(shape, np.uint8))
-    assert len(shortest_path(mesh, np.zeros(2), np.ones(2))) == 0
+    assert len(shortest_path(mesh, np.zeros(2), np.ones(2))[0]) == 0
 
 
 @pytest.mark.parametrize("place", [(-3.0, 1.5), (1.5, 1.5), (1.5, 90.0), (np.nan, 1.0)])
@@ -141,7 +157,7 @@ def test_nothing_leads_to_where_no_free_cell_is(place: tuple[float, float]) -> N
     blocked[1, 1] = 1
     mesh = mesh_of(blocked)
     for ends in ((place, (0.5, 0.5)), ((0.5, 0.5), place)):
-        assert len(shortest_path(mesh, *map(np.array, ends))) == 0
+        assert len(shortest_path(mesh, *map(np.array, ends))[0]) == 0
 
 
 def test_a_path_turns_as_often_as_it_must() -> None:
@@ -149,6 +165,6 @@ def test_a_path_turns_as_often_as_it_must() -> None:
     blocked[1::4, :-1] = 1
     blocked[3::4, 1:] = 1
     start, goal = np.array([0.5, 0.5]), np.array([0.5, 80.5])
-    path = shortest_path(mesh_of(blocked), start, goal)
+    path, _ = shortest_path(mesh_of(blocked), start, goal)
     assert len(path) == 2 + 2 * 40 - 1
     assert length_of(path) == pytest.approx(visibility_length(blocked, start, goal))

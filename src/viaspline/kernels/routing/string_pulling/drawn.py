@@ -5,6 +5,8 @@ another feature the string bends round that, on the side from which it came; whe
 back to the heading with which it comes to its feature, the string leaves that. So the string is
 taut at every moment and can be bent into the guide, without any look at which side of the guide
 a feature lies on. All that it takes is that the guide itself keeps the distance.
+
+Tested through ``kernels/routing/string_pulling/test_pull``.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.growable import new_floats, sized_floats
-from viaspline.kernels.jit import fused, inlined, kernel
+from viaspline.kernels.jit import fused, inlined, inner, kernel
 from viaspline.kernels.routing.string_pulling.drawn import drawn
 from viaspline.kernels.routing.string_pulling.features import features_near
 from viaspline.kernels.routing.string_pulling.guide import foot, side_of
@@ -45,6 +45,7 @@ from viaspline.kernels.world.segment import nearest_to_segment
 MAX_FEATURES_NEAR = 256  # features that are looked at near one place
 MAX_INSERTIONS = 2  # times that a feature may be put in anew on one side
 GUIDE_TURN_RAD = np.pi / 16  # at one corner of a string that is the guide of a wider one
+GRADIENT_STEP = 1e-6  # as a share of the distance
 MAX_GROWTH = 0.1  # of the distance at a time, as a share of the whole
 
 
@@ -124,6 +125,47 @@ def _remember(history: Floats, count: int, found: Floats, j: int, side: float) -
     return times
 
 
+@inner
+def _write_narrower(
+    world: PackedWorld, rows: Floats, k: int, x: float, y: float, stuck: Floats
+) -> None:  # fmt: skip
+    """Write the gap between the feature of row k and what is nearest to (x, y), if it is less."""
+    here, _ = nearest(world, x, y, np.inf)
+    step = GRADIENT_STEP * max(here, 1e-3)
+    beside, _ = nearest(world, x + step, y, np.inf)
+    above, _ = nearest(world, x, y + step, np.inf)
+    size = math.hypot(beside - here, above - here)
+    if size == 0.0:
+        return
+    qx = x - here * (beside - here) / size
+    qy = y - here * (above - here) / size
+    if (rows[k, BEND_X] - x) * (qx - x) + (rows[k, BEND_Y] - y) * (qy - y) >= 0.0:
+        return  # not opposite
+    width = math.hypot(qx - rows[k, BEND_X], qy - rows[k, BEND_Y])
+    if width < math.hypot(stuck[0, 2] - stuck[0, 0], stuck[0, 3] - stuck[0, 1]):
+        stuck[0, 0] = rows[k, BEND_X]
+        stuck[0, 1] = rows[k, BEND_Y]
+        stuck[0, 2] = qx
+        stuck[0, 3] = qy
+        stuck[0, 4] = -1.0
+
+
+@fused
+def _write_gap(
+    world: PackedWorld, rows: Floats, k: int, heading: float, x: float, y: float, stuck: Floats
+) -> None:  # fmt: skip
+    """Write the narrowest gap between the features of rows k and k + 1 and what is opposite."""
+    for column in range(4):
+        stuck[0, column] = np.inf if column == 0 else 0.0
+    for end in range(2):
+        if rows[k + end, BEND_RADIUS] > 0.0:
+            reach = rows[k + end, SIDE] * rows[k + end, BEND_RADIUS]
+            px = rows[k + end, BEND_X] + reach * math.sin(heading)
+            py = rows[k + end, BEND_Y] - reach * math.cos(heading)
+            _write_narrower(world, rows, k + end, px, py, stuck)
+            _write_narrower(world, rows, k + end, x, y, stuck)
+
+
 @fused
 def _settled(
     world: PackedWorld, rows: Floats, count: int, guide: Floats, rho: float, floor: float,
@@ -155,13 +197,10 @@ def _settled(
             near = features_near(world, x, y, wide, found)
             chosen, lean, place = _most_in_the_way(rows, k, at, guide, found, near, rho, heading)
             wide *= 2.0
-        if chosen < 0:
-            stuck[0, 4] = foot(guide, int(rows[k, PLACE]), guide.shape[0] - 1, x, y)
-            return rows, 0
         if insertions == history.shape[0]:
             history = sized_floats(history, insertions, 2 * insertions)
-        if _remember(history, insertions, found, chosen, lean) > MAX_INSERTIONS:
-            stuck[0, 4] = place
+        if chosen < 0 or _remember(history, insertions, found, chosen, lean) > MAX_INSERTIONS:
+            _write_gap(world, rows, k, heading, x, y, stuck)
             return rows, 0
         insertions += 1
         rows = insert(rows, count, at + 1)
