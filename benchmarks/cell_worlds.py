@@ -12,8 +12,8 @@ from problems import Place, Problem, places_with_room
 SHARES = (0.1, 0.2, 0.25, 0.3, 0.35, 0.4)
 """Of the cells that are blocked."""
 
-KINDS = ("thin 100", "thin 100", "thin 512", "thin disc", "wide 100", "wide 100", "wide clumps",
-         "wide disc", "wide 512")  # fmt: skip
+KINDS = ("thin 40", "thin 100", "wide 100", "thin 40", "thin disc", "wide clumps", "thin 40",
+         "wide disc", "thin 512", "thin 40", "wide 512")  # fmt: skip
 """By the seed: thinner than a cell or wider, the map's cells aside, with a disc or in clumps."""
 
 ASIDE = (40, 512)  # cells, where it isn't 100
