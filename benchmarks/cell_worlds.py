@@ -7,14 +7,16 @@ from dataclasses import replace
 from itertools import count
 
 import numpy as np
-from problems import Problem, places_with_room
+from problems import Place, Problem, places_with_room
 
 SHARES = (0.1, 0.2, 0.25, 0.3, 0.35, 0.4)
 """Of the cells that are blocked."""
 
-KINDS = ("thin 100", "thin 100", "thin 512", "thin disc", "wide 100", "wide 100", "wide clumps",
-         "wide disc", "wide 512")  # fmt: skip
+KINDS = ("thin 40", "thin 100", "wide 100", "thin 40", "thin disc", "wide clumps", "thin 40",
+         "wide disc", "thin 512", "thin 40", "wide 512")  # fmt: skip
 """By the seed: thinner than a cell or wider, the map's cells aside, with a disc or in clumps."""
+
+ASIDE = (40, 512)  # cells, where it isn't 100
 
 RESOLUTIONS_M = (1.0, 1.0, 1.0, 0.25, 0.05)
 FAR_SHARE = 0.2  # of the maps that have a disc a thousand widths away
@@ -25,7 +27,7 @@ def cell_problem(seed: int) -> Problem:
     """The problem of a seed."""
     random = np.random.default_rng((1, seed))
     kind = KINDS[seed % len(KINDS)]
-    aside = 512 if kind.endswith("512") else 100
+    aside = next((n for n in ASIDE if kind.endswith(str(n))), 100)
     side = float(random.choice(RESOLUTIONS_M))
     for attempt in count():
         thin = kind.startswith("thin")
@@ -45,11 +47,21 @@ def cell_problem(seed: int) -> Problem:
             note=f"{share:.0%} blocked, cells of {side:g} m",
         )
         ends = places_with_room(
-            random, problem.solids, bounds, required + LEAST_SPARE * side, 2, tries=2000
+            random, problem.solids, bounds, required + LEAST_SPARE * side, 2000, tries=2000
         )
-        if len(ends) == 2:
-            return replace(problem, start=ends[0], goal=ends[1]).shared_out(random)
+        if len(ends) > 1:
+            start, goal = _pair(random, ends)
+            return replace(problem, start=start, goal=goal).shared_out(random)
     raise AssertionError
+
+
+def _pair(random: np.random.Generator, places: list[Place]) -> tuple[Place, Place]:
+    """Two of the places: any, or those at opposite ends of a diagonal."""
+    if random.random() < 0.5:
+        return places[0], places[1]
+    sign = random.choice((-1, 1))
+    along = [x + sign * y for x, y in places]
+    return places[int(np.argmin(along))], places[int(np.argmax(along))]
 
 
 def _cells(random: np.random.Generator, aside: int, kind: str, required: float, attempt: int):

@@ -136,7 +136,7 @@ def _frame(box: Box) -> np.ndarray:
 
 def maze(random: np.random.Generator, thickness: float) -> Walls:
     """A perfect maze of square rooms, with some walls more or fewer."""
-    rooms = int(random.integers(3, 13))
+    rooms = int(random.integers(3, 13) if random.random() < 0.9 else random.integers(13, 40))
     free = 1.0 - thickness
     required = 0.5 * float(random.choice((random.uniform(0.1, 0.9) * free, nearly(random, free))))
     required = min(required, 0.6 * free)
@@ -274,10 +274,10 @@ def _broken_ring(random: np.random.Generator, radius: float, sides: int, gap: fl
 
 def clutter(random: np.random.Generator, kind: str) -> Problem | None:
     """Discs and polygons that overlap, as many as just leave a way through, or don't."""
-    width = 30.0
+    width = 30.0 if random.random() < 0.9 else 90.0
     required = float(random.uniform(0.05, 0.6))
     largest = float(random.uniform(0.2, 2.0))
-    sizes = random.uniform(0.3, 1.0, 4000) * largest
+    sizes = random.uniform(0.3, 1.0, 40_000) * largest
     covered = float(random.uniform(0.6, 1.5))  # overlapping areas counted again and again
     number = int(np.searchsorted(np.cumsum(math.pi * (sizes + required) ** 2), covered * width**2))
     obstacles = [_lump(random, random.uniform(0, width, 2), size) for size in sizes[:number]]
