@@ -136,14 +136,19 @@ def _first_met(
     best = heading
     for j in range(near):
         radius = found[j, FEATURE_RADIUS] + rho
-        was = math.cos(old) * (found[j, FEATURE_Y] - ay) - math.sin(old) * (found[j, FEATURE_X] - ax)
+        was = math.cos(old) * (found[j, FEATURE_Y] - ay) - math.sin(old) * (
+            found[j, FEATURE_X] - ax
+        )
         if sense * was <= 0.5 * radius - SAME_DISTANCE_M:
             continue
         dx = found[j, FEATURE_X] - bx
         dy = found[j, FEATURE_Y] - by
         left = math.cos(heading) * dy - math.sin(heading) * dx
         along = math.cos(heading) * dx + math.sin(heading) * dy
-        if sense * left >= radius - SAME_DISTANCE_M or not -2.0 * behind - radius < along < length + radius:
+        if (
+            sense * left >= radius - SAME_DISTANCE_M
+            or not -2.0 * behind - radius < along < length + radius
+        ):
             continue
         there = _heading_to(rows, k, found[j, FEATURE_X], found[j, FEATURE_Y], sense * radius, old)
         if sense * (there - best) >= 0.0:

@@ -59,6 +59,7 @@ def _most_in_the_way(
     near: int,
     rho: float,
     heading: float,
+    spare: float,
 ) -> tuple[int, float, float]:
     """The feature that the string has to be bent round most.
 
@@ -71,6 +72,7 @@ def _most_in_the_way(
         near: How many.
         rho: Distance at which the string turns [m].
         heading: Of the line [rad].
+        spare: How far beyond the line's ends a feature may be too near to it [m].
 
     Returns:
         (row in ``found``, side, place along the guide); -1 where there is none.
@@ -99,7 +101,7 @@ def _most_in_the_way(
         along = dx * (found[j, FEATURE_X] - ax) + dy * (found[j, FEATURE_Y] - ay)
         violation = radius - here * left
         beyond = max(-along, along - length, 0.0) if is_on_line else 0.0
-        if violation <= best or (beyond > 0.0 and math.hypot(beyond, left) >= radius):
+        if violation <= best or (beyond > spare and math.hypot(beyond, left) >= radius):
             continue
         is_there = False
         for row in range(at, k + 2):
@@ -155,7 +157,7 @@ def _write_gap(
     world: PackedWorld, rows: Floats, k: int, heading: float, x: float, y: float, stuck: Floats
 ) -> None:  # fmt: skip
     """Write the narrowest gap between the features of rows k and k + 1 and what is opposite."""
-    for column in range(4):
+    for column in range(5):
         stuck[0, column] = np.inf if column == 0 else 0.0
     for end in range(2):
         if rows[k + end, BEND_RADIUS] > 0.0:
@@ -192,11 +194,15 @@ def _settled(
         chosen = -1
         lean = 0.0
         place = 0.0
-        wide = 1.26 * floor + SAME_DISTANCE_M
-        while chosen < 0 and wide < 40.0 * floor + 4.0 * side:
-            near = features_near(world, x, y, wide, found)
-            chosen, lean, place = _most_in_the_way(rows, k, at, guide, found, near, rho, heading)
-            wide *= 2.0
+        for attempt in range(2):  # what is too near to the line, then what a wall leads on to
+            spare = 0.0 if attempt == 0 else np.inf
+            wide = 1.02 * floor + SAME_DISTANCE_M
+            while chosen < 0 and wide < 40.0 * floor + 4.0 * side:
+                near = features_near(world, x, y, wide, found)
+                chosen, lean, place = _most_in_the_way(
+                    rows, k, at, guide, found, near, rho, heading, spare
+                )
+                wide *= 2.0
         if insertions == history.shape[0]:
             history = sized_floats(history, insertions, 2 * insertions)
         if chosen < 0 or _remember(history, insertions, found, chosen, lean) > MAX_INSERTIONS:
@@ -283,6 +289,7 @@ def pulled_taut(
         stuck: the number of the piece, and the part of it that lies before.
     """
     stuck = new_floats(1, 5)
+    stuck[0, 4] = 0.0
     for r in range(rhos.size):
         rows, count = _pulled(world, guide, kept, rhos[r], floor, side, stuck)
         if count == 0:

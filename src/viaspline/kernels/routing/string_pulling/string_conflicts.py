@@ -22,6 +22,7 @@ from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.segment import nearest_to_segment
 
 SAME_DISTANCE_M = 1e-9  # [m]
+CLOSE_SHARE = 0.02  # of the distance that is kept: how exactly the place of a conflict is told
 
 
 @fused
@@ -30,7 +31,7 @@ def _closest_on(
 ) -> tuple[float, float]:
     """A place on a segment near which it comes closer than ``floor`` to the world."""
     size = math.hypot(bx - ax, by - ay)
-    while size > 0.25 * floor + SAME_DISTANCE_M:
+    while size > CLOSE_SHARE * floor + SAME_DISTANCE_M:
         mx = 0.5 * (ax + bx)
         my = 0.5 * (ay + by)
         distance, _ = nearest_to_segment(world, ax, ay, mx, my, floor)
