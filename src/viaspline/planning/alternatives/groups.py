@@ -71,7 +71,7 @@ class GroupsInTheWay:
             outcome, _ = self.leg.shortest_allowed(self.active, closed)
         else:
             outcome = _nearby(self.leg, group, closed, best.taut_path)
-        return self.leg.curve(outcome.value), reason_of(outcome, side)
+        return self.leg.curve(outcome.value, self.active), reason_of(outcome, side)
 
 
 def groups_met(leg: LegSearch, labels: NDArray[np.int64], active: Flags) -> tuple[Group, ...]:
@@ -102,7 +102,7 @@ def _nearby(leg: LegSearch, group: Group, closed: Floats, best: TautPath) -> Out
     start, goal = (best.corners[k, X : Y + 1] for k in (first, last))
     active = on_the_line(leg.world, start, goal, leg.requirements.required)
     active[list(group.indices)] = True  # a route can only turn at what is active
-    barriers = np.vstack((closed, leg.forced_barriers(active)))
+    barriers = np.vstack((closed, leg.sides.closed_among(active)))
     part = leg.router.find(start, goal, barriers, active)
     if not isinstance(part, Found):
         return part

@@ -47,7 +47,7 @@ class IslandsInTheWay:
         closed = met.barriers.closing(opposite(side))
         active = on_the_line(self.leg.world, *self.leg.ends, self.leg.requirements.required)
         outcome, _ = self.leg.shortest_allowed(active, closed)
-        return self.leg.curve(outcome.value), reason_of(outcome, side)
+        return self.leg.curve(outcome.value, active), reason_of(outcome, side)
 
 
 def islands_met(leg: LegSearch) -> Iterator[Met]:

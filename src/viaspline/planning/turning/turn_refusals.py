@@ -73,9 +73,7 @@ def _body_remedy(via: str, has_room: Callable[[float], bool]) -> str:
 def _serves(problem: DrivenProblem, radius: float) -> bool:
     """Whether there is a path with another turning circle [m]."""
     rho = OVERSHOOT * radius
-    lay = partial(
-        turn_path_if_clear, rho=rho, world=problem.world, requirements=problem.requirements
-    )
+    lay = partial(problem.leg_on_sides, rho=rho, lay=turn_path_if_clear)
     legs = legs_of(problem.bends, problem.spots)
     closed = problem.sequence.closed
     return posed(legs, rho, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS) is not None

@@ -77,6 +77,10 @@ class PoseProblem:
     moves: MotionPrimitives
     room: int
 
+    def closed_by(self, barriers: Floats) -> PoseProblem:
+        """This problem with segments that the reference point must not cross [m], (b, 4)."""
+        return replace(self, search_window=self.search_window.closed_by(barriers))
+
     def forwards(
         self, starts: Floats, goal: Goal, headings: Floats, after: float = SHARE_AFTER_ARRIVAL
     ) -> SearchTree:
