@@ -79,6 +79,11 @@ class AskedSides:
         return sides.with_binding(sides.near(kept, leg.laid, world, required).tolist())
 
     @property
+    def freed(self) -> AskedSides:
+        """No sides at all."""
+        return AskedSides(self.indices[:0], self.barriers[:0], self.binding[:0])
+
+    @property
     def closed(self) -> Floats:
         """The barriers that bind [m], (b, 4)."""
         return np.ascontiguousarray(self.barriers[self.binding])
@@ -99,8 +104,7 @@ class AskedSides:
 
     def crossed(self, spans: Floats) -> NDArray[np.bool_]:
         """Which spans of the leg's curve cross a barrier that binds, (m,)."""
-        found: NDArray[np.bool_] = crossings(spans, self.closed).any(axis=1)
-        return found
+        return np.asarray(crossings(spans, self.closed).any(axis=1))
 
     def with_binding(self, more: Sequence[int]) -> AskedSides:
         """These sides, where those of some more obstacles bind as well."""
@@ -136,5 +140,4 @@ def _crossed_by(places: Floats, barriers: Floats) -> NDArray[np.bool_]:
     """Which barriers a polyline (m, 2) [m] crosses, (b,)."""
     share = np.arange(4.0)[:, None] / 3.0
     start, end = places[:-1, None, :2], places[1:, None, :2]
-    found: NDArray[np.bool_] = crossings(start + share * (end - start), barriers).any(axis=0)
-    return found
+    return np.asarray(crossings(start + share * (end - start), barriers).any(axis=0))
