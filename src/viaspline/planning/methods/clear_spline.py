@@ -126,12 +126,11 @@ class ClearSpline:
         outcome, barriers = self._fitted(leg, active)
         if not isinstance(outcome, Found):
             raise _no_leg(leg, outcome, barriers)
-        sides = leg.sides.binding_if_met(active)
+        leg = replace(leg, sides=leg.sides.binding_if_met(active))
         if is_dense:
-            return PassedLeg(IslandsInTheWay(leg), outcome.value, is_weighed=False), sides
+            return PassedLeg(IslandsInTheWay(leg), outcome.value, is_weighed=False), leg.sides
         is_weighed = len(met) <= MAX_GROUPS_WEIGHED
-        in_the_way = GroupsInTheWay(replace(leg, sides=sides), met, active)
-        return PassedLeg(in_the_way, outcome.value, is_weighed), sides
+        return PassedLeg(GroupsInTheWay(leg, met, active), outcome.value, is_weighed), leg.sides
 
     def _fitted(self, leg: LegSearch, active: Flags) -> tuple[Outcome[Spline], Floats]:
         """The curve along the shortest taut path on which one fits, and the forbidden sides.

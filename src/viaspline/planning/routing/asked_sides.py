@@ -84,6 +84,11 @@ class AskedSides:
         return AskedSides(self.indices[:0], self.barriers[:0], self.binding[:0])
 
     @property
+    def bound(self) -> Ints:
+        """The obstacles whose sides bind, (b,)."""
+        return self.indices[self.binding]
+
+    @property
     def closed(self) -> Floats:
         """The barriers that bind [m], (b, 4)."""
         return np.ascontiguousarray(self.barriers[self.binding])

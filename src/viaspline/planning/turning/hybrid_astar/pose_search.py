@@ -225,9 +225,9 @@ def headings_at(problem: PoseProblem, goal: Goal) -> Floats:
 
 def _failure(both: Sequence[SearchTree], is_whole: bool, expanded: int) -> tuple[NotFound, bool]:
     forward, backward = both
-    if forward.state == EMPTY and (is_whole or not forward.was_cut):
+    if forward.state == EMPTY and is_whole:
         return NotFound(Reason.START_SHUT_IN, 0, expanded), False
-    if backward.state == EMPTY and (is_whole or not backward.was_cut):
+    if backward.state == EMPTY and is_whole:
         return NotFound(Reason.GOAL_SHUT_IN, 0, expanded), False
     is_cut = EMPTY in (forward.state, backward.state)
     return NotFound(Reason.BUDGET, 0, expanded), is_cut

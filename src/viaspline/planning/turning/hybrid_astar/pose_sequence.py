@@ -124,7 +124,7 @@ def _through(
             heading = before + turn_of(found.segments)
             pose = np.array([goal.x, goal.y, heading, found.cost])
             arrivals.append(_Arrival(pose, found.start, found.segments))
-        is_cut = tree.was_cut and not problem.search_window.area.is_whole
+        is_cut = not problem.search_window.area.is_whole  # outside of it there may be a way round
         if not arrivals:
             reason = Reason.START_SHUT_IN if number == 0 else Reason.NO_WAY
             if tree.state != EMPTY or is_cut or not has_followed_all:
@@ -153,7 +153,7 @@ def _grown(
         if back is None:
             back = problem.backwards(Pose(*start[:3].tolist()), goal, headings)
         back.go_on()
-        if back.state == EMPTY and (problem.search_window.area.is_whole or not back.was_cut):
+        if back.state == EMPTY and problem.search_window.area.is_whole:
             return True, tree.expanded + back.expanded
     return False, tree.expanded + (0 if back is None else back.expanded)
 

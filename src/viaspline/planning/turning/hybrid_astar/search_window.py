@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from viaspline.kernels.arrays import Bytes, Floats
+from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.routing.distance_field import distance_field
 from viaspline.kernels.turning.collision_cache import (
     HALF_DIAGONAL_CELLS,
@@ -248,9 +248,21 @@ class SearchWindow:
         """How far it is to some places (n, 2) from everywhere."""
         x0, y0 = self.area.box[:2]
         found = np.floor((places[:, ::-1] - (y0, x0)) / self.side).astype(np.int64)
-        lengths = distance_field(self.walled, np.ascontiguousarray(found))
-        lengths = np.where(self.walled != self.cells, _least_beside(lengths), lengths)
+        lengths = distance_field(self.cells, np.ascontiguousarray(found))
+        if len(self.barriers):
+            lengths = self._round_barriers(lengths, np.ascontiguousarray(found))
         return Ahead(np.array([x0, y0, self.side, HEURISTIC_WEIGHT]), lengths)
+
+    def _round_barriers(self, lengths: Floats, found: Ints) -> Floats:
+        """The lengths of ways round the barriers too, where cells can tell them.
+
+        Args:
+            lengths: Those without barriers.
+            found: Row and column of the places that the ways lead to, (n, 2).
+        """
+        longer = distance_field(self.walled, found)
+        longer = np.where(self.walled != self.cells, _least_beside(longer), longer)
+        return np.where(np.isfinite(longer), longer, lengths)
 
 
 def _least_beside(lengths: Floats) -> Floats:

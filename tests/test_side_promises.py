@@ -1,0 +1,200 @@
+"""The side that is asked for is the side that is driven: by every robot, route and re-plan.
+
+The oracle knows nothing of the planner. It walks along dense points of a path and adds up the angle
+that it sweeps about a place inside of an obstacle: a path that leaves it on the robot's right turns
+clockwise about it. Between the same two ends that angle tells the sides apart by a full turn.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import viaspline as vs
+from viaspline.curve.path import Path
+
+seeds = st.integers(0, 1_000_000)
+REQUIRED_M = 1.0  # radius and clearance of every robot here
+ROBOTS: dict[str, dict[str, Any]] = {
+    "point": {"radius_m": 0.0, "clearance_m": 1.0},
+    "disc": {"radius_m": 0.5, "clearance_m": 0.5},
+    "circle": {"radius_m": 0.5, "clearance_m": 0.5, "min_turn_radius_m": 1.0},
+    "car": {
+        "footprint": [[-0.5, -0.5], [1.5, -0.5], [1.5, 0.5], [-0.5, 0.5]],
+        "clearance_m": 0.5,
+        "min_turn_radius_m": 3.0,
+    },
+    "body": {"footprint": [[-1, -0.5], [1, -0.5], [1, 0.5], [-1, 0.5]], "clearance_m": 0.5},
+    "differential": {
+        "radius_m": 0.5, "clearance_m": 0.5, "tracking_error_m": 0.05,
+        "drive": {"differential": {"track_m": 0.5}},
+    },
+    "omnidirectional": {
+        "radius_m": 0.5, "clearance_m": 0.5, "tracking_error_m": 0.05,
+        "drive": {"omnidirectional": {"max_speed_along_mps": 1.5, "max_speed_across_mps": 1.0}},
+    },
+    "steered": {
+        "radius_m": 0.5, "clearance_m": 0.5, "tracking_error_m": 0.05,
+        "drive": {"ackermann": {"wheelbase_m": 1.2, "max_steer_deg": 25}},
+    },
+}  # fmt: skip
+
+
+def random_shape(rng: np.random.Generator, x: float, y: float, most: float) -> dict[str, Any]:
+    radius = rng.uniform(0.3, most)
+    if rng.random() < 0.6:
+        return {"circle": {"center": [x, y], "radius": radius}}
+    corners = int(rng.integers(3, 7))
+    angle = np.arange(corners) * math.tau / corners + rng.uniform(0, 0.5, corners)
+    return {"polygon": np.column_stack((x + radius * np.cos(angle), y + radius * np.sin(angle)))
+            .tolist()}  # fmt: skip
+
+
+def asked_for(rng: np.random.Generator, obstacle: dict[str, Any], name: str) -> dict[str, Any]:
+    key, side = str(rng.choice(["pass_on", "never_pass_on"])), str(rng.choice(["left", "right"]))
+    return obstacle | {"name": name, key: side}
+
+
+def random_case(seed: int, robot: str) -> vs.Mission | None:
+    """Buoys along a route of one to three legs, open or closed; None where they cover its ends."""
+    rng = np.random.default_rng(seed)
+    body = dict(ROBOTS[robot])
+    if robot == "circle":
+        body["min_turn_radius_m"] = float(rng.choice([0.5, 1.0, 2.0, 3.5, 5.0, 6.5, 8.0]))
+    count = int(rng.integers(2, 4)) + (closed := bool(rng.random() < 0.3))
+    angle = np.arange(count) * math.tau / count + rng.uniform(-0.3, 0.3, count)
+    stops = 30.0 * np.column_stack((np.cos(angle), np.sin(angle)))
+    known: list[dict[str, Any]] = []
+    for k, (a, b) in enumerate(itertools.pairwise([*stops, *stops[: int(closed)]])):
+        for w in ([0.5], [0.35, 0.65])[rng.random() < 0.4]:
+            x, y = a + w * (b - a) + rng.normal(0, 1.2, 2)
+            known.append(asked_for(rng, random_shape(rng, x, y, 3.0), f"buoy {k} {w}"))
+            if rng.random() < 0.25:
+                known.append(random_shape(rng, x + rng.normal(0, 6), y + rng.normal(0, 6), 3.0))
+    unseen = []
+    for obstacle in known[: 2 if rng.random() < 0.5 else 0]:
+        x, y = shape_of(vs.Obstacle(**obstacle)).centroid.coords[0]
+        place = np.array([x, y]) + rng.normal(0, 4, 2)
+        unseen.append(random_shape(rng, *place, 1.5))
+    via: list[Any] = stops[1 : len(stops) if closed else -1].tolist()
+    if via and rng.random() < 0.3:
+        via[0] = {"at": via[0], "dwell_s": 1.0}
+    route: dict[str, Any] = {"start": {"at": stops[0].tolist()}, "via": via, "closed": closed}
+    if not closed:
+        route["goal"] = {"at": stops[-1].tolist()}
+    try:
+        return vs.Mission.model_validate({
+            "world": {"known": known, "unseen": unseen},
+            "robot": body | {"sensor": {"range_m": 9.0}},
+            "route": route,
+        })  # fmt: skip
+    except vs.MissionError:
+        return None
+
+
+def shape_of(obstacle: vs.Obstacle) -> Any:
+    if obstacle.circle is not None:
+        return shapely.Point(obstacle.circle.center).buffer(obstacle.circle.radius, 64)
+    return shapely.Polygon(obstacle.polygon)
+
+
+def swept(points: Any, about: Any) -> float:
+    """The angle that a line sweeps about a place [rad]."""
+    off = np.asarray(points)[:, :2] - about
+    turns = np.diff(np.unwrap(np.arctan2(off[:, 1], off[:, 0])))
+    assert np.abs(turns).max() < 1.0, "the points are too far apart to tell"
+    return float(turns.sum())
+
+
+def legs(path: Path) -> list[Any]:
+    """Dense points of the path from user via point to user via point."""
+    users = [via for via in path.vias if via.kind == "user"]
+    found = []
+    for before, after in itertools.pairwise(users):
+        count = 1 + 200 * max(1, round(after.u - before.u))
+        found.append(path.evaluate(np.linspace(before.u, after.u, count)))
+    return found
+
+
+def check_sides(path: Path, obstacles: Any, required: float = REQUIRED_M) -> None:
+    """Every leg passes what is in its way on the side that is asked for."""
+    for points in legs(path):
+        ends = points[[0, -1], :2]
+        straight = np.linspace(*ends, 2001)
+        for obstacle in obstacles:
+            asked = obstacle.forced_side
+            if asked is None:
+                continue
+            shape = shape_of(obstacle)
+            heart = np.array(shape.representative_point().coords[0])
+            along = swept(np.vstack((straight[:1], points[:, :2], straight[-1:])), heart)
+            gap = shape.distance(shapely.LineString(ends))
+            bare = float(np.arctan2(
+                np.linalg.det(np.array([ends[0] - heart, ends[1] - heart])),
+                (ends[0] - heart) @ (ends[1] - heart),
+            ))  # fmt: skip
+            left, right = (bare, bare + math.tau) if bare < 0 else (bare - math.tau, bare)
+            as_asked = left if asked == "left" else right
+            is_near = shapely.LineString(points[:, :2]).distance(shape) < 1.99 * required
+            if gap < required or is_near or as_asked == bare:
+                assert along == pytest.approx(as_asked, abs=1e-6), (obstacle.name, asked, gap)
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+@settings(max_examples=12)
+@given(seeds)
+def test_every_plan_passes_on_the_sides_that_are_asked_for(robot: str, seed: int) -> None:
+    mission = random_case(seed, robot)
+    if mission is None:
+        return
+    try:
+        plan = vs.plan(mission)
+    except vs.PlanningError:
+        return
+    check_sides(plan.path, mission.world.known)
+    for entry in plan.ledger:
+        for candidate in entry.candidates:
+            for obstacle in mission.world.known:
+                if candidate.chosen and obstacle.name in entry.members and obstacle.forced_side:
+                    assert candidate.side == obstacle.forced_side
+
+
+@pytest.mark.parametrize("robot", ["disc", "circle", "car", "differential"])
+@settings(max_examples=6)
+@given(seeds)
+def test_every_replan_passes_on_the_sides_that_are_asked_for(robot: str, seed: int) -> None:
+    mission = random_case(seed, robot)
+    if mission is None or not mission.world.unseen:
+        return
+    try:
+        run = vs.simulate(mission)
+    except vs.ViasplineError:
+        return
+    for replan in run.replans:
+        check_sides(replan.path, mission.world.known)
+
+
+def beside(radius: float, side: str, y: float = 0.0) -> vs.Mission:
+    buoy = {"name": "buoy", "circle": {"center": [20, y], "radius": 1.0}, "pass_on": side}
+    return vs.Mission.model_validate({
+        "world": {"known": [buoy]},
+        "robot": {"radius_m": 0.5, "clearance_m": 0.5, "min_turn_radius_m": radius},
+        "route": {"start": [0, 0], "goal": [40, 0]},
+    })  # fmt: skip
+
+
+@pytest.mark.parametrize("radius", [0.5, 2.0, 3.5, 5.0, 6.5, 8.0])
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize("y", [-1.5, 0.7])
+def test_a_buoy_is_passed_as_asked_with_any_turning_circle(
+    radius: float, side: str, y: float
+) -> None:
+    mission = beside(radius, side, y)
+    check_sides(vs.plan(mission).path, mission.world.known)
