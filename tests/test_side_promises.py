@@ -19,6 +19,8 @@ from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.curve.path import Path
+from viaspline.planning import replan
+from viaspline.planning.problem.requirements import Requirements
 
 seeds = st.integers(0, 1_000_000)
 REQUIRED_M = 1.0  # radius and clearance of every robot here
@@ -177,8 +179,8 @@ def test_every_replan_passes_on_the_sides_that_are_asked_for(robot: str, seed: i
         run = vs.simulate(mission)
     except vs.ViasplineError:
         return
-    for replan in run.replans:
-        check_sides(replan.path, mission.world.known)
+    for new in run.replans:
+        check_sides(new.path, mission.world.known)
 
 
 def beside(radius: float, side: str, y: float = 0.0) -> vs.Mission:
@@ -197,4 +199,48 @@ def test_a_buoy_is_passed_as_asked_with_any_turning_circle(
     radius: float, side: str, y: float
 ) -> None:
     mission = beside(radius, side, y)
+    check_sides(vs.plan(mission).path, mission.world.known)
+
+
+@pytest.mark.parametrize("mode", ["reflex", "planned", "from_rest"])
+@settings(max_examples=12)
+@given(seeds)
+def test_a_replan_beside_a_buoy_keeps_to_the_side_of_the_whole_leg(mode: str, seed: int) -> None:
+    """From anywhere on the leg: seen from there, the buoy may lie on the other side of the way."""
+    rng = np.random.default_rng(seed)
+    mission = beside(float(rng.choice([0.5, 2.0, 4.0])), str(rng.choice(["left", "right"])))
+    world, requirements = vs.World.known(mission), Requirements.of(mission)
+    path = vs.plan(mission).path
+    at = float(rng.uniform(0.05, 0.7) * path.length)
+    place = path.at_distance(min(at + rng.uniform(3, 12), path.length - 3)) + rng.normal(0, 2, 2)
+    seen = vs.Obstacle(circle={"center": tuple(place), "radius": rng.uniform(0.3, 1.5)})
+    try:
+        new = getattr(replan, mode)(path, at, world.with_obstacles([seen]), requirements)
+    except vs.PlanningError:
+        return
+    check_sides(new.path, world.obstacles)
+
+
+def test_an_unseen_buoy_is_passed_as_asked_from_when_it_is_seen() -> None:
+    data = beside(1.0, "left").model_dump()
+    buoy = {"name": "buoy", "circle": {"center": [25, 1.8]} | {"radius": 0.5}, "pass_on": "left"}
+    data["world"] = {"unseen": [buoy]}
+    data["robot"]["sensor"] = {"range_m": 12.0}
+    mission = vs.Mission.model_validate(data)
+    run = vs.simulate(mission)
+    assert run.reached
+    assert len(run.replans) == 1  # nothing is in the robot's way but the side
+    check_sides(run.replans[0].path, mission.world.unseen)
+
+
+def test_a_closed_round_keeps_its_sides_on_every_lap() -> None:
+    known = [
+        {"name": f"mark {k}", "circle": {"center": at, "radius": 0.5}, "pass_on": "right"}
+        for k, at in enumerate(([20, -0.5], [40.5, 20], [20, 40.5], [-0.5, 20]))
+    ]
+    mission = vs.Mission.model_validate({
+        "world": {"known": known},
+        "robot": {"radius_m": 0.5, "clearance_m": 0.5, "min_turn_radius_m": 4.0},
+        "route": {"start": [0, 0], "via": [[40, 0], [40, 40], [0, 40]], "closed": True, "laps": 2},
+    })  # fmt: skip
     check_sides(vs.plan(mission).path, mission.world.known)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from viaspline.kernels.arrays import Floats
 
 MAX_HALVINGS = 40  # of a span, after which what isn't seen to be beside a barrier touches it
+MAX_PIECES = 64  # of a span that stay open at once: it runs along the barrier
 
 
 def crossings(spans: Floats, barriers: Floats) -> NDArray[np.bool_]:
@@ -47,6 +48,8 @@ def crossings(spans: Floats, barriers: Floats) -> NDArray[np.bool_]:
         open_ = np.concatenate((open_, open_))
         left = ~_is_beside(share, across)
         open_, share, across = open_[left], share[left], across[left]
+        pairs, count = np.unique(open_, axis=0, return_counts=True)
+        met[tuple(pairs[count > MAX_PIECES].T)] = True
         if not len(open_):
             return met
     met[tuple(open_.T)] = True

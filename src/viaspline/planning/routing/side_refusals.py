@@ -1,6 +1,6 @@
 """Sides that are asked for, in the words of refusals, and the changes that would free them.
 
-Tested through ``planning/test_asked_sides_kept``.
+Tested through ``planning/routing/test_asked_sides``.
 """
 
 from __future__ import annotations
