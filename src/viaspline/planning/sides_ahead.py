@@ -2,6 +2,8 @@
 
 A leg under way is held to what was asked of the whole of it: its barriers stand square to the
 straight line between the user's two via points, wherever the robot is by now.
+
+Tested through ``test_side_promises``.
 """
 
 from __future__ import annotations
