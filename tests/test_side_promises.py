@@ -244,3 +244,54 @@ def test_a_closed_round_keeps_its_sides_on_every_lap() -> None:
         "route": {"start": [0, 0], "via": [[40, 0], [40, 40], [0, 40]], "closed": True, "laps": 2},
     })  # fmt: skip
     check_sides(vs.plan(mission).path, mission.world.known)
+
+
+def is_connected(mission: vs.Mission, kept: float, bound: set[str | None]) -> bool:
+    """Whether the free plane without the rays of the forbidden sides leads from start to goal."""
+    ends = np.array([mission.route.start.at, mission.route.goal.at])
+    along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+    solid = []
+    for obstacle in mission.world.known:
+        shape = shape_of(obstacle)
+        solid.append(shape.buffer(kept, 64))
+        if obstacle.name in bound:
+            heart = np.array(shape.representative_point().coords[0])
+            out = np.array([-along[1], along[0]]) * (-1 if obstacle.forced_side == "left" else 1)
+            solid.append(shapely.LineString([heart, heart + 1000 * out]).buffer(1e-6))
+    free = shapely.box(-200, -200, 200, 200).difference(shapely.union_all(solid))
+    rooms = [part.buffer(1e-3) for part in shapely.get_parts(free)]
+    return any(all(room.contains(shapely.Point(end)) for end in ends) for room in rooms)
+
+
+@settings(max_examples=40)
+@given(seeds)
+def test_a_way_on_the_sides_that_are_asked_for_is_found_and_a_refusal_is_true(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    length = rng.uniform(12, 40)
+    known = []
+    for k in range(int(rng.integers(1, 4))):
+        shape = random_shape(rng, rng.uniform(0.25, 0.75) * length, rng.normal(0, 1.5), 2.5)
+        known.append(asked_for(rng, shape, f"buoy {k}") if rng.random() < 0.7 else shape)
+    if rng.random() < 0.4:
+        x, low, high = rng.uniform(0.3, 0.7) * length, *(rng.choice([-1, 1]) * np.array([3, 40]))
+        known.append({"polygon": [[x, low], [x + 1, low], [x + 1, high], [x, high]]})
+    data = {"world": {"known": known}, "route": {"start": [0, 0], "goal": [length, 0]}}
+    try:
+        mission = vs.Mission.model_validate(data)
+    except vs.MissionError:
+        return
+    line = shapely.LineString([(0, 0), (length, 0)])
+    sided = {o.name: o for o in mission.world.known if o.forced_side}
+    surely_bound: set[str | None] = {
+        name
+        for name, obstacle in sided.items()
+        if shape_of(obstacle).distance(line) < 2 * REQUIRED_M
+        or (shape_of(obstacle).representative_point().y < 0) == (obstacle.forced_side == "left")
+    }
+    try:
+        path = vs.plan(mission).path
+    except vs.NoPathError:
+        assert not is_connected(mission, 1.02 * REQUIRED_M, set(sided))
+    else:
+        check_sides(path, mission.world.known)
+        assert is_connected(mission, 0.98 * REQUIRED_M, surely_bound)
