@@ -99,7 +99,7 @@ def test_the_losing_side_is_taken_by_a_click_and_freed_again(visit: Visit, patro
     assert page.doc["world"]["known"][0]["pass_on"] == loser["side"]
     (entry,) = page.js("studio.store.ledger")
     assert next(c["side"] for c in entry["candidates"] if c["chosen"]) == loser["side"]
-    page.page.get_by_role("button", name="forced · free it").click()
+    page.page.get_by_role("button", name=f"forced {loser['side']} · free it").click()
     page.settle()
     assert "pass_on" not in page.doc["world"]["known"][0]
 

@@ -31,6 +31,10 @@ def lay_path(
 ) -> tuple[SplinePath, Account]:
     """The curve through via points that the robot can drive clear of everything.
 
+    It passes everything on the side that the mission asks for: see ``routing.asked_sides``. Where
+    it comes near to an obstacle on the wrong side that wasn't in its way before, that is in its way
+    from then on, and the path is laid anew; so it is laid no more often than there are such sides.
+
     Args:
         sequence: The via points.
         world: The known world.
@@ -44,8 +48,24 @@ def lay_path(
     if not requirements.is_free_disc:
         sequence = replace(sequence, tangents="continuous")
     asked = PathProblem.of(sequence, world, requirements)
+    while True:
+        spline_path, account = _laid(asked, methods)
+        near = [
+            tuple(sides.overlooked(spline_path.leg(k), world, requirements.required).tolist())
+            for k, sides in enumerate(asked.sides)
+        ]
+        if not any(near):
+            return spline_path, account
+        asked = asked.binding_too(near)
+
+
+def _laid(asked: PathProblem, methods: Sequence[PathMethod]) -> tuple[SplinePath, Account]:
+    """The path past what is known to be in its way."""
+    world, requirements = asked.world, asked.requirements
     cleared = ClearSpline().lay(asked)
-    problem = DrivenProblem(sequence, world, requirements, asked.router, cleared)
+    problem = DrivenProblem(
+        asked.sequence, world, requirements, asked.router, asked.overlooked, cleared=cleared
+    )
     outcome = first_settled(methods, problem)
     if not isinstance(outcome, Found):
         raise unlaid(problem, outcome)

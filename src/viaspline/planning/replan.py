@@ -24,7 +24,8 @@ from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
 from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
-from viaspline.planning.problem.via_sequence import RouteVia
+from viaspline.planning.problem.via_sequence import RouteVia, WholeLeg
+from viaspline.planning.sides_ahead import refuse_wrong_side, spans_on_wrong_side
 from viaspline.planning.stretch import (
     PASSED_M,
     Stretch,
@@ -143,16 +144,17 @@ def _join(
     tail = stretch.tail
     first_room, last_room = room_to_run_out(path, stretch)
     out = run_out(path, stretch.u, min(reach, first_room))
-    _refuse_blocked(out, world, requirements)
     back = None
     if tail is not None:
         back = run_out(path, tail.u, min(reach, last_room), sense=-1).reversed()
-        _refuse_blocked(back, world, requirements)
     start = RouteVia("the robot", out.end, None)
     meet = None if back is None else RouteVia("the old path", back.span[0], None)
     sequence = replace(
         sequence_through(path, start, stretch, requirements, meet), start_tangent=out.tangent
     )
+    _refuse_blocked(out, sequence.whole_leg(0), world, requirements)
+    if back is not None:
+        _refuse_blocked(back, sequence.whole_leg(len(sequence.legs) - 1), world, requirements)
     if back is not None:
         sequence = replace(sequence, end_tangent=back.tangent)
     spline_path, account = lay_path(sequence, world, requirements)
@@ -189,7 +191,8 @@ def _result(
     return Solution(new, moved, account, certificate_from, rejoins_at)
 
 
-def _refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> None:
+def _refuse_blocked(piece: RunOut, leg: WholeLeg, world: World, requirements: Requirements) -> None:
+    refuse_wrong_side(piece.span[None], leg, world, requirements)
     index = int(body_conflicts(world, piece.span[None], requirements)[0])
     if index != CLEAR:
         name = world.name(index)
@@ -204,10 +207,11 @@ def _refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> 
 def _blocked_spans(
     path: Path, u: float, world: World, requirements: Requirements
 ) -> NDArray[np.intp]:
-    """Indices of the path's spans from u on that come too close."""
+    """Indices of the path's spans from u on that come too close, or pass on a wrong side."""
     first = min(int(u), len(path.spans) - 1)
     close = body_conflicts(world, _ahead(path, u).spans, requirements)
-    return first + np.flatnonzero(close != CLEAR)
+    wrong = spans_on_wrong_side(path, u, world, requirements)
+    return np.union1d(first + np.flatnonzero(close != CLEAR), np.array(sorted(wrong), np.intp))
 
 
 def _ahead(path: Path, u: float) -> PiecewiseCubic:

@@ -21,6 +21,7 @@ from viaspline.planning.problem.via_sequence import (
     direction,
     span_slack,
 )
+from viaspline.planning.sides_ahead import leg_ends, whole_legs
 from viaspline.world.world import World
 
 PASSED_M = 1e-6  # via points nearer along the path than this have been passed
@@ -124,6 +125,10 @@ def sequence_through(
         tail = stretch.tail.u
         targets.append(meet)
         legs.append(next(v.index or 1 for v in path.vias if v.index is not None and v.u >= tail))
+    ends = list(stretch.ahead)
+    if meet is not None and stretch.tail is not None:
+        tail = stretch.tail.u
+        ends.append(next(via for via in leg_ends(path) if via.u >= tail))
     slack = _slack_by_leg(path, requirements)
     return ViaSequence(
         vias=(start, *targets),
@@ -133,6 +138,7 @@ def sequence_through(
         end_tangent=direction(requirements.goal_heading_deg, len(start.at))
         if meet is None
         else None,
+        parts_of=whole_legs(path, stretch.u, ends),
     )
 
 

@@ -104,6 +104,7 @@ def _entry(entry: LedgerEntry) -> dict[str, Any]:
         "members": entry.members,
         "leg": entry.leg,
         "chosen": None if entry.chosen is None else entry.chosen.side,
+        "forced": entry.forced,
         "candidates": [
             {
                 "side": candidate.side,

@@ -90,6 +90,7 @@ def ledger(planned: PlannedDocument, revision: int) -> dict[str, Any]:
             "items": sorted(set(items)),
             "leg": entry.leg,
             "forceable": bool(members) and not grids.intersection(members),
+            "forced": entry.forced,
             "candidates": [_candidate(candidate) for candidate in entry.candidates],
         })  # fmt: skip
     return {"type": "ledger", "rev": revision, "entries": entries}

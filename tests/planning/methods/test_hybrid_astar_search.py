@@ -36,7 +36,7 @@ def problem(known: Any, start: Any, goal: Any, **robot: Any) -> TurnProblem:
     sequence = replace(via_sequence_of(mission), tangents="continuous")
     asked = PathProblem.of(sequence, vs.World.known(mission), Requirements.of(mission))
     path = DrivenProblem(
-        sequence, asked.world, asked.requirements, asked.router, ClearSpline().lay(asked)
+        sequence, asked.world, asked.requirements, asked.router, cleared=ClearSpline().lay(asked)
     )
     return TurnProblem(path, path.least_radii[-1])
 

@@ -238,3 +238,20 @@ def test_a_start_that_cannot_be_come_back_to_is_refused_with_the_reason():
         vs.plan(mission(*route, radius=6.0, closed=True, world={"known": known}))
     check_refusal(raised.value)
     assert raised.value.via == "start"
+
+
+@pytest.mark.parametrize("radius", [1.6, 2.0, 4.0, 8.0])
+def test_a_turn_back_at_the_end_of_a_thin_wall_goes_round_both_of_its_corners(
+    radius: float,
+) -> None:
+    wall = {"name": "wall", "polygon": [[8, -40], [9, -40], [9, 40], [8, 40]]}
+    found = vs.plan(
+        vs.Mission.model_validate({
+            "world": {"known": [wall], "bounds": [-20, -80, 40, 45]},
+            "robot": {"radius_m": 0.5, "clearance_m": 0.5, "min_turn_radius_m": radius},
+            "route": {"start": [0, 0], "goal": [17, 0]},
+        })
+    )  # fmt: skip
+    assert found.certificate.holds
+    assert found.path.max_curvature()[0] * radius <= 1.0 + 1e-9
+    assert found.path.length < 85.0 + 3.0 * radius  # 2 · √(17/2)² + 40², and the turn

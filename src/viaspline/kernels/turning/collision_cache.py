@@ -3,7 +3,7 @@
 The discs cover the body, so whatever the body would touch one of them comes too close to. Their
 distances are looked up in a table of cells that is filled as it is asked; the distance is
 1-Lipschitz, so an entry bounds it in the whole cell, and only what that leaves open is reckoned
-anew.
+anew. Barriers are for the reference point alone: it never gets across one.
 """
 
 from __future__ import annotations
@@ -37,12 +37,14 @@ class CollisionCache(NamedTuple):
         known: Distances in the middles of the cells, NaN where not yet reckoned, (rows, columns).
         discs: See the columns above; the first one holds the whole body, the others together
             cover it, (d, 4).
+        barriers: Segments x0, y0, x1, y1 that the reference point must not cross [m], (b, 4).
     """
 
     world: PackedWorld
     frame: Floats
     known: Floats
     discs: Floats
+    barriers: Floats
 
 
 @inner
@@ -80,6 +82,19 @@ def _distance(cache: CollisionCache, x: float, y: float, need: float) -> float:
 
 
 @inner
+def _barrier_gap(barriers: Floats, x: float, y: float) -> float:
+    """Distance of a point to the nearest barrier; infinite where there is none."""
+    least = np.inf
+    for k in range(barriers.shape[0]):
+        ax, ay = x - barriers[k, 0], y - barriers[k, 1]
+        dx, dy = barriers[k, 2] - barriers[k, 0], barriers[k, 3] - barriers[k, 1]
+        size = dx * dx + dy * dy
+        w = min(1.0, max(0.0, (ax * dx + ay * dy) / size)) if size > 0.0 else 0.0
+        least = min(least, math.hypot(ax - w * dx, ay - w * dy))
+    return least
+
+
+@inner
 def reach(cache: CollisionCache, x: float, y: float, c: float, s: float) -> float:
     """How far the body can surely move on from a pose, whichever way it turns [m].
 
@@ -94,7 +109,9 @@ def reach(cache: CollisionCache, x: float, y: float, c: float, s: float) -> floa
         Less than half the distance between two places that are looked at: it is too close.
     """
     half = 0.5 * cache.frame[3]
-    least = np.inf
+    least = _barrier_gap(cache.barriers, x, y)
+    if least < half:
+        return least
     for i in range(cache.discs.shape[0]):
         disc = cache.discs[i]
         px = x + c * disc[AHEAD] - s * disc[LEFT]
@@ -103,7 +120,7 @@ def reach(cache: CollisionCache, x: float, y: float, c: float, s: float) -> floa
         room = (_distance(cache, px, py, need) - disc[KEPT]) / disc[SPEED]
         if i == 0:
             if room >= half or cache.discs.shape[0] == 1:
-                return room
+                return min(room, least)
         else:
             least = min(least, room)
             if room < half:

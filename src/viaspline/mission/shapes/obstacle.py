@@ -61,7 +61,11 @@ class Obstacle(
         grid: The blocked squares of an occupancy grid. In a file, ``map`` asks for it.
         name: What it is called in reports and errors.
         pass_on: Go past it on this side only, as seen by the robot along the leg: ``left`` leaves
-            the obstacle on the robot's right. It counts wherever the obstacle is in the way.
+            the obstacle on the robot's right. The path of a leg then never crosses the line that
+            goes from the obstacle, square to the straight line between the leg's via points, out
+            to the other side. It counts on every leg whose straight line or path comes nearer to
+            the obstacle than twice the robot's radius and clearance, or whose straight line passes
+            it on this side anyway; in a corridor with a line, wherever it stands inside.
         never_pass_on: The side that is forbidden; forbidding one is forcing the other.
     """
 

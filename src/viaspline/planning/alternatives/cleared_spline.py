@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 from viaspline.planning.alternatives.passed_leg import PassedLeg
 from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.routing.asked_sides import AskedSides
 
 
 @dataclass(frozen=True)
@@ -18,8 +19,10 @@ class ClearedSpline:
 
     Attributes:
         spline_path: The curve.
+        sides: For every leg, the sides that bind it by now.
         passed: The legs that were led round something.
     """
 
     spline_path: SplinePath
+    sides: tuple[AskedSides, ...]
     passed: Mapping[int, PassedLeg] = field(default_factory=dict)

@@ -25,13 +25,30 @@ class Met:
     Attributes:
         members: The names of its obstacles.
         barriers: What closes either side of it.
+        asked: The side on which the mission has it passed, and the member that it says so of;
+            None where either will do. Every curve of the leg keeps it.
     """
 
     members: tuple[str, ...]
     barriers: Barriers
+    asked: tuple[Side, str] | None
+
+    @property
+    def forced(self) -> Side | None:
+        """The only side on which it may be passed, if there is one."""
+        return None if self.asked is None else self.asked[0]
+
+    def forbidden(self, side: Side) -> str | None:
+        """Why it may not be passed on a side, if it may not."""
+        if self.asked is None or self.asked[0] == side:
+            return None
+        forced, name = self.asked
+        return f"the mission has {name!r} passed on the {forced}"
 
     def side_of(self, taut_path: TautPath) -> Side:
         """The side on which a taut path passes it."""
+        if self.asked is not None:
+            return self.asked[0]
         return "right" if taut_path.crosses(self.barriers.right) else "left"
 
 
@@ -61,7 +78,8 @@ class Comparison:
             LedgerEntry(
                 one.members,
                 (start.name, goal.name),
-                tuple(self._candidate(one, side, reason) for side in SIDES),
+                tuple(self._candidate(one, side, one.forbidden(side) or reason) for side in SIDES),
+                one.forced,
             )
             for one, reason in zip(self.met, self.reasons, strict=True)
         )

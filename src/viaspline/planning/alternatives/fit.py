@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from viaspline.curve.bending import self_loops
 from viaspline.kernels.arrays import Floats
+from viaspline.planning.checking.barrier_crossings import crossings
 from viaspline.planning.checking.conflicts import CLEAR, too_close
 from viaspline.planning.problem.via_sequence import Leg, ViaSequence, lay
 from viaspline.planning.routing.taut_path import TautPath
@@ -50,9 +51,14 @@ class Fitted:
 
 
 def fit(
-    sequence: ViaSequence, index: int, taut_path: TautPath, world: World, required: float
+    sequence: ViaSequence,
+    index: int,
+    taut_path: TautPath,
+    world: World,
+    required: float,
+    closed: Floats,
 ) -> Fitted | None:
-    """Lay the leg's spline along a taut path.
+    """Lay the leg's spline along a taut path, across none of the ``closed`` barriers (b, 4).
 
     Returns:
         The fitted leg, or None if no slack makes it clear (the two via points themselves have
@@ -62,26 +68,35 @@ def fit(
     for leg in _attempts(sequence, index, taut_path, base):
         candidate = sequence.with_leg(index, leg)
         spans = leg_spans(candidate, index)
-        if (too_close(world, spans, required) == CLEAR).all():
+        if not _is_blocked(world, spans, required, closed).any():
             return Fitted(candidate, spans)
-    tightened = tighten(candidate, index, world, required)
+    tightened = tighten(candidate, index, world, required, closed)
     if tightened is not None or taut_path.is_direct:
         return tightened
     # Arcs that run into each other leave no clear polyline along them; the corners always have one.
     points = lifted(taut_path.turns, *(via.at for via in sequence.ends(index)))
     leg = Leg(points, np.full(len(points) + 1, base))
-    return tighten(sequence.with_leg(index, leg), index, world, required)
+    return tighten(sequence.with_leg(index, leg), index, world, required, closed)
 
 
-def tighten(sequence: ViaSequence, index: int, world: World, required: float) -> Fitted | None:
-    """Halve the slack of a leg's spans that come too close, until none does."""
+def tighten(
+    sequence: ViaSequence, index: int, world: World, required: float, closed: Floats
+) -> Fitted | None:
+    """Halve the slack of a leg's spans that come too close or cross a barrier, until none does."""
     for _ in range(MAX_HALVINGS):
         spans = leg_spans(sequence, index)
-        close = too_close(world, spans, required) != CLEAR
+        close = _is_blocked(world, spans, required, closed)
         if not close.any():
             return Fitted(sequence, spans)
         sequence = _halved(sequence, index, close)
     return None
+
+
+def _is_blocked(world: World, spans: Floats, required: float, closed: Floats) -> NDArray[np.bool_]:
+    """Which spans come too close to something or cross a barrier, (m,)."""
+    close = too_close(world, spans, required) != CLEAR
+    found: NDArray[np.bool_] = close | crossings(spans, closed).any(axis=1)
+    return found
 
 
 def untied(sequence: ViaSequence, spans: Floats) -> ViaSequence:

@@ -9,6 +9,7 @@ Tested through ``planning/problem/test_ledger``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,17 +62,15 @@ class GroupsInTheWay:
         many other sides as groups, and each would be a search of the whole leg.
         """
         group = next(group for group in self.met if group is met)
-        for i in group.indices:
-            forced = self.leg.world.obstacles[i].forced_side
-            if forced is not None and forced != side:
-                name = self.leg.world.name(i)
-                return None, f"the mission has {name!r} passed on the {forced}"
+        forbidden = group.forbidden(side)
+        if forbidden is not None:
+            return None, forbidden
         closed = group.barriers.closing(opposite(side))
         if len(self.met) <= MAX_GROUPS_SOUGHT_WHOLE:
             outcome, _ = self.leg.shortest_allowed(self.active, closed)
         else:
             outcome = _nearby(self.leg, group, closed, best.taut_path)
-        return self.leg.curve(outcome.value), reason_of(outcome, side)
+        return self.leg.curve(outcome.value, self.active), reason_of(outcome, side)
 
 
 def groups_met(leg: LegSearch, labels: NDArray[np.int64], active: Flags) -> tuple[Group, ...]:
@@ -89,11 +88,25 @@ def groups_met(leg: LegSearch, labels: NDArray[np.int64], active: Flags) -> tupl
         if label not in met:
             members = tuple(np.flatnonzero(labels == label).tolist())
             names = tuple(leg.world.name(k) for k in members)
-            met[label] = Group(names, barriers_of(leg.world, i, start, goal), members)
-    for group in met.values():
-        forced = [i for i in group.indices if leg.world.obstacles[i].forced_side is not None]
-        active[forced] = True
+            forced = sided_among(leg.world, members)
+            active[forced] = True
+            asked = asked_of(leg.world, forced)
+            met[label] = Group(names, barriers_of(leg.world, i, start, goal), asked, members)
     return tuple(met.values())
+
+
+def sided_among(world: World, indices: Sequence[int]) -> list[int]:
+    """Those of some obstacles that ask for a side."""
+    return [i for i in indices if world.obstacles[i].forced_side is not None]
+
+
+def asked_of(world: World, forced: Sequence[int]) -> tuple[Side, str] | None:
+    """The side that the first of some obstacles asks for, and its name; None if there is none."""
+    for i in forced:
+        side = world.obstacles[i].forced_side
+        if side is not None:
+            return side, world.name(i)
+    return None
 
 
 def _nearby(leg: LegSearch, group: Group, closed: Floats, best: TautPath) -> Outcome[TautPath]:
@@ -102,7 +115,7 @@ def _nearby(leg: LegSearch, group: Group, closed: Floats, best: TautPath) -> Out
     start, goal = (best.corners[k, X : Y + 1] for k in (first, last))
     active = on_the_line(leg.world, start, goal, leg.requirements.required)
     active[list(group.indices)] = True  # a route can only turn at what is active
-    barriers = np.vstack((closed, leg.forced_barriers(active)))
+    barriers = np.vstack((closed, leg.sides.closed_among(active)))
     part = leg.router.find(start, goal, barriers, active)
     if not isinstance(part, Found):
         return part

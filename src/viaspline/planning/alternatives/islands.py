@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.comparison import Met
+from viaspline.planning.alternatives.groups import asked_of
 from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite, reason_of
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.side_barrier import barriers_at
@@ -44,10 +45,13 @@ class IslandsInTheWay:
 
     def other_side(self, met: Met, side: Side, best: Spline) -> tuple[Spline | None, str]:
         """See ``InTheWay``."""
+        forbidden = met.forbidden(side)
+        if forbidden is not None:
+            return None, forbidden
         closed = met.barriers.closing(opposite(side))
         active = on_the_line(self.leg.world, *self.leg.ends, self.leg.requirements.required)
         outcome, _ = self.leg.shortest_allowed(active, closed)
-        return self.leg.curve(outcome.value), reason_of(outcome, side)
+        return self.leg.curve(outcome.value, active), reason_of(outcome, side)
 
 
 def islands_met(leg: LegSearch) -> Iterator[Met]:
@@ -70,15 +74,22 @@ def islands_met(leg: LegSearch) -> Iterator[Met]:
         inside = places[k : k + np.argmax(np.append(found[k:] != island, True))]
         middle = inside[len(inside) // 2]
         barriers = barriers_at(leg.world, middle, start, goal)
-        yield Met(_names(leg, labels == island, middle), barriers)
+        members = _members(leg, labels == island)
+        asked = asked_of(leg.world, np.intersect1d(members, leg.sides.bound).tolist())
+        yield Met(_names(leg, members, middle), barriers, asked)
 
 
-def _names(leg: LegSearch, island: NDArray[np.bool_], middle: Floats) -> tuple[str, ...]:
+def _members(leg: LegSearch, island: NDArray[np.bool_]) -> Ints:
+    """The obstacles that an island may consist of, all maps among them, (k,)."""
+    within = leg.router.lattice.at(island, _centres(leg.world))
+    return np.flatnonzero(within | leg.world.are_maps)
+
+
+def _names(leg: LegSearch, members: Ints, middle: Floats) -> tuple[str, ...]:
     """What an island consists of: its obstacles, and where on a map it is."""
     world = leg.world
     names = []
-    within = leg.router.lattice.at(island, _centres(world))
-    for i in np.flatnonzero(within | world.are_maps).tolist():
+    for i in members.tolist():
         if not world.are_maps[i]:
             names.append(world.name(i))
         elif world.distances_to(i, middle[None, :])[0] < leg.requirements.required:

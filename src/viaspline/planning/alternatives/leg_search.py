@@ -10,15 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.fit import Fitted, fit
 from viaspline.planning.checking.cost import CandidateCost, measure
 from viaspline.planning.problem.method import Outcome, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.routing.asked_sides import AskedSides
 from viaspline.planning.routing.route_problem import NO_BARRIERS
 from viaspline.planning.routing.router import Router
-from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
@@ -61,6 +62,7 @@ class LegSearch:
         world: The known world.
         requirements: What to keep.
         router: Of this world and these requirements.
+        sides: On which the mission has obstacles passed, as this leg sees them.
     """
 
     sequence: ViaSequence
@@ -68,6 +70,7 @@ class LegSearch:
     world: World
     requirements: Requirements
     router: Router
+    sides: AskedSides
 
     @property
     def ends(self) -> tuple[Floats, Floats]:
@@ -80,8 +83,9 @@ class LegSearch:
     ) -> tuple[Outcome[TautPath], Floats]:
         """The shortest taut path that passes what it meets on the sides that the mission allows.
 
-        It can meet obstacles with a side of their own that were not met before; each such
-        round adds at least one barrier, so there are no more rounds than obstacles.
+        It can meet obstacles with a side of their own that were not met before, or go round one
+        that the leg's straight line passes as it should; each such round adds at least one barrier,
+        so there are no more rounds than obstacles.
 
         Args:
             active: (n,): obstacles to begin with; those met are added in place.
@@ -90,28 +94,29 @@ class LegSearch:
         Returns:
             What came of it, and the barriers that forbid sides, (f, 4).
         """
-        barriers = self.forced_barriers(active)
+        barriers = self.sides.closed_among(active)
         while True:
             outcome = self.router.find(*self.ends, np.vstack((closed, barriers)), active)
-            needed = self.forced_barriers(active)
+            if outcome.value is not None:
+                corners = outcome.value.corners[:, X : Y + 1]
+                active[self.sides.gone_round(corners)] = True
+            needed = self.sides.closed_among(active)
             if len(needed) == len(barriers):
                 return outcome, barriers
             barriers = needed
 
-    def forced_barriers(self, active: Flags) -> Floats:
-        """Barriers on the forbidden sides of those obstacles that allow one side only."""
-        rows = [
-            barriers_of(self.world, int(i), *self.ends).closing(opposite(forced))
-            for i in np.flatnonzero(active)
-            if (forced := self.world.obstacles[i].forced_side) is not None
-        ]
-        return np.vstack(rows) if rows else NO_BARRIERS
+    def curve(self, taut_path: TautPath | None, active: Flags) -> Spline | None:
+        """The spline along a taut path, or None where no slack makes it clear.
 
-    def curve(self, taut_path: TautPath | None) -> Spline | None:
-        """The spline along a taut path, or None where no slack makes it clear."""
+        Args:
+            taut_path: The path, if there is one.
+            active: (n,): obstacles that were met when it was found: it passes them as asked.
+        """
         if taut_path is None:
             return None
-        fitted = fit(self.sequence, self.index, taut_path, self.world, self.requirements.required)
+        closed = self.sides.binding_if_met(active).closed
+        required = self.requirements.required
+        fitted = fit(self.sequence, self.index, taut_path, self.world, required, closed)
         if fitted is None:
             return None
         vias = fitted.sequence.legs[self.index].points

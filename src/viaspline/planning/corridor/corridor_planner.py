@@ -36,6 +36,7 @@ from viaspline.planning.corridor.minimum_curvature import (
     improved,
     settled,
 )
+from viaspline.planning.corridor.side_walls import with_side_walls
 from viaspline.planning.corridor.strip_line import StripLine, split
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence, via_sequence_of
@@ -117,10 +118,11 @@ def find_line(mission: Mission, world: World, requirements: Requirements) -> Sol
     if not sequence.closed:
         aims[-1] = sequence.end_tangent
     radius = requirements.turn_radius
+    walled = with_side_walls(world, strip)
     for margin in _margins(requirements):
         spline_path = line_through(
             strip, margin, places=[(via.at[0], via.at[1]) for via in sequence.vias],
-            directions=aims, world=world,
+            directions=aims, world=walled,
             max_curvature=None if radius is None else 1.0 / radius,
         )  # fmt: skip
         path = Path(spline_path.spans, _path_vias(sequence, spline_path))

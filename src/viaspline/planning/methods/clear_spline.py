@@ -7,7 +7,8 @@ everyone's.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -25,6 +26,7 @@ from viaspline.planning.checking.conflicts import CLEAR, too_close
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence, lay
+from viaspline.planning.routing.asked_sides import AskedSides
 from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.planning.routing.leg_refusals import (
     explain_blocked_leg,
@@ -63,6 +65,7 @@ class ClearSpline:
         sequence, world, requirements = problem.sequence, problem.world, problem.requirements
         refuse_blocked_vias(sequence, world, requirements)
         passed: dict[int, PassedLeg] = {}
+        sides = list(problem.sides)
         leg = 0
         for _ in range(self.max_rounds):
             spans = lay(sequence)
@@ -71,29 +74,38 @@ class ClearSpline:
                 sequence = loose
                 continue
             close = too_close(world, spans, requirements.required)
-            if (close == CLEAR).all():
-                joints, detours = sequence.first_spans(), _detours(sequence)
-                return ClearedSpline(SplinePath.through(sequence, spans, joints, detours), passed)
             first = sequence.first_spans()
-            for leg in range(len(sequence.legs)):
-                hit = close[first[leg] : first[leg + 1]]
+            parts = [slice(*ends) for ends in pairwise(first.tolist())]
+            off = [
+                asked.crossed(spans[part]).any() for asked, part in zip(sides, parts, strict=True)
+            ]
+            if (close == CLEAR).all() and not any(off):
+                spline_path = SplinePath.through(sequence, spans, first, _detours(sequence))
+                return ClearedSpline(spline_path, tuple(sides), passed)
+            for leg, part in enumerate(parts):
+                hit = close[part]
                 hit = hit[hit != CLEAR]
-                if not hit.size:
+                if not (hit.size or off[leg]):
                     continue
                 if leg in passed:  # a neighbour that was led round has turned its tangents
-                    tightened = tighten(sequence, leg, world, requirements.required)
+                    required, closed = requirements.required, sides[leg].closed
+                    tightened = tighten(sequence, leg, world, required, closed)
                     if tightened is not None:
                         sequence = tightened.sequence
                         continue
-                passed[leg] = self._led_round(problem, sequence, leg, hit[hit >= 0].tolist())
+                passed[leg], sides[leg] = self._led_round(
+                    problem, sequence, leg, hit[hit >= 0].tolist()
+                )
                 sequence = passed[leg].taken.fitted.sequence
         rounds = f"{self.max_rounds} rounds of drawing the spline in"
         raise explain_tight_leg(sequence, leg, world, requirements, (rounds,))
 
     def _led_round(
         self, problem: PathProblem, sequence: ViaSequence, index: int, hit: Sequence[int]
-    ) -> PassedLeg:
+    ) -> tuple[PassedLeg, AskedSides]:
         """Lead one leg round everything, by the shorter side of each group if they are few.
+
+        The sides of what it met on the way bind it from then on.
 
         Args:
             problem: What is to be laid.
@@ -106,7 +118,7 @@ class ClearSpline:
             GaveUpError: When that isn't known.
         """
         world, requirements, router = problem.world, problem.requirements, problem.router
-        leg = LegSearch(sequence, index, world, requirements, router)
+        leg = LegSearch(sequence, index, world, requirements, router, problem.sides[index])
         active = on_the_line(world, *leg.ends, requirements.required)
         active[list(hit)] = True
         is_dense = router.is_dense(active)
@@ -114,10 +126,11 @@ class ClearSpline:
         outcome, barriers = self._fitted(leg, active)
         if not isinstance(outcome, Found):
             raise _no_leg(leg, outcome, barriers)
+        leg = replace(leg, sides=leg.sides.binding_if_met(active))
         if is_dense:
-            return PassedLeg(IslandsInTheWay(leg), outcome.value, is_weighed=False)
+            return PassedLeg(IslandsInTheWay(leg), outcome.value, is_weighed=False), leg.sides
         is_weighed = len(met) <= MAX_GROUPS_WEIGHED
-        return PassedLeg(GroupsInTheWay(leg, met, active), outcome.value, is_weighed)
+        return PassedLeg(GroupsInTheWay(leg, met, active), outcome.value, is_weighed), leg.sides
 
     def _fitted(self, leg: LegSearch, active: Flags) -> tuple[Outcome[Spline], Floats]:
         """The curve along the shortest taut path on which one fits, and the forbidden sides.
@@ -130,7 +143,7 @@ class ClearSpline:
             outcome, barriers = leg.shortest_allowed(active, closed)
             if not isinstance(outcome, Found):
                 return outcome, barriers
-            best = leg.curve(outcome.value)
+            best = leg.curve(outcome.value, active)
             if best is not None:
                 return Found(best, best.measured.length), barriers
             places = np.ascontiguousarray(outcome.value.corners[:, X : Y + 1])

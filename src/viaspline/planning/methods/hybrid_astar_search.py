@@ -35,8 +35,9 @@ class HybridAStar:
         """See ``Method``."""
         path, rho = problem.path, problem.rho
         chains = via_route_chains(
-            path.sequence, path.world, path.requirements, rho, RAMP * rho, path.spots, self.efforts
-        )
+            path.sequence, path.world, path.requirements, rho, RAMP * rho, path.spots, self.efforts,
+            [sides.closed for sides in path.sides],
+        )  # fmt: skip
         if isinstance(chains, NotFound):
             return _nothing(path, rho, chains)
         spans = np.concatenate([chain.spans for chain in chains])
@@ -44,6 +45,8 @@ class HybridAStar:
             return GaveUp(("a search among poses, whose path the body itself doesn't clear",))
         joints = np.cumsum([0, *(len(chain.spans) for chain in chains)])
         spline_path = path.through(spans, joints, ())
+        if not path.keeps_sides(spline_path):
+            return GaveUp(("a search among poses, whose path takes another side",))
         return Found(spline_path, spline_path.length)
 
 

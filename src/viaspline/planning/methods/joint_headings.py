@@ -36,7 +36,7 @@ class JointHeadings:
         path, rho = problem.path, problem.rho
         legs, closed = legs_of(path.bends, path.spots), path.bends.closed
         as_it_is, pushed = (
-            partial(lay, rho=rho, world=path.world, requirements=path.requirements)
+            partial(path.leg_on_sides, rho=rho, lay=lay)
             for lay in (turn_path_if_clear, clear_turn_path)
         )
         poses = posed(legs, rho, closed, as_it_is, self.max_rows, self.max_rows, bound)

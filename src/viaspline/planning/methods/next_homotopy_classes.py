@@ -38,9 +38,10 @@ class NextHomotopyClasses:
         def attempt(row: TautRow) -> Attempt[TurnPath]:
             bends = bends_along(path.sequence, row.taut_paths)
             made = clear_turn_path_or_why(bends, problem.rho, path.world, path.requirements)
-            if isinstance(made, TurnPath):
+            places = path.passed_wrong(made) if isinstance(made, TurnPath) else made.places
+            if isinstance(made, TurnPath) and not places:
                 return Attempt(made)
-            others = (row.past_gap(path.legs[leg], by) for leg, by in made.places)
+            others = (row.past_gap(path.legs[leg], by) for leg, by in places)
             return Attempt(None, (other for other in others if other is not None))
 
         first = path.shortest_row

@@ -43,11 +43,13 @@ class LedgerEntry:
         members: The names of the group's obstacles.
         leg: The names of the via points before and after.
         candidates: Every side that was tried.
+        forced: The side on which the mission has it passed; None where either will do.
     """
 
     members: tuple[str, ...]
     leg: tuple[str, str]
     candidates: tuple[Candidate, ...]
+    forced: Literal["left", "right"] | None = None
 
     @property
     def chosen(self) -> Candidate | None:

@@ -56,6 +56,24 @@ class Leg:
 
 
 @dataclass(frozen=True)
+class WholeLeg:
+    """The leg of the route that a leg is, or that it is the rest of where it is laid under way.
+
+    What a leg goes past is seen along the whole of it, wherever the robot is by now.
+
+    Attributes:
+        start: The user's via point before it [m], (d,).
+        goal: The user's via point after it [m], (d,).
+        laid: Bézier control polygons of the curve that is driven so far [m], (m, 4, d); None where
+            there is none.
+    """
+
+    start: Floats
+    goal: Floats
+    laid: Floats | None = None
+
+
+@dataclass(frozen=True)
 class ViaSequence:
     """User via points and the legs between them.
 
@@ -67,6 +85,7 @@ class ViaSequence:
         start_tangent: Direction in which the curve leaves, shape (d,), or None.
         end_tangent: Direction in which it arrives, shape (d,), or None.
         closed: Whether it comes back to the first via point.
+        parts_of: The leg of the route that each leg is a part of; empty where they are whole.
     """
 
     vias: tuple[RouteVia, ...]
@@ -76,6 +95,14 @@ class ViaSequence:
     end_tangent: Floats | None = None
     tangents: Tangents = "cardinal"
     closed: bool = False
+    parts_of: tuple[WholeLeg, ...] = ()
+
+    def whole_leg(self, leg: int) -> WholeLeg:
+        """The leg of the route that a leg is or is a part of."""
+        if self.parts_of:
+            return self.parts_of[leg]
+        start, goal = self.ends(leg)
+        return WholeLeg(start.at, goal.at)
 
     def ends(self, leg: int) -> tuple[RouteVia, RouteVia]:
         """The via points before and after a leg."""

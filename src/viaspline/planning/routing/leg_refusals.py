@@ -18,9 +18,15 @@ from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.planning.problem.method import GaveUp
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
+from viaspline.planning.routing.asked_sides import AskedSides, sided
 from viaspline.planning.routing.lattice_route import LatticeRoute
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.router import Router
+from viaspline.planning.routing.side_refusals import (
+    changes_freeing,
+    freeing_in_words,
+    sides_in_words,
+)
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.routing.via_refusals import change_moving
 from viaspline.world.world import World
@@ -55,8 +61,10 @@ def explain_blocked_leg(
 ) -> NoPathError:
     """Why there is no way between two via points."""
     start, goal = sequence.ends(leg)
-    if len(barriers) and _way(start, goal, world, requirements.required, NO_BARRIERS) is not None:
-        return _forced(start, goal, world)
+    if len(barriers):
+        free = _way(start, goal, world, requirements.required, NO_BARRIERS)
+        if free is not None:
+            return _forced(sequence, leg, world, requirements.required, free)
     opened = _widest(start, goal, world, requirements.required)
     moved = reachable_near(start.at, goal.at, world, requirements.required)
     moves = [] if moved is None else [f"move {goal.name!r} to ({moved[0]:.3f}, {moved[1]:.3f})"]
@@ -167,23 +175,25 @@ def explain_tight_leg(
     )
 
 
-def _forced(start: RouteVia, goal: RouteVia, world: World) -> NoPathError:
-    sided = [i for i, obstacle in enumerate(world.obstacles) if obstacle.forced_side]
-    forced = tuple(world.name(i) for i in sided)
-    keys = ("pass_on", "never_pass_on")
-    changes = tuple(
-        Change(f"world.known[{i}].{key}", None)
-        for i in sided
-        for key in keys
-        if getattr(world.obstacles[i], key) is not None
+def _forced(
+    sequence: ViaSequence, leg: int, world: World, required: float, free: TautPath
+) -> NoPathError:
+    """Where there is a way, but not on the sides that are asked for."""
+    start, goal = sequence.ends(leg)
+    indices = sided(world)
+    sides = AskedSides.of(
+        sequence.whole_leg(leg), indices, world, required, lambda: np.arange(len(world))
     )
+    wrong = sides.with_binding(indices.tolist()).gone_round(free.corners[:, X : Y + 1])
+    forced = (wrong if wrong.size else indices).tolist()
     return NoPathError(
-        f"from {start.name!r} to {goal.name!r} there is no way on the sides that are asked for",
+        f"from {start.name!r} to {goal.name!r} there is no way on the sides that are asked for: "
+        f"none passes {sides_in_words(world, forced)}",
         where=goal.at,
-        remedy=f"drop pass_on or never_pass_on of {', '.join(map(repr, forced))}",
+        remedy=freeing_in_words(world, forced),
         via=goal.name,
-        obstacles=forced,
-        changes=changes,
+        obstacles=tuple(world.name(i) for i in forced),
+        changes=changes_freeing(world, forced),
     )
 
 

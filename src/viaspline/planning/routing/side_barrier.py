@@ -30,6 +30,12 @@ class Barriers(NamedTuple):
         """The one that closes a side."""
         return self.left if side == "left" else self.right
 
+    def forcing(self, side: Side | None) -> Floats:
+        """The one that leaves only this side; none, (0, 4), where either will do."""
+        if side is None:
+            return np.empty((0, 4))
+        return self.right if side == "left" else self.left
+
 
 def barriers_of(world: World, index: int, start: Floats, goal: Floats) -> Barriers:
     """The barriers of an obstacle on the leg from start to goal."""

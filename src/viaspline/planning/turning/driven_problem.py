@@ -5,8 +5,8 @@ Tested through ``planning/methods/test_ordered``.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -19,18 +19,23 @@ from viaspline.planning.alternatives.homotopy_classes import TautRow
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.checking.conflicts import is_clear
 from viaspline.planning.problem.heights import with_heights
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.routing.asked_sides import AskedSides
 from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import DETOUR, Bends, bends_along
 from viaspline.planning.turning.repair import clear_turn_path
 from viaspline.planning.turning.turn_path import OVERSHOOT, TurnPath
+from viaspline.world.world import World
 
 # Radii of turns for a long body without a turning circle, wide ones first, in required distances.
 FREE_TURN_RADII = (6.0, 3.0, 1.5)
 LEAST_FREE_TURN_RADIUS = 0.5
 LEAST_REQUIRED_M = 1e-3  # that these are of
+
+LayTurns = Callable[[Bends, float, World, Requirements], TurnPath | None]
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,7 @@ class DrivenProblem(PathProblem):
         cleared: The spline.
     """
 
-    cleared: ClearedSpline
+    cleared: ClearedSpline = field(kw_only=True)
 
     @property
     def turn_radius(self) -> float:
@@ -68,9 +73,14 @@ class DrivenProblem(PathProblem):
     def legs(self) -> tuple[LegSearch, ...]:
         """The legs of the sequence."""
         return tuple(
-            LegSearch(self.sequence, k, self.world, self.requirements, self.router)
-            for k in range(len(self.sequence.legs))
+            LegSearch(self.sequence, k, self.world, self.requirements, self.router, sides)
+            for k, sides in enumerate(self.sides)
         )
+
+    @cached_property
+    def sides(self) -> tuple[AskedSides, ...]:
+        """The sides that are asked for, with those that the spline was found to meet."""
+        return self.cleared.sides
 
     @cached_property
     def shortest_row(self) -> TautRow:
@@ -96,6 +106,19 @@ class DrivenProblem(PathProblem):
         """Whether the body keeps clear on planar spans."""
         return is_clear(self.world, spans, self.requirements)
 
+    def keeps_sides(self, spline_path: SplinePath) -> bool:
+        """Whether a path passes everything on the sides that are asked for."""
+        return not any(len(sides.wrong(spline_path.leg(k))) for k, sides in enumerate(self.sides))
+
+    def passed_wrong(self, turn_path: TurnPath) -> tuple[tuple[int, Floats], ...]:
+        """What a turn path passes on the wrong side: the leg, and the middle of it [m], (2,)."""
+        spline_path = self.through_turns([turn_path])
+        return tuple(
+            (k, barrier[:2])
+            for k, sides in enumerate(self.sides)
+            for barrier in sides.barriers[np.isin(sides.indices, sides.wrong(spline_path.leg(k)))]
+        )
+
     def is_drivable(self, spans: Floats) -> bool:
         """Whether the body keeps clear, and no turn is sharper than the turning circle."""
         limit = self.requirements.turn_radius
@@ -112,9 +135,26 @@ class DrivenProblem(PathProblem):
         bends = bends_along(self.sequence, taut_paths)
         for rho in self.least_radii:
             turn_path = clear_turn_path(bends, rho, self.world, self.requirements)
-            if turn_path is not None:
-                return self.through_turns([turn_path])
+            if turn_path is None:
+                continue
+            spline_path = self.through_turns([turn_path])
+            if self.keeps_sides(spline_path):
+                return spline_path
         return None
+
+    def leg_on_sides(self, leg: int, bends: Bends, rho: float, lay: LayTurns) -> TurnPath | None:
+        """The turn path of one leg, if it keeps clear and to the sides that are asked for.
+
+        Args:
+            leg: The leg.
+            bends: Its bends.
+            rho: The least radius [m].
+            lay: Lays a clear turn path round bends, if it can.
+        """
+        turn_path = lay(bends, rho, self.world, self.requirements)
+        if turn_path is None or self.sides[leg].crossed(turn_path.spans).any():
+            return None
+        return turn_path
 
     def through_turns(self, turn_paths: Sequence[TurnPath]) -> SplinePath:
         """The curve of turn paths that follow each other, with heights if the vias have them."""

@@ -23,7 +23,7 @@ from viaspline.kernels.turning.heading_costs import cheapest, leg_lengths
 from viaspline.planning.turning.bend_row import DETOUR, HEADING, SIDE, Bends
 from viaspline.planning.turning.turn_path import RAMP, TurnPath
 
-Lay = Callable[[Bends], TurnPath | None]
+Lay = Callable[[int, Bends], TurnPath | None]  # a leg, and its bends
 
 HEADING_COUNT = 36  # that are tried at a via point
 FINER_TURNS = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they are turned then
@@ -119,7 +119,7 @@ def posed(
         legs: The legs.
         rho: The least radius [m].
         closed: Whether the last heading is the first.
-        lay: Lays a clear turn path round bends, if it can.
+        lay: Lays a clear turn path round the bends of a leg, if it can.
         max_rows: Rows of headings that are tried.
         max_pairs: Pairs of headings of a leg that are tried until one of them is clear.
         bound: Only shorter rows are of use [m].
@@ -142,7 +142,7 @@ def posed(
             return _finer(Poses(ends, tuple(spline_path[key] for key in keys)), legs, closed, lay)
         for key in new:
             leg = legs[key[0]]
-            turn_path = lay(leg.between(leg.starts[key[1]], leg.goals[key[2]]))
+            turn_path = lay(key[0], leg.between(leg.starts[key[1]], leg.goals[key[2]]))
             costs[key] = math.inf if turn_path is None else turn_path.length
             if turn_path is not None:
                 spline_path[key] = turn_path
@@ -177,7 +177,7 @@ def _turned(
         headings[-1] = headings[0]
     turn_paths = list(poses.turn_paths)
     for leg in {k, (k - 1) % len(legs) if closed else max(k - 1, 0)}:
-        turn_path = lay(legs[leg].between(headings[leg], headings[leg + 1]))
+        turn_path = lay(leg, legs[leg].between(headings[leg], headings[leg + 1]))
         if turn_path is None:
             return None
         turn_paths[leg] = turn_path

@@ -5,7 +5,7 @@ Tested through ``planning/methods/test_ordered`` and ``planning/test_plan_path``
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -13,8 +13,14 @@ import numpy as np
 
 from viaspline.errors import GaveUpError, NoPathError, PlanningError
 from viaspline.planning.problem.method import GaveUp, Refusal
+from viaspline.planning.problem.via_sequence import RouteVia
+from viaspline.planning.routing.side_refusals import (
+    changes_freeing,
+    freeing_in_words,
+    sides_in_words,
+)
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.headings import legs_of, posed
+from viaspline.planning.turning.headings import Poses, legs_of, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_path import OVERSHOOT
 
@@ -32,6 +38,9 @@ def unlaid(problem: DrivenProblem, outcome: Refusal | GaveUp) -> PlanningError:
         outcome: What the methods came to.
     """
     via = problem.sequence.vias[outcome.via or 0]
+    sided = _sides_in_the_way(problem)
+    if sided:
+        return _no_path_on_sides(problem, outcome, via, sided)
     if problem.requirements.turn_radius is None:
         verb = "can't be" if isinstance(outcome, Refusal) else "wasn't"
         what = f"the body {verb} led to via point {via.name!r}: {outcome.reason}"
@@ -47,6 +56,43 @@ def unlaid(problem: DrivenProblem, outcome: Refusal | GaveUp) -> PlanningError:
     return GaveUpError(
         what, where=via.at, remedy=", or ".join(helps), tried=outcome.tried, via=via.name
     )
+
+
+def _no_path_on_sides(
+    problem: DrivenProblem, outcome: Refusal | GaveUp, via: RouteVia, sided: Sequence[int]
+) -> PlanningError:
+    """The error where there would be a path if some obstacles could be passed on other sides."""
+    world, circle = problem.world, problem.requirements.turn_radius
+    who = "for the body" if circle is None else f"with a turning circle of {circle:.4g} m"
+    verb = "can pass" if isinstance(outcome, Refusal) else "was found that passes"
+    what = f"{who} no path {verb} {sides_in_words(world, sided)}: {outcome.reason}"
+    remedy = freeing_in_words(world, sided)
+    names, changes = [world.name(i) for i in sided], changes_freeing(world, sided)
+    if isinstance(outcome, Refusal):
+        return NoPathError(
+            what, where=via.at, remedy=remedy, via=via.name, obstacles=names, changes=changes
+        )
+    helps = [remedy, *([outcome.would_help] if outcome.would_help else [])]
+    return GaveUpError(
+        what, where=via.at, remedy=", or ".join(helps), tried=outcome.tried, via=via.name,
+        obstacles=names, changes=changes,
+    )  # fmt: skip
+
+
+def _sides_in_the_way(problem: DrivenProblem) -> list[int]:
+    """The obstacles that a path passes on the wrong side which there would be without sides."""
+    if not any(sides.binding.any() for sides in problem.sides):
+        return []
+    cleared = replace(problem.cleared, sides=tuple(sides.freed for sides in problem.sides))
+    free = replace(problem, cleared=cleared)
+    spline_path = free.turns_along(free.shortest_row.taut_paths)
+    if spline_path is None:
+        poses = _poses(free, free.least_radii[-1])
+        spline_path = None if poses is None else free.through_turns(poses.turn_paths)
+    if spline_path is None:
+        return []
+    wrong = [sides.wrong(spline_path.leg(k)) for k, sides in enumerate(problem.sides)]
+    return sorted({int(i) for row in wrong for i in row})
 
 
 def _circle_remedy(via: str, radius: float, serves: Callable[[float], bool]) -> str:
@@ -72,13 +118,15 @@ def _body_remedy(via: str, has_room: Callable[[float], bool]) -> str:
 
 def _serves(problem: DrivenProblem, radius: float) -> bool:
     """Whether there is a path with another turning circle [m]."""
-    rho = OVERSHOOT * radius
-    lay = partial(
-        turn_path_if_clear, rho=rho, world=problem.world, requirements=problem.requirements
-    )
+    return _poses(problem, OVERSHOOT * radius) is not None
+
+
+def _poses(problem: DrivenProblem, rho: float) -> Poses | None:
+    """Headings and turns of at least a radius [m] along the shortest way, if any are clear."""
+    lay = partial(problem.leg_on_sides, rho=rho, lay=turn_path_if_clear)
     legs = legs_of(problem.bends, problem.spots)
     closed = problem.sequence.closed
-    return posed(legs, rho, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS) is not None
+    return posed(legs, rho, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS)
 
 
 def _has_room(problem: DrivenProblem, part: float) -> bool:

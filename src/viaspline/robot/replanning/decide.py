@@ -50,6 +50,8 @@ def _round_obstacles(context: ReplanContext, new: World) -> Decision:
         return unchanged
     free = context.free_until(new)
     if free is None:
+        free = context.on_side_until(new)
+    if free is None:
         return unchanged
     blocked = replace(context, obstruction=Obstruction(new, new.names, free))
     result = search(blocked)

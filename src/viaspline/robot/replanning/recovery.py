@@ -14,6 +14,7 @@ from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning import replan
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.sides_ahead import spans_on_wrong_side
 from viaspline.robot.navigation.schedule import ReducedClearance
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.replan_search import PathCandidate, timed
@@ -53,6 +54,9 @@ def way_out(
     if place is None:
         return None
     straight = _straight_to(context, place)
+    u = float(straight.parameter(stop))
+    if round(u) in spans_on_wrong_side(straight, u, world, requirements):
+        return None
     at = stop + math.dist(here, place)
     try:
         found = replan.from_rest(straight, at, world, requirements)

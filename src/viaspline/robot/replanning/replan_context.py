@@ -12,6 +12,7 @@ from viaspline.curve.path import PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.checking.conflicts import CLEAR, conflicts_within
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.sides_ahead import spans_on_wrong_side
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
@@ -113,6 +114,15 @@ class ReplanContext:
             if conflict is not None:
                 return float(path.distance(float(math.floor(u) + conflict)))
         return None
+
+    def on_side_until(self, world: World) -> float | None:
+        """Start of the first span ahead that passes something of a world on the wrong side [m].
+
+        None if none does.
+        """
+        path, here = self.schedule.path, self.progress.distance
+        wrong = spans_on_wrong_side(path, float(path.parameter(here)), world, self.requirements)
+        return max(here, float(path.distance(float(min(wrong))))) if wrong else None
 
     def parts_ahead(self) -> Iterator[tuple[float, float, PiecewiseCubic, float]]:
         """The path ahead in parts that keep different distances.

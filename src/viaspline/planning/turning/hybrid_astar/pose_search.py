@@ -77,6 +77,10 @@ class PoseProblem:
     moves: MotionPrimitives
     room: int
 
+    def closed_by(self, barriers: Floats) -> PoseProblem:
+        """This problem with segments that the reference point must not cross [m], (b, 4)."""
+        return replace(self, search_window=self.search_window.closed_by(barriers))
+
     def forwards(
         self, starts: Floats, goal: Goal, headings: Floats, after: float = SHARE_AFTER_ARRIVAL
     ) -> SearchTree:
@@ -221,9 +225,9 @@ def headings_at(problem: PoseProblem, goal: Goal) -> Floats:
 
 def _failure(both: Sequence[SearchTree], is_whole: bool, expanded: int) -> tuple[NotFound, bool]:
     forward, backward = both
-    if forward.state == EMPTY and (is_whole or not forward.was_cut):
+    if forward.state == EMPTY and is_whole:
         return NotFound(Reason.START_SHUT_IN, 0, expanded), False
-    if backward.state == EMPTY and (is_whole or not backward.was_cut):
+    if backward.state == EMPTY and is_whole:
         return NotFound(Reason.GOAL_SHUT_IN, 0, expanded), False
     is_cut = EMPTY in (forward.state, backward.state)
     return NotFound(Reason.BUDGET, 0, expanded), is_cut

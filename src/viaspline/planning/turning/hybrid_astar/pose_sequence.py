@@ -63,6 +63,7 @@ def find_row(
     start: Pose,
     goals: Sequence[Goal],
     efforts: Sequence[Effort] = SEARCH_EFFORTS,
+    barriers: Sequence[Floats] = (),
 ) -> tuple[Chain, ...] | NotFound:
     """Ways from a pose through a row of places, one after the other; see ``find_poses``.
 
@@ -74,6 +75,8 @@ def find_row(
         start: Where the first begins.
         goals: Where they end.
         efforts: How finely and how long is looked, one after the other.
+        barriers: For the way to each goal, segments that it must not cross [m], each (b, 4); none
+            at all if it is empty.
 
     Returns:
         A chain for every goal, each beginning with the pose in which the one before ends; or why
@@ -85,7 +88,8 @@ def find_row(
     expanded = 0
     for effort in efforts:
         for problem in pose_problems(world, requirements, rho, ramp, places, effort):
-            found, is_cut = _through(problem, start, goals)
+            closed = [problem.closed_by(each) for each in barriers] or [problem] * len(goals)
+            found, is_cut = _through(closed, start, goals)
             if not isinstance(found, NotFound):
                 return found
             expanded += found.expanded
@@ -96,15 +100,15 @@ def find_row(
 
 
 def _through(
-    problem: PoseProblem, start: Pose, goals: Sequence[Goal]
+    problems: Sequence[PoseProblem], start: Pose, goals: Sequence[Goal]
 ) -> tuple[tuple[Chain, ...] | NotFound, bool]:
     """The chains in one window, or why there are none and whether a greater one may have some."""
-    if not problem.search_window.has_room(start.x, start.y, start.heading):
+    if not problems[0].search_window.has_room(start.x, start.y, start.heading):
         return NotFound(Reason.START_TAKEN), False
     begin = np.array([start.x, start.y, start.heading, 0.0])
     layers = [[_Arrival(begin, -1, np.empty((0, 3)))]]
     expanded, has_followed_all = 0, True
-    for number, goal in enumerate(goals):
+    for number, (problem, goal) in enumerate(zip(problems, goals, strict=True)):
         headings = headings_at(problem, goal)
         if not len(headings):
             return NotFound(Reason.GOAL_TAKEN, number, expanded), False
@@ -120,7 +124,7 @@ def _through(
             heading = before + turn_of(found.segments)
             pose = np.array([goal.x, goal.y, heading, found.cost])
             arrivals.append(_Arrival(pose, found.start, found.segments))
-        is_cut = tree.was_cut and not problem.search_window.area.is_whole
+        is_cut = not problem.search_window.area.is_whole  # outside of it there may be a way round
         if not arrivals:
             reason = Reason.START_SHUT_IN if number == 0 else Reason.NO_WAY
             if tree.state != EMPTY or is_cut or not has_followed_all:
@@ -130,7 +134,7 @@ def _through(
         layers.append(distinct[:MAX_ARRIVALS])
         has_seen_all = tree.state == EMPTY and not is_cut
         has_followed_all &= has_seen_all and len(distinct) <= MAX_ARRIVALS
-    return _chains(problem, start, goals, layers, expanded), False
+    return _chains(problems, start, goals, layers, expanded), False
 
 
 def _grown(
@@ -149,7 +153,7 @@ def _grown(
         if back is None:
             back = problem.backwards(Pose(*start[:3].tolist()), goal, headings)
         back.go_on()
-        if back.state == EMPTY and (problem.search_window.area.is_whole or not back.was_cut):
+        if back.state == EMPTY and problem.search_window.area.is_whole:
             return True, tree.expanded + back.expanded
     return False, tree.expanded + (0 if back is None else back.expanded)
 
@@ -165,7 +169,7 @@ def _distinct(arrivals: Sequence[_Arrival]) -> list[_Arrival]:
 
 
 def _chains(
-    problem: PoseProblem,
+    problems: Sequence[PoseProblem],
     start: Pose,
     goals: Sequence[Goal],
     layers: Sequence[list[_Arrival]],
@@ -180,6 +184,6 @@ def _chains(
         free = number == len(goals) - 1 and not goal.headings
         heading = math.nan if free else float(arrival.pose[2])
         end = np.array([goal.x, goal.y, heading])
-        chains.append(finished(problem, start, end, arrival.segments, expanded))
+        chains.append(finished(problems[number], start, end, arrival.segments, expanded))
         start = chains[-1].end
     return tuple(chains)

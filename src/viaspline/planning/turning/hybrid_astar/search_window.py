@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
-from viaspline.kernels.arrays import Bytes, Floats
+from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.routing.distance_field import distance_field
 from viaspline.kernels.turning.collision_cache import (
     HALF_DIAGONAL_CELLS,
@@ -21,7 +21,7 @@ from viaspline.kernels.turning.collision_cache import (
     is_clear,
 )
 from viaspline.kernels.turning.hybrid_astar.pose_nodes import Ahead
-from viaspline.kernels.world.rasterize import rasterized
+from viaspline.kernels.world.rasterize import mark_segments, rasterized
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.turning.hybrid_astar.disc_cover import covering_discs
 from viaspline.world.world import World
@@ -150,6 +150,7 @@ class SearchWindow:
         rho: The least radius [m].
         cell: Side of a cell of the lattice that is wanted [m].
         care: How near to the start and the goal longer moves take more room, and how much more [m].
+        barriers: Segments that the reference point must not cross [m], (b, 4).
     """
 
     world: World
@@ -158,6 +159,16 @@ class SearchWindow:
     rho: float
     cell: float
     care: tuple[float, float]
+    barriers: Floats = field(default_factory=lambda: np.empty((0, 4)))
+
+    def closed_by(self, barriers: Floats) -> SearchWindow:
+        """This window with barriers instead of those that it has; it shares what is known of it."""
+        if not len(barriers) and not len(self.barriers):
+            return self
+        window = replace(self, barriers=np.ascontiguousarray(barriers))
+        shared = {"cells": self.cells, "cache": self.cache._replace(barriers=window.barriers)}
+        vars(window).update(shared)  # what ``cached_property`` would find out anew
+        return window
 
     @cached_property
     def side(self) -> float:
@@ -182,6 +193,16 @@ class SearchWindow:
         return cells
 
     @cached_property
+    def walled(self) -> Bytes:
+        """The lattice with the cells blocked that barriers pass through."""
+        if not len(self.barriers):
+            return self.cells
+        cells = self.cells.copy()
+        x0, y0 = self.area.box[:2]
+        mark_segments(self.barriers, x0, y0, self.side, cells)
+        return cells
+
+    @cached_property
     def cache(self) -> CollisionCache:
         """Where the body may be, for a robot that drives forwards."""
         x0, y0, x1, y1 = self.area.box
@@ -194,7 +215,11 @@ class SearchWindow:
         )
         frame = np.array([x0 - reach, y0 - reach, side, self.pace])
         return CollisionCache(
-            self.world.packed, frame, np.full(shape, np.nan), self.body.rows(self.rho, 1.0)
+            self.world.packed,
+            frame,
+            np.full(shape, np.nan),
+            self.body.rows(self.rho, 1.0),
+            self.barriers,
         )
 
     @cached_property
@@ -224,4 +249,29 @@ class SearchWindow:
         x0, y0 = self.area.box[:2]
         found = np.floor((places[:, ::-1] - (y0, x0)) / self.side).astype(np.int64)
         lengths = distance_field(self.cells, np.ascontiguousarray(found))
+        if len(self.barriers):
+            lengths = self._round_barriers(lengths, np.ascontiguousarray(found))
         return Ahead(np.array([x0, y0, self.side, HEURISTIC_WEIGHT]), lengths)
+
+    def _round_barriers(self, lengths: Floats, found: Ints) -> Floats:
+        """The lengths of ways round the barriers too, where cells can tell them.
+
+        Args:
+            lengths: Those without barriers.
+            found: Row and column of the places that the ways lead to, (n, 2).
+        """
+        longer = distance_field(self.walled, found)
+        longer = np.where(self.walled != self.cells, _least_beside(longer), longer)
+        return np.where(np.isfinite(longer), longer, lengths)
+
+
+def _least_beside(lengths: Floats) -> Floats:
+    """The least of every cell and the eight round it, (rows, columns).
+
+    A barrier's cells lie on both of its sides: a state in one of them is as near as can be.
+    """
+    padded = np.pad(lengths, 1, constant_values=np.inf)
+    rows, columns = lengths.shape
+    shifted = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
+    least: Floats = np.minimum.reduce(shifted)
+    return least

@@ -36,6 +36,7 @@ def via_route_chains(
     ramp: float,
     spots: Collection[int],
     efforts: Sequence[Effort] = SEARCH_EFFORTS,
+    barriers: Sequence[Floats] = (),
 ) -> list[Chain] | NotFound:
     """A chain for every leg of a via sequence, or why there is none.
 
@@ -47,13 +48,17 @@ def via_route_chains(
         ramp: Length on which the curvature rises from 0 to 1 / rho [m].
         spots: Via points at which the robot may turn on the spot.
         efforts: How finely and how long is looked, one after the other.
+        barriers: For each leg, segments that it must not cross [m], each (b, 4); none at all if
+            it is empty.
     """
     count = len(sequence.vias)
     stops = [0, *(k for k in sorted(spots) if 0 < k < count - (not sequence.closed))]
     stops.append(count if sequence.closed else count - 1)
     chains: list[Chain] = []
     for first, last in pairwise(stops):
-        found = _part(sequence, world, requirements, rho, ramp, first, last, efforts)
+        found = _part(
+            sequence, world, requirements, rho, ramp, first, last, efforts, barriers[first:last]
+        )
         if isinstance(found, NotFound):
             return NotFound(found.reason, first + found.goal, found.expanded)
         chains += found
@@ -69,6 +74,7 @@ def _part(
     first: int,
     last: int,
     efforts: Sequence[Effort],
+    barriers: Sequence[Floats],
 ) -> list[Chain] | NotFound:
     """The chains from one stop to the next."""
     count = len(sequence.vias)
@@ -84,7 +90,7 @@ def _part(
         elif end is not None:
             goals[-1] = Goal(goals[-1].x, goals[-1].y, (math.atan2(end[1], end[0]),))
         start = Pose(float(places[0][0]), float(places[0][1]), heading)
-        found = find_row(world, requirements, rho, ramp, start, goals, efforts)
+        found = find_row(world, requirements, rho, ramp, start, goals, efforts, barriers)
         if not isinstance(found, NotFound):
             return list(found)
         has_seen_all &= found.reason.is_proof

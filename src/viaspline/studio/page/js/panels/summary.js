@@ -76,11 +76,10 @@ export class Summary {
   group(entry) {
     const { store, app } = { store: this.app.store, app: this.app };
     const name = entry.members.length > 2 ? `${entry.members[0]} and ${entry.members.length - 1} more` : entry.members.join(" and ");
-    const all = obstaclesOf(store.doc);
-    const forced = entry.items.some((/** @type {number} */ i) => all.find((o) => o.id === `known:${i}`)?.side);
+    const { forced } = entry; // of the plan that is shown: what is being edited may ask for another
     const side = (/** @type {"left"|"right"} */ which) => {
       const candidate = entry.candidates.find((/** @type {any} */ c) => c.side === which);
-      const text = candidate?.length ? metres(candidate.length, 1) : candidate?.impossible ? "blocked" : "–";
+      const text = candidate?.length ? metres(candidate.length, 1) : forced && forced !== which ? "forbidden" : candidate?.impossible ? "blocked" : "–";
       return h("button", {
         type: "button", class: "side", "aria-pressed": String(!!candidate?.chosen), disabled: !entry.forceable,
         "aria-label": `pass ${name} on the ${which}, ${text}`, title: candidate?.impossible ?? `pass on the ${which}`,
@@ -92,7 +91,7 @@ export class Summary {
     };
     return h("li", { class: "group" },
       h("div", { class: "group-name" }, h("span", {}, name),
-        forced ? h("button", { type: "button", class: "link", onclick: () => store.edit(forceSide(store.doc, entry.items, null)) }, "forced · free it") : null),
+        forced ? h("button", { type: "button", class: "link", onclick: () => store.edit(forceSide(store.doc, entry.items, null)) }, `forced ${forced} · free it`) : null),
       h("div", { class: "sides" }, side("left"), side("right")));
   }
 

@@ -1,0 +1,103 @@
+"""The sides that are asked for along a path that is driven, and where it passes on a wrong one.
+
+A leg under way is held to what was asked of the whole of it: its barriers stand square to the
+straight line between the user's two via points, wherever the robot is by now.
+
+Tested through ``test_side_promises``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from viaspline.curve.path import GUIDE, Path, PathVia
+from viaspline.errors import GaveUpError
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.world.clusters import group_labels
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import WholeLeg
+from viaspline.planning.routing.asked_sides import AskedSides, sided
+from viaspline.world.world import World
+
+SAME_U = 1e-9  # a part of a path that is shorter than this in its parameter is none
+
+
+def leg_ends(path: Path) -> list[PathVia]:
+    """The via points between which a path's legs lie: the user's, and a corridor's guides."""
+    return [via for via in path.vias if via.kind == "user" or via.name == GUIDE]
+
+
+def whole_legs(path: Path, u: float, targets: Sequence[PathVia]) -> tuple[WholeLeg, ...]:
+    """The legs of the route that lie between ``u`` on a path and some of its via points.
+
+    Args:
+        path: What is driven.
+        u: Where the first leg is left by now.
+        targets: The via points at the ends of the legs, in order.
+    """
+    passed = [via for via in leg_ends(path) if via.u <= u + SAME_U]
+    first = passed[-1] if passed else path.vias[0]
+    return tuple(
+        WholeLeg(np.array(start.at), np.array(goal.at), path.spans[round(start.u) : round(goal.u)])
+        for start, goal in pairwise((first, *targets))
+    )
+
+
+def spans_on_wrong_side(
+    path: Path, u: float, world: World, requirements: Requirements
+) -> dict[int, str]:
+    """The spans of a path from ``u`` on that pass something on the wrong side, and what that is.
+
+    Args:
+        path: What is driven.
+        u: From where on.
+        world: What is known.
+        requirements: What the path keeps.
+    """
+    indices = sided(world)
+    ends = [via for via in leg_ends(path) if via.u > u + SAME_U] if indices.size else []
+    found: dict[int, str] = {}
+    for leg, goal in zip(whole_legs(path, u, ends), ends, strict=True):
+        first = round(goal.u) - len(leg.laid if leg.laid is not None else ())
+        start = max(float(first), u)
+        ahead = path.section(start, goal.u).spans
+        sides = _sides(WholeLeg(leg.start, leg.goal), indices, world, requirements)
+        for k in np.flatnonzero(sides.crossed(ahead)).tolist():
+            found[int(start) + k] = world.name(int(sides.wrong(ahead[k : k + 1])[0]))
+    return found
+
+
+def refuse_wrong_side(
+    piece: Floats, leg: WholeLeg, world: World, requirements: Requirements
+) -> None:
+    """Raise GaveUpError for a piece of a leg that passes something on the wrong side.
+
+    Args:
+        piece: Its spans [m], (m, 4, d).
+        leg: The whole leg.
+        world: What is known.
+        requirements: What the path keeps.
+    """
+    wrong = _sides(leg, sided(world), world, requirements).wrong(piece)
+    if wrong.size:
+        names = tuple(world.name(int(i)) for i in wrong)
+        raise GaveUpError(
+            f"{names[0]!r} is too near to turn to the side that is asked for under way",
+            where=piece[0, 0],
+            remedy="stop and turn on the spot, or look farther ahead",
+            tried=("running out before it",),
+            obstacles=names,
+        )
+
+
+def _sides(leg: WholeLeg, indices: Ints, world: World, requirements: Requirements) -> AskedSides:
+    required = requirements.required
+
+    def groups() -> Ints:
+        labels: Ints = group_labels(world.packed, 2 * required)
+        return labels
+
+    return AskedSides.of(leg, indices, world, required, groups)
