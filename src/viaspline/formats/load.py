@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from viaspline.formats.file_text import read_text
+from viaspline.bounded_file import MISSION_FILE, read_text
 from viaspline.formats.format_registry import format_of
 from viaspline.formats.items import LatLon
 from viaspline.mission.model import Mission
@@ -37,7 +37,7 @@ def load(path: str | Path) -> Mission:
     Traceback (most recent call last):
     viaspline.errors.MissionError: survey.kml: there is no such file; give the path of ...
     """
-    text = read_text(path)
+    text = read_text(path, MISSION_FILE)
     return format_of(Path(path), text).read(text, str(path))
 
 
@@ -57,5 +57,5 @@ def origin_of(path: str | Path) -> LatLon | None:
     Traceback (most recent call last):
     viaspline.errors.MissionError: survey.plan: there is no such file; give the path of ...
     """
-    text = read_text(path)
+    text = read_text(path, MISSION_FILE)
     return format_of(Path(path), text).origin(text, str(path))

@@ -16,8 +16,8 @@ from ruamel.yaml.error import MarkedYAMLError, StringMark, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from ruamel.yaml.reader import ReaderError
 
+from viaspline.bounded_file import MISSION_FILE, read_text
 from viaspline.errors import Fault, MissionError
-from viaspline.formats.file_text import read_text
 from viaspline.mission.unplaced_faults import Mark, Path, UnplacedFault, describe
 
 _TAG: Final = "tag:yaml.org,2002:"
@@ -154,7 +154,7 @@ def read_document(path: str | FilePath) -> Document:
     Raises:
         MissionError: There is no such file, or it isn't one YAML document in UTF-8.
     """
-    return yaml_document(read_text(path), str(path))
+    return yaml_document(read_text(path, MISSION_FILE), str(path))
 
 
 def yaml_document(text: str, source: str) -> Document:
