@@ -18,7 +18,7 @@ import click
 
 from viaspline import __version__
 from viaspline.errors import GaveUpError, MissionError, NoPathError, ViasplineError
-from viaspline.report.interrupts import Terminated, remembered
+from viaspline.report.interrupts import Terminated, remembered, undone_at_the_end
 from viaspline.report.terminal_lines import gave_up, no_path, say, say_error, telling_warnings
 
 if TYPE_CHECKING:
@@ -324,7 +324,8 @@ def _folder(path: Path, names: Iterable[str]) -> Iterator[ResultFolder]:
     folder = ResultFolder(path, names)
     old = folder.holds_earlier_results()
     try:
-        yield folder
+        with undone_at_the_end(folder.forget_if_empty):
+            yield folder
     except BaseException:
         folder.forget_if_empty()
         if old:
