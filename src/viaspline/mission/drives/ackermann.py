@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Final
 
 from pydantic import Field
 
 from viaspline.kernels.tracking.actuators import Actuators
 from viaspline.mission.drives.drive_kind import DriveKind, FormField
 from viaspline.mission.drives.drive_limits import DriveLimits
-from viaspline.mission.fields import DEGREES, AngularSpeed, Length, Positive
+from viaspline.mission.fields import DEGREES, AngularSpeed, Length, Number
+
+MIN_STEER_DEG: Final = 0.1
+"""The least that a steered wheel turns."""
 
 
 class Ackermann(
@@ -32,7 +35,7 @@ class Ackermann(
     )
 
     wheelbase_m: Annotated[Length, FormField("Wheelbase")]
-    max_steer_deg: Annotated[Positive, DEGREES, Field(lt=90), FormField("Steering")]
+    max_steer_deg: Annotated[Number, DEGREES, Field(ge=MIN_STEER_DEG, lt=90), FormField("Steering")]
     max_steer_rate_degps: Annotated[AngularSpeed | None, FormField("Steering rate", "no limit")] = (
         None
     )
