@@ -137,6 +137,7 @@ def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet:
         from viaspline.report.terminal_tables import plan_tables, run_tables, show
 
         show(plan_tables(plan, mission.stem), run_tables(done, mission.stem))
+        _say_remarks(asked)
         _say_written([*files, *([] if film is None else [film.path])])
     if not done.reached:
         from viaspline.report.units import place, seconds
@@ -177,6 +178,7 @@ def plan(mission: Path, out: Path | None, quiet: bool) -> None:
         from viaspline.report.terminal_tables import plan_tables, show
 
         show(plan_tables(planned, mission.stem))
+        _say_remarks(asked)
         _say_written(files)
 
 
@@ -366,6 +368,12 @@ def _plan(mission: Mission, watch: ProgressBar) -> Plan:
         from viaspline import planner
 
         return planner.plan(mission)
+
+
+def _say_remarks(asked: Mission) -> None:
+    from viaspline.report.remarks import plan_remarks
+
+    say(*(f"note: {words}" for words in plan_remarks(asked)))
 
 
 def _say_written(files: list[Path]) -> None:

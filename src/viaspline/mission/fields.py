@@ -16,6 +16,8 @@ MAX_LENGTH_M: Final = 1e9
 """The farthest coordinate and the greatest length; beyond it a double loses the micrometre."""
 MIN_LENGTH_M: Final = 1e-6
 """The least length of what has one."""
+MAX_TURN_RADIUS_M: Final = 1e4
+"""The widest turning circle; that of the largest ships is a fifth of it."""
 SPEEDS_MPS: Final = (1e-4, 1e4)
 """From metres in hours to what nothing near the ground does."""
 ACCELERATIONS_MPS2: Final = (1e-4, 1e6)
@@ -49,6 +51,8 @@ NotNegative: TypeAlias = Annotated[Number, Field(ge=0)]
 Coordinate: TypeAlias = Annotated[Number, METRES, Field(ge=-MAX_LENGTH_M, le=MAX_LENGTH_M)]
 Length: TypeAlias = Annotated[Number, METRES, Field(ge=MIN_LENGTH_M, le=MAX_LENGTH_M)]
 """A length that something has [m]."""
+TurnRadius: TypeAlias = Annotated[Number, METRES, Field(ge=MIN_LENGTH_M, le=MAX_TURN_RADIUS_M)]
+"""The radius of a turning circle [m]."""
 Distance: TypeAlias = Annotated[NotNegative, METRES, Field(le=MAX_LENGTH_M)]
 """A length that may be nothing [m]."""
 Speed: TypeAlias = Annotated[Number, METRES_PER_SECOND, _within(SPEEDS_MPS)]

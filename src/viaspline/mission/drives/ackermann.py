@@ -12,7 +12,9 @@ from viaspline.mission.drives.drive_kind import DriveKind, FormField
 from viaspline.mission.drives.drive_limits import DriveLimits
 from viaspline.mission.fields import DEGREES, AngularSpeed, Length, Number
 
-MIN_STEER_DEG: Final = 0.1
+MAX_WHEELBASE_M: Final = 100.0
+"""The longest wheelbase."""
+MIN_STEER_DEG: Final = 0.5
 """The least that a steered wheel turns."""
 
 
@@ -34,7 +36,7 @@ class Ackermann(
         "it can't move sideways, nor turn tighter than its turning circle or on the spot"
     )
 
-    wheelbase_m: Annotated[Length, FormField("Wheelbase")]
+    wheelbase_m: Annotated[Length, Field(le=MAX_WHEELBASE_M), FormField("Wheelbase")]
     max_steer_deg: Annotated[Number, DEGREES, Field(ge=MIN_STEER_DEG, lt=90), FormField("Steering")]
     max_steer_rate_degps: Annotated[AngularSpeed | None, FormField("Steering rate", "no limit")] = (
         None
