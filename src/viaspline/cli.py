@@ -68,6 +68,13 @@ def told(error: BaseException) -> int:
     if isinstance(error, ViasplineError):
         say_error(str(error))
         return WRONG
+    if isinstance(error, MemoryError):
+        say_error("gave up: there is not enough memory; make the mission or its maps smaller")
+        return GAVE_UP
+    if isinstance(error, OSError):  # the machine's trouble, not the program's
+        name = "" if error.filename is None else f"{error.filename}: "
+        say_error(f"{name}{(error.strerror or str(error)).lower()}")
+        return WRONG
     if os.environ.get("VIASPLINE_DEBUG"):
         traceback.print_exception(error)
     problem = " ".join(str(error).split())

@@ -14,15 +14,18 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 
 LEAST_GAIN_M = 1e-9
-JOINED_M = 1e12  # what is gained by two places that follow each other whatever happens
 
 
 @inner
-def _gap(xy: Floats, a: int, b: int, last: int) -> float:
-    """The distance of two places [m]; the first and the last stay joined."""
-    if (a == 0 and b == last) or (a == last and b == 0):
-        return -JOINED_M
+def _gap(xy: Floats, a: int, b: int) -> float:
+    """The distance of two places [m]."""
     return math.hypot(xy[a, 0] - xy[b, 0], xy[a, 1] - xy[b, 1])
+
+
+@inner
+def _joined(a: int, b: int, last: int) -> bool:
+    """Whether two places follow each other whatever happens: the first and the last."""
+    return (a == 0 and b == last) or (a == last and b == 0)
 
 
 @inner
@@ -45,15 +48,17 @@ def _exchange(
     """2-opt: put a place beside one of its nearest, behind it (step 1) or before it (step -1)."""
     n = tour.size
     b = tour[(place[a] + step) % n]
-    now = _gap(xy, a, b, last)
+    if _joined(a, b, last):
+        return False
+    now = _gap(xy, a, b)
     for k in range(near.shape[1]):
         c = near[a, k]
-        gain = now - _gap(xy, a, c, last)
+        gain = now - _gap(xy, a, c)
         if gain <= LEAST_GAIN_M:
             return False
         d = tour[(place[c] + step) % n]
-        gain += _gap(xy, c, d, last) - _gap(xy, b, d, last)
-        if c == b or d == a or gain <= LEAST_GAIN_M:
+        gain += _gap(xy, c, d) - _gap(xy, b, d)
+        if c in (a, b) or d == a or gain <= LEAST_GAIN_M or _joined(c, d, last):
             continue
         i, j = (place[b], place[c]) if step > 0 else (place[c], place[b])
         if 2 * ((j - i) % n + 1) <= n:
@@ -73,20 +78,25 @@ def _move(xy: Floats, tour: Ints, place: Ints, near: Ints, a: int, size: int, la
     e = tour[j]
     p = tour[(i - 1) % n]
     q = tour[(j + 1) % n]
-    now = _gap(xy, p, a, last) + _gap(xy, e, q, last)
-    now -= _gap(xy, p, q, last)
+    if _joined(p, a, last) or _joined(e, q, last):
+        return False
+    for k in range(size - 1):
+        if _joined(tour[(i + k) % n], tour[(i + k + 1) % n], last):
+            return False
+    now = _gap(xy, p, a) + _gap(xy, e, q)
+    now -= _gap(xy, p, q)
     for k in range(near.shape[1]):
         c = near[a, k]
-        beside = _gap(xy, a, c, last)
+        beside = _gap(xy, a, c)
         if now - beside <= LEAST_GAIN_M:
             return False
         if (place[c] - i) % n < size:
             continue  # it is one of them
         for step in (-1, 1):  # beyond c: the other end comes to stand beside d
             d = tour[(place[c] + step) % n]
-            if (place[d] - i) % n < size:
+            if (place[d] - i) % n < size or _joined(c, d, last):
                 continue
-            gain = now - beside - _gap(xy, e, d, last) + _gap(xy, c, d, last)
+            gain = now - beside - _gap(xy, e, d) + _gap(xy, c, d)
             if gain <= LEAST_GAIN_M:
                 continue
             # Between the places that c and d have, turned round or not, as a comes beside c.
@@ -115,7 +125,7 @@ def shortened_tour(xy: Floats, start: Ints, near: Ints, most: int) -> Ints:
         xy: Places [m], (n, 2). The first and the last follow each other whatever happens: the trip
             begins at the one and ends at the other.
         start: All places in the order to begin with, (n,): the first one first, the last one last.
-        near: Of each place the nearest others, nearest first, (n, k).
+        near: Of each place the nearest, nearest first, (n, k); itself may be among them.
         most: Exchanges beyond which the rest is left.
 
     Returns:
