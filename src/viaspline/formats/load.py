@@ -10,6 +10,7 @@ from pathlib import Path
 from viaspline.bounded_file import MISSION_FILE, read_text
 from viaspline.formats.format_registry import format_of
 from viaspline.formats.items import LatLon
+from viaspline.handed_in import check_kind
 from viaspline.mission.model import Mission
 
 
@@ -37,6 +38,7 @@ def load(path: str | Path) -> Mission:
     Traceback (most recent call last):
     viaspline.errors.MissionError: survey.kml: there is no such file; give the path of ...
     """
+    check_kind("path", path, str | Path, "give the path of a mission file")
     text = read_text(path, MISSION_FILE)
     return format_of(Path(path), text).read(text, str(path))
 
