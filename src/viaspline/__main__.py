@@ -6,6 +6,8 @@ import os
 import sys
 from contextlib import suppress
 
+from viaspline.errors import OutputError
+
 BY_SIGNAL = (130, 143)
 """Exit codes of work that a signal has ended."""
 
@@ -15,9 +17,13 @@ def main() -> None:
     try:
         from viaspline.cli import cli
         from viaspline.report.interrupts import install
+        from viaspline.report.standard_streams import make_fit
+        from viaspline.report.terminal_lines import writing_output
 
+        make_fit()
         install()
-        cli(prog_name="viaspline")
+        with writing_output():
+            cli(prog_name="viaspline")
     except KeyboardInterrupt:
         sys.stderr.write("viaspline: interrupted\n")
         _end(130)
@@ -25,6 +31,11 @@ def main() -> None:
         if end.code not in BY_SIGNAL:
             raise
         _end(int(end.code))
+    except OutputError as error:  # of what stands in no command: help, the version
+        from viaspline.report.terminal_lines import say_error
+
+        say_error(str(error))
+        sys.exit(2)
 
 
 def _end(code: int) -> None:

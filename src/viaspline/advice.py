@@ -9,6 +9,7 @@ import numpy as np
 
 from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.handed_in import check_kind
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.kernels.curve.measure import length_and_curvature
@@ -90,6 +91,7 @@ def advise_tension(
         >>> advice.suggested.shape, bool((advice.curvatures[:, 0] < advice.curvatures[:, -1]).all())
         ((3,), True)
     """
+    check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
     plain = mission.spline.model_copy(update={"tension": 0.0, "slack": None})
     mission = mission.model_copy(update={"spline": plain})
     world = World.known(mission) if world is None else world

@@ -18,7 +18,7 @@ import click
 
 from viaspline import __version__
 from viaspline.errors import GaveUpError, MissionError, NoPathError, ViasplineError
-from viaspline.report.interrupts import Terminated, remembered
+from viaspline.report.interrupts import Terminated, remembered, undone_at_the_end
 from viaspline.report.terminal_lines import gave_up, no_path, say, say_error, telling_warnings
 
 if TYPE_CHECKING:
@@ -67,6 +67,13 @@ def told(error: BaseException) -> int:
         return WRONG
     if isinstance(error, ViasplineError):
         say_error(str(error))
+        return WRONG
+    if isinstance(error, MemoryError):
+        say_error("gave up: there is not enough memory; make the mission or its maps smaller")
+        return GAVE_UP
+    if isinstance(error, OSError):  # the machine's trouble, not the program's
+        name = "" if error.filename is None else f"{error.filename}: "
+        say_error(f"{name}{(error.strerror or str(error)).lower()}")
         return WRONG
     if os.environ.get("VIASPLINE_DEBUG"):
         traceback.print_exception(error)
@@ -137,6 +144,7 @@ def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet:
         from viaspline.report.terminal_tables import plan_tables, run_tables, show
 
         show(plan_tables(plan, mission.stem), run_tables(done, mission.stem))
+        _say_remarks(asked)
         _say_written([*files, *([] if film is None else [film.path])])
     if not done.reached:
         from viaspline.report.units import place, seconds
@@ -177,6 +185,7 @@ def plan(mission: Path, out: Path | None, quiet: bool) -> None:
         from viaspline.report.terminal_tables import plan_tables, show
 
         show(plan_tables(planned, mission.stem))
+        _say_remarks(asked)
         _say_written(files)
 
 
@@ -324,7 +333,8 @@ def _folder(path: Path, names: Iterable[str]) -> Iterator[ResultFolder]:
     folder = ResultFolder(path, names)
     old = folder.holds_earlier_results()
     try:
-        yield folder
+        with undone_at_the_end(folder.forget_if_empty):
+            yield folder
     except BaseException:
         folder.forget_if_empty()
         if old:
@@ -365,6 +375,12 @@ def _plan(mission: Mission, watch: ProgressBar) -> Plan:
         from viaspline import planner
 
         return planner.plan(mission)
+
+
+def _say_remarks(asked: Mission) -> None:
+    from viaspline.report.remarks import plan_remarks
+
+    say(*(f"note: {words}" for words in plan_remarks(asked)))
 
 
 def _say_written(files: list[Path]) -> None:

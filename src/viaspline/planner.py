@@ -9,6 +9,7 @@ from viaspline.advice import with_advice
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
+from viaspline.handed_in import check_kind
 from viaspline.machine.allowance import TRACKING_REMEDY, allowance, allowance_on_bends
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.robot_model import drive_model_of, is_driven
@@ -88,6 +89,7 @@ def plan(mission: Mission) -> Plan:
         >>> result.certificate.holds, round(result.path.length, 1), result.ledger[0].chosen.side
         (True, 50.8, 'right')
     """
+    check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
     mission, world = in_order(mission)
     mission = with_advice(mission, world)
     robot = mission.robot

@@ -19,6 +19,7 @@ from typing import Final, Literal
 
 from viaspline.kernels.jit import CACHE_FOLDER
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.report.interrupts import undone_at_the_end
 
 Job = Literal["curves", "driving"]
 LOCK_NAME = "compiling"
@@ -156,12 +157,17 @@ def second_compiler(jobs: Sequence[Job] = ("curves",)) -> Iterator[None]:
         _release()
         yield
         return
-    try:
-        yield
-    finally:
+
+    def end() -> None:
         process.kill()
         process.wait()
         _release()
+
+    try:
+        with undone_at_the_end(end):
+            yield
+    finally:
+        end()
 
 
 if __name__ == "__main__":

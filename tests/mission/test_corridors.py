@@ -79,7 +79,7 @@ def test_what_is_wrong_with_a_file_names_file_and_row(
 
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     (message,) = faults({"csv": str(tmp_path / "none.csv")})
-    assert "none.csv: no such file" in message
+    assert "none.csv: there is no such file" in message
 
 
 def test_a_file_and_a_line_in_one_mission_file_exclude_each_other(tmp_path: Path) -> None:

@@ -45,3 +45,25 @@ def test_a_signal_in_a_callback_that_cannot_raise_is_not_shown_as_a_traceback() 
     )
     assert done.stderr == ""
     assert done.stdout == "KeyboardInterrupt\n"
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="takes a lock of glibc")
+@pytest.mark.parametrize(("name", "code"), [("SIGINT", 130), ("SIGTERM", 143)])
+def test_work_that_lets_no_handler_run_is_tidied_and_ended(name: str, code: int) -> None:
+    # A call into C that goes on for ever without the interpreter's lock, as a long kernel does.
+    source = (
+        "import ctypes, os, signal, threading\n"
+        "from viaspline.report import interrupts\n"
+        "interrupts.GRACE_S = 0.1\n"
+        "interrupts.install()\n"
+        f"threading.Timer(0.2, os.kill, [os.getpid(), signal.{name}]).start()\n"
+        "libc, lock = ctypes.CDLL(None), ctypes.create_string_buffer(64)\n"
+        "with interrupts.undone_at_the_end(lambda: print('undone', flush=True)):\n"
+        "    libc.pthread_mutex_lock(lock), libc.pthread_mutex_lock(lock)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", source], text=True, capture_output=True, timeout=30, check=False
+    )
+    assert done.returncode == code
+    assert done.stdout == "undone\n"
+    assert done.stderr.endswith("ed; no file was left half written\n")

@@ -41,7 +41,9 @@ def test_without_a_drive_they_are_as_they_were() -> None:
     run = driven()
     assert "tracking" not in json.loads(run_json(run, "x"))
     assert run_csv(run).splitlines()[0].endswith("speed_mps,curvature_1pm")
-    assert "tracking_error_m" not in json.loads(plan_json(plan(run.plan.mission), "x", spacing=0.1))
+    planned = json.loads(plan_json(plan(run.plan.mission), "x", spacing=0.1))
+    assert "tracking_error_m" not in planned
+    assert planned["note"].startswith("the robot has no drive")
 
 
 def test_the_picture_has_a_strip_for_it_and_the_same_bytes_twice(run: Run) -> None:

@@ -20,7 +20,7 @@ def working_copy(values: ArrayLike) -> Floats:
     """
     try:
         return np.array(values, dtype=np.float64, order="C")
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise GeometryError(f"expected an array of numbers: {error}") from None
 
 
@@ -31,7 +31,7 @@ def call(values: ArrayLike) -> tuple[Floats, tuple[int, ...]]:
     """
     try:
         array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise GeometryError(f"expected numbers: {error}") from None
     flags = array.flags
     if not (flags.c_contiguous and flags.writeable and flags.aligned):

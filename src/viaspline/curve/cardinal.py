@@ -80,7 +80,7 @@ class CardinalSpline(PiecewiseCubic):
         has_start = start_heading is not None
         has_end = end_heading is not None
         try:
-            rule, alpha = RULES[tangents], ALPHA[knots]
+            rule, alpha = RULES[str(tangents)], ALPHA[str(knots)]
         except KeyError:
             raise GeometryError(
                 f"tangents = {tangents!r} has to be one of {list(RULES)}, "

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
+from viaspline.handed_in import check_answers, number_from
 from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.world.outline import outline
 
@@ -126,11 +127,14 @@ def certify(
         >>> round(certify(curve, world, 1.0, footprint=body).clearance, 2)
         1.5
     """
+    check_answers("curve", curve, "dimension", "give a CardinalSpline, or the path of a plan")
+    check_answers("world", world, "packed", "give a World")
     if curve.dimension not in (2, 3):
         raise GeometryError(
             f"a curve of dimension {curve.dimension} can't be certified; 2 or 3 can"
         )
-    required = float(clearance) + float(radius)
+    clearance, radius = number_from("clearance", clearance), number_from("radius", radius)
+    required = clearance + radius
     if not math.isfinite(required):
         raise GeometryError(f"clearance {clearance} and radius {radius} have to be finite")
     found = _proven(_bounder(curve, world, footprint), required)

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from viaspline.formats.file_text import read_text
+from viaspline.bounded_file import MISSION_FILE, read_text
 from viaspline.formats.format_registry import format_of
 from viaspline.formats.items import LatLon
+from viaspline.handed_in import check_kind
 from viaspline.mission.model import Mission
 
 
@@ -37,7 +38,8 @@ def load(path: str | Path) -> Mission:
     Traceback (most recent call last):
     viaspline.errors.MissionError: survey.kml: there is no such file; give the path of ...
     """
-    text = read_text(path)
+    check_kind("path", path, str | Path, "give the path of a mission file")
+    text = read_text(path, MISSION_FILE)
     return format_of(Path(path), text).read(text, str(path))
 
 
@@ -57,5 +59,5 @@ def origin_of(path: str | Path) -> LatLon | None:
     Traceback (most recent call last):
     viaspline.errors.MissionError: survey.plan: there is no such file; give the path of ...
     """
-    text = read_text(path)
+    text = read_text(path, MISSION_FILE)
     return format_of(Path(path), text).origin(text, str(path))

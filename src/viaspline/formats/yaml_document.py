@@ -16,11 +16,23 @@ from ruamel.yaml.error import MarkedYAMLError, StringMark, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from ruamel.yaml.reader import ReaderError
 
+from viaspline.bounded_file import MISSION_FILE, read_text
 from viaspline.errors import Fault, MissionError
-from viaspline.formats.file_text import read_text
+from viaspline.formats.number_lists import (
+    MAX_PARTS,
+    NumberListScanner,
+    Starts,
+    TooManyPartsError,
+    count_of,
+    is_number_list,
+    mark_within,
+    numbers_of,
+    starts_of,
+)
 from viaspline.mission.unplaced_faults import Mark, Path, UnplacedFault, describe
 
 _TAG: Final = "tag:yaml.org,2002:"
+_TOO_MANY: Final = f"from here on there are more than the {MAX_PARTS} parts that are read"
 
 
 class Document:
@@ -38,6 +50,9 @@ class Document:
         self._keys: dict[tuple[int, str], Node] = {}
         self._faults: list[UnplacedFault] = []
         self._made: dict[int, Any] = {}
+        self._starts: dict[int, Starts] = {}
+        self._counts: dict[int, int] = {}
+        self._count = 0
         self.data = self._value(root, ())
 
     @property
@@ -48,7 +63,11 @@ class Document:
     def mark(self, path: Path, *, at_key: bool) -> Mark:
         """The place of the value (or its key) at ``path``, or of the nearest thing around it."""
         node, key = self._root, None
-        for part in path:
+        for i, part in enumerate(path):
+            if is_number_list(node):
+                if id(node) not in self._starts:
+                    self._starts[id(node)] = starts_of(node)
+                return mark_within(node, self._starts[id(node)], path[i:])
             if isinstance(part, int) and isinstance(node, SequenceNode) and part < len(node.value):
                 node, key = node.value[part], None
             elif isinstance(part, str) and isinstance(node, MappingNode):
@@ -64,7 +83,18 @@ class Document:
         return found
 
     def _value(self, node: Node, path: Path) -> Any:
+        before = self._count
         if id(node) in self._made:
+            self._count += self._counts.get(id(node), 0)
+            if self._count > MAX_PARTS:
+                problem = f"with its aliases the file has more than {MAX_PARTS} parts"
+                raise _fault(self.source, _mark(node), problem, MISSION_FILE.smaller)
+            return self._made[id(node)]
+        self._count += 1
+        if is_number_list(node):
+            self._count += count_of(node.value)
+            self._made[id(node)] = numbers_of(node)
+            self._counts[id(node)] = self._count - before
             return self._made[id(node)]
         if isinstance(node, ScalarNode):
             return self._scalar(node, path)
@@ -78,6 +108,7 @@ class Document:
         elif isinstance(node, MappingNode):
             value = self._mapping(node, path)
         self._made[id(node)] = value
+        self._counts[id(node)] = self._count - before
         return value
 
     def _mapping(self, node: MappingNode, path: Path) -> dict[Any, Any]:
@@ -99,9 +130,10 @@ class Document:
         return data
 
     def _key(self, node: Node, path: Path) -> str | None:
-        if isinstance(node, ScalarNode) and str(node.tag) == _TAG + "str":
+        is_text = isinstance(node, ScalarNode) and not is_number_list(node)
+        if is_text and str(node.tag) == _TAG + "str":
             return str(node.value)
-        found = str(node.value) if isinstance(node, ScalarNode) else "a list or mapping"
+        found = str(node.value) if is_text else "a list or mapping"
         problem = f"the key {found} is not a text"
         remedy = "keys are words such as route"
         if str(node.tag) == _TAG + "merge":
@@ -154,7 +186,7 @@ def read_document(path: str | FilePath) -> Document:
     Raises:
         MissionError: There is no such file, or it isn't one YAML document in UTF-8.
     """
-    return yaml_document(read_text(path), str(path))
+    return yaml_document(read_text(path, MISSION_FILE), str(path))
 
 
 def yaml_document(text: str, source: str) -> Document:
@@ -168,8 +200,12 @@ def yaml_document(text: str, source: str) -> Document:
         MissionError: It isn't one YAML document with a mapping.
     """
     yaml = YAML(typ="safe", pure=True)
+    yaml.Scanner = NumberListScanner
     try:
         nodes = list(yaml.compose_all(text))
+    except TooManyPartsError as error:
+        at = Mark(error.problem_mark.line + 1, error.problem_mark.column + 1)
+        raise _fault(source, at, _TOO_MANY, MISSION_FILE.smaller) from None
     except MarkedYAMLError as error:
         raise _broken(source, text, error) from None
     except ReaderError as error:

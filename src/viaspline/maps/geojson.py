@@ -15,6 +15,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from viaspline.bounded_file import MAP_FILE, read_text
 from viaspline.errors import MissionError
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.area import (
@@ -27,7 +28,6 @@ from viaspline.maps.area import (
     with_area,
 )
 from viaspline.maps.map_faults import refusal
-from viaspline.maps.map_files import read_text
 
 _PROJECT: Final = "project it to metres (e.g. UTM), and take the site's corner for the origin"
 _ONLY: Final = "give Polygon or MultiPolygon, e.g. widen it by how far it is to be kept clear of"
@@ -49,7 +49,7 @@ def read_geojson(path: str | Path) -> tuple[Area, ...]:
         MissionWarning: For a polygon that has no area.
     """
     file = Path(path)
-    root = _parsed(file, read_text(file))
+    root = _parsed(file, read_text(file, MAP_FILE))
     _check_metres(file, root)
     shapes = list(_shapes(file, root, "", None))
     if not shapes:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from viaspline.bounded_file import SQUARES_FILE, read_bytes
 from viaspline.maps.map_faults import check_size, refusal
-from viaspline.maps.map_files import read_bytes
 from viaspline.maps.pgm import is_pgm, read_pgm
 from viaspline.maps.picture import Picture, Pixels
 
@@ -42,7 +42,7 @@ def read_picture(path: Path) -> Picture:
     Raises:
         MissionError: There is no such file, it is no picture, it is broken or too large.
     """
-    data = read_bytes(path)
+    data = read_bytes(path, SQUARES_FILE)
     return read_pgm(path, data) if is_pgm(data) else _with_pillow(path, data)
 
 

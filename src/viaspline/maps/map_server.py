@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from viaspline.bounded_file import MAP_FILE, read_text
 from viaspline.errors import MissionError
 from viaspline.kernels.arrays import Flags
 from viaspline.maps.grid import Grid
 from viaspline.maps.image import read_picture
 from viaspline.maps.map_faults import refusal
-from viaspline.maps.map_files import read_text
 from viaspline.maps.map_server_keys import MapServerKeys
 from viaspline.maps.occupancy import squares_of
 from viaspline.maps.reading import Reading, Unknown
@@ -41,7 +41,7 @@ def read_map_server(
     viaspline.errors.MissionError: no-such-map.yaml: there is no such file; give the path of ...
     """
     file = Path(path)
-    spec = MapServerKeys.parse(file, read_text(file))
+    spec = MapServerKeys.parse(file, read_text(file, MAP_FILE))
     blocked, unseen = _squares(file, spec, unknown)
     name = str(path) if source is None else source
     reading = Reading(file.absolute(), unknown)

@@ -10,10 +10,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.bounded_file import MAP_FILE, SQUARES_FILE, read_bytes, read_text
 from viaspline.errors import MissionError
 from viaspline.maps.grid import Grid
 from viaspline.maps.map_faults import check_size, refusal
-from viaspline.maps.map_files import read_bytes, read_text
 from viaspline.maps.reading import Reading
 
 _FREE: Final = b".GS"
@@ -42,7 +42,7 @@ def read_movingai(
         MissionError: The file can't be read, or is no such map; with line and column.
     """
     file = Path(path)
-    blocked = _squares(file, read_bytes(file))
+    blocked = _squares(file, read_bytes(file, SQUARES_FILE))
     name = str(path) if source is None else source
     reading = Reading(file.absolute(), resolution=resolution)
     return Grid(blocked, resolution or 1.0, source=name, reading=reading)
@@ -112,7 +112,7 @@ def read_problems(path: str | Path, resolution: float = 1.0) -> tuple[BenchmarkP
         MissionError: The file can't be read, or is no such list; with its line.
     """
     file = Path(path)
-    lines = read_text(file).splitlines()
+    lines = read_text(file, MAP_FILE).splitlines()
     if not lines or not re.fullmatch(r"version +1(\.0)?", lines[0].strip()):
         problem = "the list of problems has no header"
         raise refusal(file, problem, "its first line should be version 1", at=(1, 1))

@@ -24,6 +24,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from viaspline.bounded_file import MAP_FILE, read_text
 from viaspline.errors import Fault, MissionError
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.area import (
@@ -36,7 +37,6 @@ from viaspline.maps.area import (
     warn_of_nothing,
 )
 from viaspline.maps.map_faults import refusal
-from viaspline.maps.map_files import read_text
 from viaspline.maps.svg_outline import (
     TOO_FAR,
     OutlineError,
@@ -85,7 +85,7 @@ def read_svg(path: str | Path, unit: float = 1.0) -> tuple[Area, ...]:
         MissionWarning: For a shape that encloses nothing.
     """
     file = Path(path)
-    drawing = _Drawing(file, read_tree(file, read_text(file)))
+    drawing = _Drawing(file, read_tree(file, read_text(file, MAP_FILE)))
     drawing.draw(drawing.root, Style(), np.diag((unit, -unit, 1.0)))
     if drawing.faults:
         raise MissionError(drawing.faults)

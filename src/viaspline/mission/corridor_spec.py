@@ -10,10 +10,10 @@ from typing import Annotated, TypeAlias
 from pydantic import BeforeValidator, Field
 
 from viaspline.mission.annotations import Expects
-from viaspline.mission.fields import METRES, Coordinate, Length, Name, NotNegative, as_text, plain
+from viaspline.mission.fields import Coordinate, Distance, Length, Name, as_text, plain
 from viaspline.mission.value import Value
 
-Width: TypeAlias = Annotated[NotNegative, METRES]
+Width: TypeAlias = Distance
 CorridorRow: TypeAlias = Annotated[
     tuple[Coordinate, Coordinate, Width, Width],
     BeforeValidator(plain),

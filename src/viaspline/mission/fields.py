@@ -14,6 +14,20 @@ from viaspline.mission.annotations import Expects, Unit
 
 MAX_LENGTH_M: Final = 1e9
 """The farthest coordinate and the greatest length; beyond it a double loses the micrometre."""
+MIN_LENGTH_M: Final = 1e-6
+"""The least length of what has one."""
+MAX_TURN_RADIUS_M: Final = 1e4
+"""The widest turning circle; that of the largest ships is a fifth of it."""
+SPEEDS_MPS: Final = (1e-4, 1e4)
+"""From metres in hours to what nothing near the ground does."""
+ACCELERATIONS_MPS2: Final = (1e-4, 1e6)
+JERKS_MPS3: Final = (1e-4, 1e8)
+ANGULAR_SPEEDS_DEGPS: Final = (1e-3, 1e6)
+ANGULAR_ACCELERATIONS_DEGPS2: Final = (1e-3, 1e8)
+MAX_DURATION_S: Final = 1e7
+"""The longest stop, some four months."""
+MAX_HEADING_DEG: Final = 36_000.0
+"""The farthest turned heading; a hundred times round lose no digit that matters."""
 
 METRES: Final = Unit("m", "metres")
 SECONDS: Final = Unit("s", "seconds")
@@ -25,22 +39,37 @@ METRES_PER_SECOND: Final = Unit("m/s", "metres per second")
 METRES_PER_SECOND2: Final = Unit("m/s²", "m/s²")
 METRES_PER_SECOND3: Final = Unit("m/s³", "m/s³")
 
+
+def _within(limits: tuple[float, float]) -> Any:
+    """A number's least and its greatest value."""
+    return Field(ge=limits[0], le=limits[1])
+
+
 Number: TypeAlias = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive: TypeAlias = Annotated[Number, Field(gt=0)]
 NotNegative: TypeAlias = Annotated[Number, Field(ge=0)]
 
 Coordinate: TypeAlias = Annotated[Number, METRES, Field(ge=-MAX_LENGTH_M, le=MAX_LENGTH_M)]
-Length: TypeAlias = Annotated[Positive, METRES, Field(le=MAX_LENGTH_M)]
+Length: TypeAlias = Annotated[Number, METRES, Field(ge=MIN_LENGTH_M, le=MAX_LENGTH_M)]
 """A length that something has [m]."""
+TurnRadius: TypeAlias = Annotated[Number, METRES, Field(ge=MIN_LENGTH_M, le=MAX_TURN_RADIUS_M)]
+"""The radius of a turning circle [m]."""
 Distance: TypeAlias = Annotated[NotNegative, METRES, Field(le=MAX_LENGTH_M)]
 """A length that may be nothing [m]."""
-Speed: TypeAlias = Annotated[Positive, METRES_PER_SECOND]
-Acceleration: TypeAlias = Annotated[Positive, METRES_PER_SECOND2]
-Jerk: TypeAlias = Annotated[Positive, METRES_PER_SECOND3]
-AngularSpeed: TypeAlias = Annotated[Positive, DEGREES_PER_SECOND]
-AngularAcceleration: TypeAlias = Annotated[Positive, DEGREES_PER_SECOND2]
-Duration: TypeAlias = Annotated[NotNegative, SECONDS]
-Heading: TypeAlias = Annotated[Number, HEADING_DEGREES]
+Speed: TypeAlias = Annotated[Number, METRES_PER_SECOND, _within(SPEEDS_MPS)]
+Acceleration: TypeAlias = Annotated[Number, METRES_PER_SECOND2, _within(ACCELERATIONS_MPS2)]
+Jerk: TypeAlias = Annotated[Number, METRES_PER_SECOND3, _within(JERKS_MPS3)]
+AngularSpeed: TypeAlias = Annotated[Number, DEGREES_PER_SECOND, _within(ANGULAR_SPEEDS_DEGPS)]
+AngularAcceleration: TypeAlias = Annotated[
+    Number, DEGREES_PER_SECOND2, _within(ANGULAR_ACCELERATIONS_DEGPS2)
+]
+SpeedNoise: TypeAlias = Annotated[NotNegative, METRES_PER_SECOND, Field(le=SPEEDS_MPS[1])]
+AngularSpeedNoise: TypeAlias = Annotated[
+    NotNegative, DEGREES_PER_SECOND, Field(le=ANGULAR_SPEEDS_DEGPS[1])
+]
+Duration: TypeAlias = Annotated[NotNegative, SECONDS, Field(le=MAX_DURATION_S)]
+Heading: TypeAlias = Annotated[
+    Number, HEADING_DEGREES, Field(ge=-MAX_HEADING_DEG, le=MAX_HEADING_DEG)
+]
 
 Name: TypeAlias = Annotated[str, Field(strict=True, min_length=1)]
 Corners: TypeAlias = tuple[tuple[float, float], ...]

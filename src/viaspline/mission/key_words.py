@@ -14,7 +14,7 @@ from viaspline.mission.annotations import Expects, Unit
 from viaspline.mission.fields import MAX_LENGTH_M
 from viaspline.mission.key_places import Option, keys_of, models_below, options_at
 from viaspline.mission.mission_parts import MissionParts
-from viaspline.mission.unplaced_faults import Path, number
+from viaspline.mission.unplaced_faults import LIMIT_DECIMALS, Path, number
 
 
 def field_of(path: Path) -> str:
@@ -53,20 +53,20 @@ def _number_words(option: Option) -> str:
     >>> from viaspline.mission.fields import Length
     >>> from viaspline.mission.key_places import options
     >>> _number_words(options(Length)[0])
-    'a number of metres greater than 0'
+    'a number of metres, 1e-06 or more'
     """
     unit = next((item.words for item in option.said if isinstance(item, Unit)), "")
     what = "a whole number" if option.kind is int else "a number"
     what += f" of {unit}" if unit else ""
     above, least = _limit(option, "gt", max), _limit(option, "ge", max)
     below, most = _limit(option, "lt", min), _limit(option, "le", min)
-    upper = "" if most is None else number(most)
-    upper = upper if below is None else f"less than {number(below)}"
+    upper = "" if most is None else number(most, LIMIT_DECIMALS)
+    upper = upper if below is None else f"less than {number(below, LIMIT_DECIMALS)}"
     if above is not None:
         end = f", up to {upper}" if below is None else f", {upper}"
-        return f"{what} greater than {number(above)}{end if upper else ''}"
+        return f"{what} greater than {number(above, LIMIT_DECIMALS)}{end if upper else ''}"
     if least is not None:
-        return f"{what}, {number(least)} {f'to {upper}' if upper else 'or more'}"
+        return f"{what}, {number(least, LIMIT_DECIMALS)} {f'to {upper}' if upper else 'or more'}"
     return f"{what} up to {upper}" if upper else what
 
 

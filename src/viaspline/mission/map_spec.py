@@ -5,16 +5,18 @@ Tested through ``mission/test_resolve_files``.
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 from pydantic import BeforeValidator, Field
 
 from viaspline.maps.grid import LARGEST_CELL_M
 from viaspline.maps.reading import Unknown
 from viaspline.mission.annotations import Expects
-from viaspline.mission.fields import METRES, Name, Positive, as_text
+from viaspline.mission.fields import METRES, MIN_LENGTH_M, Name, Number, as_text
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.mission.value import Value
+
+CellSize: TypeAlias = Annotated[Number, METRES, Field(ge=MIN_LENGTH_M, le=LARGEST_CELL_M)]
 
 
 class MapSpec(Value):
@@ -34,7 +36,7 @@ class MapSpec(Value):
 
     map: Annotated[Name, BeforeValidator(as_text), Expects("the path of a map such as depot.yaml")]
     unknown: Unknown | None = None
-    resolution_m: Annotated[Positive, METRES, Field(le=LARGEST_CELL_M)] | None = None
+    resolution_m: CellSize | None = None
     name: Name | None = None
     pass_on: Side | None = None
     never_pass_on: Side | None = None

@@ -19,10 +19,10 @@ from viaspline.mission.fields import (
     AngularSpeed,
     Distance,
     Jerk,
-    Length,
     NotNegative,
     Ring,
     Speed,
+    TurnRadius,
 )
 from viaspline.mission.sensor_spec import Sensor
 from viaspline.mission.value import Value, two_of
@@ -87,7 +87,7 @@ class RobotSpec(
         | None
     ) = None
     clearance_m: Distance = 0.5
-    min_turn_radius_m: Length | None = None
+    min_turn_radius_m: TurnRadius | None = None
     turn_on_spot: TurnOnSpot | None = None
     max_speed_mps: Speed = 2.0
     max_accel_mps2: Acceleration = 1.0

@@ -17,6 +17,10 @@ from viaspline.mission.value import Value
 
 MAX_LAPS: Final = 1000
 """How often a closed route can be driven at most."""
+MAX_VIAS: Final = 20_000
+"""How many via points a route can have at most."""
+MAX_POINTS_DRIVEN: Final = 50_000
+"""How many points a drive of several laps can come to at most."""
 
 
 def _as_mapping(value: Any) -> Any:
@@ -59,7 +63,9 @@ End: TypeAlias = Annotated[
     EndPoint, BeforeValidator(_as_mapping, json_schema_input_type=Point | EndPoint)
 ]
 Vias: TypeAlias = Annotated[
-    tuple[Via, ...], Expects("a list of points such as [[10, 20], {at: [30, 40], dwell_s: 5}]")
+    tuple[Via, ...],
+    Field(max_length=MAX_VIAS),
+    Expects("a list of points such as [[10, 20], {at: [30, 40], dwell_s: 5}]"),
 ]
 
 

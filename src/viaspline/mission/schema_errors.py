@@ -16,7 +16,7 @@ from viaspline.mission.key_words import expectation, field_of, keys_at, suggesti
 from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.mission.unplaced_faults import Path, UnplacedFault, describe, number
+from viaspline.mission.unplaced_faults import LIMIT_DECIMALS, Path, UnplacedFault, describe, number
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
@@ -30,6 +30,9 @@ _LIMITS: Final = {
     "less_than": ("lt", "less than"),
     "less_than_equal": ("le", "not greater than"),
 }
+
+MAX_LISTED: Final = 10
+"""Length of a list up to which its items are a row of numbers, each with a meaning."""
 
 
 def schema_faults(error: ValidationError, at: Path = ()) -> list[UnplacedFault]:
@@ -103,11 +106,14 @@ def _fault(detail: ErrorDetails, path: Path) -> UnplacedFault:
         return UnplacedFault(path, problem, f"it should be {expectation(path)}")
     if kind in _LIMITS:
         name, words = _LIMITS[kind]
-        limit = number(float(detail["ctx"][name]))
+        limit = number(float(detail["ctx"][name]), LIMIT_DECIMALS)
         problem = f"{describe(found)} is out of range"
         if kind.startswith("greater") and found < 0:
             problem = f"{describe(found)} is negative"
         return UnplacedFault(path, problem, f"it should be a number {words} {limit}")
+    if kind == "too_long" and (most := detail["ctx"]["max_length"]) > MAX_LISTED:
+        problem = f"has more than the {most} items that are taken"
+        return UnplacedFault(path, problem, "take fewer, or make it several missions", at_key=True)
     if kind in ("too_short", "too_long"):
         return _wrong_length(path, found)
     return UnplacedFault(path, f"found {describe(found)}", _remedy(path, found))

@@ -13,8 +13,14 @@ from typing import Final
 
 from viaspline.mission.drives.drive import DRIVE_KINDS
 from viaspline.mission.partial_mission import PartialMission
-from viaspline.mission.route_spec import ViaPoint
-from viaspline.mission.spline_spec import POLYLINE_SLACK, POLYLINE_TENSION, SplineSpec
+from viaspline.mission.route_spec import MAX_POINTS_DRIVEN, ViaPoint
+from viaspline.mission.spline_spec import (
+    LOOSEST_SLACK,
+    LOOSEST_TENSION,
+    POLYLINE_SLACK,
+    POLYLINE_TENSION,
+    SplineSpec,
+)
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, number, spell
 
 SAME_POINT_M: Final = 1e-6
@@ -155,6 +161,10 @@ def _route(partial: PartialMission) -> list[UnplacedFault]:
         problem = f"an open route can't be driven {partial.laps} times over"
         remedy = "set closed: true, or leave out laps"
         faults.append(UnplacedFault(("route", "laps"), problem, remedy, at_key=True))
+    if partial.laps > 1 and (driven := partial.laps * len(partial.points)) > MAX_POINTS_DRIVEN:
+        problem = f"{partial.laps} laps of {len(partial.points)} points are {driven} points"
+        remedy = f"drive fewer laps: at most {MAX_POINTS_DRIVEN} points are planned in one drive"
+        faults.append(UnplacedFault(("route", "laps"), problem, remedy))
     if (
         partial.has_route
         and len(partial.points) < 2
@@ -250,6 +260,14 @@ def _tensions(
         if key == "tension" and value > POLYLINE_TENSION:
             problem = f"{number(value, 6)} is more than 1, which is already the polyline"
             faults.append(UnplacedFault(where, problem, "it should be at most 1; 0 is Catmull-Rom"))
+        if key == "tension" and value < LOOSEST_TENSION:
+            problem = f"{number(value, 6)} is out of range"
+            remedy = f"it should be at least {number(LOOSEST_TENSION)}"
+            faults.append(UnplacedFault(where, problem, remedy))
+        if key == "slack" and value > LOOSEST_SLACK:
+            problem = f"{number(value, 6)} is out of range"
+            remedy = f"it should be at most {number(LOOSEST_SLACK)}"
+            faults.append(UnplacedFault(where, problem, remedy))
         if key == "slack" and value < POLYLINE_SLACK:
             problem = f"{number(value, 6)} is less than 0, which is already the polyline"
             faults.append(

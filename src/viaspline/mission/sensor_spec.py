@@ -9,11 +9,13 @@ from typing import Annotated, Final
 
 from pydantic import Field
 
-from viaspline.mission.fields import DEGREES, Distance, Length, Positive
+from viaspline.mission.fields import DEGREES, Distance, Length, Number
 from viaspline.mission.value import OneOf, Value
 
 MAX_BEAMS: Final = 100_000
 """How many beams a lidar can have at most."""
+MIN_FOV_DEG: Final = 0.01
+"""The least angle that a lidar's beams are spread over."""
 
 
 class Lidar(
@@ -31,7 +33,7 @@ class Lidar(
     """
 
     range_m: Length
-    fov_deg: Annotated[Positive, DEGREES, Field(le=360)] = 360.0
+    fov_deg: Annotated[Number, DEGREES, Field(ge=MIN_FOV_DEG, le=360)] = 360.0
     beams: Annotated[int, Field(strict=True, ge=1, le=MAX_BEAMS)] = 360
     noise_m: Distance = 0.0
 

@@ -15,10 +15,12 @@ from viaspline.mission.value import Value
 
 POLYLINE_TENSION: Final = 1.0
 POLYLINE_SLACK: Final = 0.0
+LOOSEST_TENSION: Final = -199.0
+LOOSEST_SLACK: Final = 100.0
 
 Tangents: TypeAlias = Literal["cardinal", "continuous"]
-Tension: TypeAlias = Annotated[Number, Limit(le=POLYLINE_TENSION)]
-Slack: TypeAlias = Annotated[Number, Limit(ge=POLYLINE_SLACK)]
+Tension: TypeAlias = Annotated[Number, Limit(ge=LOOSEST_TENSION, le=POLYLINE_TENSION)]
+Slack: TypeAlias = Annotated[Number, Limit(ge=POLYLINE_SLACK, le=LOOSEST_SLACK)]
 
 
 class SplineSpec(
@@ -40,11 +42,11 @@ class SplineSpec(
 
     tension: Annotated[
         Tension | Annotated[tuple[Tension, ...], BeforeValidator(plain)] | Literal["auto"] | None,
-        Expects("one number up to 1, a list with one for each span, or auto"),
+        Expects("one number from -199 to 1, a list with one for each span, or auto"),
     ] = None
     slack: Annotated[
         Slack | Annotated[tuple[Slack, ...], BeforeValidator(plain)] | None,
-        Expects("one number, 0 or more, or a list with one for each span"),
+        Expects("one number from 0 to 100, or a list with one for each span"),
     ] = None
     knots: Literal["uniform", "centripetal", "chordal"] = "chordal"
     tangents: Tangents | None = None

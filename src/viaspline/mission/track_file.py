@@ -9,6 +9,8 @@ import math
 from pathlib import Path as FilePath
 from typing import Any
 
+from viaspline.bounded_file import TRACK_FILE, read_text
+from viaspline.errors import MissionError
 from viaspline.mission.fields import MAX_LENGTH_M
 from viaspline.mission.unplaced_faults import MAX_REPORTED_FAULTS, Path, UnplacedFault, children
 
@@ -35,9 +37,10 @@ def resolve_corridor(data: Any, folder: FilePath) -> tuple[Any, list[UnplacedFau
         return data, []
     path = folder / name
     rows, faults = read_track(path)
-    resolved = {**corridor, "csv": FilePath(path).resolve().as_posix(), "line": rows}
     if faults:
-        del resolved["line"]
+        resolved = {**corridor, "csv": str(name)}
+    else:
+        resolved = {**corridor, "csv": FilePath(path).resolve().as_posix(), "line": rows}
     return {**top, "route": {**route, "corridor": resolved}}, faults
 
 
@@ -48,12 +51,9 @@ def read_track(path: FilePath) -> tuple[list[list[float]], list[UnplacedFault]]:
     comments, and so is a first line of names.
     """
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        return [], [_fault(f"{path}: is no text", f"give a file with rows {ROW_WORDS}")]
-    except OSError as error:
-        problem = f"{path}: {(error.strerror or str(error)).lower()}"
-        return [], [_fault(problem, f"give the path of a file with rows {ROW_WORDS}")]
+        text = read_text(path, TRACK_FILE)
+    except MissionError as error:
+        return [], [_fault(f"{path}: {one.problem}", one.remedy) for one in error.faults]
     rows: list[list[float]] = []
     faults: list[UnplacedFault] = []
     for number, line in enumerate(text.splitlines(), start=1):

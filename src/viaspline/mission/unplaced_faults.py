@@ -137,6 +137,10 @@ def _rank(data: Any, path: Path) -> tuple[int, ...]:
     return tuple(rank)
 
 
+LIMIT_DECIMALS: Final = 12
+"""Decimals of a limit, of which none is left out."""
+
+
 def number(value: float, decimals: int = 3) -> str:
     """A number for people: no more decimals than asked for, no needless zeros.
 

@@ -93,23 +93,13 @@ def draw_vias(
     places = np.array([via.at[:2] for via in users]).reshape(-1, 2)
     numbered = _are_apart(axes, places)
     handles: list[Artist] = []
-    seen: set[str] = set()
+    dots: dict[tuple[str, str], list[tuple[float, ...]]] = {}
     named = dict(_own_names(mission))
     for number, via in enumerate(users):
         kind, text, colour, ink = _look(number, via, users, mission.route.closed)
         if kind == "closing":
             continue
-        size = (11.5 if numbered else 4.5) + (1.0 if kind in ("start", "goal") else 0.0)
-        marker = "s" if kind == "station" else "o"
-        (dot,) = axes.plot(
-            *via.at[:2], marker=marker, markersize=size if marker == "o" else size - 1,
-            markerfacecolor=colour, markeredgecolor=style.INK,
-            markeredgewidth=0.9 if numbered else 0.6,
-            linestyle="none", zorder=12, label=kind if kind not in seen else "_",
-        )  # fmt: skip
-        if kind not in seen:
-            handles.append(dot)
-            seen.add(kind)
+        dots.setdefault((kind, colour), []).append(via.at[:2])
         if numbered:
             axes.text(
                 via.at[0], via.at[1], text, size=6.5 if len(text) < 3 else 5, color=ink,
@@ -120,6 +110,14 @@ def draw_vias(
             words.append(f"stops {via.dwell:g} s")
         if words:
             labels.add(", ".join(words), (via.at[0], via.at[1]), rank=3, gap=16)
+    for (kind, colour), at in dots.items():
+        size = (11.5 if numbered else 4.5) + (1.0 if kind in ("start", "goal") else 0.0)
+        marker = "s" if kind == "station" else "o"
+        handles += axes.plot(
+            *np.transpose(at), marker=marker, markersize=size if marker == "o" else size - 1,
+            markerfacecolor=colour, markeredgecolor=style.INK,
+            markeredgewidth=0.9 if numbered else 0.6, linestyle="none", zorder=12, label=kind,
+        )  # fmt: skip
     corners = np.array([via.at[:2] for via in detours]).reshape(-1, 2)
     if len(corners):
         (dot,) = axes.plot(

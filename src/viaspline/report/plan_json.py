@@ -11,6 +11,7 @@ from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.report.json_text import dumps
+from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.report.summary import tension
 
 
@@ -28,6 +29,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
             "path": path_data(plan.path) | _turning(plan) | {"csv_spacing_m": spacing},
             "certificate": certificate_data(plan.certificate),
             **({"tracking_error_m": plan.tracking_error} if plan.tracking_error else {}),
+            **({"note": FOLLOWED_EXACTLY} if keeps_nothing(plan.mission.robot) else {}),
             "ledger": [_entry(entry) for entry in plan.ledger],
             "trajectory": {
                 "duration_s": plan.trajectory.duration,

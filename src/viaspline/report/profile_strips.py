@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from viaspline.kernels.arrays import Floats
 from viaspline.report.style import INK, MUTED, OBSTACLE, SMALL_PT, TEXT_PT, TIGHTEST
 
+TICK_SPACING_PX = 3.0
 Ticks = Sequence[tuple[float, str]]  # distance [m] and the number of a via point
 
 
@@ -39,7 +40,7 @@ def fill_strips(
         axes.plot(distances, value, color=colour, linewidth=1.1)
         axes.set_xlim(0, last)
         axes.margins(y=0.1)
-        for distance, _ in ticks:
+        for distance, _ in _apart(ticks, axes, last):
             axes.axvline(distance, color=OBSTACLE, linewidth=0.5, zorder=0)
         if i == 0:
             top = max(float(np.nanmax(value)), 1e-9) if value.size else 1.0
@@ -54,6 +55,17 @@ def fill_strips(
             axes.axhline(0, color=MUTED, linewidth=0.5)
     strips[-1].set_xlabel("distance along the path [m]", size=TEXT_PT, color=MUTED, labelpad=2)
     _number(strips[0], ticks, last)
+
+
+def _apart(ticks: Ticks, axes: Axes, last: float) -> Ticks:
+    """Those ticks that can be told from the ones before them."""
+    least, free = TICK_SPACING_PX * last / axes.get_window_extent().width, -np.inf
+    kept = []
+    for distance, text in ticks:
+        if distance >= free:
+            kept.append((distance, text))
+            free = distance + least
+    return kept
 
 
 def draw_curvature_limit(axes: Axes, radius: float | None) -> None:

@@ -2,7 +2,41 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from viaspline.mission.model import Mission
+from viaspline.mission.robot_parts import RobotSpec
+
+FOLLOWED_EXACTLY: Final = (
+    "the robot has no drive: it is taken to follow its path exactly, and nothing is kept for what "
+    "a real one gets beside it (robot.drive or tracking_error_m would)"
+)
+
+
+def plan_remarks(mission: Mission) -> list[str]:
+    """What to know of a plan that it doesn't say itself; of the mission as it was asked for.
+
+    >>> [found] = plan_remarks(Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}}))
+    >>> found == FOLLOWED_EXACTLY
+    True
+    """
+    return [*_order(mission), *([FOLLOWED_EXACTLY] if keeps_nothing(mission.robot) else [])]
+
+
+def keeps_nothing(robot: RobotSpec) -> bool:
+    """Whether a plan keeps nothing for how far the robot gets beside its path."""
+    return all(one is None for one in (robot.drive, robot.localization, robot.tracking_error_m))
+
+
+def _order(mission: Mission) -> list[str]:
+    if mission.route.order == "given":
+        return []
+    from viaspline.planning.routing.visit_order import is_surely_shortest
+
+    if is_surely_shortest(mission):
+        return []
+    count = len(mission.route.via)
+    return [f"the order of the {count} via points is a short one; it isn't proven the shortest"]
 
 
 def remarks(mission: Mission) -> list[str]:
@@ -15,9 +49,10 @@ def remarks(mission: Mission) -> list[str]:
     ['max_speed 3 m/s is never reached on a turn of 2 m: max_lateral_accel 0.5 m/s² allows 1 m/s
       there; a radius of 18 m would allow it']
     """
+    found = _order(mission)
     robot = mission.robot
     top = robot.max_speed_mps
-    found = [
+    found += [
         f"speed zone {zone.name or i + 1!r} allows {zone.max_speed_mps:g} m/s, more than the "
         f"robot's max_speed_mps {top:g}"
         for i, zone in enumerate(mission.world.speed_zones)

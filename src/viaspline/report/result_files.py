@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from viaspline.errors import OutputError
+from viaspline.report.interrupts import undone_at_the_end
 
 
 @contextmanager
@@ -23,8 +24,9 @@ def replacing(path: Path) -> Iterator[Path]:
     """
     temporary = path.with_name(f".{path.stem}.{secrets.token_hex(4)}.tmp{path.suffix}")
     try:
-        yield temporary
-        os.replace(temporary, path)
+        with undone_at_the_end(temporary.unlink):
+            yield temporary
+            os.replace(temporary, path)
     except OSError as error:
         raise OutputError(path, f"can't be written ({_why(error)}); {_remedy(error)}") from error
     finally:

@@ -44,6 +44,9 @@ from viaspline.report.scene_layers import (
 from viaspline.report.sheet import Box
 from viaspline.world.world import World
 
+MAX_CORNERS_DRAWN = 20_000  # of all outlines, beyond which their grown edges lose what is hidden
+HIDDEN_DOTS = 0.25  # detail of a picture that can't be seen [pixels]
+
 
 @dataclass
 class Scene:
@@ -150,6 +153,8 @@ class Scene:
         if self.required <= 0:
             return shapely.Polygon()
         segments = 16 if len(shapes) < 400 else 4
+        if shapely.get_num_coordinates(shapes).sum() > MAX_CORNERS_DRAWN:
+            shapes = shapely.simplify(shapes, HIDDEN_DOTS / scale)
         areas = [*shapely.buffer(shapes, self.required, quad_segs=segments)]
         dots = round((view[3] - view[1]) * scale), round((view[2] - view[0]) * scale)
         areas += [too_near(ground.grid, view, dots, self.required) for ground in grids]

@@ -5,7 +5,6 @@ Tested through ``test_cli``.
 
 from __future__ import annotations
 
-import os
 import sys
 import warnings
 from collections.abc import Iterator
@@ -14,30 +13,54 @@ from typing import Any
 
 import click
 
-from viaspline.errors import GaveUpError, MissionWarning, NoPathError, PlanningError
+from viaspline.errors import (
+    GaveUpError,
+    MissionWarning,
+    NoPathError,
+    OutputError,
+    PlanningError,
+)
+from viaspline.report.standard_streams import discard
 
 
 def say(*lines: str) -> None:
-    """Lines on the output stream; nobody listening any more is no error."""
-    try:
+    """Lines on the output stream.
+
+    Raises:
+        OutputError: They can't be written; nobody listening any more is no error.
+    """
+    with writing_output():
         for line in lines:
-            click.echo(line)
+            click.echo(line, file=sys.stdout)
+
+
+@contextmanager
+def writing_output() -> Iterator[None]:
+    """Within the block something is written on the output stream, and at its end it is there.
+
+    Raises:
+        OutputError: It can't be written; nobody listening any more is no error.
+    """
+    try:
+        yield
         sys.stdout.flush()
     except BrokenPipeError:
-        discard_output()
-
-
-def discard_output() -> None:
-    """Send the rest of the output stream nowhere, after its reader has gone."""
-    with open(os.devnull, "w") as nowhere:
-        os.dup2(nowhere.fileno(), sys.stdout.fileno())
+        discard(sys.stdout)
+    except OSError as error:
+        discard(sys.stdout)
+        why = (error.strerror or str(error)).lower()
+        remedy = "free some space, or send it elsewhere"
+        raise OutputError("<output>", f"can't be written ({why}); {remedy}") from None
 
 
 def say_error(*lines: str, prefix: str = "viaspline: ") -> None:
     """A message on the error stream; the first line begins with the prefix in red."""
-    for i, line in enumerate(lines):
-        start = click.style(prefix, fg="red", bold=True) if prefix and i == 0 else ""
-        click.echo(start + line, err=True)
+    try:
+        for i, line in enumerate(lines):
+            start = click.style(prefix, fg="red", bold=True) if prefix and i == 0 else ""
+            click.echo(start + line, file=sys.stderr)
+    except OSError:  # there is no one left to tell
+        discard(sys.stderr)
 
 
 def no_path(error: NoPathError) -> str:

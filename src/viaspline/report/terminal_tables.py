@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 from rich import box
 from rich.console import Console, Group, RenderableType
@@ -15,7 +13,7 @@ from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.report.style import without_folder
 from viaspline.report.summary import map_words
-from viaspline.report.terminal_lines import discard_output
+from viaspline.report.terminal_lines import writing_output
 from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
 from viaspline.robot.run import MODES, Run
 
@@ -179,11 +177,12 @@ def _facts(title: str) -> Table:
 
 
 def show(*tables: RenderableType) -> None:
-    """Print tables on the output stream; nobody listening any more is no error."""
-    try:
+    """Print tables on the output stream; nobody listening any more is no error.
+
+    Raises:
+        OutputError: They can't be written.
+    """
+    with writing_output():
         screen = console()
         for table in tables:
             screen.print(table)
-        sys.stdout.flush()
-    except BrokenPipeError:
-        discard_output()

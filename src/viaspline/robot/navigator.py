@@ -10,6 +10,7 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
+from viaspline.handed_in import check_kind
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.robot_model import PERIOD_S, drive_model_of, is_driven
 from viaspline.mission.model import Mission
@@ -104,6 +105,7 @@ class Navigator:
         reaction: float = REACTION_S,
         period: float = PERIOD_S,
     ) -> None:
+        check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
         if not 0.0 < reaction < float("inf"):
             raise GeometryError(f"reaction is {reaction}; give a time above 0")
         limits = limits_of(mission.robot, reaction)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from viaspline.errors import GeometryError
+from viaspline.handed_in import check_kind
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.robot.navigator import Navigator
@@ -68,6 +69,7 @@ def simulate(
         >>> run.reached, run.certificate.holds, len(run.replans)
         (True, True, 1)
     """
+    check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
     if not 0.0 < step < float("inf"):
         raise GeometryError(f"step is {step}; give a time above 0 s")
     world = World.everything(mission)

@@ -54,10 +54,9 @@ def _field(key: str, said: FormField, schema: dict[str, Any]) -> dict[str, Any]:
     unit, least, step = next(rest for ending, *rest in UNITS if key.endswith(ending))
     number = schema | next(iter(schema.get("anyOf", ())), {})
     field: dict[str, Any] = {"key": key, "label": said.label, "unit": unit, "step": step}
-    if "exclusiveMinimum" in number:
-        field["min"] = number["exclusiveMinimum"] + least
     if "minimum" in number:
-        field["min"] = number["minimum"]
+        lowest = number["minimum"]
+        field["min"] = max(lowest, least) if lowest > 0 else lowest
     if "exclusiveMaximum" in number:
         field["max"] = round(number["exclusiveMaximum"] - least, 6)
     if number.get("maximum", MAX_LENGTH_M) < MAX_LENGTH_M:

@@ -11,6 +11,7 @@ from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from viaspline.bounded_file import MISSION_FILE, read_bytes
 from viaspline.errors import ViasplineError
 from viaspline.studio import yaml_round_trip
 from viaspline.studio.document import Document
@@ -68,7 +69,7 @@ async def save(
         return await _save_waypoints(current, message, path, planned)
     if path.exists() and name != current.name and message.get("replace") is not True:
         return {"type": "exists", "name": name}
-    old = path.read_text(encoding="utf-8", errors="replace") if path.exists() else None
+    old = _text_of(path) if path.exists() else None
     if path.parent != current.base:
         current.document = _moved(current.document, current.base, path.parent)
     current.folder.save(path, yaml_round_trip.text_of(current.document, old))
@@ -139,6 +140,11 @@ async def export(
         content = await engine.plan_file(plan, kind, stem)
     data = base64.b64encode(content).decode()
     return {"type": "exported", "name": f"{stem}-{kind}", "kind": kind, "data": data}
+
+
+def _text_of(path: Path) -> str:
+    """What a mission's file holds that is going to be replaced, as far as it is a text."""
+    return read_bytes(path, MISSION_FILE).decode("utf-8", errors="replace")
 
 
 def _not_understood(path: Path) -> tuple[str, ...]:

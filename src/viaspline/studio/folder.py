@@ -39,10 +39,22 @@ class Folder:
         """
         if not name or "\0" in name:
             raise RefusedError("give the name of a file")
-        path = ((base or self.root) / name).resolve()
+        try:
+            path = ((base or self.root) / name).resolve()
+            path.exists()
+        except (OSError, RuntimeError) as error:  # too long, or a link that leads back to itself
+            why = (getattr(error, "strerror", None) or "it is a link that leads nowhere").lower()
+            raise RefusedError(f"'{name:.40}' is no name of a file: {why}") from None
         if path == self.root or not path.is_relative_to(self.root):
             raise RefusedError(f"'{name}' lies outside of the studio's folder '{self.root.name}'")
         return path
+
+    def _holds(self, path: Path) -> bool:
+        """Whether a path, followed through its links, ends within."""
+        try:
+            return path.resolve().is_relative_to(self.root)
+        except (OSError, RuntimeError):  # a link that leads back to itself
+            return False
 
     def to_open(self, name: str) -> Path:
         """The path of a mission file that is there.
@@ -67,8 +79,8 @@ class Folder:
             raise RefusedError(f"{problem}: call it '{Path(name).stem}.yaml'")
         if not path.parent.is_dir():
             raise RefusedError(f"there is no folder '{Path(name).parent}' to save it in")
-        if path.is_dir():
-            raise RefusedError(f"'{name}' is a folder")
+        if path.exists() and not path.is_file():
+            raise RefusedError(f"'{name}' is a {'folder' if path.is_dir() else 'pipe or a device'}")
         return path
 
     def _named(self, name: str) -> Path:
@@ -114,7 +126,7 @@ class Folder:
         except OSError:
             return
         for path in entries:
-            if path.name.startswith(".") or not path.resolve().is_relative_to(self.root):
+            if path.name.startswith(".") or not self._holds(path):
                 continue
             if path.is_file() and path.suffix.lower() in MISSION_SUFFIXES + MAP_SUFFIXES:
                 yield path

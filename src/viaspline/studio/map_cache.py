@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
+from viaspline.bounded_file import MAP_FILE, read_text
 from viaspline.errors import Fault, MissionError
 from viaspline.maps.grid import Grid
-from viaspline.maps.map_files import read_text
 from viaspline.maps.map_server_keys import MapServerKeys
 from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.resolve_files import obstacles_of
@@ -137,11 +137,15 @@ class MapCache:
         path = self._within(spec.map, base)
         if path.suffix.lower() not in (".yaml", ".yml"):
             return [path]
-        image = MapServerKeys.parse(path, read_text(path)).image.text or ""
+        image = MapServerKeys.parse(path, read_text(path, MAP_FILE)).image.text or ""
         return [path, self._within(str(Path(image).expanduser()), path.parent)]
 
     def _within(self, name: str, base: Path) -> Path:
-        path = (base / name).resolve()
+        try:
+            path = (base / name).resolve()
+        except (OSError, RuntimeError):
+            problem, remedy = "leads nowhere", "give the name of a file"
+            raise MissionError([Fault("map", problem, remedy, source=name)]) from None
         if not path.is_relative_to(self._folder.root):
             problem = "lies outside of the studio's folder"
             remedy = "start the studio with a folder that holds the file as well"

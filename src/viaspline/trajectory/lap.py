@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from viaspline.handed_in import check_answers
 from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.curvature_limited import Cubic
 from viaspline.trajectory.interior_point import Seam
@@ -51,6 +52,7 @@ def retime_lap(
         >>> law.speeds.tolist(), round(law.duration, 2)
         ([2.0, 2.0], 31.41)
     """
+    check_answers("path", path, "domain", "give the path of a plan")
     return retime(
         path, limits, stations, zones=zones, end_speed=Seam(), speed_cap=speed_cap,
         start_time=start_time, grid=grid,

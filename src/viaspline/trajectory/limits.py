@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
+from viaspline.handed_in import number_from
 from viaspline.mission.robot_parts import RobotSpec
 
 REACTION_S = 0.1
@@ -79,6 +80,8 @@ class Limits:
     def __post_init__(self) -> None:
         for name in _ALONG:
             value = getattr(self, name)
+            if value is not None:
+                value = number_from(name, value)
             if value is not None and not 0 < value < math.inf:
                 raise GeometryError(f"{name} is {value}; give a finite number above 0")
             if value is not None:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from viaspline.errors import GeometryError
+from viaspline.handed_in import all_of, check_answers, check_kind
 from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.cells import Evaluable
 from viaspline.trajectory.coupled import Stage
@@ -96,6 +97,9 @@ def retime(
         >>> round(retime(line, Limits(max_speed=2, max_accel=1), zones=[slow]).duration, 3)
         20.0
     """
+    check_answers("path", path, "domain", "give a CardinalSpline, or the path of a plan")
+    stations = all_of("stations", stations, Station, "give Station(distance, dwell)")
+    check_kind("limits", limits, Limits, "give Limits(max_speed=2, max_accel=1)")
     limited_path = limited_path_of(path, limits, grid)
     length = limited_path.length
     last = 0.0 if isinstance(end_speed, Seam) else float(end_speed)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
+from viaspline.handed_in import all_of, numbers_from
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.world import distance as kernels
 from viaspline.kernels.world.clusters import group_labels
@@ -52,10 +54,12 @@ class World:
         fences: Iterable[Sequence[tuple[float, float]]] = (),
         corridor: Iterable[Sequence[tuple[float, float]]] = (),
     ) -> None:
-        self.obstacles = tuple(obstacles)
+        self.obstacles: tuple[Obstacle, ...] = all_of(
+            "obstacles", obstacles, Obstacle, "give Obstacle(circle={...}), or World.known(mission)"
+        )
         self.bounds: Bounds | None = None
-        self.fences = tuple(tuple(ring) for ring in fences)
-        self.corridor = tuple(tuple(ring) for ring in corridor)
+        self.fences = _rings("fences", fences)
+        self.corridor = _rings("corridor", corridor)
         if bounds is not None:
             self.bounds = _checked(bounds)
         areas: list[Rings] = [(ring,) for ring in self.fences]
@@ -234,16 +238,36 @@ class World:
 
 
 def _checked(bounds: Sequence[float]) -> Bounds:
-    if len(bounds) != 4:
-        raise GeometryError(f"bounds have {len(bounds)} numbers; give x_min, y_min, x_max, y_max")
-    x0, y0, x1, y1 = (float(value) for value in bounds)
+    numbers = numbers_from("bounds", bounds)
+    if numbers.shape != (4,):
+        raise GeometryError(
+            f"bounds have the shape {numbers.shape}; give x_min, y_min, x_max, y_max"
+        )
+    x0, y0, x1, y1 = numbers.tolist()
     if not (-math.inf < x0 < x1 < math.inf and -math.inf < y0 < y1 < math.inf):
         raise GeometryError(f"bounds {tuple(bounds)} are empty; give x_min, y_min, x_max, y_max")
     return x0, y0, x1, y1
 
 
+def _rings(name: str, rings: Iterable[Any]) -> tuple[tuple[tuple[float, float], ...], ...]:
+    """Closed rings of corners [m], as they were handed in.
+
+    Raises:
+        GeometryError: They aren't.
+    """
+    found = []
+    for i, ring in enumerate(all_of(name, rings, object, "give rings [[x, y], ...]")):
+        corners = numbers_from(f"{name}[{i}]", ring)
+        if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3:
+            raise GeometryError(f"{name}[{i}] is no ring; give three corners [x, y] at least")
+        if not np.isfinite(corners).all():
+            raise GeometryError(f"{name}[{i}] has a corner that is nowhere; give finite numbers")
+        found.append(tuple((x, y) for x, y in corners.tolist()))
+    return tuple(found)
+
+
 def _as_points(points: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
-    array = np.asarray(points, np.float64)
+    array = numbers_from("points", points)
     if array.ndim == 0 or array.shape[-1] not in (2, 3):
         raise GeometryError(f"points have shape {array.shape}; give (n, 2) or (2,)")
     if not np.isfinite(array).all():

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
-from viaspline.planning.routing.visit_order import lengths_between, ordered
+from viaspline.planning.routing.visit_order import is_surely_shortest, lengths_between, ordered
 from viaspline.world.world import World
 
 seeds = st.integers(0, 100_000)
@@ -76,6 +76,17 @@ def test_the_plan_serves_the_via_points_in_the_order_that_was_found() -> None:
     names = [via.name for via in plan.path.vias if via.kind == "user"]
     assert names == ["start", "via 2", "via 3", "via 1", "goal"]
     assert plan.mission.route.order == "given"
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_very_many_via_points_come_in_a_short_order(closed: bool) -> None:
+    places = np.random.default_rng(3).uniform(0, 100, (300, 2))
+    asked = mission(places, closed=closed)
+    assert not is_surely_shortest(asked)
+    route = in_order(asked).route
+    assert sorted(via.at for via in route.via) == sorted(via.at for via in asked.route.via)
+    # The shortest round is about 0.7124 sqrt(n area) long, and somewhat more among few.
+    assert length(route, closed=closed) < 1.2 * 0.7124 * np.sqrt(300) * 100
 
 
 def test_a_mission_that_gives_its_order_is_left_alone() -> None:

@@ -25,6 +25,9 @@ from viaspline.kernels.world.ring_distance import rings_gap
 from viaspline.kernels.world.segment import inner_segment, mark_near_segment
 from viaspline.kernels.world.shape import obstacle_corners, obstacle_segment
 
+MAX_CORNERS = 8_000
+"""Beyond so many the search, which looks at every pair, is given up."""
+
 
 @inner
 def _crosses_barrier(barriers: Floats, ax: float, ay: float, bx: float, by: float) -> bool:
@@ -192,7 +195,7 @@ def shortest_route(
 
     Returns:
         Corners from start to goal, (k, 8); no rows when there is no route, or when more than
-        ``most`` obstacles are active.
+        ``most`` obstacles are active, or they have more than ``MAX_CORNERS`` corners.
     """
     mark_near_segment(world, start[0], start[1], goal[0], goal[1], floor, active)
     while True:
@@ -200,6 +203,8 @@ def shortest_route(
         if members.shape[0] > most:
             return np.empty((0, CORNER_COLUMNS))
         corners = _corners(world, members, start, goal, rho, step)
+        if corners.shape[0] > MAX_CORNERS:
+            return np.empty((0, CORNER_COLUMNS))
         before = _search(world, members, corners, barriers, floor)
         if before[1] < 0:
             return corners[:0]

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Final
 
 from pydantic import Field
 
 from viaspline.kernels.tracking.actuators import Actuators
 from viaspline.mission.drives.drive_kind import DriveKind, FormField
 from viaspline.mission.drives.drive_limits import DriveLimits
-from viaspline.mission.fields import DEGREES, AngularSpeed, Length, Positive
+from viaspline.mission.fields import DEGREES, AngularSpeed, Length, Number
+
+MAX_WHEELBASE_M: Final = 100.0
+"""The longest wheelbase."""
+MIN_STEER_DEG: Final = 0.5
+"""The least that a steered wheel turns."""
 
 
 class Ackermann(
@@ -31,8 +36,8 @@ class Ackermann(
         "it can't move sideways, nor turn tighter than its turning circle or on the spot"
     )
 
-    wheelbase_m: Annotated[Length, FormField("Wheelbase")]
-    max_steer_deg: Annotated[Positive, DEGREES, Field(lt=90), FormField("Steering")]
+    wheelbase_m: Annotated[Length, Field(le=MAX_WHEELBASE_M), FormField("Wheelbase")]
+    max_steer_deg: Annotated[Number, DEGREES, Field(ge=MIN_STEER_DEG, lt=90), FormField("Steering")]
     max_steer_rate_degps: Annotated[AngularSpeed | None, FormField("Steering rate", "no limit")] = (
         None
     )

@@ -12,12 +12,7 @@ from viaspline.mission.drives.differential import Differential
 from viaspline.mission.drives.drive_kind import DriveKind
 from viaspline.mission.drives.omnidirectional import Omnidirectional
 from viaspline.mission.drives.skid_steer import SkidSteer
-from viaspline.mission.fields import (
-    DEGREES_PER_SECOND,
-    METRES_PER_SECOND,
-    Duration,
-    NotNegative,
-)
+from viaspline.mission.fields import AngularSpeedNoise, Duration, SpeedNoise
 from viaspline.mission.value import OneOf
 
 MAX_DELAY_S: Final = 60.0
@@ -50,8 +45,8 @@ class Drive(
     omnidirectional: Omnidirectional | None = None
     delay_s: ShortDuration = 0.0
     lag_s: ShortDuration = 0.0
-    speed_noise_mps: Annotated[NotNegative, METRES_PER_SECOND] = 0.0
-    yaw_rate_noise_degps: Annotated[NotNegative, DEGREES_PER_SECOND] = 0.0
+    speed_noise_mps: SpeedNoise = 0.0
+    yaw_rate_noise_degps: AngularSpeedNoise = 0.0
 
     @property
     def kind(self) -> DriveKind:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Final
 
 from pydantic import Field
 
@@ -10,6 +10,9 @@ from viaspline.kernels.tracking.actuators import Actuators
 from viaspline.mission.drives.drive_kind import DriveKind, FormField
 from viaspline.mission.drives.drive_limits import DriveLimits, limits_of_sides
 from viaspline.mission.fields import Length, NotNegative, Speed
+
+MAX_SLIP: Final = 0.99
+"""The part of its speed that a side can lose at most."""
 
 
 class SkidSteer(
@@ -29,7 +32,7 @@ class SkidSteer(
     cannot: ClassVar = "it can't move sideways, nor turn without slipping"
 
     track_m: Annotated[Length, FormField("Track")]
-    slip: Annotated[NotNegative, Field(lt=1), FormField("Slip", "0")] = 0.0
+    slip: Annotated[NotNegative, Field(le=MAX_SLIP), FormField("Slip", "0")] = 0.0
     max_wheel_speed_mps: Annotated[Speed | None, FormField("Wheel speed", "no limit")] = None
 
     def actuators(self) -> Actuators:

@@ -2,7 +2,8 @@
 
 The travelling salesman's problem over the lengths of the ways between all points, round what stands
 between them: exact for few via points (Held and Karp, "A Dynamic Programming Approach to Sequencing
-Problems", 1962), else by exchanges until none makes the round shorter (2-opt and Or-opt).
+Problems", 1962), else by exchanges until none makes the round shorter (2-opt and Or-opt). Among
+very many only exchanges with near neighbours are looked at, and lengths are straight.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from itertools import combinations
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.routing.tour import shortened_tour
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import ViaPoint
 from viaspline.planning.problem.requirements import Requirements
@@ -21,6 +23,9 @@ from viaspline.planning.routing.router import Router
 from viaspline.world.world import World
 
 MAX_VIAS_ALL_ORDERS = 9  # up to which all orders are compared
+MAX_VIAS_ROUTED = 50  # up to which every two have a way between them laid
+NEAR = 10  # neighbours of each point that exchanges are looked for among
+MAX_EXCHANGES_EACH = 50  # for each point, beyond which the rest is left
 LEAST_GAIN_M = 1e-9  # shorter by less is not shorter
 
 
@@ -46,9 +51,22 @@ def ordered(mission: Mission, world: World) -> Mission:
     if route.order == "given":
         return mission
     vias = tuple(_named(via, i) for i, via in enumerate(route.via))
-    order = _shortest_order(lengths_between(mission, world), len(vias), closed=route.closed)
+    if len(vias) > MAX_VIAS_ROUTED:
+        order = _among_near(np.array([point.at[:2] for _, point in route.points()]), len(vias))
+    else:
+        order = _shortest_order(lengths_between(mission, world), len(vias), closed=route.closed)
     changed = {"via": tuple(vias[i] for i in order), "order": "given"}
     return mission.model_copy(update={"route": route.model_copy(update=changed)})
+
+
+def is_surely_shortest(mission: Mission) -> bool:
+    """Whether the order that is taken is the shortest of all, proven.
+
+    >>> is_surely_shortest(Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}}))
+    True
+    """
+    route = mission.route
+    return route.order == "given" or len(route.via) <= MAX_VIAS_ALL_ORDERS
 
 
 def _named(via: ViaPoint, place: int) -> ViaPoint:
@@ -69,6 +87,41 @@ def lengths_between(mission: Mission, world: World) -> Floats:
         taut_path = router.find(at[i], at[j], NO_BARRIERS, active).value
         lengths[i, j] = lengths[j, i] = np.inf if taut_path is None else taut_path.length
     return lengths
+
+
+def _among_near(places: Floats, count: int) -> tuple[int, ...]:
+    """A short order of very many via points, by straight lengths.
+
+    Args:
+        places: Start, via points, and the goal if there is one [m], (n, 2).
+        count: How many via points there are; a round without a goal ends at its start, and so does
+            an open one here, which then goes on to wherever it is at last.
+    """
+    from scipy.spatial import cKDTree
+
+    has_goal = len(places) > count + 1
+    xy = places if has_goal else np.vstack([places, places[0]])
+    _, found = cKDTree(xy).query(xy, min(NEAR, len(xy) - 1) + 1)
+    near = np.asarray(found, np.int64)[:, 1:]
+    first = [0, *(k + 1 for k in _nearest_places(xy[: count + 1])), count + 1]
+    tour = shortened_tour(
+        np.ascontiguousarray(xy), np.array(first), np.ascontiguousarray(near),
+        MAX_EXCHANGES_EACH * len(xy),
+    )  # fmt: skip
+    return tuple(int(k) - 1 for k in tour[1:-1])
+
+
+def _nearest_places(xy: Floats) -> list[int]:
+    """Always on to the nearest that is left, from the first; counted from the second."""
+    left = np.arange(1, len(xy))
+    here, order = xy[0], []
+    while len(left):
+        k = int(np.argmin(((xy[left] - here) ** 2).sum(axis=1)))
+        order.append(int(left[k]) - 1)
+        here = xy[left[k]]
+        left[k] = left[-1]
+        left = left[:-1]
+    return order
 
 
 def _shortest_order(lengths: Floats, count: int, *, closed: bool) -> tuple[int, ...]:

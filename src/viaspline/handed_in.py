@@ -1,0 +1,95 @@
+"""What a person hands in from Python: refused by name where it is something else.
+
+Tested through ``test_junk_arguments``.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.errors import GeometryError
+
+
+def check_kind(name: str, value: object, kind: Any, example: str) -> None:
+    """Refuse an argument of another class.
+
+    Args:
+        name: The argument's.
+        value: What was handed in.
+        kind: What it has to be.
+        example: How to come by one.
+
+    Raises:
+        GeometryError: It is something else.
+
+    >>> check_kind("limits", 5, dict, "give Limits(max_speed=2, max_accel=1)")
+    Traceback (most recent call last):
+    viaspline.errors.GeometryError: limits is of the class int, not dict; give Limits(max_speed=...
+    """
+    if not isinstance(value, kind):
+        problem = (
+            f"{name} is of the class {type(value).__name__}, not {getattr(kind, '__name__', kind)}"
+        )
+        raise GeometryError(f"{problem}; {example}")
+
+
+def number_from(name: str, value: object) -> float:
+    """A number that was handed in.
+
+    Raises:
+        GeometryError: It is none, or too large for one.
+
+    >>> number_from("clearance", 2)
+    2.0
+    """
+    try:
+        return float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        raise GeometryError(f"{name} is {value!r:.40}; give a number") from None
+
+
+def numbers_from(name: str, values: object) -> NDArray[np.float64]:
+    """An array of numbers that was handed in; the same one if it is one already.
+
+    Raises:
+        GeometryError: It holds something else, or has no regular shape.
+    """
+    try:
+        return np.asarray(values, np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise GeometryError(f"{name}: expected numbers: {error}") from None
+
+
+def all_of(name: str, values: object, kind: type, example: str) -> tuple[Any, ...]:
+    """The items of a list that was handed in.
+
+    Raises:
+        GeometryError: It is no list, or an item is of another class.
+    """
+    try:
+        items: tuple[Any, ...] = tuple(values)  # type: ignore[arg-type]
+    except TypeError:
+        raise GeometryError(f"{name} is {values!r:.40}, not a list; {example}") from None
+    for i, item in enumerate(items):
+        check_kind(f"{name}[{i}]", item, kind, example)
+    return items
+
+
+def check_answers(name: str, value: object, asked: str, example: str) -> None:
+    """Refuse an argument that doesn't answer what it is asked.
+
+    Args:
+        name: The argument's.
+        value: What was handed in.
+        asked: An attribute that it needs.
+        example: How to come by one.
+
+    Raises:
+        GeometryError: It has no such attribute.
+    """
+    if not hasattr(value, asked):
+        problem = f"{name} is of the class {type(value).__name__}, which has no {asked}"
+        raise GeometryError(f"{problem}; {example}")
