@@ -13,6 +13,7 @@ import numpy as np
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.navigation.reschedule import trajectory_within_sight
 from viaspline.robot.navigation.schedule import ReducedClearance
@@ -139,6 +140,8 @@ def first_candidate(
                     solution = replan.reflex(path, leave, world, requirements)
                 else:
                     solution = replan.planned(path, leave, world, requirements, skip=skip)
+            except BlockedLegError:
+                break  # nor is there from a place farther on: a clear path leads there
             except PlanningError:
                 continue  # a robot that leaves later, or that stands, may find a way
             candidate = timed(context, mode, solution)
