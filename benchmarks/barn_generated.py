@@ -95,7 +95,10 @@ def main() -> None:
 
 
 def print_table(outcomes: list[Outcome]) -> None:
-    worlds, reached = Counter(o.way for o in outcomes), Counter(o.way for o in outcomes if o.reached)
+    worlds, reached = (
+        Counter(o.way for o in outcomes),
+        Counter(o.way for o in outcomes if o.reached),
+    )
     for kind in ("open", "tight", "unsure", "none"):
         print(f"{kind}: {worlds[kind]} worlds, {reached[kind]} reached")
     print(f"contacts: {sum(o.kept < 0.0 for o in outcomes)}, "

@@ -2,10 +2,11 @@
 
 After Perille, Truong, Xiao and Stone, "Benchmarking Metric Ground Navigation" (SSRR 2020), and the
 program that made the dataset, github.com/dperille/jackal-map-creation (``gen_world_ca.py``,
-``generator.py``, ``world_writer.py``), whose rules are written anew here: 30 x 30 cells, each filled
-with a chance of 0.15, 0.20, 0.25 or 0.30, smoothed two to four times (here to five). A smoothing
-fills a cell with more than four filled neighbours and clears one with fewer than two; beyond the
-walls on either side all counts as filled. A filled cell is a post, unless all round it is filled.
+``generator.py``, ``world_writer.py``), whose rules are written anew here: 30 x 30 cells, each
+filled with a chance of 0.15, 0.20, 0.25 or 0.30, smoothed two to four times (here to five). A
+smoothing fills a cell with more than four filled neighbours and clears one with fewer than two;
+beyond the walls on either side all counts as filled. A filled cell is a post, unless all round it
+is filled.
 
 Nothing is cleared to make a way, and worlds without one are not left out: ``oracle`` tells them.
 """
