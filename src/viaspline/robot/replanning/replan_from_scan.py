@@ -130,19 +130,34 @@ def _way_round(context: ReplanContext) -> ReplanResult:
     spared = with_spare(requirements)
     room = _room(context, belief.cell_size)
     if room >= requirements.required:
-        found = search(replace(context, requirements=spared))
-        found = search(context) if found.candidate is None else found
+        found = _way_on(context, spared)
     else:
         found = _way_out(context, room, spared)
     if found.candidate is not None or context.speed > 0.0:
         return found
     errors = belief.surfaces.tolerance + requirements.tracking_error
     least = requirements.radius - belief.cell_size - errors
-    for kept in (spared, requirements):
-        back = retreat(context, kept, least)
-        if back.candidate is not None:
-            return back
-    return back if back.refusal else found
+    wait = context.schedule.wait
+    attempt = 0 if wait is None else round((context.progress.time - wait.since) / RETRY_INTERVAL_S)
+    back = retreat(context, requirements, least, attempt)
+    if back.candidate is None:
+        return back if back.refusal else found
+    roomier = retreat(context, spared, least, attempt)
+    return back if roomier.candidate is None else roomier
+
+
+def _way_on(context: ReplanContext, spared: Requirements) -> ReplanResult:
+    """A way on for a robot that has room, if there is one with something to spare.
+
+    One that waits because there was none asks for that first which is most likely.
+    """
+    needed = search(context) if context.schedule.is_blocked else None
+    if needed is not None and needed.candidate is None:
+        return needed
+    found = search(replace(context, requirements=spared))
+    if found.candidate is not None:
+        return found
+    return search(context) if needed is None else needed
 
 
 def _way_out(context: ReplanContext, room: float, spared: Requirements) -> ReplanResult:
