@@ -39,6 +39,9 @@ MAX_STAND_S = 5.0
 TOO_NARROW = "sees no way on that is wide enough"
 """Why a robot that has come too close does not go on."""
 
+MAX_INTO_DISC_RATIO = 0.5
+"""So far the body may get into the discs on surfaces on its way out, of their radius."""
+
 MAX_APPROACH_M = 1e-3
 """By which a robot that has come too close may come closer yet [m]."""
 
@@ -171,8 +174,9 @@ def _way_out(context: ReplanContext, room: float, spared: Requirements) -> Repla
     requirements, belief = context.task.requirements, context.knowledge.belief
     assert belief is not None
     cell_size = belief.cell_size
-    # discs reach beyond what was hit; what the noise has added to that, they have to keep
-    floor = max(room - MAX_APPROACH_M, requirements.radius - cell_size + belief.surfaces.noise)
+    # discs reach beyond what was hit: for its noise, which stays, and by as much as nothing counts
+    spare = MAX_INTO_DISC_RATIO * (cell_size - belief.surfaces.noise)
+    floor = max(room - MAX_APPROACH_M, requirements.radius - spare)
     if requirements.required - room > cell_size:
         out = way_out(context, spared, floor) or way_out(context, requirements, floor)
         if out is not None:
