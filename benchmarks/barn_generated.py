@@ -88,11 +88,14 @@ def main() -> None:
     for seed in WARM_UP_SEEDS:
         drive(seed, options.noise)
     outcomes = []
-    for seed in options.only or range(options.first, options.first + options.worlds):
-        outcomes.append(drive(seed, options.noise))
-        slow = max(outcomes[-1].spent, default=0.0) > 0.1
-        if options.only or slow or not outcomes[-1].reached or outcomes[-1].kept < 0.0:
-            print(outcomes[-1].line(), flush=True)
+    try:
+        for seed in options.only or range(options.first, options.first + options.worlds):
+            outcomes.append(drive(seed, options.noise))
+            slow = max(outcomes[-1].spent, default=0.0) > 0.1
+            if options.only or slow or not outcomes[-1].reached or outcomes[-1].kept < 0.0:
+                print(outcomes[-1].line(), flush=True)
+    except KeyboardInterrupt:
+        print("interrupted: this is the table of the worlds up to there")
     print_table(outcomes)
 
 
