@@ -25,6 +25,7 @@ from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
 from viaspline.planning.problem.via_sequence import RouteVia, WholeLeg
+from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.planning.sides_ahead import refuse_wrong_side, spans_on_wrong_side
 from viaspline.planning.stretch import (
     PASSED_M,
@@ -132,6 +133,8 @@ def _joined(path: Path, stretch: Stretch, world: World, requirements: Requiremen
             return _join(
                 path, stretch, world, requirements, reach * max(requirements.required, 0.1)
             )
+        except BlockedLegError:
+            raise  # a run-out is clear: where none leads on from one, none does from another
         except PlanningError as error:
             problem = error
     assert problem is not None  # RUN_OUT_LENGTHS is not empty

@@ -58,9 +58,11 @@ class Navigator:
     as if it were free, but every time law ends, at rest, where its whole body has only been on
     places that beams have passed. What beams have hit is kept as small discs, with a radius of a
     twentieth of the distance that the path keeps (5 mm to 0.1 m) and one standard deviation of the
-    noise; discs that later scans see through again and again are forgotten, those on the map never.
-    So it keeps that much more than the clearance from what it has seen, and a gap that is narrower
-    than that is closed to it. It is laid a new path when the old one is blocked, or when something
+    noise, which shrinks to an eighth of it with 64 hits; discs that later scans see through again
+    and again are forgotten, those on the map never. So it keeps that much more than the clearance
+    from what it has seen, and a gap that is narrower than that is closed to it. Where it stands
+    and sees no way on, it goes back as it came, through what it has taken for too narrow since:
+    its body was there. It is laid a new path when the old one is blocked, or when something
     that has gone opened one that is 5 % and 0.5 m shorter; and it passes what it knows on the side
     that it meant to, unless the other is shorter by as much.
 

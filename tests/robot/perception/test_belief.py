@@ -134,6 +134,19 @@ def test_with_noise_the_places_come_to_lie_on_the_surface() -> None:
     assert belief.surfaces.cell_size > 0.02 + nothing().surfaces.cell_size - 1e-12
 
 
+def test_what_a_disc_has_for_the_noise_shrinks_as_its_hits_average_it_out() -> None:
+    lidar = LIDAR.model_copy(update={"noise_m": 0.02})
+    sensor, belief = LidarSensor([BOX], lidar, seed=3), nothing(lidar)
+    for k in range(80):
+        belief, _ = belief.with_scan(sensor.scan((0.0, 0.0), 0.0, k))
+    surfaces, bare = belief.surfaces, nothing().surfaces.cell_size
+    circles = [obstacle.circle for obstacle in surfaces.obstacles]
+    extra = np.array([circle.radius for circle in circles if circle is not None]) - bare
+    share = np.array([1, 1 / 2, 1 / 4, 1 / 8])[np.searchsorted((4, 16, 64), surfaces.hits, "right")]
+    assert extra == pytest.approx(0.02 * share)
+    assert (share == 1 / 8).any()
+
+
 def test_a_body_can_go_where_beams_have_been_on_all_of_its_front() -> None:
     belief = nothing()
     belief, _ = belief.with_scan(LidarSensor([POST], LIDAR).scan((0.0, 0.0), 0.0))

@@ -24,7 +24,7 @@ MAX_TRUST_SCANS = 10
 """Scans that have to see through one that was hit again and again."""
 
 RECENTRE_HITS = (4, 16, 64)
-"""Hits of a point at which its place is put right."""
+"""Hits of a point at which its place and its radius are put right."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,10 +32,12 @@ class SurfacePoints:
     """Points on surfaces, each the middle of a small disc that covers what was hit round it.
 
     A hit inside of a disc confirms it. Without noise a point is the first hit itself; with noise
-    it is the mean of the hits that confirmed it, put right at the 4th, 16th and 64th of them.
+    it is the mean of the hits that confirmed it, put right at the 4th, 16th and 64th of them. Of
+    its radius, what is there for the noise shrinks with the error of that mean: so noise doesn't
+    close for good a gap that the robot fits through.
 
     Attributes:
-        cell_size: Radius of the discs [m].
+        cell_size: Radius of the discs on first hits [m].
         noise: Standard deviation of a measured distance [m].
         obstacles: The discs, n of them.
         means: Of the hits of each disc [m], shape (n, 2).
@@ -105,10 +107,12 @@ class SurfacePoints:
         """
         if self.noise <= 0.0:
             return self, ()
-        due = np.flatnonzero(_level(self.hits) > _level(before))
+        level = _level(self.hits)
+        due = np.flatnonzero(level > _level(before))
+        radii = self.cell_size - self.noise * (1.0 - np.sqrt(1.0 / np.array((1, *RECENTRE_HITS))))
         obstacles = list(self.obstacles)
         for i in due.tolist():
-            obstacles[i] = _disc(self.means[i], self.cell_size)
+            obstacles[i] = _disc(self.means[i], float(radii[level[i]]))
         moved = tuple(obstacles[i] for i in due.tolist())
         return replace(self, obstacles=tuple(obstacles)), moved
 

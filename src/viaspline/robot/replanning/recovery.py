@@ -53,7 +53,8 @@ def way_out(
     place = _roomy_place(world, here, requirements.required, floor)
     if place is None:
         return None
-    straight = _straight_to(context, place)
+    share = np.arange(4.0)[:, None] / 3.0
+    straight = by_way_of(context, (here + share * (place - here))[None])
     u = float(straight.parameter(stop))
     if round(u) in spans_on_wrong_side(straight, u, world, requirements):
         return None
@@ -63,7 +64,7 @@ def way_out(
     except PlanningError:
         return None
     return timed(
-        _reduced(context, at, floor), "from_rest", replace(found, changed_from=stop), (at,)
+        with_less_until(context, at, floor), "from_rest", replace(found, changed_from=stop), (at,)
     )
 
 
@@ -74,10 +75,11 @@ def restore_clearance(
     floor: float,
     spacing: float,
     skip: Collection[int],
-) -> PathCandidate:
+) -> PathCandidate | None:
     """A path that keeps less than it should, but only as far as it must.
 
-    From the first place on that has enough room it is laid anew.
+    From the first place on that has enough room it is laid anew. Where none leads on from there,
+    it led through a gap that is too narrow.
 
     Args:
         context: The robot under way, with what the whole path keeps.
@@ -88,27 +90,47 @@ def restore_clearance(
         skip: Points of the route that are left out.
 
     Returns:
-        The path, with what it keeps where; the one that there was if there is no other.
+        The path, with what it keeps where; None if there is none.
     """
     path, start = candidate.solution.path, candidate.solution.changed_from
     world = context.knowledge.world
     places = np.arange(start, path.length, spacing)
     roomy = np.flatnonzero(world.distance(path.at_distance(places)) >= requirements.required)
     if not roomy.size:
-        return candidate
+        return None
     at = float(places[roomy[0]])
     try:
         found = replan.planned(path, at, world, requirements, skip)
     except PlanningError:
-        return candidate
-    again = timed(_reduced(context, at, floor), candidate.mode, replace(found, changed_from=start))
-    return candidate if again is None else again
+        return None
+    less = with_less_until(context, at, floor)
+    return timed(less, candidate.mode, replace(found, changed_from=start))
 
 
-def _reduced(context: ReplanContext, until: float, floor: float) -> ReplanContext:
+def with_less_until(context: ReplanContext, until: float, floor: float) -> ReplanContext:
     """A context in which the path keeps less up to a distance along it [m]."""
     reduced = ReducedClearance(until, floor)
     return replace(context, schedule=replace(context.schedule, reduced=reduced))
+
+
+def by_way_of(context: ReplanContext, spans: Floats) -> Path:
+    """The driven path up to the stop, then some spans (n, 4, d), then straight to the vias ahead.
+
+    Args:
+        context: The robot under way.
+        spans: They begin where it stops.
+    """
+    path, stop = context.schedule.path, context.stop
+    u = float(path.parameter(stop))
+    head = path.section(0.0, u).spans if u > 0.0 else np.empty((0, 4, path.dimension))
+    ahead = [via for via, at in context.vias_ahead if at > stop]
+    corners = [spans[-1, -1], *(np.array(via.at) for via in ahead)]
+    share = np.arange(4.0)[:, None] / 3.0
+    lines = [a + share * (b - a) for a, b in itertools.pairwise(corners)]
+    passed = [via for via in path.vias if via.u <= min(u, float(len(head)))]
+    first = len(head) + len(spans) + 1
+    to_come: list[PathVia] = [replace(via, u=float(first + k)) for k, via in enumerate(ahead)]
+    return Path(np.concatenate((head, spans, np.array(lines))), (*passed, *to_come))
 
 
 def _roomy_place(world: World, here: Floats, required: float, floor: float) -> Floats | None:
@@ -124,19 +146,3 @@ def _roomy_place(world: World, here: Floats, required: float, floor: float) -> F
             best = free[np.argmax(rooms[-1][free])]
             return np.concatenate((ends[best], here[2:]))
     return None
-
-
-def _straight_to(context: ReplanContext, place: Floats) -> Path:
-    """The driven path up to the stop, then straight to a place, then to the via points ahead."""
-    path, stop = context.schedule.path, context.stop
-    u = float(path.parameter(stop))
-    head = path.section(0.0, u).spans if u > 0.0 else np.empty((0, 4, path.dimension))
-    ahead = [via for via, at in context.vias_ahead if at > stop]
-    corners = [np.asarray(path.evaluate(u)), place, *(np.array(via.at) for via in ahead)]
-    share = np.arange(4.0)[:, None] / 3.0
-    lines = [a + share * (b - a) for a, b in itertools.pairwise(corners)]
-    passed = [via for via in path.vias if via.u <= min(u, float(len(head)))]
-    to_come: list[PathVia] = [
-        replace(via, u=float(len(head) + 2 + k)) for k, via in enumerate(ahead)
-    ]
-    return Path(np.concatenate((head, np.array(lines))), (*passed, *to_come))

@@ -14,6 +14,7 @@ import numpy as np
 
 from viaspline.errors import PlanningError
 from viaspline.planning.checking.conflicts import too_close
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.schedule import ReducedClearance, Wait
@@ -21,6 +22,7 @@ from viaspline.robot.replanning.better_path import better_path, with_spare
 from viaspline.robot.replanning.recovery import restore_clearance, way_out
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult, search
+from viaspline.robot.replanning.retreat import retreat
 from viaspline.robot.replanning.sight_limit import within_sight
 from viaspline.robot.replanning.transitions import braked, stop_for_good, take_over
 from viaspline.world.world import World
@@ -33,6 +35,12 @@ RETRY_INTERVAL_S = 0.5
 
 MAX_STAND_S = 5.0
 """A robot gives up if it has stood so long without a way [s]."""
+
+TOO_NARROW = "sees no way on that is wide enough"
+"""Why a robot that has come too close does not go on."""
+
+MAX_INTO_DISC_RATIO = 0.5
+"""So far the body may get into the discs on surfaces on its way out, of their radius."""
 
 MAX_APPROACH_M = 1e-3
 """By which a robot that has come too close may come closer yet [m]."""
@@ -117,17 +125,58 @@ def _obstructing(context: ReplanContext, world: World) -> list[int]:
 def _way_round(context: ReplanContext) -> ReplanResult:
     """A way on that keeps something to spare; if there is none, one that keeps what it must.
 
-    A robot that has come too close already leaves at the distance that it has, as long as what
-    it is close to has not been hit within its body.
+    A robot that has come too close already gets out of there first. One that stands in a pocket
+    goes back as it came.
     """
     requirements, belief = context.task.requirements, context.knowledge.belief
     assert belief is not None
-    cell_size, spared = belief.cell_size, with_spare(requirements)
-    room = _room(context, cell_size)
+    spared = with_spare(requirements)
+    room = _room(context, belief.cell_size)
     if room >= requirements.required:
-        found = search(replace(context, requirements=spared))
-        return search(context) if found.candidate is None else found
-    floor = max(room - MAX_APPROACH_M, requirements.radius - cell_size)
+        found = _way_on(context, spared)
+    else:
+        found = _way_out(context, room, spared)
+    if found.candidate is not None or context.speed > 0.0:
+        return found
+    errors = belief.surfaces.tolerance + requirements.tracking_error
+    least = requirements.radius - belief.cell_size - errors
+    wait = context.schedule.wait
+    attempt = 0 if wait is None else round((context.progress.time - wait.since) / RETRY_INTERVAL_S)
+    back = retreat(context, requirements, least, attempt)
+    if back.candidate is None:
+        return back if back.refusal else found
+    roomier = retreat(context, spared, least, attempt)
+    return back if roomier.candidate is None else roomier
+
+
+def _way_on(context: ReplanContext, spared: Requirements) -> ReplanResult:
+    """A way on for a robot that has room, if there is one with something to spare.
+
+    One that waits because there was none asks for that first which is most likely.
+    """
+    needed = search(context) if context.schedule.is_blocked else None
+    if needed is not None and needed.candidate is None:
+        return needed
+    found = search(replace(context, requirements=spared))
+    if found.candidate is not None:
+        return found
+    return search(context) if needed is None else needed
+
+
+def _way_out(context: ReplanContext, room: float, spared: Requirements) -> ReplanResult:
+    """A way on for a robot that has come too close, by which it comes no closer.
+
+    Args:
+        context: The robot.
+        room: Its distance to what is nearest, up to where it can stop [m].
+        spared: What the path keeps as soon as there is room.
+    """
+    requirements, belief = context.task.requirements, context.knowledge.belief
+    assert belief is not None
+    cell_size = belief.cell_size
+    # discs reach beyond what was hit: for its noise, which stays, and by as much as nothing counts
+    spare = MAX_INTO_DISC_RATIO * (cell_size - belief.surfaces.noise)
+    floor = max(room - MAX_APPROACH_M, requirements.radius - spare)
     if requirements.required - room > cell_size:
         out = way_out(context, spared, floor) or way_out(context, requirements, floor)
         if out is not None:
@@ -143,8 +192,11 @@ def _way_round(context: ReplanContext) -> ReplanResult:
     if found.candidate is None:
         return found
     skip = frozenset(found.skip)
-    candidate = restore_clearance(close, found.candidate, spared, floor, cell_size, skip)
-    return replace(found, candidate=candidate)
+    for kept in (spared, requirements):
+        candidate = restore_clearance(close, found.candidate, kept, floor, cell_size, skip)
+        if candidate is not None:
+            return replace(found, candidate=candidate)
+    return ReplanResult(None, TOO_NARROW)
 
 
 def _room(context: ReplanContext, spacing: float) -> float:

@@ -13,6 +13,7 @@ import numpy as np
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.navigation.reschedule import trajectory_within_sight
 from viaspline.robot.navigation.schedule import ReducedClearance
@@ -21,6 +22,9 @@ from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.run import Mode
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
+
+MODES: tuple[Mode, ...] = ("reflex", "planned")
+"""In which a path is left under way, in this order."""
 
 TURN_BACK_SAMPLES = 129
 """Places along a path at which it is seen whether it leads back."""
@@ -102,7 +106,8 @@ def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandida
     if now < 0 or world.obstacles[now].forced_side is not None:
         return candidate
     try:
-        kept = first_candidate(context, world.with_side(now, side), skip)
+        modes = MODES if candidate.mode == "reflex" else ("planned",)
+        kept = first_candidate(context, world.with_side(now, side), skip, modes)
     except PlanningError:
         return candidate
     here = context.progress.distance
@@ -114,7 +119,7 @@ def first_candidate(
     context: ReplanContext,
     world: World,
     skip: Collection[int] = (),
-    modes: tuple[Mode, ...] = ("reflex", "planned"),
+    modes: tuple[Mode, ...] = MODES,
 ) -> PathCandidate:
     """The first way on that the robot can take: in these modes under way, then from rest.
 
@@ -132,15 +137,25 @@ def first_candidate(
     """
     path, requirements = context.schedule.path, context.requirements
     leaves = context.clear_leaves()
+    forced = any(obstacle.forced_side for obstacle in context.knowledge.world.obstacles)
+    laid_anew = set()  # from there a reflex has laid all that a planned path would
     for mode in ("planned",) if skip else modes:
         for leave in leaves:
+            if mode == "planned" and leave in laid_anew:
+                continue
             try:
                 if mode == "reflex":
                     solution = replan.reflex(path, leave, world, requirements)
                 else:
                     solution = replan.planned(path, leave, world, requirements, skip=skip)
+            except BlockedLegError:
+                if mode == "planned" and not forced:
+                    raise  # nor does anything lead on from rest: a clear path joins the places
+                break
             except PlanningError:
                 continue  # a robot that leaves later, or that stands, may find a way
+            if solution.rejoins_at is None and solution.changed_from <= leave + SAME_PLACE_M:
+                laid_anew.add(leave)
             candidate = timed(context, mode, solution)
             if candidate is not None and not _turns_back(context, solution):
                 return candidate

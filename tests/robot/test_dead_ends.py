@@ -1,0 +1,119 @@
+"""Dead ends deeper than a lidar sees: the robot gets out of them, or says that there is no way."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from scipy.ndimage import label
+
+from viaspline.mission.model import Mission
+from viaspline.robot.run import Run
+from viaspline.robot.simulator import simulate
+
+Wall = tuple[float, float, float, float]
+
+THICK = 0.2
+RADIUS, RANGE, GOAL = 0.3, 1.5, (4.5, 0.0)
+DRIVES: dict[str, dict[str, Any]] = {
+    "point": {},
+    "differential": {"drive": {"differential": {"track_m": 0.4}}, "tracking_error_m": 0.1},
+}
+
+
+def cup(depth: float, width: float) -> list[Wall]:
+    """Three walls about the start, open on the side away from the goal."""
+    half, left = 0.5 * width, 2.0 - depth
+    return [(left, half, 2.0, half), (2.0, half, 2.0, -half), (2.0, -half, left, -half)]
+
+
+def spiral(turns: int, width: float) -> list[Wall]:
+    """Walls in which the robot starts in the middle; it leaves after so many quarter turns."""
+    walls, x, y = [], -0.5 * width, 0.5 * width
+    for k in range(turns + 3):
+        length = width * (1 + k // 2)
+        dx, dy = ((1, 0), (0, -1), (-1, 0), (0, 1))[k % 4]
+        walls.append((x, y, x + length * dx, y + length * dy))
+        x, y = x + length * dx, y + length * dy
+    return walls
+
+
+def comb(teeth: int, depth: float, width: float) -> list[Wall]:
+    """A wall across the way with teeth towards the start: a pocket between every two of them."""
+    half = 0.5 * teeth * width
+    walls = [(2.5, -half, 2.5, half)]
+    for k in range(teeth + 1):
+        y = k * width - half
+        walls.append((2.5 - depth, y, 2.5, y))
+    return walls
+
+
+def drive(walls: list[Wall], keys: dict[str, Any], noise: float) -> Run:
+    unseen = [{"capsule": {"from": w[:2], "to": w[2:], "radius": 0.5 * THICK}} for w in walls]
+    lidar = {"range_m": RANGE, "fov_deg": 270, "beams": 180, "noise_m": noise}
+    mission = Mission.model_validate(
+        {
+            "world": {"unseen": unseen, "bounds": [-6, -6, 6, 6]},
+            "robot": {
+                "radius_m": RADIUS, "clearance_m": 0.05, "max_speed_mps": 1.5,
+                "sensor": {"lidar": lidar}, **keys,
+            },
+            "route": {"start": {"at": [0, 0], "heading_deg": 0}, "goal": list(GOAL)},
+        }
+    )  # fmt: skip
+    return simulate(mission, seed=7, step=0.1)
+
+
+def depth_of_touch(run: Run, walls: list[Wall]) -> float:
+    """How far the body was inside of a wall, by shapely on the path that was driven [m]."""
+    line = shapely.LineString(np.asarray(run.path.evaluate(np.linspace(*run.path.domain, 20000))))
+    there = shapely.MultiLineString([(w[:2], w[2:]) for w in walls])
+    return RADIUS + 0.5 * THICK - float(shapely.distance(line, there))
+
+
+def flood(walls: list[Wall], kept: float) -> bool:
+    """Whether a disc gets to the goal, by a flood over a lattice of 5 cm."""
+    x = np.arange(-6.0, 6.0, 0.05)
+    places = shapely.points(*np.meshgrid(x, x))
+    there = shapely.MultiLineString([(w[:2], w[2:]) for w in walls])
+    shapely.prepare(there)
+    areas, _ = label(~shapely.dwithin(places, there, kept + 0.5 * THICK))
+    start, goal = (areas[round((b + 6) / 0.05), round((a + 6) / 0.05)] for a, b in ((0, 0), GOAL))
+    return bool(start and start == goal)
+
+
+def assert_it_goes_where_the_flood_goes(walls: list[Wall], run: Run) -> None:
+    assert depth_of_touch(run, walls) < 0.0
+    if flood(walls, RADIUS + 0.15):
+        assert run.reached, run.reason
+    elif not flood(walls, RADIUS):
+        assert run.reason == "sees no way to 'goal'"
+    assert run.reached or run.reason
+    assert run.duration < 90.0
+
+
+@settings(max_examples=2, deadline=None, derandomize=True)
+@given(
+    depth=st.floats(1.0, 4.0),
+    width=st.floats(1.0, 2.0),
+    noise=st.sampled_from([0.0, 0.01]),
+    shut=st.booleans(),
+)
+@example(depth=4.0, width=1.2, noise=0.01, shut=False)
+def test_a_robot_gets_out_of_a_cup_unless_it_is_shut(
+    depth: float, width: float, noise: float, shut: bool
+) -> None:
+    walls = cup(2.0 + depth, width)
+    if shut:
+        walls.append((-depth, 0.5 * width, -depth, -0.5 * width))
+    assert_it_goes_where_the_flood_goes(walls, drive(walls, {}, noise))
+
+
+@pytest.mark.parametrize("kind", DRIVES)
+def test_each_drive_gets_out_of_a_spiral_and_of_the_pockets_of_a_comb(kind: str) -> None:
+    for walls in (spiral(2, 1.4), comb(2, 2.0, 1.4)):
+        assert_it_goes_where_the_flood_goes(walls, drive(walls, DRIVES[kind], 0.01))
