@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from viaspline.curve.piecewise import PiecewiseCubic
 
 ViaKind = Literal["user", "detour"]
+SEAM = "where the round closes"  # the name of a round's end, from where it goes on at its start
 GUIDE = "along the corridor"  # the name of a place that only says which way a corridor leads
 
 

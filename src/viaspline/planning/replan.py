@@ -7,11 +7,11 @@ valid.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from dataclasses import replace
+import math
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path, PathVia
@@ -31,8 +31,8 @@ from viaspline.planning.stretch import (
     refuse_the_end,
     room_to_run_out,
     sequence_through,
+    stretch_ahead,
     stretch_round,
-    vias_remaining,
     vias_to_serve,
 )
 from viaspline.world.world import World
@@ -40,7 +40,9 @@ from viaspline.world.world import World
 RUN_OUT_LENGTHS = (2.0, 1.0, 0.3)  # that are tried, in required distances
 
 
-def reflex(path: Path, at: float, world: World, requirements: Requirements) -> Solution:
+def reflex(
+    path: Path, at: float, world: World, requirements: Requirements, until: float = math.inf
+) -> Solution:
     """Lead only the blocked spans ahead round what stands in their way.
 
     The stretch from the last via point before them to the first one after them is laid anew,
@@ -52,24 +54,29 @@ def reflex(path: Path, at: float, world: World, requirements: Requirements) -> S
         at: Distance along it from which it may differ [m].
         world: What is known now.
         requirements: What to keep.
+        until: Distance along it from which it is not looked at yet [m], if it is a round that goes
+            on at its end.
 
     Raises:
         NoPathError: When the legs can't be led round so.
     """
     u = float(path.parameter(at))
-    blocked = _blocked_spans(path, u, world, requirements)
+    ahead = _ahead(path, u, until)
+    blocked = min(int(u), len(path.spans) - 1) + np.flatnonzero(
+        body_conflicts(world, ahead.spans, requirements) != CLEAR
+    )
     if not blocked.size:
-        certificate = proven(_ahead(path, u), world, requirements)
+        certificate = proven(ahead, world, requirements)
         return replace(_result(path, at, certificate, None), rejoins_at=at)
     users = vias_to_serve(path, world, requirements)
     narrow = stretch_round(path.vias, users, u, blocked)
     wide = stretch_round(users, users, u, blocked)
     try:
-        return _joined(path, narrow, world, requirements)
+        return _joined(path, narrow, world, requirements, until)
     except PlanningError:
         if wide == narrow:
             raise
-    return _joined(path, wide, world, requirements)
+    return _joined(path, wide, world, requirements, until)
 
 
 def planned(
@@ -78,19 +85,15 @@ def planned(
     world: World,
     requirements: Requirements,
     skip: Collection[int] = frozenset(),
+    until: float = math.inf,
 ) -> Solution:
-    """Lay everything ahead anew, leaving out the route's points in ``skip``.
+    """Lay everything ahead anew up to ``until``, leaving out the route's points in ``skip``.
 
     Raises:
         NoPathError: When there is no way.
     """
-    u = float(path.parameter(at))
-    return _joined(
-        path,
-        Stretch(u, vias_remaining(path, at, world, requirements, skip), None),
-        world,
-        requirements,
-    )
+    stretch = stretch_ahead(path, at, world, requirements, skip, until)
+    return _joined(path, stretch, world, requirements, until)
 
 
 def from_rest(
@@ -99,21 +102,23 @@ def from_rest(
     world: World,
     requirements: Requirements,
     skip: Collection[int] = frozenset(),
+    until: float = math.inf,
 ) -> Solution:
-    """Lay everything ahead anew from a standstill at ``at``.
+    """Lay everything ahead anew up to ``until`` from a standstill at ``at``.
 
     The robot may turn on the spot, unless it never does: then it goes on as it stands.
 
     Raises:
         NoPathError: When there is no way.
     """
-    u = float(path.parameter(at))
-    stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
+    stretch = stretch_ahead(path, at, world, requirements, skip, until)
     refuse_the_end(path, stretch)
-    start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
-    sequence = sequence_through(path, start, stretch, requirements)
-    if requirements.turn_radius is not None and requirements.turns_on_spot == "never":
-        sequence = replace(sequence, start_tangent=np.asarray(path.tangent(u)))
+    if stretch.tail is not None:
+        return _joined(path, stretch, world, requirements, until, leave=_standing)
+    u = stretch.u
+    departure = _standing(path, stretch, world, requirements, 0.0)
+    sequence = sequence_through(path, departure.start, stretch, requirements)
+    sequence = replace(sequence, start_tangent=departure.tangent)
     spline_path, account = lay_path(sequence, world, requirements)
     head = _head(path, u)
     vias = (*_vias_until(path, u, len(head)), *spline_path.vias_from(len(head)))
@@ -122,15 +127,53 @@ def from_rest(
     return _result(new, at, certificate, account)
 
 
-def _joined(path: Path, stretch: Stretch, world: World, requirements: Requirements) -> Solution:
+@dataclass(frozen=True)
+class _Departure:
+    """How an old path is left: by which spans [m], and where and in which direction one goes on."""
+
+    spans: Floats
+    start: RouteVia
+    tangent: Floats | None
+
+
+_Leave = Callable[[Path, Stretch, World, Requirements, float], _Departure]
+
+
+def _rolling(
+    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
+) -> _Departure:
+    """Leave a path while rolling on it, by a run-out of a length [m]."""
+    out = run_out(path, stretch.u, min(reach, room_to_run_out(path, stretch)[0]))
+    _refuse_blocked(out, world, requirements)
+    return _Departure(out.span[None], RouteVia("the robot", out.end, None), out.tangent)
+
+
+def _standing(
+    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
+) -> _Departure:
+    """Leave a path from a standstill, in any direction if the robot turns on the spot."""
+    turns = requirements.turn_radius is None or requirements.turns_on_spot != "never"
+    place = np.asarray(path.evaluate(stretch.u))
+    tangent = None if turns else np.asarray(path.tangent(stretch.u))
+    return _Departure(np.empty((0, 4, place.size)), RouteVia("the robot", place, None), tangent)
+
+
+def _joined(
+    path: Path,
+    stretch: Stretch,
+    world: World,
+    requirements: Requirements,
+    until: float,
+    leave: _Leave = _rolling,
+) -> Solution:
     """The new path with the first run-out, from long to short, that lets it be clear."""
     refuse_the_end(path, stretch)
     problem: PlanningError | None = None
-    for reach in RUN_OUT_LENGTHS:
+    for length in RUN_OUT_LENGTHS:
+        reach = length * max(requirements.required, 0.1)
         try:
-            return _join(
-                path, stretch, world, requirements, reach * max(requirements.required, 0.1)
-            )
+            departure = leave(path, stretch, world, requirements, reach)
+            return _join(path, stretch, departure, world, requirements, reach, until)
         except PlanningError as error:
             problem = error
     assert problem is not None  # RUN_OUT_LENGTHS is not empty
@@ -138,28 +181,31 @@ def _joined(path: Path, stretch: Stretch, world: World, requirements: Requiremen
 
 
 def _join(
-    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
+    path: Path,
+    stretch: Stretch,
+    departure: _Departure,
+    world: World,
+    requirements: Requirements,
+    reach: float,
+    until: float,
 ) -> Solution:
-    tail = stretch.tail
-    first_room, last_room = room_to_run_out(path, stretch)
-    out = run_out(path, stretch.u, min(reach, first_room))
-    _refuse_blocked(out, world, requirements)
-    back = None
+    tail, back = stretch.tail, None
     if tail is not None:
+        last_room = room_to_run_out(path, stretch)[1]
         back = run_out(path, tail.u, min(reach, last_room), sense=-1).reversed()
         _refuse_blocked(back, world, requirements)
-    start = RouteVia("the robot", out.end, None)
     meet = None if back is None else RouteVia("the old path", back.span[0], None)
     sequence = replace(
-        sequence_through(path, start, stretch, requirements, meet), start_tangent=out.tangent
+        sequence_through(path, departure.start, stretch, requirements, meet),
+        start_tangent=departure.tangent,
     )
     if back is not None:
         sequence = replace(sequence, end_tangent=back.tangent)
     spline_path, account = lay_path(sequence, world, requirements)
     spans = spline_path.spans
     head = _head(path, stretch.u)
-    first = len(head) + 1
-    pieces = [head, out.span[None], spans]
+    first = len(head) + len(departure.spans)
+    pieces = [head, departure.spans, spans]
     vias = [*_vias_until(path, stretch.u, len(head)), *spline_path.vias_from(first)]
     ahead = first + len(spans)
     rejoin = None
@@ -169,7 +215,11 @@ def _join(
         vias += [replace(via, u=via.u - tail.u + rejoin) for via in path.vias if via.u >= tail.u]
     new = Path(np.concatenate(pieces), vias)
     leaving = float(new.distance(float(len(head))))
-    certificate = proven(PiecewiseCubic(new.spans[len(head) :]), world, requirements)
+    last = len(new.spans)
+    if rejoin is not None and until < path.length:  # what lies beyond is looked at later
+        looked_at = new.length - path.length + until
+        last = max(rejoin, math.ceil(float(new.parameter(max(looked_at, 0.0)))))
+    certificate = proven(PiecewiseCubic(new.spans[len(head) : last]), world, requirements)
     back_at = None if rejoin is None else float(new.distance(float(rejoin)))
     return _result(new, leaving, certificate, account, back_at)
 
@@ -201,17 +251,11 @@ def _refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> 
         )
 
 
-def _blocked_spans(
-    path: Path, u: float, world: World, requirements: Requirements
-) -> NDArray[np.intp]:
-    """Indices of the path's spans from u on that come too close."""
-    first = min(int(u), len(path.spans) - 1)
-    close = body_conflicts(world, _ahead(path, u).spans, requirements)
-    return first + np.flatnonzero(close != CLEAR)
-
-
-def _ahead(path: Path, u: float) -> PiecewiseCubic:
+def _ahead(path: Path, u: float, until: float) -> PiecewiseCubic:
+    """The path from u on, to the end of the span that is at a distance [m] or to its own end."""
     end = path.domain[1]
+    if until < path.length:
+        end = max(float(math.ceil(float(path.parameter(until)))), math.floor(u) + 1.0)
     return path.section(min(u, end - PASSED_M), end)
 
 

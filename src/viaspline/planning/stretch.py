@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.curve.path import GUIDE, Path, PathVia
+from viaspline.curve.path import GUIDE, SEAM, Path, PathVia
 from viaspline.errors import NoPathError
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import (
@@ -56,6 +56,8 @@ def stretch_round(
     leave = max([u, *(via.u for via in joints if via.u <= blocked[0])])
     tail = next(via for via in joints if via.u >= blocked[-1] + 1)
     within = tuple(via for via in users if leave + PASSED_M < via.u < tail.u)
+    if tail.u >= users[-1].u and users[-1].name == SEAM:
+        return Stretch(leave, within, users[-1])
     if tail.u >= users[-1].u:
         return Stretch(leave, (*within, users[-1]), None)
     return Stretch(leave, within, tail)
@@ -86,8 +88,36 @@ def vias_to_serve(path: Path, world: World, requirements: Requirements) -> list[
     return [
         via
         for via, is_free in zip(path.vias, free.tolist(), strict=True)
-        if via.kind == "user" or (via.name == GUIDE and is_free)
+        if via.kind == "user" or via.name == SEAM or (via.name == GUIDE and is_free)
     ]
+
+
+def stretch_ahead(
+    path: Path,
+    at: float,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int],
+    until: float,
+) -> Stretch:
+    """Everything ahead of a distance along a path [m], but for the via points in ``skip``.
+
+    On a round that is what lies ahead up to ``until`` [m], and on to where the path can be taken up
+    again.
+
+    Raises:
+        NoPathError: When no via point of the user is left.
+    """
+    u = float(path.parameter(at))
+    remaining = vias_remaining(path, at, world, requirements, skip)
+    if path.vias[-1].name != SEAM:
+        return Stretch(u, remaining, None)
+    last = float(path.parameter(min(until, path.length)))
+    places = [via for via in path.vias[:-1] if via.u >= max(last, u) and via.index not in skip]
+    free = world.distance([via.at[:2] for via in places]) if places else np.zeros(0)
+    clear = [via for via, gap in zip(places, free, strict=True) if gap > requirements.required]
+    tail = clear[0] if clear else path.vias[-1]
+    return Stretch(u, tuple(via for via in remaining if via.u < tail.u), tail)
 
 
 def vias_remaining(
@@ -123,11 +153,12 @@ def sequence_through(
     if meet is not None and stretch.tail is not None:
         tail = stretch.tail.u
         targets.append(meet)
-        legs.append(next(v.index or 1 for v in path.vias if v.index is not None and v.u >= tail))
-    slack = _slack_by_leg(path, requirements)
+        after = (v.index or 1 for v in path.vias if v.index is not None and v.u >= tail)
+        legs.append(next(after, 1 + max(v.index or 0 for v in path.vias)))
+    slack = _slack_by_leg(requirements)
     return ViaSequence(
         vias=(start, *targets),
-        legs=tuple(Leg.straight(slack[leg - 1], len(start.at)) for leg in legs),
+        legs=tuple(Leg.straight(slack[(leg - 1) % len(slack)], len(start.at)) for leg in legs),
         spline=requirements.spline,
         tangents=requirements.tangents,
         end_tangent=direction(requirements.goal_heading_deg, len(start.at))
@@ -136,12 +167,8 @@ def sequence_through(
     )
 
 
-def _slack_by_leg(path: Path, requirements: Requirements) -> tuple[float, ...]:
-    count = max(via.index for via in path.vias if via.index is not None)
-    given = (
-        requirements.spline.slack
-        if requirements.spline.slack is not None
-        else requirements.spline.tension
-    )
-    lap = len(given) if isinstance(given, tuple) else count  # laps share what each span has
-    return span_slack(requirements.spline, lap) * (count // lap)
+def _slack_by_leg(requirements: Requirements) -> tuple[float, ...]:
+    """The slack of each leg of a lap; of all legs, where they have the same."""
+    spline = requirements.spline
+    given = spline.slack if spline.slack is not None else spline.tension
+    return span_slack(spline, len(given) if isinstance(given, tuple) else 1)

@@ -62,6 +62,7 @@ class World:
         if self.corridor:
             areas.append(self.corridor)
         self.packed: PackedWorld = pack(self.obstacles, self.bounds, areas)
+        self._settled = len(self.obstacles)
 
     @classmethod
     def known(cls, mission: Mission) -> World:
@@ -82,7 +83,7 @@ class World:
         world.obstacles = self.obstacles + new
         world.bounds = self.bounds
         world.fences, world.corridor = self.fences, self.corridor
-        world.packed = join(self.packed, pack(new, None, ()))
+        world.packed, world._settled = join(self.packed, pack(new, None, ()), self._settled)
         return world
 
     def with_side(self, index: int, side: Side) -> World:
@@ -91,7 +92,7 @@ class World:
         world = object.__new__(World)
         world.obstacles = (*self.obstacles[:index], asked, *self.obstacles[index + 1 :])
         world.bounds, world.fences, world.packed = self.bounds, self.fences, self.packed
-        world.corridor = self.corridor
+        world.corridor, world._settled = self.corridor, self._settled
         return world
 
     @property

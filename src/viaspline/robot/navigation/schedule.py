@@ -9,6 +9,7 @@ import numpy as np
 
 from viaspline.curve.path import Path, PathVia
 from viaspline.kernels.arrays import Floats
+from viaspline.robot.navigation.laps_ahead import LapsAhead
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
@@ -46,7 +47,8 @@ class Schedule:
     """Where a robot means to be when: its path, its trajectory, and how far it trusts them.
 
     Attributes:
-        path: The path; all that was driven is its beginning.
+        path: The path; what was driven of it is its beginning. On a route of many laps it is a
+            round that goes on at its end, and what lies behind is taken off it now and then.
         trajectory: The time law along it, from the last change on.
         laid_in: What was known when the path was laid.
         laid_at: When it was laid under way [s]; -inf before the first re-plan.
@@ -59,6 +61,8 @@ class Schedule:
         reviewed_at: When it was last asked whether there is a better path [s].
         wait: Since when and why the robot waits, if it does.
         giving_up: Why the robot brakes for good, if it does.
+        laps: What the path goes on with at its end; None if it ends at the goal.
+        driven: Distance that was driven before the path begins [m].
     """
 
     path: Path
@@ -72,11 +76,18 @@ class Schedule:
     reviewed_at: float = -math.inf
     wait: Wait | None = None
     giving_up: str | None = None
+    laps: LapsAhead | None = None
+    driven: float = 0.0
 
     @property
     def is_blocked(self) -> bool:
         """Whether the robot waits because no way on was found."""
         return self.wait is not None and self.wait.reason is not None
+
+    @property
+    def looked_at(self) -> float:
+        """Distance along the path up to which it is looked at what is in its way [m]."""
+        return self.path.length - (0.0 if self.laps is None else self.laps.unseen)
 
     def place(self, distance: float) -> tuple[float, ...]:
         """The path's point at a distance along it [m]."""

@@ -26,10 +26,10 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
         step: From one sample to the next [s].
     """
     nav = drive.nav
-    reason, events, visits = outcome(nav, drive.end, drive.touched, drive.overdue)
+    reason, events, visits = outcome(nav, drive.book, drive.end, drive.touched, drive.overdue)
     times = _sample_times(drive, step, events)
     distances, speeds = _along(drive.trajectories, times)
-    path = driven_part(nav.path, float(distances[-1]))
+    path = driven_part(drive.book.path(nav), float(distances[-1]))
     u = np.asarray(path.parameter(np.minimum(distances, path.length)))
     robot = nav.mission.robot
     return Run(
@@ -47,8 +47,8 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
         curvatures=np.asarray(path.curvature(u)),
         visits=visits,
         events=events,
-        replans=nav.replans,
-        compute_times=nav.compute_times,
+        replans=drive.book.replans,
+        compute_times=drive.book.compute_times,
         known=nav.world,
     )
 
