@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from dataclasses import dataclass
 
 import numpy as np
 
 from viaspline.curve.path import Path, PathVia
-from viaspline.kernels.arrays import Floats
 from viaspline.robot.navigation.laps_ahead import LapsAhead
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
@@ -122,9 +122,9 @@ def vias_after(path: Path, last_via: int) -> tuple[tuple[PathVia, float], ...]:
     Returns:
         Each with its distance along the path [m], in order.
     """
-    distances: Floats = path.via_distances
-    return tuple(
-        (via, float(distance))
-        for via, distance in zip(path.vias, distances, strict=True)
-        if via.index is not None and via.index > last_via
-    )
+    stops = path.stops
+    return stops[bisect_right(stops, last_via, key=_index) :]
+
+
+def _index(stop: tuple[PathVia, float]) -> int:
+    return -1 if stop[0].index is None else stop[0].index

@@ -91,6 +91,7 @@ def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandida
     changed = changed_side(
         schedule.path, candidate.solution.path, candidate.solution.changed_from,
         context.progress.last_via, schedule.laid_in, context.requirements.required,
+        candidate.solution.rejoins_at,
     )  # fmt: skip
     if changed is None:
         return candidate

@@ -1,0 +1,122 @@
+"""A day's patrol: laps of a round on which things appear; what a step costs, and what is kept.
+
+    python benchmarks/day.py [--hours H] [--finds N] [--seed S]
+
+A point robot goes round 1.3 km in a loop of 10 Hz, and a find comes up every 43 s: 2,000 in 24
+hours. The sensor is the benchmark's own and isn't timed; timed is ``Navigator.step`` alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import resource
+import time
+import tracemalloc
+
+import numpy as np
+
+import viaspline as vs
+
+ROUND_M, VIAS = 1300.0, 26
+"""Length of the round [m], and how many via points it has."""
+
+SPEED_MPS, PERIOD_S, RANGE_M = 2.0, 0.1, 20.0
+"""How fast the robot is [m/s], the time from step to step [s], and how far it sees [m]."""
+
+SPREAD_M, RADII_M = 8.0, (0.2, 0.5)
+"""Finds stand so far beside the round (one standard deviation) [m], and are so large [m]."""
+
+FINDS_PER_HOUR = 2000 / 24
+
+
+def patrol(hours: float) -> vs.Mission:
+    """A wavy round that is driven for so long [h]."""
+    angles = np.linspace(0.0, 2.0 * np.pi, VIAS, endpoint=False)
+    radii = ROUND_M / (2.0 * np.pi) * (1.0 + 0.05 * np.cos(5.0 * angles)) * 0.965
+    points = np.column_stack((radii * np.cos(angles), radii * np.sin(angles))).round(3).tolist()
+    laps = int(np.ceil(3600.0 * hours * SPEED_MPS / ROUND_M)) + 1
+    return vs.Mission.model_validate(
+        {
+            "robot": {
+                "max_speed_mps": SPEED_MPS, "max_accel_mps2": 1, "clearance_m": 0.5,
+                "sensor": {"range_m": RANGE_M},
+            },
+            "route": {"start": points[0], "via": points[1:], "closed": True, "laps": laps},
+        }
+    )  # fmt: skip
+
+
+def finds(
+    mission: vs.Mission, count: int, hours: float, seed: int
+) -> tuple[list[vs.Obstacle], np.ndarray]:
+    """Discs beside the round, no via point inside their clearance, and when they come up [s]."""
+    random = np.random.default_rng(seed)
+    lap = vs.plan(
+        mission.model_copy(update={"route": mission.route.model_copy(update={"laps": 1})})
+    ).path
+    vias = np.array([via.at for via in lap.vias])
+    discs: list[vs.Obstacle] = []
+    while len(discs) < count:
+        u = float(lap.parameter(random.uniform(0.0, lap.length)))
+        normal = np.asarray(lap.tangent(u))[::-1] * (-1.0, 1.0)
+        centre = lap.evaluate(u) + random.normal(0.0, SPREAD_M) * normal
+        radius = random.uniform(*RADII_M)
+        if np.hypot(*(vias - centre).T).min() > radius + 1.0:
+            disc = {"center": centre.round(3).tolist(), "radius": round(radius, 3)}
+            discs.append(vs.Obstacle(circle=disc, name=f"find {len(discs) + 1}"))
+    return discs, np.sort(random.uniform(0.0, 3600.0 * hours, count))
+
+
+def drive(mission: vs.Mission, discs: list[vs.Obstacle], since: np.ndarray, hours: float) -> None:
+    """Drive for so long [h] and print a line an hour, or ten in all."""
+    centers = np.array([disc.circle.center for disc in discs]).reshape(-1, 2)
+    radii = np.array([disc.circle.radius for disc in discs])
+    nav, replans = vs.Navigator(mission), 0
+    steps = round(3600.0 * hours / PERIOD_S)
+    spent = np.empty(steps)
+    every = min(steps // 10, round(3600.0 / PERIOD_S))
+    print("| hour | finds known | re-plans | median | 99 % | greatest | memory | arrays, objects |")
+    print("|---|---|---|---|---|---|---|---|")
+    for tick in range(steps):
+        now = tick * PERIOD_S
+        state = nav.reference(now)
+        there = int(np.searchsorted(since, now, side="right"))
+        gaps = np.hypot(*(centers[:there] - state.position).T) - radii[:there]
+        sensed = [discs[k] for k in np.flatnonzero(gaps <= RANGE_M).tolist()]
+        begin = time.perf_counter()
+        _, nav = nav.step(state, sensed, now)
+        spent[tick] = time.perf_counter() - begin
+        replans += len(nav.replans)
+
+        if nav.finished:
+            print(f"over after {now:.0f} s: {nav.reason}")
+            return
+        if (tick + 1) % every == 0:
+            _report(
+                (tick + 1) * PERIOD_S / 3600.0, nav, spent[tick + 1 - every : tick + 1], replans
+            )
+    _report(hours, nav, spent, replans)
+
+
+def _report(hour: float, nav: vs.Navigator, spent: np.ndarray, replans: int) -> None:
+    p50, p99, most = (1e3 * np.percentile(spent, (50, 99, 100))).tolist()
+    with open("/proc/self/statm") as statm:
+        memory = int(statm.read().split()[1]) * resource.getpagesize() / 1e6
+    traced = tracemalloc.get_traced_memory()[0] / 1e6
+    print(
+        f"| {hour:.2f} | {len(nav.world)} | {replans} | {p50:.2f} ms | {p99:.2f} ms | "
+        f"{most:.1f} ms | {memory:.0f} MB | {traced:.1f} MB |",
+        flush=True,
+    )
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--hours", type=float, default=24.0)
+    parser.add_argument("--finds", type=int, default=None)
+    parser.add_argument("--seed", type=int, default=0)
+    given = parser.parse_args()
+    number = given.finds if given.finds is not None else round(FINDS_PER_HOUR * given.hours)
+    asked = patrol(given.hours)
+    things, appear = finds(asked, number, given.hours, given.seed)
+    drive(asked, things, appear, given.hours)
