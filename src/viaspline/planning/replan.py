@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,14 +21,16 @@ from viaspline.errors import NoPathError, PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
+from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, is_clear, proven
 from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
-from viaspline.planning.problem.via_sequence import RouteVia
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
 from viaspline.planning.stretch import (
     PASSED_M,
     Stretch,
+    is_round,
     refuse_the_end,
     room_to_run_out,
     sequence_through,
@@ -36,6 +39,10 @@ from viaspline.planning.stretch import (
     vias_to_serve,
 )
 from viaspline.world.world import World
+
+NEAR_SIZES, NEAR_WIDTHS = 0.5, 10.0
+"""A path round something is sought so near to the spans that it replaces at first: parts of their
+size, and required distances beside them."""
 
 RUN_OUT_LENGTHS = (2.0, 1.0, 0.3)  # that are tried, in required distances
 
@@ -62,9 +69,8 @@ def reflex(
     """
     u = float(path.parameter(at))
     ahead = _ahead(path, u, until)
-    blocked = min(int(u), len(path.spans) - 1) + np.flatnonzero(
-        body_conflicts(world, ahead.spans, requirements) != CLEAR
-    )
+    first = min(int(u), len(path.spans) - 1)
+    blocked = first + np.flatnonzero(body_conflicts(world, ahead.spans, requirements) != CLEAR)
     if not blocked.size:
         certificate = proven(ahead, world, requirements)
         return replace(_result(path, at, certificate, None), rejoins_at=at)
@@ -87,11 +93,19 @@ def planned(
     skip: Collection[int] = frozenset(),
     until: float = math.inf,
 ) -> Solution:
-    """Lay everything ahead anew up to ``until``, leaving out the route's points in ``skip``.
+    """Lay everything ahead anew, leaving out the route's points in ``skip``.
+
+    On a round that is what lies ahead up to what is in the way and on to the next via point of the
+    user; where that can't be done, up to ``until`` [m].
 
     Raises:
         NoPathError: When there is no way.
     """
+    short = _blocked_until(path, at, world, requirements, skip, until)
+    if short < until and is_round(path):
+        with suppress(PlanningError):
+            stretch = stretch_ahead(path, at, world, requirements, skip, short)
+            return _joined(path, stretch, world, requirements, until)
     stretch = stretch_ahead(path, at, world, requirements, skip, until)
     return _joined(path, stretch, world, requirements, until)
 
@@ -201,7 +215,11 @@ def _join(
     )
     if back is not None:
         sequence = replace(sequence, end_tangent=back.tangent)
-    spline_path, account = lay_path(sequence, world, requirements)
+    if tail is None:
+        spline_path, account = lay_path(sequence, world, requirements)
+    else:
+        old = path.spans[int(stretch.u) : math.ceil(tail.u)]
+        spline_path, account = _lay_nearby(sequence, old, world, requirements)
     spans = spline_path.spans
     head = _head(path, stretch.u)
     first = len(head) + len(departure.spans)
@@ -216,12 +234,28 @@ def _join(
     new = Path(np.concatenate(pieces), vias)
     leaving = float(new.distance(float(len(head))))
     last = len(new.spans)
-    if rejoin is not None and until < path.length:  # what lies beyond is looked at later
-        looked_at = new.length - path.length + until
-        last = max(rejoin, math.ceil(float(new.parameter(max(looked_at, 0.0)))))
+    if rejoin is not None and until < path.length:
+        last = rejoin  # what stays was proven, and is clear of what is known now
     certificate = proven(PiecewiseCubic(new.spans[len(head) : last]), world, requirements)
     back_at = None if rejoin is None else float(new.distance(float(rejoin)))
     return _result(new, leaving, certificate, account, back_at)
+
+
+def _lay_nearby(
+    sequence: ViaSequence, old: Floats, world: World, requirements: Requirements
+) -> tuple[SplinePath, Account]:
+    """Lay a sequence in what is near to the spans that it replaces, or else in the whole world."""
+    places = old.reshape(-1, old.shape[2])[:, :2]
+    low, high = places.min(axis=0), places.max(axis=0)
+    margin = NEAR_SIZES * float(np.max(high - low)) + NEAR_WIDTHS * requirements.required
+    (x0, y0), (x1, y1) = (low - margin).tolist(), (high + margin).tolist()
+    near = world.near((x0, y0, x1, y1))
+    if len(near) < len(world):
+        with suppress(PlanningError):
+            laid = lay_path(sequence, near, requirements)
+            if is_clear(world, laid[0].spans, requirements):
+                return laid
+    return lay_path(sequence, world, requirements)
 
 
 def _result(
@@ -257,6 +291,23 @@ def _ahead(path: Path, u: float, until: float) -> PiecewiseCubic:
     if until < path.length:
         end = max(float(math.ceil(float(path.parameter(until)))), math.floor(u) + 1.0)
     return path.section(min(u, end - PASSED_M), end)
+
+
+def _blocked_until(
+    path: Path,
+    at: float,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int],
+    until: float,
+) -> float:
+    """Where what is in the way ahead ends along a path, and what is left out of it [m]."""
+    u = float(path.parameter(at))
+    first = min(int(u), len(path.spans) - 1)
+    close = body_conflicts(world, _ahead(path, u, until).spans, requirements)
+    blocked = first + 1.0 + np.flatnonzero(close != CLEAR)
+    left_out = [via.u for via in path.vias if via.index in skip and via.u > u]
+    return float(path.distance(max([u, *blocked.tolist(), *left_out])))
 
 
 def _head(path: Path, u: float) -> Floats:

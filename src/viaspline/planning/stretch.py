@@ -83,13 +83,20 @@ def vias_to_serve(path: Path, world: World, requirements: Requirements) -> list[
 
     Without them the way to the next via point might go round the other way.
     """
-    places = [via.at[:2] for via in path.vias]
-    free = world.distance(places) > requirements.required + PASSED_M
+
+    def is_free(via: PathVia) -> bool:
+        return float(world.distance(via.at[:2])) > requirements.required + PASSED_M
+
     return [
         via
-        for via, is_free in zip(path.vias, free.tolist(), strict=True)
-        if via.kind == "user" or via.name == SEAM or (via.name == GUIDE and is_free)
+        for via in path.vias
+        if via.kind == "user" or via.name == SEAM or (via.name == GUIDE and is_free(via))
     ]
+
+
+def is_round(path: Path) -> bool:
+    """Whether a path goes on at its end, where it begins."""
+    return bool(path.vias) and path.vias[-1].name == SEAM
 
 
 def stretch_ahead(
@@ -110,13 +117,18 @@ def stretch_ahead(
     """
     u = float(path.parameter(at))
     remaining = vias_remaining(path, at, world, requirements, skip)
-    if path.vias[-1].name != SEAM:
+    if not is_round(path):
         return Stretch(u, remaining, None)
     last = float(path.parameter(min(until, path.length)))
-    places = [via for via in path.vias[:-1] if via.u >= max(last, u) and via.index not in skip]
-    free = world.distance([via.at[:2] for via in places]) if places else np.zeros(0)
-    clear = [via for via, gap in zip(places, free, strict=True) if gap > requirements.required]
-    tail = clear[0] if clear else path.vias[-1]
+    tail = next(
+        via
+        for via in path.vias
+        if via.name == SEAM
+        or (
+            (via.kind == "user" and via.u >= max(last, u) and via.index not in skip)
+            and float(world.distance(via.at[:2])) > requirements.required
+        )
+    )
     return Stretch(u, tuple(via for via in remaining if via.u < tail.u), tail)
 
 

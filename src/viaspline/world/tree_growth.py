@@ -23,7 +23,7 @@ MAX_LOOSE = 64
 """Obstacles that may stand beside a tree; more beside one that has more than their square."""
 
 
-class Tree(NamedTuple):
+class BoxTree(NamedTuple):
     """Nodes in depth-first order: their boxes (t, 4), where to go on, and what is in the leaves."""
 
     boxes: Floats
@@ -31,9 +31,9 @@ class Tree(NamedTuple):
     leaf: Ints
 
 
-def tree_over(boxes: Floats) -> Tree:
+def tree_over(boxes: Floats) -> BoxTree:
     """The tree over the boxes of obstacles [m], shape (n, 4)."""
-    return Tree(*box_tree(boxes, np.argsort(hilbert_keys(boxes), kind="stable")))
+    return BoxTree(*box_tree(boxes, np.argsort(hilbert_keys(boxes), kind="stable")))
 
 
 def settled_of(settled: int, count: int) -> int:
@@ -47,7 +47,7 @@ def settled_of(settled: int, count: int) -> int:
     return settled
 
 
-def grown(world: PackedWorld, settled: int, new: Floats) -> tuple[Tree, int]:
+def grown(world: PackedWorld, settled: int, new: Floats) -> tuple[BoxTree, int]:
     """The tree of a world to which obstacles come, and how many of them are in the large tree.
 
     Args:
@@ -70,16 +70,16 @@ def leaf_boxes(world: PackedWorld) -> Floats:
     return boxes
 
 
-def _large(world: PackedWorld, settled: int, count: int) -> Tree:
+def _large(world: PackedWorld, settled: int, count: int) -> BoxTree:
     """The large tree: all of a world's own, or what stands first below its root."""
     if settled in (0, count):
         end = 0 if settled == 0 else world.leaf.size
-        return Tree(world.boxes[:end], world.skip[:end], world.leaf[:end])
+        return BoxTree(world.boxes[:end], world.skip[:end], world.leaf[:end])
     end = int(world.skip[1])
-    return Tree(world.boxes[1:end], world.skip[1:end] - 1, world.leaf[1:end])
+    return BoxTree(world.boxes[1:end], world.skip[1:end] - 1, world.leaf[1:end])
 
 
-def _side_by_side(first: Tree, second: Tree, settled: int) -> Tree:
+def _side_by_side(first: BoxTree, second: BoxTree, settled: int) -> BoxTree:
     """Two trees below one root; the leaves of the second count on from the first's."""
     if not (first.leaf.size and second.leaf.size):
         return first if first.leaf.size else second
@@ -88,7 +88,7 @@ def _side_by_side(first: Tree, second: Tree, settled: int) -> Tree:
          np.maximum(first.boxes[0, 2:], second.boxes[0, 2:]))
     )  # fmt: skip
     after = 1 + first.leaf.size
-    return Tree(
+    return BoxTree(
         boxes=np.concatenate((root[None], first.boxes, second.boxes)),
         skip=np.concatenate(([after + second.leaf.size], first.skip + 1, second.skip + after)),
         leaf=np.concatenate(
