@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from viaspline.curve.path import Path
+from viaspline.curve.path import SEAM, Path
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.schedule import vias_after
 from viaspline.robot.navigator import Navigator
@@ -90,13 +90,12 @@ class Logbook:
         Args:
             nav: The navigator of the last step.
         """
-        if not self._driven:
-            return nav.path
         parts = [*self._driven, nav.path]
         starts = np.cumsum([0, *(len(part.spans) for part in parts)])
         vias = [
             replace(via, u=via.u + float(start))
             for part, start in zip(parts, starts, strict=False)
             for via in part.vias
+            if via.name != SEAM
         ]
         return Path(np.concatenate([part.spans for part in parts]), vias)

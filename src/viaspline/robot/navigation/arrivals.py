@@ -57,7 +57,7 @@ def _pass(
         arrived = Event("arrived", time, via.at, message, {"dwell_s": via.dwell})
         stay = Dwell(via.name, via.at, time + via.dwell)
         return replace(progress, dwell=stay), log.with_events(arrived)
-    if via.index > 0 and (schedule.laps is not None or vias_after(path, via.index)):
+    if via.index > 0 and (schedule.is_round or vias_after(path, via.index)):
         log = log.with_events(Event("via", time, via.at, f"passes '{via.name}'"))
     return progress, log
 
@@ -72,9 +72,7 @@ def _end_drive(
     trajectory, reason = schedule.trajectory, schedule.giving_up
     end, time = float(trajectory.distances[-1]), trajectory.end_time
     over = progress.time >= time and progress.distance >= end - SAME_PLACE_M
-    waits = reason is None and (
-        schedule.laps is not None or end < schedule.path.length - SAME_PLACE_M
-    )
+    waits = reason is None and (schedule.is_round or end < schedule.path.length - SAME_PLACE_M)
     if progress.finished or progress.dwell is not None or waits or not over:
         return progress, log
     where = schedule.place(end)

@@ -18,7 +18,8 @@ class LapsAhead:
         points: So many points of the route has a lap.
         round: So many has the path, which may be several laps: after them it comes round again.
         goal: Index in the route of the point at which the drive ends.
-        unseen: Length of the path's end that isn't looked at yet [m].
+        unseen: Length of the path's end that isn't looked at yet [m]; 0 on the last lap, on which
+            the path ends at the goal.
         given_up: By their place in the round, points that were given up: up to which lap's that has
             been noted (as an index in the route), and why.
     """

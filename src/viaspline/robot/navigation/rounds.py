@@ -22,8 +22,14 @@ from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
 
 UNSEEN_RATIO = 3.0 / 8.0
-"""Part of a round at its end that isn't looked at yet; the round grows when twice as much is left
-of it. So there is as much ahead that the robot has looked at."""
+"""Part of a round at its end that isn't looked at yet."""
+
+GROWS_RATIOS = 2.0, 1.5
+"""The round grows when so many times that is left of it, the second if no whole span lies behind
+sooner. So there is half as much ahead at least that the robot has looked at."""
+
+SAME_U = 1e-9
+"""A parameter nearer than this to a joint of two spans is that joint."""
 
 MIN_STOPS, MIN_REACHES = 8.0, 4.0
 """A round is no shorter than so many braking distances and so many ranges of the sensor; shorter
@@ -51,20 +57,25 @@ def first_round(task: DriveTask, path: Path) -> tuple[Path, LapsAhead | None]:
 
 def quiet_until(schedule: Schedule) -> float:
     """When the path grows if nothing new is seen, or else the drive ends [s]."""
-    laps, trajectory = schedule.laps, schedule.trajectory
-    if laps is None or schedule.giving_up is not None:
-        return trajectory.end_time
-    return float(trajectory.time_at(schedule.path.length - 2.0 * laps.unseen))
+    grows_at = _grows_at(schedule)
+    if grows_at is None:
+        return schedule.trajectory.end_time
+    return float(schedule.trajectory.time_at(grows_at))
 
 
 def is_due(progress: Progress, schedule: Schedule) -> bool:
     """Whether it is time for the path to grow by what was driven of it."""
-    laps = schedule.laps
-    return (
-        laps is not None
-        and schedule.giving_up is None
-        and schedule.path.length - progress.distance <= 2.0 * laps.unseen
-    )
+    grows_at = _grows_at(schedule)
+    return grows_at is not None and progress.distance >= grows_at
+
+
+def _grows_at(schedule: Schedule) -> float | None:
+    """Where the robot is when the path grows [m]: if there is time, it has driven a whole span."""
+    path, laps = schedule.path, schedule.laps
+    if laps is None or not schedule.is_round or schedule.giving_up is not None:
+        return None
+    soonest, latest = (path.length - ratio * laps.unseen for ratio in GROWS_RATIOS)
+    return max(soonest, min(float(path.distance(1.0)), latest))
 
 
 def next_part(progress: Progress, schedule: Schedule) -> tuple[Progress, Schedule, Path]:
@@ -77,7 +88,7 @@ def next_part(progress: Progress, schedule: Schedule) -> tuple[Progress, Schedul
     path, laps = schedule.path, schedule.laps
     assert laps is not None
     u = float(path.parameter(progress.distance))
-    u = math.floor(u) if u >= 1.0 else u
+    u = math.floor(u + SAME_U) if u >= 1.0 - SAME_U else u
     driven = float(path.distance(u))
     behind = Path(path.section(0.0, u).spans, [via for via in path.vias if via.u < u])
     rest = path.section(u, path.domain[1]).spans
@@ -90,11 +101,11 @@ def next_part(progress: Progress, schedule: Schedule) -> tuple[Progress, Schedul
         spans = np.concatenate((rest, behind.spans))
         ahead = Path(spans, [*vias, *again, _seam(spans)])
         turns = [turn + path.length - driven for turn in schedule.turns if turn < driven]
-        to_come: LapsAhead | None = replace(laps, unseen=UNSEEN_RATIO * ahead.length)
+        to_come = replace(laps, unseen=UNSEEN_RATIO * ahead.length)
     else:
         spans = np.concatenate((rest, behind.spans))[: round(ends.u)]
         ahead = Path(spans, [*vias, *(via for via in again if via.u <= ends.u)])
-        turns, to_come = [], None
+        turns, to_come = [], replace(laps, unseen=0.0)
     moved = replace(
         schedule,
         path=ahead,

@@ -61,7 +61,7 @@ class Schedule:
         reviewed_at: When it was last asked whether there is a better path [s].
         wait: Since when and why the robot waits, if it does.
         giving_up: Why the robot brakes for good, if it does.
-        laps: What the path goes on with at its end; None if it ends at the goal.
+        laps: What the path goes on with at its end; None if the path was all laps from the start.
         driven: Distance that was driven before the path begins [m].
     """
 
@@ -83,6 +83,11 @@ class Schedule:
     def is_blocked(self) -> bool:
         """Whether the robot waits because no way on was found."""
         return self.wait is not None and self.wait.reason is not None
+
+    @property
+    def is_round(self) -> bool:
+        """Whether the path goes on at its end, where it begins."""
+        return self.laps is not None and self.laps.unseen > 0.0
 
     @property
     def looked_at(self) -> float:
