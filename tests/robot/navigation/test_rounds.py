@@ -73,6 +73,12 @@ def test_the_path_ahead_is_a_round_whatever_the_laps() -> None:
     )
 
 
+def test_a_drive_of_few_laps_is_one_path() -> None:
+    nav = Navigator(patrol(3))
+    assert nav.path.length == nav.plan.path.length
+    assert nav.quiet_until == nav.trajectory.end_time
+
+
 def test_a_lap_that_is_short_is_driven_with_others_as_one_round() -> None:
     route = {"start": [0, 0], "via": [[8, 0], [8, 8], [0, 8]], "closed": True, "laps": 30}
     mission = Mission.model_validate({"robot": {"max_speed_mps": 3}, "route": route})
@@ -203,7 +209,7 @@ def test_what_is_kept_grows_with_what_is_known_and_not_with_the_drive() -> None:
 
 
 def test_a_logbook_has_what_the_steps_handed_out() -> None:
-    mission = patrol(3, [disc(*BESIDE, 1.0, "rock")])
+    mission = patrol(5, [disc(*BESIDE, 1.0, "rock")])
     run, nav, book = simulate(mission, step=0.1), Navigator(mission), Logbook()
     sensor = RangeSensor(mission.world.unseen, 10.0)
     for tick in range(10_000):

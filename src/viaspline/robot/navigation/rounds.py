@@ -28,6 +28,9 @@ GROWS_RATIOS = 2.0, 1.5
 """The round grows when so many times that is left of it, the second if no whole span lies behind
 sooner. So there is half as much ahead at least that the robot has looked at."""
 
+FEW_ROUNDS = 3
+"""A drive of no more rounds is one path from its start to its end."""
+
 SAME_U = 1e-9
 """A parameter nearer than this to a joint of two spans is that joint."""
 
@@ -39,13 +42,16 @@ laps make up one together."""
 def first_round(task: DriveTask, path: Path) -> tuple[Path, LapsAhead | None]:
     """The path with which a drive begins, and the laps after it; None if that is all of it.
 
+    A lidar has to see ahead where the body will be, and a controller follows points of the path
+    that lie behind as well: with them a drive is one path.
+
     Args:
         task: What is asked of the drive.
         path: All laps, one after the other.
     """
     laps = task.mission.route.laps
     count = math.ceil(_least_round(task) * laps / path.length)
-    if count >= laps or task.model is not None or _has_lidar(task):
+    if FEW_ROUNDS * count >= laps or task.model is not None or _has_lidar(task):
         return path, None
     end = count * (len(path.spans) // laps)
     goal = max(via.index for via in path.vias if via.index is not None)

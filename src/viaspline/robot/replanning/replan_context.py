@@ -101,7 +101,9 @@ class ReplanContext:
             obstruction=Obstruction(knowledge.world, (), path.length),
             here=tuple(np.asarray(path.at_distance(distance)).tolist()),
             vias_ahead=tuple(
-                (via, at) for via, at in vias_after(path, progress.last_via) if at <= until
+                (via, at)
+                for via, at in vias_after(path, progress.last_via)
+                if at <= until + SAME_PLACE_M
             ),
             kept=kept,
             speed=speed,
