@@ -14,6 +14,7 @@ import argparse
 import gc
 import resource
 import time
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -28,8 +29,8 @@ SPEED_MPS, PERIOD_S, RANGE_M = 2.0, 0.1, 20.0
 SPREAD_M, RADII_M = 8.0, (0.2, 0.5)
 """Finds stand so far beside the round (one standard deviation) [m], and are so large [m]."""
 
-REHEARSED_M = 400.0
-"""Where something stands in the rehearsal [m]."""
+REHEARSED_STEPS = 8000
+"""Of a lap that is driven before, with everything there at once."""
 
 FINDS_PER_HOUR = 2000 / 24
 
@@ -71,21 +72,15 @@ def finds(
     return discs, np.sort(random.uniform(0.0, 3600.0 * hours, count))
 
 
-def drive(mission: vs.Mission, discs: list[vs.Obstacle], since: np.ndarray, hours: float) -> None:
-    """Drive for so long [h] and print a line an hour, or ten in all."""
-    rehearse(mission, discs)
+def steps(
+    mission: vs.Mission, discs: list[vs.Obstacle], since: np.ndarray, count: int
+) -> Iterator[tuple[vs.Navigator, float]]:
+    """So many steps of a drive: the navigator after each, and what that took [s]."""
     centers = np.array([disc.circle.center for disc in discs]).reshape(-1, 2)
     radii = np.array([disc.circle.radius for disc in discs])
     there = np.zeros(len(discs), bool)
-    nav, replans = vs.Navigator(mission), 0
-    steps = round(3600.0 * hours / PERIOD_S)
-    spent = np.full(steps, np.nan)  # in memory from the start
-    every = max(min(steps // 10, round(3600.0 / PERIOD_S)), 1)
-    print("| hours | laps | finds known | re-plans | spans | median | 99 % | greatest | memory |")
-    print("|---|---|---|---|---|---|---|---|---|")
-    gc.collect()
-    gc.freeze()  # what was loaded stays: no step has to look through it for garbage
-    for tick in range(steps):
+    nav = vs.Navigator(mission)
+    for tick in range(count):
         now = tick * PERIOD_S
         state = nav.reference(now)
         gaps = np.hypot(*(centers - state.position).T) - radii
@@ -93,27 +88,30 @@ def drive(mission: vs.Mission, discs: list[vs.Obstacle], since: np.ndarray, hour
         sensed = [discs[k] for k in np.flatnonzero(there & (gaps <= RANGE_M)).tolist()]
         begin = time.thread_time()
         _, nav = nav.step(state, sensed, now)
-        spent[tick] = time.thread_time() - begin
-        replans += len(nav.replans)
+        yield nav, time.thread_time() - begin
         if nav.finished:
             print(f"over after {now:.0f} s: {nav.reason}")
             return
-        if (tick + 1) % every == 0:
-            hour = (tick + 1) * PERIOD_S / 3600.0
-            _report(hour, nav, replans, spent[tick + 1 - every : tick + 1])
+
+
+def drive(mission: vs.Mission, discs: list[vs.Obstacle], since: np.ndarray, hours: float) -> None:
+    """Drive for so long [h] and print a line an hour, or ten in all."""
+    for _ in steps(mission, discs, np.zeros(len(discs)), REHEARSED_STEPS):
+        pass  # then all kernels are loaded
+    count, replans = round(3600.0 * hours / PERIOD_S), 0
+    spent = np.full(count, np.nan)  # in memory from the start
+    every = max(min(count // 10, round(3600.0 / PERIOD_S)), 1)
+    print("| hours | laps | finds known | re-plans | spans | median | 99 % | greatest | memory |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    gc.collect()
+    gc.freeze()  # what was loaded stays: no step has to look through it for garbage
+    for tick, (nav, taken) in enumerate(steps(mission, discs, since, count), start=1):
+        spent[tick - 1] = taken
+        replans += len(nav.replans)
+        if tick % every == 0:
+            _report(tick * PERIOD_S / 3600.0, nav, replans, spent[tick - every : tick])
     print("\nall of it:")
     _report(hours, nav, replans, spent)
-
-
-def rehearse(mission: vs.Mission, discs: list[vs.Obstacle]) -> None:
-    """Lay detours round everything at once: then all kernels are loaded before the first step."""
-    once = mission.route.model_copy(update={"laps": 1})
-    world = mission.world.model_copy(update={"known": tuple(discs)})
-    vs.plan(mission.model_copy(update={"route": once, "world": world}))
-    ahead = vs.Navigator(mission).path.at_distance(REHEARSED_M)
-    rock = {"name": "rock", "circle": {"center": ahead.tolist(), "radius": 0.5}}
-    world = mission.world.model_copy(update={"unseen": (vs.Obstacle.model_validate(rock),)})
-    vs.simulate(mission.model_copy(update={"route": once, "world": world}))
 
 
 def _report(hour: float, nav: vs.Navigator, replans: int, spent: np.ndarray) -> None:

@@ -34,8 +34,9 @@ from viaspline.planning.stretch import (
     refuse_the_end,
     room_to_run_out,
     sequence_through,
-    stretch_ahead,
     stretch_round,
+    stretches_on_round,
+    vias_remaining,
     vias_to_serve,
 )
 from viaspline.world.world import World
@@ -96,17 +97,16 @@ def planned(
     """Lay everything ahead anew, leaving out the route's points in ``skip``.
 
     On a round that is what lies ahead up to what is in the way and on to the next via point of the
-    user; where that can't be done, up to ``until`` [m].
+    user, or a later one, no farther than needed from ``until`` [m].
 
     Raises:
         NoPathError: When there is no way.
     """
-    short = _blocked_until(path, at, world, requirements, skip, until)
-    if short < until and is_round(path):
-        with suppress(PlanningError):
-            stretch = stretch_ahead(path, at, world, requirements, skip, short)
-            return _joined(path, stretch, world, requirements, until)
-    stretch = stretch_ahead(path, at, world, requirements, skip, until)
+    if is_round(path):
+        return _on_round(path, at, world, requirements, skip, until, _rolling)
+    stretch = Stretch(
+        float(path.parameter(at)), vias_remaining(path, at, world, requirements, skip), None
+    )
     return _joined(path, stretch, world, requirements, until)
 
 
@@ -118,18 +118,18 @@ def from_rest(
     skip: Collection[int] = frozenset(),
     until: float = math.inf,
 ) -> Solution:
-    """Lay everything ahead anew up to ``until`` from a standstill at ``at``.
+    """Lay everything ahead anew from a standstill at ``at``; on a round as ``planned`` does.
 
     The robot may turn on the spot, unless it never does: then it goes on as it stands.
 
     Raises:
         NoPathError: When there is no way.
     """
-    stretch = stretch_ahead(path, at, world, requirements, skip, until)
+    if is_round(path):
+        return _on_round(path, at, world, requirements, skip, until, _standing)
+    u = float(path.parameter(at))
+    stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
     refuse_the_end(path, stretch)
-    if stretch.tail is not None:
-        return _joined(path, stretch, world, requirements, until, leave=_standing)
-    u = stretch.u
     departure = _standing(path, stretch, world, requirements, 0.0)
     sequence = sequence_through(path, departure.start, stretch, requirements)
     sequence = replace(sequence, start_tangent=departure.tangent)
@@ -170,6 +170,27 @@ def _standing(
     place = np.asarray(path.evaluate(stretch.u))
     tangent = None if turns else np.asarray(path.tangent(stretch.u))
     return _Departure(np.empty((0, 4, place.size)), RouteVia("the robot", place, None), tangent)
+
+
+def _on_round(
+    path: Path,
+    at: float,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int],
+    until: float,
+    leave: _Leave,
+) -> Solution:
+    """A new path on a round by the shortest stretch of it on which there is one."""
+    problem: PlanningError | None = None
+    blocked = _blocked_until(path, at, world, requirements, skip, until)
+    for stretch in stretches_on_round(path, at, world, requirements, skip, blocked, until):
+        try:
+            return _joined(path, stretch, world, requirements, until, leave)
+        except PlanningError as error:
+            problem = error
+    assert problem is not None  # there is a stretch at least
+    raise problem
 
 
 def _joined(

@@ -99,37 +99,46 @@ def is_round(path: Path) -> bool:
     return bool(path.vias) and path.vias[-1].name == SEAM
 
 
-def stretch_ahead(
+def stretches_on_round(
     path: Path,
     at: float,
     world: World,
     requirements: Requirements,
     skip: Collection[int],
+    blocked: float,
     until: float,
-) -> Stretch:
-    """Everything ahead of a distance along a path [m], but for the via points in ``skip``.
+) -> list[Stretch]:
+    """What may be laid anew ahead on a round, from the shortest stretch to the longest.
 
-    On a round that is what lies ahead up to ``until`` [m], and on to where the path can be taken up
-    again.
+    Each goes on to a via point of the user at which the round is taken up again, beyond what is
+    blocked; from one to the next there are twice as many.
+
+    Args:
+        path: The round.
+        at: From where on it may be laid anew [m].
+        world: What is known.
+        requirements: What to keep.
+        skip: Points of the route that are left out.
+        blocked: Up to this distance along it, it has to be laid anew [m].
+        until: From this one on it is not looked at yet [m].
 
     Raises:
         NoPathError: When no via point of the user is left.
     """
-    u = float(path.parameter(at))
     remaining = vias_remaining(path, at, world, requirements, skip)
-    if not is_round(path):
-        return Stretch(u, remaining, None)
-    last = float(path.parameter(min(until, path.length)))
-    tail = next(
+    u, first, last = np.asarray(path.parameter(np.array([at, blocked, until]))).tolist()
+    tails = [
         via
         for via in path.vias
-        if via.name == SEAM
-        or (
-            (via.kind == "user" and via.u >= max(last, u) and via.index not in skip)
-            and float(world.distance(via.at[:2])) > requirements.required
-        )
-    )
-    return Stretch(u, tuple(via for via in remaining if via.u < tail.u), tail)
+        if via.kind == "user" and via.u >= max(first, u) and via.index not in skip
+        and float(world.distance(via.at[:2])) > requirements.required
+    ]  # fmt: skip
+    tails.append(path.vias[-1])
+    within = next(k for k, via in enumerate(tails) if via.u >= last or via is tails[-1])
+    chosen = sorted({*(2**k - 1 for k in range(within.bit_length() + 1) if 2**k <= within), within})
+    return [
+        Stretch(u, tuple(via for via in remaining if via.u < tails[k].u), tails[k]) for k in chosen
+    ]
 
 
 def vias_remaining(
