@@ -24,7 +24,13 @@ from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.navigation_state import NavigationState
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.reschedule import caught_up, rescheduled
-from viaspline.robot.navigation.rounds import first_round, is_due, next_part, quiet_until
+from viaspline.robot.navigation.rounds import (
+    first_round,
+    is_due,
+    is_timed_out,
+    next_part,
+    quiet_until,
+)
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.navigation.track_path import track, with_command
 from viaspline.robot.path_following import command_for
@@ -153,6 +159,9 @@ class Navigator:
             progress, log = note_arrivals(task, progress, schedule, log)
             if is_due(progress, schedule):
                 progress, schedule, log = _next_part(task, progress, knowledge, schedule, log)
+            elif is_timed_out(progress, schedule):
+                speed = float(schedule.trajectory.state_at(progress.time)[1])
+                schedule = rescheduled(task, progress, knowledge, schedule, speed)
             schedule = caught_up(task, progress, knowledge, schedule, measured.speed)
         # what does it perceive? after the end only a lidar goes on
         sighting = None

@@ -5,6 +5,7 @@ Tested through ``robot/navigation/test_rounds``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -20,6 +21,7 @@ class LapsAhead:
         goal: Index in the route of the point at which the drive ends.
         unseen: Length of the path's end that isn't looked at yet [m]; 0 on the last lap, on which
             the path ends at the goal.
+        timed: Length of the path ahead that the time law reaches over [m].
         given_up: By their place in the round, points that were given up: up to which lap's that has
             been noted (as an index in the route), and why.
     """
@@ -28,6 +30,7 @@ class LapsAhead:
     round: int
     goal: int
     unseen: float
+    timed: float = math.inf
     given_up: Mapping[int, tuple[int, str]] = field(default_factory=lambda: MappingProxyType({}))
 
     def is_goal(self, index: int) -> bool:

@@ -18,7 +18,7 @@ from viaspline.curve.path import SEAM, Path, PathVia
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.laps_ahead import LapsAhead
-from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule
 
 UNSEEN_RATIO = 3.0 / 8.0
@@ -58,21 +58,35 @@ def first_round(task: DriveTask, path: Path) -> tuple[Path, LapsAhead | None]:
     vias = [via for via in path.vias if via.u < end]
     first = Path(path.spans[:end], [*vias, _seam(path.spans[:end])])
     points = goal // laps
-    return first, LapsAhead(points, count * points, goal, UNSEEN_RATIO * first.length)
+    unseen, timed = UNSEEN_RATIO * first.length, _least_round(task)
+    return first, LapsAhead(points, count * points, goal, unseen, timed)
 
 
 def quiet_until(schedule: Schedule) -> float:
-    """When the path grows if nothing new is seen, or else the drive ends [s]."""
-    grows_at = _grows_at(schedule)
-    if grows_at is None:
-        return schedule.trajectory.end_time
-    return float(schedule.trajectory.time_at(grows_at))
+    """When the path or its time law grows if nothing new is seen, or else the drive ends [s]."""
+    trajectory, places = schedule.trajectory, (_grows_at(schedule), _timed_at(schedule))
+    return min((float(trajectory.time_at(s)) for s in places if s is not None),
+               default=trajectory.end_time)  # fmt: skip
 
 
 def is_due(progress: Progress, schedule: Schedule) -> bool:
     """Whether it is time for the path to grow by what was driven of it."""
     grows_at = _grows_at(schedule)
     return grows_at is not None and progress.distance >= grows_at
+
+
+def is_timed_out(progress: Progress, schedule: Schedule) -> bool:
+    """Whether it is time for the time law to reach farther: half of it is driven."""
+    timed_at = _timed_at(schedule)
+    return timed_at is not None and progress.distance >= timed_at
+
+
+def _timed_at(schedule: Schedule) -> float | None:
+    """Where the robot is when its time law grows [m]."""
+    if not schedule.is_round or schedule.giving_up is not None:
+        return None
+    first, last = schedule.trajectory.distances[[0, -1]].tolist()
+    return 0.5 * (first + last) if last < schedule.path.length - SAME_PLACE_M else None
 
 
 def _grows_at(schedule: Schedule) -> float | None:
