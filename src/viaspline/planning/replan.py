@@ -8,25 +8,25 @@ valid.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Sequence
-from contextlib import suppress
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import NoPathError, PlanningError
+from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, is_clear, proven
+from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
+from viaspline.planning.departure import Departure, Leave, refuse_blocked, rolling, standing
+from viaspline.planning.nearby import lay_nearby
 from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.splice import RunOut, run_out
-from viaspline.planning.problem.spline_path import SplinePath
-from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
+from viaspline.planning.problem.splice import run_out
+from viaspline.planning.problem.via_sequence import RouteVia
 from viaspline.planning.stretch import (
     PASSED_M,
     Stretch,
@@ -40,10 +40,6 @@ from viaspline.planning.stretch import (
     vias_to_serve,
 )
 from viaspline.world.world import World
-
-NEAR_SIZES, NEAR_WIDTHS = 0.5, 10.0
-"""A path round something is sought so near to the spans that it replaces at first: parts of their
-size, and required distances beside them."""
 
 RUN_OUT_LENGTHS = (2.0, 1.0, 0.3)  # that are tried, in required distances
 
@@ -103,7 +99,7 @@ def planned(
         NoPathError: When there is no way.
     """
     if is_round(path):
-        return _on_round(path, at, world, requirements, skip, until, _rolling)
+        return _on_round(path, at, world, requirements, skip, until, rolling)
     stretch = Stretch(
         float(path.parameter(at)), vias_remaining(path, at, world, requirements, skip), None
     )
@@ -126,11 +122,11 @@ def from_rest(
         NoPathError: When there is no way.
     """
     if is_round(path):
-        return _on_round(path, at, world, requirements, skip, until, _standing)
+        return _on_round(path, at, world, requirements, skip, until, standing)
     u = float(path.parameter(at))
     stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
     refuse_the_end(path, stretch)
-    departure = _standing(path, stretch, world, requirements, 0.0)
+    departure = standing(path, stretch, world, requirements, 0.0)
     sequence = sequence_through(path, departure.start, stretch, requirements)
     sequence = replace(sequence, start_tangent=departure.tangent)
     spline_path, account = lay_path(sequence, world, requirements)
@@ -141,37 +137,6 @@ def from_rest(
     return _result(new, at, certificate, account)
 
 
-@dataclass(frozen=True)
-class _Departure:
-    """How an old path is left: by which spans [m], and where and in which direction one goes on."""
-
-    spans: Floats
-    start: RouteVia
-    tangent: Floats | None
-
-
-_Leave = Callable[[Path, Stretch, World, Requirements, float], _Departure]
-
-
-def _rolling(
-    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
-) -> _Departure:
-    """Leave a path while rolling on it, by a run-out of a length [m]."""
-    out = run_out(path, stretch.u, min(reach, room_to_run_out(path, stretch)[0]))
-    _refuse_blocked(out, world, requirements)
-    return _Departure(out.span[None], RouteVia("the robot", out.end, None), out.tangent)
-
-
-def _standing(
-    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
-) -> _Departure:
-    """Leave a path from a standstill, in any direction if the robot turns on the spot."""
-    turns = requirements.turn_radius is None or requirements.turns_on_spot != "never"
-    place = np.asarray(path.evaluate(stretch.u))
-    tangent = None if turns else np.asarray(path.tangent(stretch.u))
-    return _Departure(np.empty((0, 4, place.size)), RouteVia("the robot", place, None), tangent)
-
-
 def _on_round(
     path: Path,
     at: float,
@@ -179,7 +144,7 @@ def _on_round(
     requirements: Requirements,
     skip: Collection[int],
     until: float,
-    leave: _Leave,
+    leave: Leave,
 ) -> Solution:
     """A new path on a round by the shortest stretch of it on which there is one."""
     problem: PlanningError | None = None
@@ -199,7 +164,7 @@ def _joined(
     world: World,
     requirements: Requirements,
     until: float,
-    leave: _Leave = _rolling,
+    leave: Leave = rolling,
 ) -> Solution:
     """The new path with the first run-out, from long to short, that lets it be clear."""
     refuse_the_end(path, stretch)
@@ -218,7 +183,7 @@ def _joined(
 def _join(
     path: Path,
     stretch: Stretch,
-    departure: _Departure,
+    departure: Departure,
     world: World,
     requirements: Requirements,
     reach: float,
@@ -228,7 +193,7 @@ def _join(
     if tail is not None:
         last_room = room_to_run_out(path, stretch)[1]
         back = run_out(path, tail.u, min(reach, last_room), sense=-1).reversed()
-        _refuse_blocked(back, world, requirements)
+        refuse_blocked(back, world, requirements)
     meet = None if back is None else RouteVia("the old path", back.span[0], None)
     sequence = replace(
         sequence_through(path, departure.start, stretch, requirements, meet),
@@ -240,7 +205,7 @@ def _join(
         spline_path, account = lay_path(sequence, world, requirements)
     else:
         old = path.spans[int(stretch.u) : math.ceil(tail.u)]
-        spline_path, account = _lay_nearby(sequence, old, world, requirements)
+        spline_path, account = lay_nearby(sequence, old, world, requirements)
     spans = spline_path.spans
     head = _head(path, stretch.u)
     first = len(head) + len(departure.spans)
@@ -262,23 +227,6 @@ def _join(
     return _result(new, leaving, certificate, account, back_at)
 
 
-def _lay_nearby(
-    sequence: ViaSequence, old: Floats, world: World, requirements: Requirements
-) -> tuple[SplinePath, Account]:
-    """Lay a sequence in what is near to the spans that it replaces, or else in the whole world."""
-    places = old.reshape(-1, old.shape[2])[:, :2]
-    low, high = places.min(axis=0), places.max(axis=0)
-    margin = NEAR_SIZES * float(np.max(high - low)) + NEAR_WIDTHS * requirements.required
-    (x0, y0), (x1, y1) = (low - margin).tolist(), (high + margin).tolist()
-    near = world.near((x0, y0, x1, y1))
-    if len(near) < len(world):
-        with suppress(PlanningError):
-            laid = lay_path(sequence, near, requirements)
-            if is_clear(world, laid[0].spans, requirements):
-                return laid
-    return lay_path(sequence, world, requirements)
-
-
 def _result(
     new: Path,
     certificate_from: float,
@@ -292,18 +240,6 @@ def _result(
         certificate, tightest_distance=distance, tightest_u=float(new.parameter(distance))
     )
     return Solution(new, moved, account, certificate_from, rejoins_at)
-
-
-def _refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> None:
-    index = int(body_conflicts(world, piece.span[None], requirements)[0])
-    if index != CLEAR:
-        name = world.name(index)
-        raise NoPathError(
-            f"{name!r} is too near to turn away from it under way",
-            where=piece.span[0],
-            remedy="stop and turn on the spot, or look farther ahead",
-            obstacles=(name,),
-        )
 
 
 def _ahead(path: Path, u: float, until: float) -> PiecewiseCubic:
