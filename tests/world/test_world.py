@@ -368,3 +368,26 @@ def test_obstacles_that_come_one_by_one_are_as_near_as_those_that_were_there() -
             assert world.groups(1.0) == together.groups(1.0)
     nodes = world.packed.leaf.size
     assert nodes <= 2 * len(world)  # no root for each that came
+
+
+@given(seed=st.integers(0, 10**6), x=st.floats(0, 80), y=st.floats(0, 80), size=st.floats(1, 40))
+@settings(max_examples=20, deadline=None)
+def test_what_is_near_to_a_box_is_as_far_from_places_in_it_as_it_was(
+    seed: int, x: float, y: float, size: float
+) -> None:
+    world = World(random_obstacles(seed, 60), bounds=(-50, -50, 150, 150))
+    near = world.near((x, y, x + size, y + size))
+    points = np.random.default_rng(seed).uniform((x, y), (x + size, y + size), (50, 2))
+    inside = world.distance(points)
+    assert np.all(near.distance(points) >= inside)
+    touched = inside <= 0.0
+    assert np.array_equal(near.distance(points)[touched], inside[touched])
+    assert set(near.names) <= set(world.names)
+    assert near.bounds is None
+
+
+def test_bounds_that_reach_into_a_box_stay() -> None:
+    world = World([disc(5, 5, 1)], bounds=(0, 0, 20, 20))
+    assert world.near((-1, 2, 8, 8)).bounds == world.bounds
+    assert world.near((2, 2, 8, 25)).bounds == world.bounds
+    assert len(world.near((10, 10, 12, 12))) == 0
