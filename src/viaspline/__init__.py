@@ -61,6 +61,7 @@ _HOMES = {
     "GeometryError": "errors",
     "Grid": "maps.grid",
     "Limits": "trajectory.limits",
+    "Logbook": "robot.logbook",
     "Mission": "mission.model",
     "MissionError": "errors",
     "MissionWarning": "errors",

@@ -1,11 +1,12 @@
 import math
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
@@ -336,3 +337,57 @@ def test_a_million_metres_away_the_distance_keeps_its_micrometre(shapely_distanc
     np.testing.assert_allclose(
         World(far).distance(xy + shift), shapely_distance(xy, near), atol=1e-6
     )
+
+
+@given(seed=st.integers(0, 10**6), cuts=st.lists(st.integers(0, 150), max_size=6))
+@settings(max_examples=15, deadline=None)
+def test_a_world_is_the_same_bytes_however_many_of_its_obstacles_came_at_once(
+    seed: int, cuts: list[int]
+) -> None:
+    base, *rest = (random_obstacles(seed, 1), *([o] for o in random_obstacles(seed + 1, 150)))
+    new = [one for (one,) in rest]
+    at_once = World(base).with_obstacles(new)
+    world = World(base)
+    for first, last in pairwise(sorted({0, *cuts, 150})):
+        world = world.with_obstacles(new[first:last])
+    assert all(
+        one.tobytes() == other.tobytes()
+        for one, other in zip(world.packed, at_once.packed, strict=True)
+    )
+
+
+def test_obstacles_that_come_one_by_one_are_as_near_as_those_that_were_there() -> None:
+    obstacles = random_obstacles(7, 300)
+    points = np.random.default_rng(7).uniform(-10, 110, (200, 2))
+    world = World(obstacles[:20])
+    for k in range(20, 300):
+        world = world.with_obstacles([obstacles[k]])
+        if k % 40 == 0:
+            together = World(obstacles[: k + 1])
+            assert np.array_equal(world.distance(points), together.distance(points))
+            assert world.groups(1.0) == together.groups(1.0)
+    nodes = world.packed.leaf.size
+    assert nodes <= 2 * len(world)  # no root for each that came
+
+
+@given(seed=st.integers(0, 10**6), x=st.floats(0, 80), y=st.floats(0, 80), size=st.floats(1, 40))
+@settings(max_examples=20, deadline=None)
+def test_what_is_near_to_a_box_is_as_far_from_places_in_it_as_it_was(
+    seed: int, x: float, y: float, size: float
+) -> None:
+    world = World(random_obstacles(seed, 60), bounds=(-50, -50, 150, 150))
+    near = world.near((x, y, x + size, y + size))
+    points = np.random.default_rng(seed).uniform((x, y), (x + size, y + size), (50, 2))
+    inside = world.distance(points)
+    assert np.all(near.distance(points) >= inside)
+    touched = inside <= 0.0
+    assert np.array_equal(near.distance(points)[touched], inside[touched])
+    assert set(near.names) <= set(world.names)
+    assert near.bounds is None
+
+
+def test_bounds_that_reach_into_a_box_stay() -> None:
+    world = World([disc(5, 5, 1)], bounds=(0, 0, 20, 20))
+    assert world.near((-1, 2, 8, 8)).bounds == world.bounds
+    assert world.near((2, 2, 8, 25)).bounds == world.bounds
+    assert len(world.near((10, 10, 12, 12))) == 0

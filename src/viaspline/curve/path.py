@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viaspline.curve.arguments import frozen
 from viaspline.curve.piecewise import PiecewiseCubic
 
 ViaKind = Literal["user", "detour"]
+SEAM = "where the round closes"  # the name of a round's end, from where it goes on at its start
 GUIDE = "along the corridor"  # the name of a place that only says which way a corridor leads
 
 
@@ -53,9 +56,19 @@ class Path(PiecewiseCubic):
         super().__init__(spans)
         self.vias = tuple(vias)
 
-    @property
+    @cached_property
     def via_distances(self) -> NDArray[np.float64]:
         """Distance along the path of every via point [m], shape (k,)."""
         if not self.vias:
             return np.zeros(0)
-        return np.asarray(self.distance(np.array([via.u for via in self.vias])))
+        return frozen(np.asarray(self.distance(np.array([via.u for via in self.vias]))))
+
+    @cached_property
+    def stops(self) -> tuple[tuple[PathVia, float], ...]:
+        """The points of the mission's route that lie on it, each with its distance along it [m]."""
+        distances = self.via_distances.tolist()
+        return tuple(
+            (via, distance)
+            for via, distance in zip(self.vias, distances, strict=True)
+            if via.index is not None
+        )

@@ -7,6 +7,7 @@ valid.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
@@ -16,24 +17,28 @@ from numpy.typing import NDArray
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import NoPathError, PlanningError
+from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
+from viaspline.planning.departure import Departure, Leave, refuse_blocked, rolling, standing
+from viaspline.planning.nearby import lay_nearby
 from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.splice import RunOut, run_out
-from viaspline.planning.problem.via_sequence import RouteVia, WholeLeg
+from viaspline.planning.problem.splice import run_out
+from viaspline.planning.problem.via_sequence import RouteVia
 from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.planning.sides_ahead import refuse_wrong_side, spans_on_wrong_side
 from viaspline.planning.stretch import (
     PASSED_M,
     Stretch,
+    is_round,
     refuse_the_end,
     room_to_run_out,
     sequence_through,
     stretch_round,
+    stretches_on_round,
     vias_remaining,
     vias_to_serve,
 )
@@ -42,7 +47,9 @@ from viaspline.world.world import World
 RUN_OUT_LENGTHS = (2.0, 1.0, 0.3)  # that are tried, in required distances
 
 
-def reflex(path: Path, at: float, world: World, requirements: Requirements) -> Solution:
+def reflex(
+    path: Path, at: float, world: World, requirements: Requirements, until: float = math.inf
+) -> Solution:
     """Lead only the blocked spans ahead round what stands in their way.
 
     The stretch from the last via point before them to the first one after them is laid anew,
@@ -54,24 +61,27 @@ def reflex(path: Path, at: float, world: World, requirements: Requirements) -> S
         at: Distance along it from which it may differ [m].
         world: What is known now.
         requirements: What to keep.
+        until: Distance along it from which it is not looked at yet [m], if it is a round that goes
+            on at its end.
 
     Raises:
         NoPathError: When the legs can't be led round so.
     """
     u = float(path.parameter(at))
-    blocked = _blocked_spans(path, u, world, requirements)
+    ahead = _ahead(path, u, until)
+    blocked = _blocked_spans(path, u, world, requirements, until)
     if not blocked.size:
-        certificate = proven(_ahead(path, u), world, requirements)
+        certificate = proven(ahead, world, requirements)
         return replace(_result(path, at, certificate, None), rejoins_at=at)
     users = vias_to_serve(path, world, requirements)
     narrow = stretch_round(path.vias, users, u, blocked)
     wide = stretch_round(users, users, u, blocked)
     try:
-        return _joined(path, narrow, world, requirements)
+        return _joined(path, narrow, world, requirements, until)
     except PlanningError:
         if wide == narrow:
             raise
-    return _joined(path, wide, world, requirements)
+    return _joined(path, wide, world, requirements, until)
 
 
 def planned(
@@ -80,19 +90,22 @@ def planned(
     world: World,
     requirements: Requirements,
     skip: Collection[int] = frozenset(),
+    until: float = math.inf,
 ) -> Solution:
     """Lay everything ahead anew, leaving out the route's points in ``skip``.
+
+    On a round that is what lies ahead up to what is in the way and on to the next via point of the
+    user, or a later one, no farther than needed from ``until`` [m].
 
     Raises:
         NoPathError: When there is no way.
     """
-    u = float(path.parameter(at))
-    return _joined(
-        path,
-        Stretch(u, vias_remaining(path, at, world, requirements, skip), None),
-        world,
-        requirements,
+    if is_round(path):
+        return _on_round(path, at, world, requirements, skip, until, rolling)
+    stretch = Stretch(
+        float(path.parameter(at)), vias_remaining(path, at, world, requirements, skip), None
     )
+    return _joined(path, stretch, world, requirements, until)
 
 
 def from_rest(
@@ -101,21 +114,23 @@ def from_rest(
     world: World,
     requirements: Requirements,
     skip: Collection[int] = frozenset(),
+    until: float = math.inf,
 ) -> Solution:
-    """Lay everything ahead anew from a standstill at ``at``.
+    """Lay everything ahead anew from a standstill at ``at``; on a round as ``planned`` does.
 
     The robot may turn on the spot, unless it never does: then it goes on as it stands.
 
     Raises:
         NoPathError: When there is no way.
     """
+    if is_round(path):
+        return _on_round(path, at, world, requirements, skip, until, standing)
     u = float(path.parameter(at))
     stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
     refuse_the_end(path, stretch)
-    start = RouteVia("the robot", np.asarray(path.evaluate(u)), None)
-    sequence = sequence_through(path, start, stretch, requirements)
-    if requirements.turn_radius is not None and requirements.turns_on_spot == "never":
-        sequence = replace(sequence, start_tangent=np.asarray(path.tangent(u)))
+    departure = standing(path, stretch, world, requirements, 0.0)
+    sequence = sequence_through(path, departure.start, stretch, requirements)
+    sequence = replace(sequence, start_tangent=departure.tangent)
     spline_path, account = lay_path(sequence, world, requirements)
     head = _head(path, u)
     vias = (*_vias_until(path, u, len(head)), *spline_path.vias_from(len(head)))
@@ -124,15 +139,43 @@ def from_rest(
     return _result(new, at, certificate, account)
 
 
-def _joined(path: Path, stretch: Stretch, world: World, requirements: Requirements) -> Solution:
+def _on_round(
+    path: Path,
+    at: float,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int],
+    until: float,
+    leave: Leave,
+) -> Solution:
+    """A new path on a round by the shortest stretch of it on which there is one."""
+    problem: PlanningError | None = None
+    blocked = _blocked_until(path, at, world, requirements, skip, until)
+    for stretch in stretches_on_round(path, at, world, requirements, skip, blocked, until):
+        try:
+            return _joined(path, stretch, world, requirements, until, leave)
+        except PlanningError as error:
+            problem = error
+    assert problem is not None  # there is a stretch at least
+    raise problem
+
+
+def _joined(
+    path: Path,
+    stretch: Stretch,
+    world: World,
+    requirements: Requirements,
+    until: float,
+    leave: Leave = rolling,
+) -> Solution:
     """The new path with the first run-out, from long to short, that lets it be clear."""
     refuse_the_end(path, stretch)
     problem: PlanningError | None = None
-    for reach in RUN_OUT_LENGTHS:
+    for length in RUN_OUT_LENGTHS:
+        reach = length * max(requirements.required, 0.1)
         try:
-            return _join(
-                path, stretch, world, requirements, reach * max(requirements.required, 0.1)
-            )
+            departure = leave(path, stretch, world, requirements, reach)
+            return _join(path, stretch, departure, world, requirements, reach, until)
         except BlockedLegError:
             raise  # a run-out is clear: where none leads on from one, none does from another
         except PlanningError as error:
@@ -142,29 +185,39 @@ def _joined(path: Path, stretch: Stretch, world: World, requirements: Requiremen
 
 
 def _join(
-    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
+    path: Path,
+    stretch: Stretch,
+    departure: Departure,
+    world: World,
+    requirements: Requirements,
+    reach: float,
+    until: float,
 ) -> Solution:
-    tail = stretch.tail
-    first_room, last_room = room_to_run_out(path, stretch)
-    out = run_out(path, stretch.u, min(reach, first_room))
-    back = None
+    tail, back = stretch.tail, None
     if tail is not None:
+        last_room = room_to_run_out(path, stretch)[1]
         back = run_out(path, tail.u, min(reach, last_room), sense=-1).reversed()
-    start = RouteVia("the robot", out.end, None)
+        refuse_blocked(back, world, requirements)
     meet = None if back is None else RouteVia("the old path", back.span[0], None)
     sequence = replace(
-        sequence_through(path, start, stretch, requirements, meet), start_tangent=out.tangent
+        sequence_through(path, departure.start, stretch, requirements, meet),
+        start_tangent=departure.tangent,
     )
-    _refuse_blocked(out, sequence.whole_leg(0), world, requirements)
+    if len(departure.spans):
+        refuse_wrong_side(departure.spans, sequence.whole_leg(0), world, requirements)
     if back is not None:
-        _refuse_blocked(back, sequence.whole_leg(len(sequence.legs) - 1), world, requirements)
-    if back is not None:
+        last_leg = sequence.whole_leg(len(sequence.legs) - 1)
+        refuse_wrong_side(back.span[None], last_leg, world, requirements)
         sequence = replace(sequence, end_tangent=back.tangent)
-    spline_path, account = lay_path(sequence, world, requirements)
+    if tail is None:
+        spline_path, account = lay_path(sequence, world, requirements)
+    else:
+        old = path.spans[int(stretch.u) : math.ceil(tail.u)]
+        spline_path, account = lay_nearby(sequence, old, world, requirements)
     spans = spline_path.spans
     head = _head(path, stretch.u)
-    first = len(head) + 1
-    pieces = [head, out.span[None], spans]
+    first = len(head) + len(departure.spans)
+    pieces = [head, departure.spans, spans]
     vias = [*_vias_until(path, stretch.u, len(head)), *spline_path.vias_from(first)]
     ahead = first + len(spans)
     rejoin = None
@@ -174,7 +227,10 @@ def _join(
         vias += [replace(via, u=via.u - tail.u + rejoin) for via in path.vias if via.u >= tail.u]
     new = Path(np.concatenate(pieces), vias)
     leaving = float(new.distance(float(len(head))))
-    certificate = proven(PiecewiseCubic(new.spans[len(head) :]), world, requirements)
+    last = len(new.spans)
+    if rejoin is not None and until < path.length:
+        last = rejoin  # what stays was proven, and is clear of what is known now
+    certificate = proven(PiecewiseCubic(new.spans[len(head) : last]), world, requirements)
     back_at = None if rejoin is None else float(new.distance(float(rejoin)))
     return _result(new, leaving, certificate, account, back_at)
 
@@ -194,32 +250,39 @@ def _result(
     return Solution(new, moved, account, certificate_from, rejoins_at)
 
 
-def _refuse_blocked(piece: RunOut, leg: WholeLeg, world: World, requirements: Requirements) -> None:
-    refuse_wrong_side(piece.span[None], leg, world, requirements)
-    index = int(body_conflicts(world, piece.span[None], requirements)[0])
-    if index != CLEAR:
-        name = world.name(index)
-        raise NoPathError(
-            f"{name!r} is too near to turn away from it under way",
-            where=piece.span[0],
-            remedy="stop and turn on the spot, or look farther ahead",
-            obstacles=(name,),
-        )
-
-
 def _blocked_spans(
-    path: Path, u: float, world: World, requirements: Requirements
+    path: Path, u: float, world: World, requirements: Requirements, until: float
 ) -> NDArray[np.intp]:
     """Indices of the path's spans from u on that come too close, or pass on a wrong side."""
     first = min(int(u), len(path.spans) - 1)
-    close = body_conflicts(world, _ahead(path, u).spans, requirements)
+    close = body_conflicts(world, _ahead(path, u, until).spans, requirements)
     wrong = spans_on_wrong_side(path, u, world, requirements)
     return np.union1d(first + np.flatnonzero(close != CLEAR), np.array(sorted(wrong), np.intp))
 
 
-def _ahead(path: Path, u: float) -> PiecewiseCubic:
+def _ahead(path: Path, u: float, until: float) -> PiecewiseCubic:
+    """The path from u on, to the end of the span that is at a distance [m] or to its own end."""
     end = path.domain[1]
+    if until < path.length:
+        end = max(float(math.ceil(float(path.parameter(until)))), math.floor(u) + 1.0)
     return path.section(min(u, end - PASSED_M), end)
+
+
+def _blocked_until(
+    path: Path,
+    at: float,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int],
+    until: float,
+) -> float:
+    """Where what is in the way ahead ends along a path, and what is left out of it [m]."""
+    u = float(path.parameter(at))
+    first = min(int(u), len(path.spans) - 1)
+    close = body_conflicts(world, _ahead(path, u, until).spans, requirements)
+    blocked = first + 1.0 + np.flatnonzero(close != CLEAR)
+    left_out = [via.u for via in path.vias if via.index in skip and via.u > u]
+    return float(path.distance(max([u, *blocked.tolist(), *left_out])))
 
 
 def _head(path: Path, u: float) -> Floats:

@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from viaspline.curve.path import GUIDE, Path, PathVia
+from viaspline.curve.path import GUIDE, SEAM, Path, PathVia
 from viaspline.errors import GaveUpError
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.world.clusters import group_labels
@@ -40,10 +40,15 @@ def whole_legs(path: Path, u: float, targets: Sequence[PathVia]) -> tuple[WholeL
     """
     passed = [via for via in leg_ends(path) if via.u <= u + SAME_U]
     first = passed[-1] if passed else path.vias[0]
+    if not passed and path.vias[-1].name == SEAM:
+        first = leg_ends(path)[-1]  # a round's first leg began at what is its last via point now
     return tuple(
-        WholeLeg(np.array(start.at), np.array(goal.at), path.spans[round(start.u) : round(goal.u)])
+        WholeLeg(
+            np.array(start.at), np.array(goal.at),
+            path.spans[round(start.u) : round(goal.u)] if start.u < goal.u else None,
+        )
         for start, goal in pairwise((first, *targets))
-    )
+    )  # fmt: skip
 
 
 def spans_on_wrong_side(
@@ -60,9 +65,8 @@ def spans_on_wrong_side(
     indices = sided(world)
     ends = [via for via in leg_ends(path) if via.u > u + SAME_U] if indices.size else []
     found: dict[int, str] = {}
-    for leg, goal in zip(whole_legs(path, u, ends), ends, strict=True):
-        first = round(goal.u) - len(leg.laid if leg.laid is not None else ())
-        start = max(float(first), u)
+    starts = (u, *(via.u for via in ends[:-1]))
+    for leg, start, goal in zip(whole_legs(path, u, ends), starts, ends, strict=False):
         ahead = path.section(start, goal.u).spans
         sides = _sides(WholeLeg(leg.start, leg.goal), indices, world, requirements)
         for k in np.flatnonzero(sides.crossed(ahead)).tolist():

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.curve.path import GUIDE, Path, PathVia
+from viaspline.curve.path import GUIDE, SEAM, Path, PathVia
 from viaspline.errors import NoPathError
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import (
@@ -57,6 +57,8 @@ def stretch_round(
     leave = max([u, *(via.u for via in joints if via.u <= blocked[0])])
     tail = next(via for via in joints if via.u >= blocked[-1] + 1)
     within = tuple(via for via in users if leave + PASSED_M < via.u < tail.u)
+    if tail.u >= users[-1].u and users[-1].name == SEAM:
+        return Stretch(leave, within, users[-1])
     if tail.u >= users[-1].u:
         return Stretch(leave, (*within, users[-1]), None)
     return Stretch(leave, within, tail)
@@ -82,12 +84,61 @@ def vias_to_serve(path: Path, world: World, requirements: Requirements) -> list[
 
     Without them the way to the next via point might go round the other way.
     """
-    places = [via.at[:2] for via in path.vias]
-    free = world.distance(places) > requirements.required + PASSED_M
+
+    def is_free(via: PathVia) -> bool:
+        return float(world.distance(via.at[:2])) > requirements.required + PASSED_M
+
     return [
         via
-        for via, is_free in zip(path.vias, free.tolist(), strict=True)
-        if via.kind == "user" or (via.name == GUIDE and is_free)
+        for via in path.vias
+        if via.kind == "user" or via.name == SEAM or (via.name == GUIDE and is_free(via))
+    ]
+
+
+def is_round(path: Path) -> bool:
+    """Whether a path goes on at its end, where it begins."""
+    return bool(path.vias) and path.vias[-1].name == SEAM
+
+
+def stretches_on_round(
+    path: Path,
+    at: float,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int],
+    blocked: float,
+    until: float,
+) -> list[Stretch]:
+    """What may be laid anew ahead on a round, from the shortest stretch to the longest.
+
+    Each goes on to a via point of the user at which the round is taken up again, beyond what is
+    blocked; from one to the next there are twice as many.
+
+    Args:
+        path: The round.
+        at: From where on it may be laid anew [m].
+        world: What is known.
+        requirements: What to keep.
+        skip: Points of the route that are left out.
+        blocked: Up to this distance along it, it has to be laid anew [m].
+        until: From this one on it is not looked at yet [m].
+
+    Raises:
+        NoPathError: When no via point of the user is left.
+    """
+    remaining = vias_remaining(path, at, world, requirements, skip)
+    u, first, last = np.asarray(path.parameter(np.array([at, blocked, until]))).tolist()
+    tails = [
+        via
+        for via in path.vias
+        if via.kind == "user" and via.u >= max(first, u) and via.index not in skip
+        and float(world.distance(via.at[:2])) > requirements.required
+    ]  # fmt: skip
+    tails.append(path.vias[-1])
+    within = next(k for k, via in enumerate(tails) if via.u >= last or via is tails[-1])
+    chosen = sorted({*(2**k - 1 for k in range(within.bit_length() + 1) if 2**k <= within), within})
+    return [
+        Stretch(u, tuple(via for via in remaining if via.u < tails[k].u), tails[k]) for k in chosen
     ]
 
 
@@ -124,15 +175,15 @@ def sequence_through(
     if meet is not None and stretch.tail is not None:
         tail = stretch.tail.u
         targets.append(meet)
-        legs.append(next(v.index or 1 for v in path.vias if v.index is not None and v.u >= tail))
+        after = (v.index or 1 for v in path.vias if v.index is not None and v.u >= tail)
+        legs.append(next(after, 1 + max(v.index or 0 for v in path.vias)))
     ends = list(stretch.ahead)
     if meet is not None and stretch.tail is not None:
-        tail = stretch.tail.u
-        ends.append(next(via for via in leg_ends(path) if via.u >= tail))
-    slack = _slack_by_leg(path, requirements)
+        ends.append(next((via for via in leg_ends(path) if via.u >= tail), leg_ends(path)[0]))
+    slack = _slack_by_leg(requirements)
     return ViaSequence(
         vias=(start, *targets),
-        legs=tuple(Leg.straight(slack[leg - 1], len(start.at)) for leg in legs),
+        legs=tuple(Leg.straight(slack[(leg - 1) % len(slack)], len(start.at)) for leg in legs),
         spline=requirements.spline,
         tangents=requirements.tangents,
         end_tangent=direction(requirements.goal_heading_deg, len(start.at))
@@ -142,12 +193,8 @@ def sequence_through(
     )
 
 
-def _slack_by_leg(path: Path, requirements: Requirements) -> tuple[float, ...]:
-    count = max(via.index for via in path.vias if via.index is not None)
-    given = (
-        requirements.spline.slack
-        if requirements.spline.slack is not None
-        else requirements.spline.tension
-    )
-    lap = len(given) if isinstance(given, tuple) else count  # laps share what each span has
-    return span_slack(requirements.spline, lap) * (count // lap)
+def _slack_by_leg(requirements: Requirements) -> tuple[float, ...]:
+    """The slack of each leg of a lap; of all legs, where they have the same."""
+    spline = requirements.spline
+    given = spline.slack if spline.slack is not None else spline.tension
+    return span_slack(spline, len(given) if isinstance(given, tuple) else 1)

@@ -80,15 +80,15 @@ def _replan(replan: Replan) -> dict[str, Any]:
         "distance_m": replan.distance,
         "mode": replan.mode,
         "obstacles": replan.obstacles,
-        "changed_from_m": replan.changed_from,
-        "rejoins_at_m": replan.rejoins_at,
+        "changed_from_m": replan.driven + replan.changed_from,
+        "rejoins_at_m": None if replan.rejoins_at is None else replan.driven + replan.rejoins_at,
         "spans_changed": changed_spans(replan.path, replan.changed_from, replan.rejoins_at),
         "spans": len(replan.path.spans),
         "position_jump_m": replan.position_jump,
         "heading_jump_rad": replan.heading_jump,
         "curvature_jump_1pm": replan.curvature_jump,
-        "length_before_m": replan.old_path.length,
-        "length_after_m": replan.path.length,
+        "length_before_m": replan.driven + replan.old_path.length,
+        "length_after_m": replan.driven + replan.path.length,
     }
 
 

@@ -25,13 +25,20 @@ from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.navigation_state import NavigationState
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.reschedule import caught_up, rescheduled
-from viaspline.robot.navigation.schedule import Schedule, vias_after
+from viaspline.robot.navigation.rounds import (
+    first_round,
+    is_due,
+    is_timed_out,
+    next_part,
+    quiet_until,
+)
+from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.navigation.track_path import track, with_command
 from viaspline.robot.path_following import command_for
 from viaspline.robot.perception.belief import Belief
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.perceive import perceive
-from viaspline.robot.replanning.decide import decide
+from viaspline.robot.replanning.decide import decide, look_again
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
 from viaspline.trajectory.limits import REACTION_S
@@ -49,6 +56,11 @@ class Navigator:
     next step. Nothing is kept anywhere else, so a step can be repeated, stored or tried out. It
     reads no clock: time is what the caller says it is (only the wall-clock time that a re-plan
     took is noted, in ``compute_times``).
+
+    It keeps nothing of the past: ``events``, ``replans`` and the like are those of the last step,
+    for whoever wants to write them down (``Logbook`` does). Of a route of many laps it has a round
+    ahead; what lies behind is taken off the path and handed out. So a day's patrol takes no more
+    memory than its first hour.
 
     A robot with a sensor never drives faster than v with v²/(2 max_accel) + v reaction <= range -
     radius - clearance, so it can stop before it comes too close to whatever comes into range. If
@@ -96,7 +108,7 @@ class Navigator:
         >>> state = RobotState(position=(6.0, 0.0), heading=0.0, speed=2.0)
         >>> command, nav = nav.step(state, sensed=[rock], time=4.0)
         >>> [event.kind for event in nav.events]
-        ['started', 'detected', 'replanned']
+        ['detected', 'replanned']
     """
 
     def __init__(
@@ -140,13 +152,20 @@ class Navigator:
         """
         _check(state, time, self._state)
         task, measured = self._task, state
-        before = self._state if self._state.log.events else _set_off(self._state, time)
+        before = replace(self._state, log=Log())
+        if not before.progress.set_off:
+            before = _set_off(before, time)
         progress, knowledge = before.progress, before.knowledge
         schedule, log = before.schedule, before.log
         # how far has the robot come?
         if not progress.finished or progress.controller is not None:
             progress, schedule = track(progress, schedule, measured, time)
             progress, log = note_arrivals(task, progress, schedule, log)
+            if is_due(progress, schedule):
+                progress, schedule, log = _next_part(task, progress, knowledge, schedule, log)
+            elif is_timed_out(progress, schedule):
+                speed = float(schedule.trajectory.state_at(progress.time)[1])
+                schedule = rescheduled(task, progress, knowledge, schedule, speed)
             schedule = caught_up(task, progress, knowledge, schedule, measured.speed)
         # what does it perceive? after the end only a lidar goes on
         sighting = None
@@ -199,7 +218,12 @@ class Navigator:
 
     @property
     def path(self) -> Path:
-        """The path; all that was driven is its beginning."""
+        """The path; what was driven is its beginning, all of it but on a route of many laps.
+
+        Such a path is a round that ends where it begins and goes on there; its last three eighths
+        are looked at when the robot comes nearer. What lies behind is taken off it now and then:
+        ``driven`` says how long that was.
+        """
         return self._state.schedule.path
 
     @property
@@ -211,6 +235,16 @@ class Navigator:
     def distance(self) -> float:
         """Progress along the path at the last step [m]."""
         return self._state.progress.distance
+
+    @property
+    def driven(self) -> float:
+        """Distance that was driven before the path begins [m]; 0 but on a route of many laps."""
+        return self._state.schedule.driven
+
+    @property
+    def quiet_until(self) -> float:
+        """Until then a robot that follows exactly and sees nothing new may leave out steps [s]."""
+        return quiet_until(self._state.schedule)
 
     @property
     def finished(self) -> bool:
@@ -228,24 +262,28 @@ class Navigator:
         return self._state.schedule.giving_up
 
     @property
+    def log(self) -> Log:
+        """All that is noted of the last step; a ``Logbook`` keeps it."""
+        return self._state.log
+
+    @property
     def visits(self) -> tuple[Visit, ...]:
-        """How each point of the route was served so far, in order."""
-        route = [via for via, _ in vias_after(self._plan.path, -1)]
-        return self._state.log.visits(route, self.reason or "the robot has not come so far")
+        """The points of the route that were served in the last step, in order."""
+        return tuple(visit for _, visit in self._state.log.served)
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """Everything that happened so far."""
+        """What happened in the last step."""
         return self._state.log.events
 
     @property
     def replans(self) -> tuple[Replan, ...]:
-        """Every new path so far."""
+        """The new paths of the last step."""
         return self._state.log.replans
 
     @property
     def compute_times(self) -> tuple[float, ...]:
-        """How long each re-plan took, by the clock on the wall [s]."""
+        """How long each search in the last step took, by the clock on the wall [s]."""
         return self._state.log.compute_times
 
 
@@ -259,9 +297,24 @@ def _at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
         controller = Controller.of(task.model, period, plan.path, plan.trajectory)
     progress = Progress(time=0.0, controller=controller)
     knowledge = Knowledge(world, frozenset(world.obstacles), belief)
-    schedule = Schedule(plan.path, plan.trajectory, laid_in=world)
+    path, laps = first_round(task, plan.path)
+    schedule = Schedule(path, plan.trajectory, laid_in=world, laps=laps)
     schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
     return NavigationState(progress, knowledge, schedule, Log())
+
+
+def _next_part(
+    task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule, log: Log
+) -> tuple[Progress, Schedule, Log]:
+    """The robot with what it has driven at its path's end, and clear as far as it looks."""
+    progress, schedule, behind = next_part(progress, schedule)
+    log = log.with_driven(behind)
+    speed = float(schedule.trajectory.state_at(progress.time)[1])
+    schedule = rescheduled(task, progress, knowledge, schedule, speed)
+    began = clock.perf_counter()
+    decision = look_again(task, progress, knowledge, schedule)
+    log = log.with_decision(decision, clock.perf_counter() - began)
+    return progress, decision.schedule, log
 
 
 def _set_off(state: NavigationState, time: float) -> NavigationState:
@@ -272,7 +325,7 @@ def _set_off(state: NavigationState, time: float) -> NavigationState:
     words = f"sets off on a path of {schedule.path.length:.1f} m"
     return replace(
         state,
-        progress=replace(progress, time=time),
+        progress=replace(progress, time=time, set_off=True),
         schedule=replace(schedule, trajectory=schedule.trajectory.delayed(time)),
         log=state.log.with_events(Event("started", time, schedule.place(0.0), words)),
     )
@@ -282,7 +335,7 @@ def _check(measured: RobotState, time: float, state: NavigationState) -> None:
     """Refuse what can't have been measured after the last step."""
     progress, dimension = state.progress, state.schedule.path.dimension
     last = progress.time - (0.0 if progress.controller is None else progress.controller.ahead)
-    if state.log.events and time < last - TIME_ROUNDING * (1.0 + abs(last)):
+    if progress.set_off and time < last - TIME_ROUNDING * (1.0 + abs(last)):
         raise GeometryError(f"time {time} s is before the last step's, {last} s")
     numbers = (*measured.position, measured.heading, measured.speed, measured.speed_across, time)
     if len(measured.position) != dimension or not np.isfinite(numbers).all():

@@ -74,7 +74,7 @@ def command_for(
         yaw_rate=motion.yaw_rate,
         position=tuple(position.tolist()),
         heading=heading if robot.held_heading is None else robot.held_heading,
-        distance=distance,
+        distance=schedule.driven + distance,
         stopped=stopped,
         finished=progress.finished,
         velocity=motion.velocity,

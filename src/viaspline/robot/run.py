@@ -79,7 +79,7 @@ class Replan:
     Attributes:
         time: When [s].
         at: Where the new path leaves the old one [m].
-        distance: Where that is along the path [m].
+        distance: Where that is along all that was driven [m].
         mode: How it was found: ``reflex``, ``planned`` or ``from_rest``.
         changed_from: Distance [m] along the path from which it differs.
         rejoins_at: Distance along the new path from which it is the old one again; None if never.
@@ -87,8 +87,10 @@ class Replan:
         position_jump: Between old and new at the joint [m].
         heading_jump: [rad].
         curvature_jump: [1/m].
-        path: The path from then on; it contains all that was driven before.
+        path: The path from then on; it contains what was driven before, but for the beginning of a
+            drive of many laps.
         old_path: The path that it replaces.
+        driven: Distance that was driven before both paths begin [m].
     """
 
     time: float
@@ -103,6 +105,7 @@ class Replan:
     curvature_jump: float
     path: Path
     old_path: Path
+    driven: float = 0.0
 
 
 @dataclass(frozen=True)

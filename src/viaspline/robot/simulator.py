@@ -78,7 +78,8 @@ def simulate(
 
     def tell(time: float, nav: Navigator) -> None:
         if progress is not None:
-            progress(time, nav.distance, nav.path.length)
+            length = nav.plan.path.length if mission.route.laps > 1 else nav.path.length
+            progress(time, nav.driven + nav.distance, length)
 
     if nav.controller is None:
         return run_of_exact(drive_exactly(nav, world, step, seed, tell, limit), world, step)

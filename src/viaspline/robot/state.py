@@ -42,7 +42,7 @@ class Command:
         yaw_rate: Of the body [rad/s].
         position: The path's point that belongs to the robot's progress [m], shape (d,).
         heading: The heading that the body should have there [rad].
-        distance: The progress along the path [m].
+        distance: The progress along all that is driven [m].
         stopped: Whether the robot is to stand: it dwells, turns on the spot to ``heading``, or
             its drive is over.
         finished: Whether its drive is over, at the goal or not.

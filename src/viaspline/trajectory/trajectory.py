@@ -102,6 +102,19 @@ class Trajectory:
         """The time law begun so much later [s]."""
         return replace(self, times=self.times + seconds)
 
+    def moved(self, distance: float) -> Trajectory:
+        """The time law of a path that begins so much earlier [m]: all its distances are larger."""
+        over, jerky = self.over_limit_until, self.over_jerk_until
+        return replace(
+            self,
+            distances=self.distances + distance,
+            stations=tuple(
+                replace(station, distance=station.distance + distance) for station in self.stations
+            ),
+            over_limit_until=None if over is None else over + distance,
+            over_jerk_until=None if jerky is None else jerky + distance,
+        )
+
     def until(self, distance: float) -> Trajectory:
         """The time law as far as the first rest at a distance along the path [m] or beyond it."""
         rests = np.flatnonzero((self.speeds == 0.0) & (self.distances >= distance))

@@ -14,13 +14,14 @@ import numpy as np
 
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Columns, Floats, Ints
-from viaspline.kernels.world.box_tree import box_tree, hilbert_keys, ring_boxes
+from viaspline.kernels.world.box_tree import ring_boxes
 from viaspline.kernels.world.grid_rows import row_tables
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.rings import pack_rings
 from viaspline.maps.grid import Grid
 from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
 from viaspline.mission.shapes.rounded_ring import RoundedRing
+from viaspline.world.tree_growth import grown, leaf_boxes, tree_over
 
 Rings = Sequence[Sequence[tuple[float, float]]]
 Grids = tuple[Floats, Ints, Columns, Columns]
@@ -58,12 +59,11 @@ def pack(
         boxes[slot >= 0] = ring_boxes(edges, ring_edges) + grown
     if grids:
         boxes[slot < 0] = [grid.extent for grid in grids]
-    tree = box_tree(boxes, np.argsort(hilbert_keys(boxes), kind="stable"))
     return PackedWorld(
         slot, heads, ring_edges, ring_blocks, block_edges, ring_boxes(edges, block_edges), edges,
         *_grids(grids),
         np.array([] if bounds is None else bounds, np.float64).reshape(-1, 4),
-        fence_starts, fence_edges, *tree,
+        fence_starts, fence_edges, *tree_over(boxes),
     )  # fmt: skip
 
 
@@ -128,27 +128,24 @@ def _edges(rings: Sequence[Rings]) -> tuple[Floats, Ints, Ints]:
     return packed
 
 
-def join(first: PackedWorld, second: PackedWorld) -> PackedWorld:
-    """The obstacles of both worlds inside the bounds of the first, without sorting anything again.
+def join(first: PackedWorld, second: PackedWorld, settled: int) -> tuple[PackedWorld, int]:
+    """The obstacles of both worlds inside the bounds of the first.
 
-    The second's obstacles come after the first's; a new root stands above both trees.
+    Args:
+        first: A world.
+        second: What comes to it: its obstacles come after the first's.
+        settled: How many of the first's obstacles are in its large tree (``tree_growth``).
+
+    Returns:
+        (all of them, how many of them are in its large tree).
     """
     if not second.leaf.size:
-        return first
-    if not first.leaf.size:
-        return second._replace(
-            bounds=first.bounds, fence_edges=first.fence_edges, fences=first.fences
-        )
-    obstacles = first.slot.size
-    left = first.leaf.size
-    root = np.empty((1, 4))
-    root[0, :2] = np.minimum(first.boxes[0, :2], second.boxes[0, :2])
-    root[0, 2:] = np.maximum(first.boxes[0, 2:], second.boxes[0, 2:])
-    leaf = np.where(second.leaf >= 0, second.leaf + obstacles, -1)
+        return first, settled
+    tree, now = grown(first, settled, leaf_boxes(second))
     rings, grids = len(first.heads), len(first.grid_frames)
     shapes = second.grid_shapes.copy()
     shapes[:, 2] += first.to_right.size
-    return PackedWorld(
+    joined = PackedWorld(
         slot=np.concatenate(
             (first.slot, np.where(second.slot >= 0, second.slot + rings, second.slot - grids))
         ),
@@ -165,12 +162,9 @@ def join(first: PackedWorld, second: PackedWorld) -> PackedWorld:
         bounds=first.bounds,
         fence_edges=first.fence_edges,
         fences=first.fences,
-        boxes=np.concatenate((root, first.boxes, second.boxes)),
-        skip=np.concatenate(
-            ([1 + left + second.leaf.size], first.skip + 1, second.skip + 1 + left)
-        ),
-        leaf=np.concatenate(([-1], first.leaf, leaf)),
+        **tree._asdict(),
     )
+    return joined, now
 
 
 def _chain(first: Ints, second: Ints) -> Ints:

@@ -20,6 +20,7 @@ from viaspline.mission.shapes.obstacle import Obstacle, Side
 from viaspline.mission.strip import corridor_rings
 from viaspline.world.outline import outline
 from viaspline.world.pack import Rings, join, pack
+from viaspline.world.tree_growth import leaf_boxes
 
 Bounds = tuple[float, float, float, float]
 NOTHING = -1  # the index of what is nearest in an empty world
@@ -66,6 +67,7 @@ class World:
         if self.corridor:
             areas.append(self.corridor)
         self.packed: PackedWorld = pack(self.obstacles, self.bounds, areas)
+        self._settled = len(self.obstacles)
 
     @classmethod
     def known(cls, mission: Mission) -> World:
@@ -86,7 +88,7 @@ class World:
         world.obstacles = self.obstacles + new
         world.bounds = self.bounds
         world.fences, world.corridor = self.fences, self.corridor
-        world.packed = join(self.packed, pack(new, None, ()))
+        world.packed, world._settled = join(self.packed, pack(new, None, ()), self._settled)
         return world
 
     def with_side(self, index: int, side: Side) -> World:
@@ -95,8 +97,37 @@ class World:
         world = object.__new__(World)
         world.obstacles = (*self.obstacles[:index], asked, *self.obstacles[index + 1 :])
         world.bounds, world.fences, world.packed = self.bounds, self.fences, self.packed
-        world.corridor = self.corridor
+        world.corridor, world._settled = self.corridor, self._settled
         return world
+
+    def near(self, box: Bounds) -> World:
+        """What of it reaches into a box [m], each obstacle by the name that it has in here.
+
+        The bounds are left out if the box is inside of them.
+
+        Example:
+            >>> discs = [Obstacle(circle={"center": (x, 0), "radius": 1}) for x in (0, 5, 99)]
+            >>> World(discs, bounds=(-9, -9, 200, 9)).near((4, -2, 120, 2)).names
+            ('obstacle 2', 'obstacle 3')
+        """
+        x0, y0, x1, y1 = box
+        boxes = leaf_boxes(self.packed)
+        meets = (boxes[:, 0] <= x1) & (boxes[:, 2] >= x0) & (boxes[:, 1] <= y1)
+        found = np.flatnonzero(meets & (boxes[:, 3] >= y0)).tolist()
+        bounds = self.bounds
+        if bounds is not None and (bounds[0] < x0 and bounds[1] < y0):
+            bounds = None if bounds[2] > x1 and bounds[3] > y1 else bounds
+        return World(
+            (
+                obstacle
+                if obstacle.name is not None or obstacle.grid is not None
+                else obstacle.model_copy(update={"name": self.name(i)})
+                for i, obstacle in ((i, self.obstacles[i]) for i in found)
+            ),
+            bounds=bounds,
+            fences=self.fences,
+            corridor=self.corridor,
+        )
 
     @property
     def are_maps(self) -> NDArray[np.bool_]:

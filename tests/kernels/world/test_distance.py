@@ -122,8 +122,8 @@ def test_boxes_that_are_all_one_place_have_a_tree_as_well() -> None:
 
 def test_a_join_with_nothing_is_the_other_one() -> None:
     some, none = world(disc(0, 0, 1), polygon(*SQUARE)), world(bounds=(0, 0, 5, 5))
-    assert join(some, world()) is some
-    joined = join(none, some)
+    assert join(some, world(), 2)[0] is some
+    joined, _ = join(none, some, 0)
     np.testing.assert_array_equal(joined.bounds, [[0, 0, 5, 5]])
     np.testing.assert_array_equal(joined.heads, some.heads)
 

@@ -9,7 +9,7 @@ from viaspline.planner import plan
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.schedule import Schedule
-from viaspline.robot.run import Event, Visit
+from viaspline.robot.run import Event
 
 MISSION = Mission.model_validate(
     {"route": {"start": [0, 0], "via": [[20, 5], [30, 0]], "goal": [40, 0]}}
@@ -21,15 +21,6 @@ SEEN = Event("detected", 1.0, (0.0, 0.0), "sees 'rock'")
 def schedule() -> Schedule:
     made = plan(MISSION)
     return Schedule(made.path, made.trajectory, laid_in=made.world)
-
-
-def test_each_point_of_the_route_has_a_visit_in_order(schedule: Schedule) -> None:
-    start = Visit("start", (0.0, 0.0), "served", 0.0, 0.0)
-    log = Log(skipped=((2, "'rock' covers it"),)).with_visit(0, start)
-    visits = log.visits(schedule.path.vias, "stands")
-    assert [visit.name for visit in visits] == ["start", "via 1", "via 2", "goal"]
-    assert [visit.status for visit in visits] == ["served", "failed", "skipped", "failed"]
-    assert [visit.reason for visit in visits] == [None, "stands", "'rock' covers it", "stands"]
 
 
 def test_only_a_search_has_a_compute_time(schedule: Schedule) -> None:

@@ -40,10 +40,10 @@ def drive_among(
     return nav, states
 
 
-def crossings_at(nav: Navigator, x: float) -> list[int]:
+def crossings_at(states: Sequence[Navigator], x: float) -> list[int]:
     """On which side each new path crosses a line of constant x."""
     found = []
-    for replan in nav.replans:
+    for replan in (replan for nav in states for replan in nav.replans):
         points = np.asarray(replan.path.at_distance(np.linspace(0, replan.path.length, 2000)))
         found.append(int(np.sign(points[np.abs(points[:, 0] - x).argmin(), 1])))
     return found
@@ -60,5 +60,5 @@ def drive() -> Callable[..., tuple[Navigator, list[Navigator]]]:
 
 
 @pytest.fixture(scope="session")
-def sides_at() -> Callable[[Navigator, float], list[int]]:
+def sides_at() -> Callable[[Sequence[Navigator], float], list[int]]:
     return crossings_at

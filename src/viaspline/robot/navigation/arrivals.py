@@ -48,15 +48,22 @@ def _pass(
     on_curve = np.asarray(path.evaluate(via.u))
     miss = float(np.linalg.norm(on_curve - np.asarray(via.at))) + progress.cross_track
     log = log.with_visit(via.index, Visit(via.name, via.at, "served", time, miss))
+    for index, why in _missed(progress.last_via, via.index, schedule):
+        lost = f"gives up point {index} of the route again: {why}"
+        log = log.with_skipped(index, why).with_events(Event("skipped", time, via.at, lost))
     progress = replace(progress, last_via=via.index)
     if via.dwell > 0.0:
         message = f"stops at '{via.name}' for {via.dwell:g} s"
         arrived = Event("arrived", time, via.at, message, {"dwell_s": via.dwell})
         stay = Dwell(via.name, via.at, time + via.dwell)
         return replace(progress, dwell=stay), log.with_events(arrived)
-    if via.index > 0 and vias_after(path, via.index):
+    if via.index > 0 and (schedule.is_round or vias_after(path, via.index)):
         log = log.with_events(Event("via", time, via.at, f"passes '{via.name}'"))
     return progress, log
+
+
+def _missed(last: int, index: int, schedule: Schedule) -> tuple[tuple[int, str], ...]:
+    return () if schedule.laps is None else schedule.laps.newly_missed(last, index)
 
 
 def _end_drive(
@@ -65,7 +72,7 @@ def _end_drive(
     trajectory, reason = schedule.trajectory, schedule.giving_up
     end, time = float(trajectory.distances[-1]), trajectory.end_time
     over = progress.time >= time and progress.distance >= end - SAME_PLACE_M
-    waits = reason is None and end < schedule.path.length - SAME_PLACE_M
+    waits = reason is None and (schedule.is_round or end < schedule.path.length - SAME_PLACE_M)
     if progress.finished or progress.dwell is not None or waits or not over:
         return progress, log
     where = schedule.place(end)

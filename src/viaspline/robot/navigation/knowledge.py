@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.belief import Belief, News
@@ -19,11 +19,14 @@ class Knowledge:
         world: All of it.
         told: The obstacles in that world that are on the map or were told one by one.
         belief: What a lidar has shown; None without one.
+        in_sight: The obstacles that were told of in the last look, as the same objects: those that
+            are told of again need not be compared with all that is known.
     """
 
     world: World
     told: frozenset[Obstacle]
     belief: Belief | None = None
+    in_sight: tuple[Obstacle, ...] = field(default=(), compare=False)
 
     def with_obstacles(self, obstacles: Sequence[Obstacle]) -> tuple[Knowledge, World]:
         """What is known with obstacles that were not told before.

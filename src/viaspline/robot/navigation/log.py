@@ -1,18 +1,20 @@
-"""What has happened on a drive."""
+"""What has happened in one step of a drive: it is handed out, and not kept.
+
+``Logbook`` puts the logs of many steps together.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from viaspline.curve.path import PathVia
+from viaspline.curve.path import Path
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.run import Event, Replan, Visit
 
 
 @dataclass(frozen=True)
 class Log:
-    """All that is noted of a drive; nothing of it is asked again under way.
+    """All that is noted in one step; nothing of it is asked again under way.
 
     Attributes:
         events: What happened, in order.
@@ -20,6 +22,7 @@ class Log:
         served: Points of the route that were passed: their indices and how that was.
         skipped: Points of the route that were given up: their indices and the reason.
         compute_times: How long each search for a new path took, by the clock on the wall [s].
+        driven: What was driven and is no part of the path any more, in order.
     """
 
     events: tuple[Event, ...] = ()
@@ -27,6 +30,7 @@ class Log:
     served: tuple[tuple[int, Visit], ...] = ()
     skipped: tuple[tuple[int, str], ...] = ()
     compute_times: tuple[float, ...] = ()
+    driven: tuple[Path, ...] = ()
 
     def with_events(self, *events: Event) -> Log:
         """The log with these events at its end."""
@@ -48,23 +52,10 @@ class Log:
             compute_times=self.compute_times + times,
         )
 
-    def visits(self, points: Iterable[PathVia], reason: str) -> tuple[Visit, ...]:
-        """How each point of the route was served: by order along the path, not by nearness.
+    def with_driven(self, part: Path) -> Log:
+        """The log with a part of the path that lies behind for good."""
+        return replace(self, driven=(*self.driven, part))
 
-        Args:
-            points: The user's via points of the path that was planned at first; a closed route's
-                start comes twice.
-            reason: Why those that were neither passed nor given up count as failed.
-        """
-        served, skipped = dict(self.served), dict(self.skipped)
-        by_index = {via.index: via for via in points}
-        visits = []
-        for index, via in sorted(by_index.items(), key=lambda item: item[0] or 0):
-            assert index is not None
-            if index in served:
-                visits.append(served[index])
-            elif index in skipped:
-                visits.append(Visit(via.name, via.at, "skipped", None, None, skipped[index]))
-            else:
-                visits.append(Visit(via.name, via.at, "failed", None, None, reason))
-        return tuple(visits)
+    def with_skipped(self, index: int, reason: str) -> Log:
+        """The log with a point of the route that is given up."""
+        return replace(self, skipped=(*self.skipped, (index, reason)))

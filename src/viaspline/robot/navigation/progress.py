@@ -36,6 +36,7 @@ class Progress:
         dwell: The stay at a station that is under way.
         finished: Whether the drive is over, at the goal or not.
         controller: The controller of a robot with a drive; None if it follows exactly.
+        set_off: Whether there has been a step.
     """
 
     time: float
@@ -46,3 +47,4 @@ class Progress:
     dwell: Dwell | None = None
     finished: bool = False
     controller: Controller | None = None
+    set_off: bool = False

@@ -117,12 +117,18 @@ def trajectory_within_sight(
         stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
     if task.model is not None:
         stops = with_turns(path, task.model, stops, distance)
+    timed = path
+    if schedule.laps is not None and schedule.is_round:
+        last = max(distance + schedule.laps.timed, at_least)
+        if last < path.length:  # the law reaches farther when the robot has come nearer
+            timed = Path(path.section(0.0, float(path.parameter(last))).spans, [])
+            stops = [stop for stop in stops if stop.distance < timed.length]
     trajectory = retime(
-        path,
+        timed,
         task.limits,
         stops,
         zones=task.mission.world.speed_zones,
-        start=min(distance, path.length),
+        start=min(distance, timed.length),
         start_speed=speed,
         start_accel=float(schedule.trajectory.state_at(time)[2]),
         start_time=time,

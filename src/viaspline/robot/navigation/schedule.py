@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from dataclasses import dataclass
 
 import numpy as np
 
 from viaspline.curve.path import Path, PathVia
-from viaspline.kernels.arrays import Floats
+from viaspline.robot.navigation.laps_ahead import LapsAhead
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
@@ -46,7 +47,8 @@ class Schedule:
     """Where a robot means to be when: its path, its trajectory, and how far it trusts them.
 
     Attributes:
-        path: The path; all that was driven is its beginning.
+        path: The path; what was driven of it is its beginning. On a route of many laps it is a
+            round that goes on at its end, and what lies behind is taken off it now and then.
         trajectory: The time law along it, from the last change on.
         laid_in: What was known when the path was laid.
         laid_at: When it was laid under way [s]; -inf before the first re-plan.
@@ -59,6 +61,8 @@ class Schedule:
         reviewed_at: When it was last asked whether there is a better path [s].
         wait: Since when and why the robot waits, if it does.
         giving_up: Why the robot brakes for good, if it does.
+        laps: What the path goes on with at its end; None if the path was all laps from the start.
+        driven: Distance that was driven before the path begins [m].
     """
 
     path: Path
@@ -72,11 +76,23 @@ class Schedule:
     reviewed_at: float = -math.inf
     wait: Wait | None = None
     giving_up: str | None = None
+    laps: LapsAhead | None = None
+    driven: float = 0.0
 
     @property
     def is_blocked(self) -> bool:
         """Whether the robot waits because no way on was found."""
         return self.wait is not None and self.wait.reason is not None
+
+    @property
+    def is_round(self) -> bool:
+        """Whether the path goes on at its end, where it begins."""
+        return self.laps is not None and self.laps.unseen > 0.0
+
+    @property
+    def looked_at(self) -> float:
+        """Distance along the path up to which it is looked at what is in its way [m]."""
+        return self.path.length - (0.0 if self.laps is None else self.laps.unseen)
 
     def place(self, distance: float) -> tuple[float, ...]:
         """The path's point at a distance along it [m]."""
@@ -111,9 +127,9 @@ def vias_after(path: Path, last_via: int) -> tuple[tuple[PathVia, float], ...]:
     Returns:
         Each with its distance along the path [m], in order.
     """
-    distances: Floats = path.via_distances
-    return tuple(
-        (via, float(distance))
-        for via, distance in zip(path.vias, distances, strict=True)
-        if via.index is not None and via.index > last_via
-    )
+    stops = path.stops
+    return stops[bisect_right(stops, last_via, key=_index) :]
+
+
+def _index(stop: tuple[PathVia, float]) -> int:
+    return -1 if stop[0].index is None else stop[0].index

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from viaspline.errors import GeometryError
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -37,5 +38,9 @@ def perceive(
                 "robot.sensor.lidar"
             )
         return knowledge.with_scan(sensed)
-    new = tuple(dict.fromkeys(o for o in sensed if o not in knowledge.told))
+    in_sight = tuple(sensed)
+    same = {id(obstacle) for obstacle in knowledge.in_sight}
+    others = (obstacle for obstacle in in_sight if id(obstacle) not in same)
+    new = tuple(dict.fromkeys(o for o in others if o not in knowledge.told))
+    knowledge = replace(knowledge, in_sight=in_sight)
     return knowledge.with_obstacles(new) if new else (knowledge, None)

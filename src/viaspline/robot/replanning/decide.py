@@ -42,6 +42,18 @@ def decide(
     return replan_from_scan(context, opened=sighting.gone > 0)
 
 
+def look_again(
+    task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule
+) -> Decision:
+    """Go round what is known and stands in the way of a part of the path that has come nearer."""
+    context = ReplanContext.of(task, progress, knowledge, schedule)
+    world = knowledge.world
+    free = context.free_until(world)
+    if free is None:
+        return Decision(schedule)
+    return _go_round(context, Obstruction(world, context.in_the_way(world), free))
+
+
 def _round_obstacles(context: ReplanContext, new: World) -> Decision:
     """Round obstacles that are known exactly from when they are seen; if there is no way, stop."""
     detected = tuple(context.detection(new, i) for i in range(len(new)))
@@ -53,10 +65,15 @@ def _round_obstacles(context: ReplanContext, new: World) -> Decision:
         free = context.on_side_until(new)
     if free is None:
         return unchanged
-    blocked = replace(context, obstruction=Obstruction(new, new.names, free))
+    decision = _go_round(context, Obstruction(new, new.names, free))
+    return replace(decision, events=detected + decision.events)
+
+
+def _go_round(context: ReplanContext, obstruction: Obstruction) -> Decision:
+    blocked = replace(context, obstruction=obstruction)
     result = search(blocked)
     if result.candidate is None:
         decision = stop_for_good(blocked, str(result.refusal))
     else:
         decision = take_over(blocked, result.candidate, result.skip)
-    return replace(decision, events=detected + decision.events, searched=True)
+    return replace(decision, searched=True)

@@ -37,7 +37,13 @@ def is_better(length: float, other: float) -> bool:
 
 
 def changed_side(
-    old: Path, new: Path, at: float, last: int, known: World, width: float
+    old: Path,
+    new: Path,
+    at: float,
+    last: int,
+    known: World,
+    width: float,
+    rejoins_at: float | None = None,
 ) -> tuple[Floats, Side] | None:
     """Something that a new path passes on another side than the old one did, and the old side.
 
@@ -48,6 +54,7 @@ def changed_side(
         last: Index in the route of the last via point that was passed.
         known: What was known when the old one was laid.
         width: Distance that both keep from it [m].
+        rejoins_at: Distance along the new one from which it is the old one again; None if never.
 
     Returns:
         (a place in it [m], side); of several the one nearest to the old path. None if they pass
@@ -56,7 +63,8 @@ def changed_side(
     places, indices = known.places()
     if not len(places):
         return None
-    for before, after in _legs(old, new, at, last, 0.5 * width):
+    until = np.inf if rejoins_at is None else rejoins_at
+    for before, after in _legs(old, new, at, last, 0.5 * width, until):
         between = _enclosed(np.concatenate((before, after[::-1])), places)
         if between.size:
             gaps = [np.hypot(*(before - places[k]).T).min() for k in between]
@@ -77,7 +85,7 @@ def _enclosed(ring: Floats, places: Floats) -> NDArray[np.intp]:
 
 
 def _legs(
-    old: Path, new: Path, at: float, last: int, spacing: float
+    old: Path, new: Path, at: float, last: int, spacing: float, until: float
 ) -> Iterator[tuple[Floats, Floats]]:
     """Points along either path, from where they part on, for each leg that both have."""
     stops = {via.index: place for via, place in vias_after(old, last)}
@@ -88,6 +96,8 @@ def _legs(
         if via.index in stops and min(place, stops[via.index]) > at
     ]
     for (old_from, new_from), (old_to, new_to) in pairwise(common):
+        if new_from >= until:  # from here on they are the same
+            return
         yield _line(old, old_from, old_to, spacing), _line(new, new_from, new_to, spacing)
 
 

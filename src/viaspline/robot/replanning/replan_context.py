@@ -20,6 +20,9 @@ from viaspline.robot.navigation.schedule import Schedule, vias_after
 from viaspline.robot.run import Event
 from viaspline.world.world import World
 
+PATH_END_U = 1e-9
+"""A via point whose parameter is nearer than this to the path's end is the goal."""
+
 
 @dataclass(frozen=True)
 class Obstruction:
@@ -48,7 +51,8 @@ class ReplanContext:
         requirements: What a new path keeps.
         obstruction: What is in the way of the path so far.
         here: The robot's place on the path [m], shape (d,).
-        vias_ahead: The route's points still to come, with their distances along the path [m].
+        vias_ahead: The route's points still to come, with their distances along the path [m]; on a
+            round only those that are looked at already.
         kept: From where to where the path ahead keeps which distance [m].
         speed: Of the robot [m/s].
         stop: Where the robot stands if it brakes now, as a distance along the path [m].
@@ -87,7 +91,8 @@ class ReplanContext:
             leaves[min(stop + reaction, rest)] = None  # it may be slow enough for a sharper bend
         if knowledge.belief is not None:
             leaves[stop] = None  # there it may have seen enough of another way
-        kept = schedule.kept(distance, path.length, task.requirements.required)
+        until = schedule.looked_at
+        kept = schedule.kept(distance, until, task.requirements.required)
         return cls(
             task=task,
             progress=progress,
@@ -96,13 +101,25 @@ class ReplanContext:
             requirements=task.requirements,
             obstruction=Obstruction(knowledge.world, (), path.length),
             here=tuple(np.asarray(path.at_distance(distance)).tolist()),
-            vias_ahead=vias_after(path, progress.last_via),
+            vias_ahead=tuple(
+                (via, at)
+                for via, at in vias_after(path, progress.last_via)
+                if at <= until + SAME_PLACE_M
+            ),
             kept=kept,
             speed=speed,
             stop=stop,
             leaves=tuple(leaves),
             floor=kept[0][2],
         )
+
+    def is_goal(self, via: PathVia) -> bool:
+        """Whether the drive ends at a point of the route, in this lap or a later one."""
+        assert via.index is not None
+        laps = self.schedule.laps
+        if laps is not None:
+            return laps.is_goal(via.index)
+        return via.u >= self.schedule.path.domain[1] - PATH_END_U
 
     def free_until(self, world: World) -> float | None:
         """Start of the first span ahead that comes too close to a world [m]; None if none does."""
@@ -123,6 +140,14 @@ class ReplanContext:
         path, here = self.schedule.path, self.progress.distance
         wrong = spans_on_wrong_side(path, float(path.parameter(here)), world, self.requirements)
         return max(here, float(path.distance(float(min(wrong))))) if wrong else None
+
+    def in_the_way(self, world: World) -> tuple[str, ...]:
+        """Names of what a world has in the way of the path ahead, one for each span."""
+        found = [
+            conflicts_within(floor, world, part.spans, self.requirements).tolist()
+            for _, _, part, floor in self.parts_ahead()
+        ]
+        return tuple(dict.fromkeys(world.name(i) for row in found for i in row if i != CLEAR))
 
     def parts_ahead(self) -> Iterator[tuple[float, float, PiecewiseCubic, float]]:
         """The path ahead in parts that keep different distances.

@@ -29,9 +29,6 @@ MODES: tuple[Mode, ...] = ("reflex", "planned")
 TURN_BACK_SAMPLES = 129
 """Places along a path at which it is seen whether it leads back."""
 
-PATH_END_U = 1e-9
-"""A via point whose parameter is nearer than this to the path's end is the goal."""
-
 
 @dataclass(frozen=True)
 class PathCandidate:
@@ -98,6 +95,7 @@ def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandida
     changed = changed_side(
         schedule.path, candidate.solution.path, candidate.solution.changed_from,
         context.progress.last_via, schedule.laid_in, context.requirements.required,
+        candidate.solution.rejoins_at,
     )  # fmt: skip
     if changed is None:
         return candidate
@@ -136,6 +134,7 @@ def first_candidate(
         PlanningError: If there is no way to the goal, or none was found.
     """
     path, requirements = context.schedule.path, context.requirements
+    until = context.schedule.looked_at
     leaves = context.clear_leaves()
     forced = any(obstacle.forced_side for obstacle in context.knowledge.world.obstacles)
     laid_anew = set()  # from there a reflex has laid all that a planned path would
@@ -145,9 +144,9 @@ def first_candidate(
                 continue
             try:
                 if mode == "reflex":
-                    solution = replan.reflex(path, leave, world, requirements)
+                    solution = replan.reflex(path, leave, world, requirements, until)
                 else:
-                    solution = replan.planned(path, leave, world, requirements, skip=skip)
+                    solution = replan.planned(path, leave, world, requirements, skip, until)
             except BlockedLegError:
                 if mode == "planned" and not forced:
                     raise  # nor does anything lead on from rest: a clear path joins the places
@@ -159,7 +158,7 @@ def first_candidate(
             candidate = timed(context, mode, solution)
             if candidate is not None and not _turns_back(context, solution):
                 return candidate
-    solution = replan.from_rest(path, context.stop, world, requirements, skip=skip)
+    solution = replan.from_rest(path, context.stop, world, requirements, skip, until)
     candidate = timed(context, "from_rest", solution)
     assert candidate is not None  # a robot that stands can go any way on
     return candidate
@@ -228,8 +227,7 @@ def _too_late(context: ReplanContext) -> str:
 
 def _covered(context: ReplanContext) -> tuple[dict[int, str], str | None]:
     """The points still to come that what is in the way covers; a reason if the goal is one."""
-    path, world = context.schedule.path, context.obstruction.world
-    required = context.task.requirements
+    world, required = context.obstruction.world, context.task.requirements
     ahead = [(via, at) for via, at in context.vias_ahead if at > context.stop + SAME_PLACE_M]
     if not ahead:
         return {}, None
@@ -241,7 +239,7 @@ def _covered(context: ReplanContext) -> tuple[dict[int, str], str | None]:
         why = f"'{name}' leaves {free:.2f} m there, {required.kept:g} m are needed"
         if free < 0.0:
             why = f"'{name}' covers it"
-        if via.u >= path.domain[1] - PATH_END_U:
+        if context.is_goal(via):
             return {}, f"the goal '{via.name}' can't be reached any more: {why}"
         assert via.index is not None
         covered[via.index] = why
@@ -250,9 +248,9 @@ def _covered(context: ReplanContext) -> tuple[dict[int, str], str | None]:
 
 def _lost(context: ReplanContext, skip: Mapping[int, str], error: PlanningError) -> int | None:
     """Index of the point that an error says can't be reached, if the robot may go on without."""
-    end = context.schedule.path.domain[1]
     for via, at in context.vias_ahead:
-        is_goal = via.u >= end - PATH_END_U
-        if via.name == error.via and at > context.stop + SAME_PLACE_M and not is_goal:
+        if via.name != error.via or at <= context.stop + SAME_PLACE_M:
+            continue
+        if not context.is_goal(via):
             return via.index if via.index not in skip else None
     return None

@@ -43,6 +43,7 @@ def take_over(
             reduced=candidate.reduced,
             sighted_until=min(old.sighted_until, candidate.solution.changed_from),
             probed_until=0.0,
+            laps=None if old.laps is None else old.laps.without(skip),
         ),
         events=_events(context, candidate, given_up),
         replan=_record(context, candidate),
@@ -87,7 +88,7 @@ def _record(context: ReplanContext, candidate: PathCandidate) -> Replan:
     return Replan(
         time=context.progress.time,
         at=old.place(leave),
-        distance=leave,
+        distance=old.driven + leave,
         mode=candidate.mode,
         changed_from=leave,
         rejoins_at=solution.rejoins_at,
@@ -97,6 +98,7 @@ def _record(context: ReplanContext, candidate: PathCandidate) -> Replan:
         curvature_jump=curvature,
         path=solution.path,
         old_path=old.path,
+        driven=old.driven,
     )
 
 

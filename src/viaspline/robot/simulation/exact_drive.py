@@ -8,6 +8,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot.logbook import Logbook
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.range_sensor import RangeSensor
 from viaspline.robot.run import Event
@@ -27,7 +28,9 @@ class ExactDrive:
 
     Attributes:
         nav: The navigator at its end.
-        trajectories: Each time law that was driven and when its part began [s].
+        book: What happened.
+        trajectories: Each time law that was driven and when its part began [s]; its distances are
+            along all of the drive.
         ticks: Steps of the drive.
         end: When it ended [s].
         touched: The contact that ended it.
@@ -35,6 +38,7 @@ class ExactDrive:
     """
 
     nav: Navigator
+    book: Logbook
     trajectories: tuple[tuple[float, Trajectory], ...]
     ticks: int
     end: float
@@ -56,6 +60,7 @@ def drive_exactly(
         limit: The drive is broken off at this time [s].
     """
     lidar, sensor = sensors_of(nav.mission, world, seed)
+    book, last = Logbook(), None
     trajectories: list[tuple[float, Trajectory]] = []
     known: frozenset[Obstacle] = frozenset()
     tick = 0
@@ -69,18 +74,21 @@ def drive_exactly(
             sensed = () if sensor is None else sensor.seen(state.position)
             known = known.union(sensed)
             _, nav = nav.step(state, sensed, time)
-        if not trajectories or nav.trajectory is not trajectories[-1][1]:
-            trajectories.append((time, nav.trajectory))
+        book.note(nav)
+        if nav.trajectory is not last:
+            last = nav.trajectory
+            trajectories.append((time, last.moved(nav.driven)))
         tell(time, nav)
         if nav.finished:
-            return ExactDrive(nav, tuple(trajectories), tick, nav.trajectory.end_time, None, None)
+            end = nav.trajectory.end_time
+            return ExactDrive(nav, book, tuple(trajectories), tick, end, None, None)
         if time > limit:
             reason = f"the drive was broken off after {time:.0f} s, its limit"
-            return ExactDrive(nav, tuple(trajectories), tick, time, None, reason)
+            return ExactDrive(nav, book, tuple(trajectories), tick, time, None, reason)
         skipped = 1 if lidar is not None else _quiet(nav, sensor, known, tick, step)
         touched = _contact(nav, world, step * np.arange(tick, tick + skipped + 1, dtype=float))
         tick += skipped
-    return ExactDrive(nav, tuple(trajectories), tick, touched.time, touched, None)
+    return ExactDrive(nav, book, tuple(trajectories), tick, touched.time, touched, None)
 
 
 def _quiet(
@@ -91,7 +99,7 @@ def _quiet(
     The robot follows exactly, so a step in which the sensor shows nothing new and the drive is
     not over gives the same navigator whether it is made or left out.
     """
-    to_end = int(np.ceil((nav.trajectory.end_time - tick * step) / step))
+    to_end = int(np.ceil((nav.quiet_until - tick * step) / step))
     most = min(max(to_end, 1), MAX_QUIET_STEPS)
     if sensor is None:
         return most

@@ -8,13 +8,16 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.curve.certificate import certify
-from viaspline.curve.path import Path
+from viaspline.curve.path import SEAM, Path
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.run import Event, Run
 from viaspline.robot.simulation.exact_drive import ExactDrive
 from viaspline.robot.simulation.outcome import outcome
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
+
+ROUNDING = 1e-12
+"""Part of a path's length that may be missing at its end though all of it was driven."""
 
 
 def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
@@ -26,10 +29,10 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
         step: From one sample to the next [s].
     """
     nav = drive.nav
-    reason, events, visits = outcome(nav, drive.end, drive.touched, drive.overdue)
+    reason, events, visits = outcome(nav, drive.book, drive.end, drive.touched, drive.overdue)
     times = _sample_times(drive, step, events)
     distances, speeds = _along(drive.trajectories, times)
-    path = driven_part(nav.path, float(distances[-1]))
+    path = driven_part(drive.book.path(nav), float(distances[-1]))
     u = np.asarray(path.parameter(np.minimum(distances, path.length)))
     robot = nav.mission.robot
     return Run(
@@ -47,8 +50,8 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
         curvatures=np.asarray(path.curvature(u)),
         visits=visits,
         events=events,
-        replans=nav.replans,
-        compute_times=nav.compute_times,
+        replans=drive.book.replans,
+        compute_times=drive.book.compute_times,
         known=nav.world,
     )
 
@@ -73,7 +76,9 @@ def _along(
 
 def driven_part(path: Path, distance: float) -> Path:
     """The exact beginning of a path, with the via points that lie on it."""
-    u = float(path.parameter(min(distance, path.length)))
+    if distance >= path.length * (1.0 - ROUNDING):
+        return Path(path.spans, [via for via in path.vias if via.name != SEAM])
+    u = float(path.parameter(distance))
     if u <= 0.0:
         return Path(np.repeat(path.spans[:1, :1], 4, axis=1), path.vias[:1])
     spans = path.section(0.0, u).spans

@@ -24,6 +24,7 @@ from viaspline.kernels.tracking.drive_motion import (
 from viaspline.machine.drive_noise import DriveNoise
 from viaspline.machine.tracking import Tracking
 from viaspline.machine.trial_drive import first_row, start_of
+from viaspline.robot.logbook import Logbook
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
@@ -46,6 +47,7 @@ class MachineDrive:
 
     Attributes:
         nav: The navigator at its end.
+        book: What happened.
         model: What drove.
         rows: The true motion at every step, as of the kernel ``move``, shape (n, ROW).
         tracking: What it was off from its path.
@@ -54,6 +56,7 @@ class MachineDrive:
     """
 
     nav: Navigator
+    book: Logbook
     model: DriveModel
     rows: Floats
     tracking: Tracking
@@ -82,7 +85,7 @@ def drive_machine(
     state = start_of(model, controller.reference)
     rows, notes = [first_row(state)], []
     contact = first_contact(nav.mission.robot, world, rows[0])
-    overdue, tick = None, 0
+    book, overdue, tick = Logbook(), None, 0
     while contact is None:
         time = tick * step
         x, y, heading = (state[: HEADING + 1] + faults.measured(1)[0]).tolist()
@@ -92,6 +95,7 @@ def drive_machine(
             _, nav = nav.step(believed, lidar.scan(place, float(state[HEADING]), tick), time)
         else:
             _, nav = nav.step(believed, () if sensor is None else sensor.seen(place), time)
+        book.note(nav)
         controller = nav.controller
         assert controller is not None
         notes.append(controller.note)
@@ -112,7 +116,7 @@ def drive_machine(
         track = track[track[:, ROW_TIME] <= contact.time + 1e-9]
     noted = np.array(notes) if notes else np.zeros((1, NOTES))
     tracking = Tracking.of(model, controller.reference, noted, track)
-    return MachineDrive(nav, model, track, tracking, contact, overdue)
+    return MachineDrive(nav, book, model, track, tracking, contact, overdue)
 
 
 def _is_over(nav: Navigator, time: float, speed: float) -> bool:

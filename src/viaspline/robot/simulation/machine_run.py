@@ -40,7 +40,7 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     """
     nav, rows = drive.nav, drive.rows
     robot, end = nav.mission.robot, float(drive.rows[-1, ROW_TIME])
-    reason, events, visits = outcome(nav, end, drive.touched, drive.overdue)
+    reason, events, visits = outcome(nav, drive.book, end, drive.touched, drive.overdue)
     path, bound, u = driven_path(drive)
     certificate = proven(path, world, robot)
     ticks = step * np.arange(math.floor(end / step + 1e-9) + 1)
@@ -66,8 +66,8 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
         curvatures=np.where(speeds > least, rates / np.maximum(speeds, least), 0.0),
         visits=missed(drive, visits),
         events=events,
-        replans=nav.replans,
-        compute_times=nav.compute_times,
+        replans=drive.book.replans,
+        compute_times=drive.book.compute_times,
         known=nav.world,
         tracking=drive.tracking,
     )

@@ -7,16 +7,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from viaspline.robot.logbook import Logbook
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Event, Visit
 
 
 def outcome(
-    nav: Navigator, end: float, touched: Event | None, overdue: str | None
+    nav: Navigator, book: Logbook, end: float, touched: Event | None, overdue: str | None
 ) -> tuple[str | None, tuple[Event, ...], tuple[Visit, ...]]:
     """Why the goal was not reached, the events in order, and the visits."""
     reason = overdue or nav.reason
-    events, visits = nav.events, nav.visits
+    events, visits = book.events, book.visits(nav)
     if touched is not None:
         reason = f"the robot touched '{touched.data['name']}'"
         events = (*(e for e in events if e.time <= end), touched)

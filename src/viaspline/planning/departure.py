@@ -1,0 +1,65 @@
+"""How an old path is left for a new one: while rolling on it, or from a standstill.
+
+Tested through ``planning/test_replan``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.curve.path import Path
+from viaspline.errors import NoPathError
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.splice import RunOut, run_out
+from viaspline.planning.problem.via_sequence import RouteVia
+from viaspline.planning.stretch import Stretch, room_to_run_out
+from viaspline.world.world import World
+
+
+@dataclass(frozen=True)
+class Departure:
+    """How an old path is left: by which spans [m], and where and in which direction one goes on."""
+
+    spans: Floats
+    start: RouteVia
+    tangent: Floats | None
+
+
+Leave = Callable[[Path, Stretch, World, Requirements, float], Departure]
+
+
+def rolling(
+    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
+) -> Departure:
+    """Leave a path while rolling on it, by a run-out of a length [m]."""
+    out = run_out(path, stretch.u, min(reach, room_to_run_out(path, stretch)[0]))
+    refuse_blocked(out, world, requirements)
+    return Departure(out.span[None], RouteVia("the robot", out.end, None), out.tangent)
+
+
+def standing(
+    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
+) -> Departure:
+    """Leave a path from a standstill, in any direction if the robot turns on the spot."""
+    turns = requirements.turn_radius is None or requirements.turns_on_spot != "never"
+    place = np.asarray(path.evaluate(stretch.u))
+    tangent = None if turns else np.asarray(path.tangent(stretch.u))
+    return Departure(np.empty((0, 4, place.size)), RouteVia("the robot", place, None), tangent)
+
+
+def refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> None:
+    """Raise NoPathError for a run-out that comes too close to something."""
+    index = int(body_conflicts(world, piece.span[None], requirements)[0])
+    if index != CLEAR:
+        name = world.name(index)
+        raise NoPathError(
+            f"{name!r} is too near to turn away from it under way",
+            where=piece.span[0],
+            remedy="stop and turn on the spot, or look farther ahead",
+            obstacles=(name,),
+        )

@@ -1,0 +1,223 @@
+"""A closed route of many laps is driven as one round that goes on at its end."""
+
+from __future__ import annotations
+
+import tracemalloc
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from viaspline.curve.path import SEAM
+from viaspline.mission.model import Mission
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.planner import plan
+from viaspline.robot.logbook import Logbook
+from viaspline.robot.navigation.laps_ahead import LapsAhead
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.perception.range_sensor import RangeSensor
+from viaspline.robot.run import Run
+from viaspline.robot.simulator import simulate
+from viaspline.world.world import World
+
+SQUARE = [[0, 0], [60, 0], [60, 50], [0, 50]]
+
+
+def patrol(laps: int, unseen: list[Any] | None = None, **robot: Any) -> Mission:
+    robot = {"sensor": {"range_m": 10}, "radius_m": 0.3, "clearance_m": 0.2, **robot}
+    route = {"start": SQUARE[0], "via": SQUARE[1:], "closed": True, "laps": laps}
+    world = {"unseen": unseen or []}
+    return Mission.model_validate({"world": world, "robot": robot, "route": route})
+
+
+def disc(x: float, y: float, radius: float, name: str) -> dict[str, Any]:
+    return {"name": name, "circle": {"center": [x, y], "radius": radius}}
+
+
+BESIDE = (np.asarray(plan(patrol(1)).path.evaluate(0.6)) + np.array([0.0, 0.2])).tolist()
+
+
+def statuses(run: Run) -> list[str]:
+    return [visit.status for visit in run.visits]
+
+
+def test_a_drive_of_many_laps_is_that_of_its_plan() -> None:
+    mission = patrol(5)
+    run = simulate(mission)
+    assert run.reached
+    np.testing.assert_array_equal(run.path.spans, run.plan.path.spans)
+    assert run.duration == pytest.approx(run.plan.trajectory.duration, rel=1e-9)
+    times = np.linspace(0.0, run.duration, 500)
+    along = run.plan.trajectory.distance_at(times)
+    places = np.column_stack([np.interp(times, run.times, axis) for axis in run.positions.T])
+    assert np.abs(places - run.plan.path.at_distance(along)).max() < 2e-3  # chords of 0.05 s
+    assert statuses(run) == ["served"] * 21
+    assert [via.index for via in run.path.vias] == list(range(21))
+
+
+def test_the_path_ahead_is_a_round_whatever_the_laps() -> None:
+    short, long = Navigator(patrol(4)), Navigator(patrol(40))
+    np.testing.assert_array_equal(short.path.spans, long.path.spans)
+    assert short.path.vias[-1].name == SEAM
+    for time in np.arange(0.0, 400.0, 1.0):
+        _, long = long.step(long.reference(time), [], time)
+        gap = long.path.evaluate(long.path.domain[1]) - long.path.evaluate(0.0)
+        assert np.abs(gap).max() < 1e-9
+        assert len(long.path.spans) == len(short.path.spans)
+        assert long.quiet_until >= time
+    assert long.driven + long.distance == pytest.approx(
+        float(long.plan.trajectory.distance_at(399.0)), abs=1e-6
+    )
+
+
+def test_a_drive_of_few_laps_is_one_path() -> None:
+    nav = Navigator(patrol(3))
+    assert nav.path.length == nav.plan.path.length
+    assert nav.quiet_until == nav.trajectory.end_time
+
+
+def test_a_lap_that_is_short_is_driven_with_others_as_one_round() -> None:
+    route = {"start": [0, 0], "via": [[8, 0], [8, 8], [0, 8]], "closed": True, "laps": 30}
+    mission = Mission.model_validate({"robot": {"max_speed_mps": 3}, "route": route})
+    nav = Navigator(mission)
+    laps = nav.path.length / (nav.plan.path.length / 30)
+    assert 1.5 < laps < 10
+    run = simulate(mission)
+    assert run.reached
+    np.testing.assert_array_equal(run.path.spans, run.plan.path.spans)
+    assert statuses(run) == ["served"] * 121
+
+
+finds = st.lists(
+    st.tuples(st.sampled_from(range(4)), st.floats(0.1, 0.9), st.floats(-3, 3), st.floats(0.2, 2)),
+    min_size=1,
+    max_size=6,
+)
+
+
+@given(finds)
+@example([(0, 0.1, 0.0, 2.0)])  # beside the start, where every lap ends
+@example([(3, 0.9, 0.1, 1.0), (0, 0.1, -0.1, 1.0)])
+@settings(deadline=None, max_examples=8)
+def test_what_is_found_on_one_lap_is_gone_round_on_all_of_them(
+    gap_of: Callable[..., float], found: list[tuple[int, float, float, float]]
+) -> None:
+    corners = np.array([*SQUARE, SQUARE[0]], float)
+    unseen = []
+    for k, (side, part, aside, radius) in enumerate(found):
+        along = corners[side + 1] - corners[side]
+        normal = np.array([-along[1], along[0]]) / np.hypot(*along)
+        unseen.append(disc(*(corners[side] + part * along + aside * normal), radius, f"find {k}"))
+    mission = patrol(4, unseen)
+    run = simulate(mission)
+    world = World.everything(mission)
+    assert gap_of(run.path.sample(0.02)[2], world.obstacles) >= 0.5 - 1e-5, run.reason
+    assert run.reached == (run.reason is None)
+    if run.reached:
+        assert run.certificate.clearance >= 0.2 - 1e-6
+        assert len(run.visits) == 17
+        assert "failed" not in statuses(run)
+    for replan in run.replans:
+        assert replan.position_jump < 1e-6
+        if replan.mode != "from_rest":
+            assert replan.heading_jump < 1e-6
+            assert replan.curvature_jump < 1e-6
+    again = simulate(mission)
+    assert run.path.spans.tobytes() == again.path.spans.tobytes()
+    assert run.events == again.events
+
+
+def test_a_find_is_gone_round_once_and_then_is_part_of_every_lap() -> None:
+    run = simulate(patrol(6, [disc(*BESIDE, 1.0, "rock")]))
+    assert run.reached
+    assert len(run.replans) == 1
+    joints = np.flatnonzero(np.hypot(*(run.path.spans[:, 0] - run.path.spans[0, 0]).T) < 1e-9)
+    assert len(joints) == 6
+    late = run.path.spans[joints[3] : joints[4]]
+    np.testing.assert_array_equal(late, run.path.spans[joints[4] : joints[5]])
+    length = run.replans[0].driven + run.replans[0].path.length
+    assert length < run.path.length / 3
+
+
+def test_a_point_that_is_covered_is_given_up_on_every_lap() -> None:
+    run = simulate(patrol(5, [disc(60, 50, 2.0, "boulder")]))
+    assert run.reached, run.reason
+    assert statuses(run) == (["served", "served", "skipped", "served"] * 5) + ["served"]
+    reasons = {visit.reason for visit in run.visits if visit.status == "skipped"}
+    assert reasons == {"'boulder' covers it"}
+    assert [event.kind for event in run.events].count("skipped") == 5
+
+
+def test_the_place_where_the_drive_ends_can_not_be_given_up() -> None:
+    run = simulate(patrol(4, [disc(0, 0, 0.1, "post")]))
+    assert not run.reached
+    mission = patrol(4)
+    nav = Navigator(mission)
+    for time in np.arange(0.0, 90.0, 0.5):
+        _, nav = nav.step(nav.reference(time), [], time)
+    post = Obstacle.model_validate(disc(0, 0, 0.1, "post"))
+    for time in np.arange(90.0, 400.0, 0.5):
+        _, nav = nav.step(nav.reference(time), [post], time)
+    assert nav.finished
+    assert nav.reason is not None
+    assert "the goal 'start' can't be reached any more" in nav.reason
+
+
+def test_stays_are_made_on_every_lap() -> None:
+    pump = {"at": SQUARE[2], "dwell_s": 3, "name": "pump"}
+    via = [SQUARE[1], pump, SQUARE[3]]
+    route = {"start": SQUARE[0], "via": via, "closed": True, "laps": 4}
+    run = simulate(Mission.model_validate({"route": route}))
+    assert run.reached
+    assert [event.kind for event in run.events].count("arrived") == 4
+    assert run.duration == pytest.approx(run.plan.trajectory.duration, rel=1e-9)
+
+
+def test_points_are_noted_as_given_up_once_a_lap() -> None:
+    laps = LapsAhead(points=4, round=8, goal=40, unseen=10.0).without({5: "covered"})
+    assert laps.newly_missed(4, 6) == ()  # that was noted when it was given up
+    assert laps.newly_missed(12, 14) == ((13, "covered"),)
+    assert laps.newly_missed(8, 11) == ()
+    assert laps.is_goal(36)
+    assert not laps.is_goal(37)
+
+
+def test_what_is_kept_grows_with_what_is_known_and_not_with_the_drive() -> None:
+    mission = patrol(60, radius_m=0.05, clearance_m=0.05, sensor={"range_m": 8.0})
+    nav, replans, tick, kept = Navigator(mission), 0, 0, []
+    tracemalloc.start()
+    for found in range(160):
+        at = nav.distance + 10.0
+        place = nav.path.at_distance(at if at < nav.path.length else at - nav.path.length)
+        if np.hypot(*(np.array(SQUARE) - place).T).min() > 1.0:
+            thing = Obstacle.model_validate(disc(*place.tolist(), 0.02, f"thing {found}"))
+            until = tick + 5
+            while tick < until:
+                _, nav = nav.step(nav.reference(float(tick)), [thing], float(tick))
+                replans, tick = replans + len(nav.replans), tick + 1
+        tick += 1
+        _, nav = nav.step(nav.reference(float(tick)), [], float(tick))
+        kept.append(tracemalloc.get_traced_memory()[0])
+    tracemalloc.stop()
+    assert nav.reason is None
+    assert replans > 130
+    growth = (kept[-1] - kept[79]) / 80
+    assert growth < 16_000  # bytes for each thing: itself, its place in the world, its detour
+
+
+def test_a_logbook_has_what_the_steps_handed_out() -> None:
+    mission = patrol(5, [disc(*BESIDE, 1.0, "rock")])
+    run, nav, book = simulate(mission, step=0.1), Navigator(mission), Logbook()
+    sensor = RangeSensor(mission.world.unseen, 10.0)
+    for tick in range(10_000):
+        state = nav.reference(tick * 0.1)
+        _, nav = nav.step(state, sensor.seen(state.position), tick * 0.1)
+        book.note(nav)
+        if nav.finished:
+            break
+    assert [(e.kind, e.message) for e in book.events] == [(e.kind, e.message) for e in run.events]
+    assert [replan.driven for replan in book.replans] == [r.driven for r in run.replans]
+    np.testing.assert_allclose(book.path(nav).spans, run.path.spans, atol=1e-9)
