@@ -278,9 +278,7 @@ def _blocked_until(
 ) -> float:
     """Where what is in the way ahead ends along a path, and what is left out of it [m]."""
     u = float(path.parameter(at))
-    first = min(int(u), len(path.spans) - 1)
-    close = body_conflicts(world, _ahead(path, u, until).spans, requirements)
-    blocked = first + 1.0 + np.flatnonzero(close != CLEAR)
+    blocked = 1.0 + _blocked_spans(path, u, world, requirements, until)
     left_out = [via.u for via in path.vias if via.index in skip and via.u > u]
     return float(path.distance(max([u, *blocked.tolist(), *left_out])))
 
