@@ -30,6 +30,8 @@ class Lattice:
             and the middles of free cells [m].
         is_open: Whether a way that keeps the distance leads on through free cells, so that where
             the lattice has no path there is no way.
+        is_fine: Whether that is still so when a gap that is too narrow is closed, and with it the
+            whole cells that the segment across it passes through.
     """
 
     x: float
@@ -38,6 +40,7 @@ class Lattice:
     cells: Bytes
     kept: float
     is_open: bool
+    is_fine: bool
 
     @cached_property
     def mesh(self) -> Mesh:

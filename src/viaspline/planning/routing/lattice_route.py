@@ -32,8 +32,8 @@ class Followed:
     Attributes:
         taut_path: The route, if there is one.
         closed: Segments that no route crosses, (n, 4).
-        is_proof: Whether nothing else was closed in the lattice. Closing a segment blocks whole
-            cells, so a finer lattice may still show a route beside it.
+        is_proof: Whether all that was closed in the lattice is known to be too narrow, and blocks
+            no other way: a segment blocks whole cells, and beside it there may still be a route.
     """
 
     taut_path: TautPath | None
@@ -84,12 +84,13 @@ class LatticeRoute:
             goal: [m], at least (2,).
             closed: Segments that no route crosses, (n, 4).
         """
-        if len(closed):
+        begun = len(closed)
+        if begun:
             lattice = lattice.without(closed)
         for _ in range(self.max_gaps):
             guide = _guide(space, lattice, start, goal)
             if guide is None:
-                return Followed(None, closed, is_proof=True)
+                return Followed(None, closed, lattice.is_fine or len(closed) == begun)
             bends, corners, stuck = pulled_taut(
                 space.world.packed, guide, lattice.kept, space.required + np.array(TURN_MARGINS_M),
                 space.floor, lattice.side, np.array(TURN_STEPS_RAD),

@@ -52,6 +52,7 @@ def lattices(world: World, required: float, floor: float, places: Floats) -> Ite
         yield own
         if own.is_open:
             return
+        yield _maps_alone(own, world, required)
     for side in _sides(world, required, box):
         if side <= OPEN_CELL_RADII * required * (1.0 + 1e-9):
             yield _open_cells(world, required, floor, box, side)
@@ -88,8 +89,8 @@ def _open_cells(world: World, required: float, floor: float, box: Box, side: flo
             row, column, parts = _place_on(grid, (x, y), side) or (0, 0, 1)
             blocked = grid.blocked.astype(np.uint8)
             close_gaps(blocked, 2.0 * floor / grid.resolution, row, column, parts, cells)
-    is_open = side <= PROOF_CELL_RADII * required * (1.0 + 1e-9)
-    return Lattice(x, y, side, cells, reach - HALF_DIAGONAL * side, is_open)
+    is_fine = side <= PROOF_CELL_RADII * required * (1.0 + 1e-9)
+    return Lattice(x, y, side, cells, reach - HALF_DIAGONAL * side, is_fine, is_fine)
 
 
 def _closed_cells(world: World, required: float, box: Box, side: float) -> Lattice:
@@ -98,7 +99,7 @@ def _closed_cells(world: World, required: float, box: Box, side: float) -> Latti
     x, y, shape = _frame(world, box, side)
     grown = _grown_maps(world, reach, (x, y), side, shape)
     cells = rasterized(world.packed, x, y, side, *shape, reach, grown)
-    return Lattice(x, y, side, cells, required, is_open=False)
+    return Lattice(x, y, side, cells, required, is_open=False, is_fine=False)
 
 
 def _own_cells(world: World, required: float, box: Box) -> Lattice | None:
@@ -130,7 +131,14 @@ def _own_cells(world: World, required: float, box: Box) -> Lattice | None:
     if len(rest) or rest.enclosures:
         reach = required + HALF_DIAGONAL * side
         cells = np.maximum(cells, rasterized(rest.packed, x, y, side, *shape, reach, NO_CELLS))
-    return Lattice(x, y, side, cells, 0.5 * side, is_alone and not is_cut)
+    return Lattice(x, y, side, cells, 0.5 * side, is_alone and not is_cut, is_fine=False)
+
+
+def _maps_alone(own: Lattice, world: World, required: float) -> Lattice:
+    """The maps' own cells without what else there is: where they are shut, so is the world."""
+    shape = own.cells.shape
+    cells = _grown_maps(world, 0.0, (own.x, own.y), own.side, (shape[0], shape[1]))
+    return Lattice(own.x, own.y, own.side, cells, 0.1 * required, is_open=True, is_fine=False)
 
 
 def _cut_to_bounds(world: World, cells: Bytes, low: tuple[float, float], side: float) -> bool:

@@ -38,6 +38,7 @@ from viaspline.kernels.world.ring_features import FEATURE_RADIUS, FEATURE_X, FEA
 from viaspline.kernels.world.segment import nearest_to_segment
 
 MAX_EVENTS = 1000  # of one step of the end
+MOST_BACK_RAD = 0.5  # of a tangent, to what it is a little too near to already
 LEAST_SHARE = 1e-3  # of a step of the end
 MAX_EARLIER = 100  # features that are met before the one that was found first
 MAX_FEATURES_MET = 1024  # features that are looked at near one place
@@ -151,7 +152,7 @@ def _first_met(
         ):
             continue
         there = _heading_to(rows, k, found[j, FEATURE_X], found[j, FEATURE_Y], sense * radius, old)
-        if sense * (there - best) >= 0.0:
+        if sense * (there - best) >= 0.0 or sense * (there - old) < -MOST_BACK_RAD:
             continue
         cx, cy = _touched(rows, k, there)
         w = _on_step(cx, cy, there, x, y, tx, ty)
