@@ -1,4 +1,6 @@
 import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -78,3 +80,47 @@ def test_what_is_compiled_of_ours_is_told_and_nothing_else(
         numba.njit(ours)(1.0)
         numba.njit(theirs)(1.0)
     assert heard == ["example.ours"]
+
+
+ONE_KERNEL = """
+import numpy as np
+from viaspline.kernels.routing.navmesh.dilate import grow_into
+cells = np.zeros((5, 5), np.uint8)
+grow_into(np.ones((1, 1), np.uint8), 1.0, 2, 2, cells)
+print(cells.sum())
+"""
+
+
+@compiled
+def test_four_processes_may_compile_into_one_cold_cache_at_once(tmp_path: Path) -> None:
+    environment = os.environ | {"VIASPLINE_CACHE_DIR": str(tmp_path / "cold")}
+    running = [
+        subprocess.Popen(
+            [sys.executable, "-c", ONE_KERNEL],
+            env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        )
+        for _ in range(4)
+    ]  # fmt: skip
+    told = [process.communicate(timeout=120) for process in running]
+    assert [process.returncode for process in running] == [0] * 4, told
+    assert len({out for out, _ in told}) == 1
+    assert [error for _, error in told] == [""] * 4
+    assert list((tmp_path / "cold").rglob("*grow_into*.nbi"))
+
+
+@compiled
+def test_where_no_cache_can_be_written_kernels_are_compiled_without_one(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("in the way")
+    nowhere = str(tmp_path / "file" / "below")
+    environment = os.environ | {
+        "VIASPLINE_CACHE_DIR": nowhere, "XDG_CACHE_HOME": nowhere, "HOME": nowhere,
+        "TMPDIR": nowhere,
+    }  # fmt: skip
+    block = "import tempfile; tempfile.tempdir = " + repr(nowhere) + "\n"
+    show = "from viaspline.kernels import jit; print(jit.CACHE_FOLDER)"
+    done = subprocess.run(
+        [sys.executable, "-c", block + ONE_KERNEL + show],
+        env=environment, capture_output=True, text=True, timeout=120, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split()[-1] == "None"
