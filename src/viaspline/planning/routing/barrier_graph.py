@@ -27,13 +27,13 @@ class BarrierGraph:
     Attributes:
         radii: By how much the cores of the pieces are grown [m], (n,).
         owners: What each is a piece of, an index as of ``World.nearest``, (n,).
-        middles: A place in each core [m], (n, 2).
+        places: A place in each core [m], (n, 2).
         links: Pairs of pieces, the narrowest gap first.
     """
 
     radii: Floats
     owners: Ints
-    middles: Floats
+    places: Floats
     links: BarrierLinks
 
     @classmethod
@@ -42,7 +42,7 @@ class BarrierGraph:
         pieces = BarrierPieces.of(world)
         links = [links_among(pieces, reach)]
         numbered = [(np.arange(len(pieces.owners)), pieces)]
-        radii, owners, middles = [pieces.radii], [pieces.owners], [pieces.middles]
+        radii, owners, places = [pieces.radii], [pieces.owners], [pieces.places]
         count = len(pieces.owners)
         maps = _maps(world)
         for k, cells in enumerate(maps):
@@ -55,14 +55,14 @@ class BarrierGraph:
                 links.append(between.renumbered(others, numbers[near]))
             radii.append(np.zeros(len(numbers)))
             owners.append(np.full(len(numbers), cells.owner))
-            middles.append(cells.middles)
+            places.append(cells.middles)
             if k + 1 < len(maps):  # for the maps that follow
                 numbered.append((numbers, cells.pieces(np.arange(len(numbers)))))
         found = BarrierLinks.joined(links)
         return cls(
             np.concatenate(radii),
             np.concatenate(owners),
-            np.concatenate(middles),
+            np.concatenate(places),
             found.some(np.argsort(np.maximum(found.widths, 0.0), kind="stable")),
         )
 

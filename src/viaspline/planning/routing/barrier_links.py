@@ -26,13 +26,13 @@ class BarrierPieces:
         cores: Points, lines and convex polygons [m], (n,).
         radii: [m], (n,).
         owners: What each is a piece of, an index as of ``World.nearest``, (n,).
-        middles: A place in each core [m], (n, 2).
+        places: A place in each core [m], (n, 2).
     """
 
     cores: Shapes
     radii: Floats
     owners: Ints
-    middles: Floats
+    places: Floats
 
     @classmethod
     def of(cls, world: World) -> BarrierPieces:
@@ -56,7 +56,7 @@ class BarrierPieces:
             cores,
             np.array([radius for _, radius, _ in found], np.float64),
             np.array([owner for _, _, owner in found], np.int64),
-            _coordinates(shapely.centroid(cores)),
+            _first_corners(cores),
         )
 
 
@@ -137,9 +137,10 @@ def _convex_cores(ring: RoundedRing) -> list[Any]:
 
 def _is_convex(corners: Floats) -> bool:
     """Whether a ring that doesn't cross itself, (k, 2), only turns to one side."""
-    sides = np.roll(corners, -1, axis=0) - corners
-    after = np.roll(sides, -1, axis=0)
-    turns = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
+    if len(corners) <= 3:
+        return True
+    x, y = np.diff(np.vstack((corners, corners[:2])), axis=0).T
+    turns = x[:-1] * y[1:] - y[:-1] * x[1:]
     return bool((turns >= 0.0).all() or (turns <= 0.0).all())
 
 
@@ -147,6 +148,12 @@ def _edges(loop: Sequence[tuple[float, float]]) -> list[Any]:
     corners = np.asarray(loop, np.float64)
     ends = np.stack((corners, np.roll(corners, -1, axis=0)), axis=1)
     return list(np.asarray(shapely.linestrings(ends)))
+
+
+def _first_corners(cores: Shapes) -> Floats:
+    corners, core = shapely.get_coordinates(cores, return_index=True)
+    found: Floats = corners[np.unique(core, return_index=True)[1]]
+    return found
 
 
 def _coordinates(shapes: Shapes) -> Floats:

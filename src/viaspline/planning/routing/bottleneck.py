@@ -79,10 +79,10 @@ def bottleneck_between(
 def _crossings(graph: BarrierGraph, start: Floats, goal: Floats) -> Bytes:
     """Whether links cross the line from start to goal an odd number of times, (k,).
 
-    Each leads from the middle of a piece to its foot, to the other foot, to the other middle.
+    Each leads from a place in a piece to its foot, to the other foot, to a place there.
     """
     (a, b), feet = graph.links.pairs.T, graph.links.feet
-    corners = (graph.middles[a], feet[:, :2], feet[:, 2:], graph.middles[b])
+    corners = (graph.places[a], feet[:, :2], feet[:, 2:], graph.places[b])
     along = goal - start
     sides = [along[0] * (p[:, 1] - start[1]) - along[1] * (p[:, 0] - start[0]) for p in corners]
     odd = np.zeros(len(a), np.uint8)

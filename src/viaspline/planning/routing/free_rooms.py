@@ -85,30 +85,32 @@ class FreeRooms:
         return bool(room >= self.required + spare)
 
 
-def reachable_near(
-    place: Floats, others: Sequence[Floats], world: World, required: float
-) -> Floats | None:
-    """A place near another that ways lead to from some, or to them.
+def places_reached(
+    wanted: Sequence[tuple[Floats, Sequence[Floats]]], world: World, required: float
+) -> list[Floats | None]:
+    """Places near others that ways lead to from some, or to them.
 
     Args:
-        place: Near which it is sought [m], at least (2,).
-        others: Each [m], at least (2,).
+        wanted: Near what place each is sought [m], at least (2,), and from where all it is to be
+            reached.
         world: What is to be kept clear of.
         required: Distance to keep [m].
 
     Returns:
-        Shape (2,) [m]; None where none was found.
+        Each of shape (2,) [m]; None where none was found on the first lattice with any, or on all.
     """
-    places = np.array([other[:2] for other in (place, *others)])
+    ends = np.array([place[:2] for near, others in wanted for place in (near, *others)])
+    found: list[Floats | None] = [None] * len(wanted)
     for cells in CELLS:
-        rooms = FreeRooms.of(world, required, places, cells)
-        common = rooms.about(others[0])
-        for other in others[1:]:
-            common = np.intersect1d(common, rooms.about(other))
-        found = rooms.nearest_place(place, common)
-        if found is not None:
-            return found
-    return None
+        rooms = FreeRooms.of(world, required, ends, cells)
+        for k, (near, others) in enumerate(wanted):
+            common = rooms.about(others[0])
+            for other in others[1:]:
+                common = np.intersect1d(common, rooms.about(other))
+            found[k] = rooms.nearest_place(near, common)
+        if any(place is not None for place in found):
+            break
+    return found
 
 
 def _box(world: World, required: float, places: Floats) -> tuple[float, float, float, float]:

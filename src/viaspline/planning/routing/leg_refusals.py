@@ -13,7 +13,7 @@ from viaspline.planning.problem.method import GaveUp
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
 from viaspline.planning.routing.bottleneck import Bottleneck, bottleneck_between
-from viaspline.planning.routing.free_rooms import reachable_near
+from viaspline.planning.routing.free_rooms import places_reached
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.via_refusals import change_moving
@@ -155,17 +155,22 @@ def _moves(
     A via point has to be reached from its other neighbour as well.
     """
     count = len(sequence.vias)
-    found: list[tuple[float, RouteVia, Floats]] = []
+    movable: list[tuple[RouteVia, list[Floats]]] = []
     for index, step in (((leg + 1) % count, 1), (leg, -1)):
         via, beyond = sequence.vias[index], index + step
-        others = [sequence.ends(leg)[0 if step == 1 else 1]]
+        others = [sequence.ends(leg)[0 if step == 1 else 1].at]
         if sequence.closed or 0 <= beyond < count:
-            others.append(sequence.vias[beyond % count])
-        if not via.key:
-            continue
-        place = reachable_near(via.at, [other.at for other in others], world, required)
-        if place is not None:
-            found.append((float(np.hypot(*(place - via.at[:2]))), via, place))
+            others.append(sequence.vias[beyond % count].at)
+        if via.key:
+            movable.append((via, others))
+    if not movable:
+        return (), ()
+    wanted = [(via.at, others) for via, others in movable]
+    found = [
+        (float(np.hypot(*(place - via.at[:2]))), via, place)
+        for (via, _), place in zip(movable, places_reached(wanted, world, required), strict=True)
+        if place is not None
+    ]
     if not found:
         return (), ()
     _, via, place = min(found, key=lambda move: move[0])
