@@ -8,11 +8,11 @@ from hypothesis import strategies as st
 
 from viaspline.maps.grid import Grid
 from viaspline.planning.routing import map_links
-from viaspline.planning.routing.barrier_links import BarrierLinks, links_among
+from viaspline.planning.routing.gap_links import GapLinks, links_among
 from viaspline.planning.routing.map_links import MapPieces, rim_cells
 
 
-def links_of(cells: np.ndarray, reach: float, **more: float) -> tuple[MapPieces, BarrierLinks]:
+def links_of(cells: np.ndarray, reach: float, **more: float) -> tuple[MapPieces, GapLinks]:
     pieces = MapPieces(Grid(cells, **{"resolution": 1.0, **more}), 0)
     return pieces, pieces.links(reach)
 
@@ -42,7 +42,7 @@ def test_links_are_gaps_between_cells_and_join_what_all_gaps_join(seed: int, rea
         assert joined[0] == joined[1]
 
 
-def components(links: BarrierLinks, width: float, count: int) -> list[int]:
+def components(links: GapLinks, width: float, count: int) -> list[int]:
     """The lowest number that each piece is joined with by gaps of no more than a width."""
     lowest = list(range(count))
     pairs = links.pairs[links.widths <= width + 1e-12].tolist()

@@ -1,9 +1,9 @@
 """The narrowest gap of the widest way between two places.
 
-A world's pieces are convex (``barrier_links``). A robot that needs a distance all around its middle
-is kept from the goal where a closed barrier of pieces surrounds one of the two places and not the
+A world's pieces are convex (``gap_links``). A robot that needs a distance all around its middle
+is kept from the goal where a closed loop of pieces surrounds one of the two places and not the
 other, from piece to piece through gaps that it doesn't fit through (the nerve theorem: what convex
-sets cover has the cycles of their overlaps). A barrier separates the two where it crosses a line
+sets cover has the cycles of their overlaps). A loop separates the two where it crosses a line
 between them an odd number of times. So gaps are closed one after the other, the narrowest first:
 the one that makes the first odd cycle is the bottleneck. That is exact, and no way is searched.
 """
@@ -19,8 +19,8 @@ from scipy.sparse.csgraph import breadth_first_order
 from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.routing.odd_cycle import first_odd_cycle
 from viaspline.planning.problem.requirements import LEAST_KEPT_M
-from viaspline.planning.routing.barrier_graph import BarrierGraph
-from viaspline.planning.routing.barrier_links import BarrierLinks
+from viaspline.planning.routing.gap_graph import GapGraph
+from viaspline.planning.routing.gap_links import GapLinks
 from viaspline.world.world import World
 
 SHUT_M = 2.0 * LEAST_KEPT_M  # nothing passes a gap that is no wider
@@ -33,7 +33,7 @@ class Bottleneck:
     Attributes:
         width: [m]; 0 where what shuts the way off has no gap.
         at: Its middle [m].
-        owners: What it lies between; where it has no gap, the whole barrier. Indices as of
+        owners: What it lies between; where it has no gap, the whole loop. Indices as of
             ``World.nearest``, each once.
     """
 
@@ -61,7 +61,7 @@ def bottleneck_between(
     Returns:
         None where some way goes through no gap narrower than ``reach``.
     """
-    graph = BarrierGraph.of(world, reach)
+    graph = GapGraph.of(world, reach)
     links, count = graph.links, len(graph.owners)
     odd = _crossings(graph, np.asarray(start[:2]), np.asarray(goal[:2]))
     first, second = (np.ascontiguousarray(ends) for ends in links.pairs.T)
@@ -76,7 +76,7 @@ def bottleneck_between(
     return Bottleneck(width, graph.middle_of(last), owners)
 
 
-def _crossings(graph: BarrierGraph, start: Floats, goal: Floats) -> Bytes:
+def _crossings(graph: GapGraph, start: Floats, goal: Floats) -> Bytes:
     """Whether links cross the line from start to goal an odd number of times, (k,).
 
     Each leads from a place in a piece to its foot, to the other foot, to a place there.
@@ -95,7 +95,7 @@ def _crossings(graph: BarrierGraph, start: Floats, goal: Floats) -> Bytes:
     return odd
 
 
-def _odd_ring(links: BarrierLinks, odd: Bytes, count: int, piece: int) -> Ints:
+def _odd_ring(links: GapLinks, odd: Bytes, count: int, piece: int) -> Ints:
     """The pieces of the shortest odd cycle of links through one of ``count`` pieces, in order."""
     a, b = links.pairs.T
     crossed = count * odd.astype(np.int64)  # pieces a second time, where crossings were odd

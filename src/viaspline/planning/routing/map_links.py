@@ -1,4 +1,4 @@
-"""The cells of a map as pieces of barriers, and the gaps between them.
+"""The cells of a map as convex pieces, and the gaps between them.
 
 All places of a map that matter lie on its *half lattice*, whose nodes are the corners and middles
 of cells and of their sides: those of a blocked cell that are nearest to a node are nodes, and so is
@@ -21,7 +21,7 @@ from scipy.ndimage import distance_transform_edt
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.maps.grid import Grid
-from viaspline.planning.routing.barrier_links import BarrierLinks, BarrierPieces, places_near
+from viaspline.planning.routing.gap_links import ConvexPieces, GapLinks, places_near
 
 NODES_ASIDE = 2048  # of the parts of a map that are looked at one by one
 NEIGHBOURS = ((0, 1), (1, -1), (1, 0), (1, 1))  # each pair of touching cells once: row, column
@@ -51,28 +51,28 @@ class MapPieces:
         """[m], (n, 2)."""
         return _placed(self.grid, self.cells[:, ::-1] + 0.5)
 
-    def pieces(self, which: Ints) -> BarrierPieces:
+    def pieces(self, which: Ints) -> ConvexPieces:
         """Some of them as pieces like others."""
         corners = self.cells[which][:, None, ::-1] + CORNERS
-        return BarrierPieces(
+        return ConvexPieces(
             np.asarray(shapely.polygons(_placed(self.grid, corners)), object),
             np.zeros(len(which)),
             np.full(len(which), self.owner),
             self.middles[which],
         )
 
-    def near(self, pieces: BarrierPieces, reach: float) -> Ints:
+    def near(self, pieces: ConvexPieces, reach: float) -> Ints:
         """Which of them may be nearer than ``reach`` [m] to other pieces, (k,)."""
         return places_near(self.middles, pieces, reach + HALF_DIAGONAL * self.grid.resolution)
 
-    def links(self, reach: float) -> BarrierLinks:
+    def links(self, reach: float) -> GapLinks:
         """The gaps of less than ``reach`` [m] between them."""
         numbers = np.full(self.grid.blocked.shape, -1)
         numbers[tuple(self.cells.T)] = np.arange(len(self.cells))
         side = self.grid.resolution
-        links = BarrierLinks.joined([_touching(numbers), _apart(numbers, reach / side)])
+        links = GapLinks.joined([_touching(numbers), _apart(numbers, reach / side)])
         feet = _placed(self.grid, links.feet.reshape(-1, 2, 2)).reshape(-1, 4)
-        return BarrierLinks(links.pairs, links.widths * side, feet)
+        return GapLinks(links.pairs, links.widths * side, feet)
 
 
 def rim_cells(blocked: Flags) -> Ints:
@@ -90,7 +90,7 @@ def _placed(grid: Grid, places: NDArray[Any]) -> Floats:
     return placed
 
 
-def _touching(numbers: Ints) -> BarrierLinks:
+def _touching(numbers: Ints) -> GapLinks:
     """Links between cells that touch, in cells."""
     height, width = numbers.shape
     pairs, feet = [], []
@@ -103,12 +103,12 @@ def _touching(numbers: Ints) -> BarrierLinks:
         pairs.append(np.column_stack((here[tuple(at.T)], there[tuple(at.T)])))
         feet.append(at[:, ::-1] + (left + 0.5, 0.5) + 0.5 * np.array((right, down)))
     both = np.concatenate(pairs)
-    return BarrierLinks(both, np.zeros(len(both)), np.tile(np.concatenate(feet), 2))
+    return GapLinks(both, np.zeros(len(both)), np.tile(np.concatenate(feet), 2))
 
 
-def _apart(numbers: Ints, reach: float) -> BarrierLinks:
+def _apart(numbers: Ints, reach: float) -> GapLinks:
     """Links between cells that don't touch, in cells."""
-    none = BarrierLinks(np.empty((0, 2), np.int64), np.empty(0), np.empty((0, 4)))
+    none = GapLinks(np.empty((0, 2), np.int64), np.empty(0), np.empty((0, 4)))
     if reach <= 1.0:
         return none
     blocked = np.pad(numbers >= 0, 1)
@@ -120,7 +120,7 @@ def _apart(numbers: Ints, reach: float) -> BarrierLinks:
     found = [_gaps_in(nodes, part, reach) for part in _parts(nodes.shape, math.ceil(reach) + 1)]
     first, second, widths = (np.concatenate(rows) for rows in zip(*found, strict=True))
     owner = partial(_cell_at, numbers)
-    return BarrierLinks(
+    return GapLinks(
         np.column_stack((owner(first), owner(second))),
         widths,
         0.5 * np.hstack((first[:, ::-1], second[:, ::-1])),

@@ -1,4 +1,4 @@
-"""All pieces of a world that barriers are made of, and the gaps between them.
+"""All convex pieces of a world, and the gaps between them.
 
 Tested through ``planning/routing/test_bottleneck``.
 """
@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.planning.routing.barrier_links import (
-    BarrierLinks,
-    BarrierPieces,
+from viaspline.planning.routing.gap_links import (
+    ConvexPieces,
+    GapLinks,
     links_among,
     links_between,
 )
@@ -21,7 +21,7 @@ from viaspline.world.world import World
 
 
 @dataclass(frozen=True)
-class BarrierGraph:
+class GapGraph:
     """Convex pieces, and those pairs of them that have a narrow gap between them.
 
     Attributes:
@@ -34,12 +34,12 @@ class BarrierGraph:
     radii: Floats
     owners: Ints
     places: Floats
-    links: BarrierLinks
+    links: GapLinks
 
     @classmethod
-    def of(cls, world: World, reach: float) -> BarrierGraph:
+    def of(cls, world: World, reach: float) -> GapGraph:
         """That of a world, with the gaps that are narrower than ``reach`` [m]."""
-        pieces = BarrierPieces.of(world)
+        pieces = ConvexPieces.of(world)
         links = [links_among(pieces, reach)]
         numbered = [(np.arange(len(pieces.owners)), pieces)]
         radii, owners, places = [pieces.radii], [pieces.owners], [pieces.places]
@@ -58,7 +58,7 @@ class BarrierGraph:
             places.append(cells.middles)
             if k + 1 < len(maps):  # for the maps that follow
                 numbered.append((numbers, cells.pieces(np.arange(len(numbers)))))
-        found = BarrierLinks.joined(links)
+        found = GapLinks.joined(links)
         return cls(
             np.concatenate(radii),
             np.concatenate(owners),

@@ -1,4 +1,4 @@
-"""What barriers are made of: convex pieces of what is in a world, and the gaps between them."""
+"""The convex pieces of what is in a world, and the gaps between them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Shapes = NDArray[Any]
 
 
 @dataclass(frozen=True)
-class BarrierPieces:
+class ConvexPieces:
     """Convex cores, each grown by a radius.
 
     Attributes:
@@ -35,7 +35,7 @@ class BarrierPieces:
     places: Floats
 
     @classmethod
-    def of(cls, world: World) -> BarrierPieces:
+    def of(cls, world: World) -> ConvexPieces:
         """Everything in a world but its maps: the edges of what isn't convex, and of what it is in.
 
         Nothing crosses the edge of an obstacle, so that its inside may be left out.
@@ -61,7 +61,7 @@ class BarrierPieces:
 
 
 @dataclass(frozen=True)
-class BarrierLinks:
+class GapLinks:
     """Pairs of pieces that are near to each other, and the gap between the two of each.
 
     Attributes:
@@ -75,7 +75,7 @@ class BarrierLinks:
     feet: Floats
 
     @classmethod
-    def joined(cls, rows: Sequence[BarrierLinks]) -> BarrierLinks:
+    def joined(cls, rows: Sequence[GapLinks]) -> GapLinks:
         """All of some."""
         return cls(
             np.concatenate([links.pairs for links in rows]),
@@ -83,47 +83,45 @@ class BarrierLinks:
             np.concatenate([links.feet for links in rows]),
         )
 
-    def some(self, which: NDArray[Any]) -> BarrierLinks:
+    def some(self, which: NDArray[Any]) -> GapLinks:
         """Those of some numbers, in that order, or those that are marked."""
-        return BarrierLinks(self.pairs[which], self.widths[which], self.feet[which])
+        return GapLinks(self.pairs[which], self.widths[which], self.feet[which])
 
-    def renumbered(self, first: Ints, second: Ints) -> BarrierLinks:
+    def renumbered(self, first: Ints, second: Ints) -> GapLinks:
         """These with other numbers for the first piece of each pair, and for the second."""
         pairs = np.column_stack((first[self.pairs[:, 0]], second[self.pairs[:, 1]]))
-        return BarrierLinks(pairs, self.widths, self.feet)
+        return GapLinks(pairs, self.widths, self.feet)
 
 
-def places_near(places: Floats, pieces: BarrierPieces, reach: float) -> Ints:
+def places_near(places: Floats, pieces: ConvexPieces, reach: float) -> Ints:
     """Which of some places (n, 2) [m] may be nearer than ``reach`` to a piece, (k,)."""
     tree = shapely.STRtree(_boxes(pieces, reach))
     return np.unique(tree.query(shapely.points(places))[0])
 
 
-def links_among(pieces: BarrierPieces, reach: float) -> BarrierLinks:
+def links_among(pieces: ConvexPieces, reach: float) -> GapLinks:
     """The gaps of less than ``reach`` [m] between some pieces."""
     boxes = _boxes(pieces, 0.5 * reach)
     pairs = shapely.STRtree(boxes).query(boxes).T
     return _measured(pieces, pieces, pairs[pairs[:, 0] < pairs[:, 1]], reach)
 
 
-def links_between(first: BarrierPieces, second: BarrierPieces, reach: float) -> BarrierLinks:
+def links_between(first: ConvexPieces, second: ConvexPieces, reach: float) -> GapLinks:
     """The gaps of less than ``reach`` [m] from pieces to others, each numbered by themselves."""
     boxes = _boxes(first, reach), _boxes(second, 0.0)
     return _measured(first, second, shapely.STRtree(boxes[0]).query(boxes[1])[::-1].T, reach)
 
 
-def _measured(
-    first: BarrierPieces, second: BarrierPieces, pairs: Ints, reach: float
-) -> BarrierLinks:
+def _measured(first: ConvexPieces, second: ConvexPieces, pairs: Ints, reach: float) -> GapLinks:
     a, b = pairs.T
     cores = first.cores[a], second.cores[b]
     widths = shapely.distance(*cores) - first.radii[a] - second.radii[b]
     near = widths < reach
     lines = shapely.shortest_line(cores[0][near], cores[1][near])
-    return BarrierLinks(pairs[near], widths[near], _coordinates(lines).reshape(-1, 4))
+    return GapLinks(pairs[near], widths[near], _coordinates(lines).reshape(-1, 4))
 
 
-def _boxes(pieces: BarrierPieces, more: float) -> Shapes:
+def _boxes(pieces: ConvexPieces, more: float) -> Shapes:
     x0, y0, x1, y1 = shapely.bounds(pieces.cores).reshape(-1, 4).T
     by = pieces.radii + more
     return np.asarray(shapely.box(x0 - by, y0 - by, x1 + by, y1 + by))
