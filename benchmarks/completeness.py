@@ -30,6 +30,7 @@ from cell_worlds import KINDS as CELL_KINDS
 from cell_worlds import cell_problem
 from map_worlds import map_problem
 from problems import Problem
+from refused_worlds import large_problem, pocket_problem
 from thin_worlds import KINDS as THIN_KINDS
 from thin_worlds import thin_problem
 from timing import clock
@@ -38,6 +39,7 @@ from work_pool import done
 
 SMALL = 100  # cells aside, of maps that are searched again and again
 STRIDE = 1009  # of their seeds
+LARGE_EVERY = 40  # seeds of refusals is one on a large map
 
 
 class Job(NamedTuple):
@@ -56,11 +58,19 @@ def small_problem(seed: int) -> Problem:
     return next(p for p in found if p.cells is not None and len(p.cells) <= SMALL)
 
 
+def refused_problem(seed: int) -> Problem:
+    """A pocket for every fourth seed, a large map now and then, else a small problem."""
+    if seed % LARGE_EVERY == 3:
+        return large_problem(seed)
+    return pocket_problem(seed) if seed % 4 == 3 else small_problem(seed)
+
+
 def problem_of(job: Job) -> Problem:
     """The problem of a job."""
     if job.name == "maps":
         return map_problem(job.seed, job.maps)
-    made: dict[str, Callable[[int], Problem]] = {"cells": cell_problem, "thin": thin_problem}
+    made: dict[str, Callable[[int], Problem]] = {"cells": cell_problem, "thin": thin_problem,
+                                                "reasons": refused_problem}  # fmt: skip
     return made.get(job.name, small_problem)(job.seed)
 
 

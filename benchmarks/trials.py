@@ -20,6 +20,7 @@ TOLERANCE_M = CHORD_ERROR_M + 2 * PROOF_SLACK_M
 FATTER = (0.05, 0.2, 0.5, 0.8, 0.95, 0.999)  # robots, by what is required
 LENGTH_TOLERANCE = 1e-4
 WIDTH_TOLERANCE_M = 1e-3  # of the width that a refusal tells
+LEAST_M = 5e-4  # radius of the least robot that the oracles tell ways for
 GAP = re.compile(r"gap .* at \(\S+ \S+\) with (?:just )?(\d+\.\d+) m of room")
 LARGEST_RADIUS = re.compile(r"the body's radius may be at most (\d+\.\d+) m")
 
@@ -131,7 +132,10 @@ def wrong_gap(error: vs.NoPathError, problem: Problem) -> list[str]:
     """What is wrong with the gap that a refusal names: its width, and whether it is the widest."""
     told = GAP.search(str(error))
     if told is None:
-        return []
+        is_open = "nothing leads from" not in str(error)
+        if is_open or verdict(problem.for_robot(LEAST_M)) != "open":
+            return []
+        return [f"a robot of {LEAST_M:g} m gets through what is said to be shut off"]
     half = 0.5 * float(told[1])
     wrong, at = [], shapely.points([error.where[:2]])
     room = float(problem.solids.room(at, 3.0 * problem.required)[0])

@@ -132,7 +132,7 @@ def test_the_gap_that_is_too_narrow_is_named_with_its_place_and_width() -> None:
     ) as caught:
         vs.plan(wall)
     assert caught.value.where == pytest.approx((1.55, 1.05), abs=0.15)
-    assert "set robot.clearance_m to at most 0.05" in caught.value.remedy
+    assert "set robot.clearance_m to at most 0.048" in caught.value.remedy
 
 
 def test_a_pocket_that_nothing_connects_is_said_to_be_shut_off() -> None:

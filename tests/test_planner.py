@@ -270,6 +270,16 @@ def test_a_via_point_inside_a_clearance_is_refused_with_moves_that_serve(at: Any
         vs.plan(mission([0, 0], list(at), [100, 0], known=[tank], robot=robot))
 
 
+def test_a_via_point_is_offered_a_clearance_that_leaves_room_for_the_tracking_error() -> None:
+    asked = mission([0, 0], {"at": [50, 30], "name": "pump"}, [100, 0])
+    world = vs.World([vs.Obstacle(**disc(50, 41, 10))])
+    needs = Requirements(radius=0.5, clearance=0.5, tracking_error=0.2)
+    with pytest.raises(vs.NoPathError) as caught:
+        find_path(via_sequence_of(asked), world, needs)
+    changes = {change.key: change.value for change in caught.value.changes}
+    assert changes["robot.clearance_m"] == pytest.approx(0.3, abs=1e-3)
+
+
 @pytest.mark.parametrize("sensor", [None, {"range_m": 20}])
 def test_the_known_world_is_built_once(monkeypatch: pytest.MonkeyPatch, sensor: Any) -> None:
     asked = vs.Mission.model_validate(

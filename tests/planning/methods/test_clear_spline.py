@@ -64,10 +64,15 @@ def test_a_leg_that_is_shut_off_is_refused() -> None:
     assert isinstance(caught.value, vs.NoPathError)
 
 
-def test_a_search_that_ran_out_says_so_and_what_was_tried() -> None:
+@pytest.mark.parametrize("gaps", [1, 200])
+def test_slots_that_are_too_narrow_are_refused_even_where_the_search_ran_out(gaps: int) -> None:
     slots = [(4.0 + 9 * k, 1.9) for k in range(11)]
     with pytest.raises(BlockedLegError, match="no way from 'start' to 'goal' is wide enough"):
-        ClearSpline().lay(problem(wall(*slots)))
+        ClearSpline().lay(with_budget(problem(wall(*slots)), gaps))
+
+
+def test_a_search_that_ran_out_says_so_and_what_was_tried() -> None:
+    slots = [(4.0 + 9 * k, 1.9 if k else 2.00001) for k in range(11)]
     with pytest.raises(UnfinishedLegError, match="none is ruled out") as caught:
         ClearSpline().lay(with_budget(problem(wall(*slots)), gaps=1))
     error = caught.value

@@ -32,6 +32,7 @@ from viaspline.planning.routing.leg_refusals import (
     explain_blocked_leg,
     explain_tight_leg,
     explain_unfinished_leg,
+    is_blocked,
 )
 from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
@@ -161,7 +162,7 @@ def _no_leg(leg: LegSearch, outcome: Refusal | GaveUp, barriers: Floats) -> Plan
     """The error of a leg for which nothing was found."""
     via = leg.sequence.ends(leg.index)[1].name
     asked = (leg.sequence, leg.index, leg.world, leg.requirements, barriers)
-    if isinstance(outcome, Refusal):
+    if isinstance(outcome, Refusal) or is_blocked(*asked[:4]):
         return BlockedLegError(via, lambda: explain_blocked_leg(*asked))
     return UnfinishedLegError(via, lambda: explain_unfinished_leg(*asked, outcome), outcome.tried)
 

@@ -1,15 +1,10 @@
-"""Why nothing leads from one via point to the next, and the least change that would allow it.
-
-Tested through ``test_planner`` and ``planning/routing/test_lattice``.
-"""
+"""Why nothing leads from one via point to the next, and the least change that would allow it."""
 
 from __future__ import annotations
 
-from itertools import pairwise
-from typing import Any, NamedTuple
+import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.errors import Change, GaveUpError, NoPathError
@@ -19,7 +14,8 @@ from viaspline.planning.problem.method import GaveUp
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
 from viaspline.planning.routing.asked_sides import AskedSides, sided
-from viaspline.planning.routing.lattice_route import LatticeRoute
+from viaspline.planning.routing.bottleneck import Bottleneck, bottleneck_between
+from viaspline.planning.routing.free_rooms import places_reached
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.side_refusals import (
@@ -31,10 +27,9 @@ from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.routing.via_refusals import change_moving
 from viaspline.world.world import World
 
-MAX_BISECTIONS = 30  # of the distance that a way can keep
-WIDTH_RESOLUTION = 1e-4  # to which that is known, in required distances
-MAX_GOALS_TRIED = 8  # places that are tried as a better goal
-PLACES_ON_STRAIGHT = 201  # of each piece of a taut path, to find its tightest place
+CURVE_SLACK_M = 2e-4  # beyond what is required, in which a curve may find no way through a gap
+CURVE_ROOM_M = 1.1e-3  # in which it finds one: it turns a millimetre beyond what is required
+NEAR_RADII = 2.0  # from a via point to the mouth of its pocket, in required distances
 
 
 def explain_unfinished_leg(
@@ -56,99 +51,160 @@ def explain_unfinished_leg(
     )
 
 
+def is_blocked(sequence: ViaSequence, leg: int, world: World, requirements: Requirements) -> bool:
+    """Whether it is proven that no way between two via points is wide enough."""
+    start, goal = sequence.ends(leg)
+    reach = 2.0 * (requirements.required - PROOF_SLACK_M)
+    return bottleneck_between(world, start.at, goal.at, reach) is not None
+
+
 def explain_blocked_leg(
     sequence: ViaSequence, leg: int, world: World, requirements: Requirements, barriers: Floats
 ) -> NoPathError:
     """Why there is no way between two via points."""
     start, goal = sequence.ends(leg)
-    if len(barriers):
-        free = _way(start, goal, world, requirements.required, NO_BARRIERS)
-        if free is not None:
-            return _forced(sequence, leg, world, requirements.required, free)
-    opened = _widest(start, goal, world, requirements.required)
-    moved = reachable_near(start.at, goal.at, world, requirements.required)
-    moves = [] if moved is None else [f"move {goal.name!r} to ({moved[0]:.3f}, {moved[1]:.3f})"]
-    changes = change_moving(goal, moved)
-    if opened is None:
-        walls = _walls(start, goal, world)
-        moves.append(f"open a gap of {2 * requirements.required:.3f} m")
-        return NoPathError(
-            f"nothing leads from {start.name!r} to {goal.name!r}: {_listed(walls)} shuts it off",
-            where=goal.at,
-            remedy=" or ".join(moves),
-            via=goal.name,
-            obstacles=walls,
-            changes=changes,
-        )
-    required, taut_path = opened
-    gap = _narrowest(taut_path, world)
-    clearance = np.floor((required - requirements.radius) * 1000) / 1000
-    if clearance >= 0:
-        moves.insert(0, f"set robot.clearance_m to at most {clearance:.3f}")
-        changes = (Change("robot.clearance_m", float(clearance)), *changes)
-    else:
-        most = np.floor(required * 1000) / 1000
-        moves.insert(0, f"the body's radius may be at most {most:.3f} m there")
-    room, needed = _told_apart(gap.width, 2 * requirements.required)
+    free = _way(start, goal, world, requirements.required) if len(barriers) else None
+    if free is not None:
+        return _forced(sequence, leg, world, requirements.required, free)
+    moves, changes = _moves(sequence, leg, world, requirements.required)
+    reach = 2.0 * (requirements.required + CURVE_SLACK_M)
+    gap = bottleneck_between(world, start.at, goal.at, reach)
+    if gap is None:
+        return _just_enough(start, goal, world, requirements, moves, changes)
+    if gap.is_shut:
+        return _shut_off(start, goal, world, gap, requirements, moves, changes)
+    return _too_narrow(start, goal, world, gap, requirements, moves, changes)
+
+
+def _shut_off(
+    start: RouteVia, goal: RouteVia, world: World, gap: Bottleneck, requirements: Requirements,
+    moves: tuple[str, ...], changes: tuple[Change, ...],
+) -> NoPathError:  # fmt: skip
+    """Where not even a point gets through."""
+    obstacles = [owner for owner in gap.owners if owner >= 0] or gap.owners
+    walls = tuple(world.name(owner) for owner in obstacles)
+    needed = math.ceil(2e3 * (requirements.required + CURVE_ROOM_M)) / 1e3
+    shut = "shuts" if len(walls) == 1 else "shut"
     return NoPathError(
-        f"no way from {start.name!r} to {goal.name!r} is wide enough: the best one goes through "
-        f"a gap {gap.between} at ({gap.at[0]:.2f}, {gap.at[1]:.2f}) with {room} m of "
-        f"room, {needed} m are needed",
-        where=gap.at,
-        remedy=" or ".join(moves),
+        f"nothing leads from {start.name!r} to {goal.name!r}: {_listed(walls)} {shut} it off",
+        where=goal.at,
+        remedy=" or ".join((*moves, f"open a gap of {needed:.3f} m")),
         via=goal.name,
-        obstacles=gap.sides,
+        obstacles=walls,
         changes=changes,
     )
 
 
+def _too_narrow(
+    start: RouteVia, goal: RouteVia, world: World, gap: Bottleneck, requirements: Requirements,
+    moves: tuple[str, ...], changes: tuple[Change, ...],
+) -> NoPathError:  # fmt: skip
+    """Where the widest way is too narrow."""
+    sides = tuple(dict.fromkeys(world.name(owner) for owner in gap.owners))
+    between = f"in {sides[0]!r}" if len(sides) == 1 else f"between {sides[0]!r} and {sides[1]!r}"
+    remedy, change = _slimmer(0.5 * gap.width, requirements)
+    room, needed = _told_apart(gap.width, 2.0 * requirements.required)
+    through = _towards(gap, start, goal, requirements.required)
+    return NoPathError(
+        f"no way from {start.name!r} to {goal.name!r} is wide enough: the best one {through} "
+        f"a gap {between} at ({gap.at[0]:.2f}, {gap.at[1]:.2f}) with {room} m of "
+        f"room, {needed} m are needed",
+        where=gap.at,
+        remedy=" or ".join((*remedy, *moves)) or f"widen it to more than {needed} m",
+        via=goal.name,
+        obstacles=sides,
+        changes=(*change, *changes),
+    )
+
+
+def _just_enough(
+    start: RouteVia, goal: RouteVia, world: World, requirements: Requirements,
+    moves: tuple[str, ...], changes: tuple[Change, ...],
+) -> NoPathError:  # fmt: skip
+    """Where no gap is too narrow: the via point that has less room stands where no curve fits."""
+    room, index = world.nearest(np.array([start.at[:2], goal.at[:2]]))
+    worse = int(np.argmin(room))
+    via, nearest = (start, goal)[worse], world.name(int(index[worse]))
+    remedy, change = _slimmer(float(room[worse]), requirements)
+    has, needed = _told_apart(float(room[worse]), requirements.required)
+    return NoPathError(
+        f"no way from {start.name!r} to {goal.name!r} was found that leaves enough room for a "
+        f"curve: {via.name!r} has {has} m to {nearest!r}, {needed} m are needed",
+        where=via.at,
+        remedy=" or ".join((*remedy, *moves)) or f"move {via.name!r} a little away",
+        via=via.name,
+        obstacles=(nearest,),
+        changes=(*change, *changes),
+    )
+
+
+def _slimmer(room: float, requirements: Requirements) -> tuple[tuple[str, ...], tuple[Change, ...]]:
+    """What would make a robot pass where there is so much room [m], in words and as changes."""
+    most = min(room, requirements.required) - CURVE_ROOM_M
+    clearance = _rounded_down(most - requirements.radius - requirements.tracking_error)
+    if clearance >= 0.0:
+        words = f"set robot.clearance_m to at most {clearance:.3f}"
+        return (words,), (Change("robot.clearance_m", clearance),)
+    radius = _rounded_down(most - requirements.tracking_error)
+    if radius <= 0.0:
+        return (), ()
+    return (f"the body's radius may be at most {radius:.3f} m there",), ()
+
+
+def _rounded_down(length: float) -> float:
+    """A length to the millimetre [m]."""
+    return float(math.floor(length * 1e3) / 1e3)
+
+
+def _moves(
+    sequence: ViaSequence, leg: int, world: World, required: float
+) -> tuple[tuple[str, ...], tuple[Change, ...]]:
+    """The shorter of the moves of either via point that join the two, in words and as a change.
+
+    A via point has to be reached from its other neighbour as well.
+    """
+    count = len(sequence.vias)
+    movable: list[tuple[RouteVia, list[Floats]]] = []
+    for index, step in (((leg + 1) % count, 1), (leg, -1)):
+        via, beyond = sequence.vias[index], index + step
+        others = [sequence.ends(leg)[0 if step == 1 else 1].at]
+        if sequence.closed or 0 <= beyond < count:
+            others.append(sequence.vias[beyond % count].at)
+        if via.key:
+            movable.append((via, others))
+    if not movable:
+        return (), ()
+    wanted = [(via.at, others) for via, others in movable]
+    found = [
+        (float(np.hypot(*(place - via.at[:2]))), via, place)
+        for (via, _), place in zip(movable, places_reached(wanted, world, required), strict=True)
+        if place is not None
+    ]
+    if not found:
+        return (), ()
+    _, via, place = min(found, key=lambda move: move[0])
+    words = f"move {via.name!r} to ({place[0]:.3f}, {place[1]:.3f})"
+    return (words,), change_moving(via, place)
+
+
+def _towards(gap: Bottleneck, start: RouteVia, goal: RouteVia, required: float) -> str:
+    """How the best way goes to a gap: whether it is the mouth of a pocket."""
+    away = [float(np.hypot(*(np.array(gap.at) - via.at[:2]))) for via in (start, goal)]
+    if min(away) > NEAR_RADII * required:
+        return "goes through"
+    if away[0] <= away[1]:
+        return f"leaves {start.name!r}, right behind it, through"
+    return f"comes to {goal.name!r}, right behind it, through"
+
+
 def _told_apart(width: float, needed: float) -> tuple[str, str]:
     """Two widths with as many digits as it takes to tell them apart, of the millimetre at least."""
-    for digits in range(3, 9):
-        shown = f"{width:.{digits}f}", f"{needed:.{digits}f}"
-        if shown[0] != shown[1]:
-            return shown
+    if width < needed:
+        for digits in range(3, 9):
+            shown = f"{width:.{digits}f}", f"{needed:.{digits}f}"
+            if shown[0] != shown[1] and float(shown[0]) > 0.0:
+                return shown
     return f"just {width:.3f}", f"more than {needed:.3f}"
-
-
-def reachable_near(start: Floats, goal: Floats, world: World, required: float) -> Floats | None:
-    """A place near ``goal`` that ``start`` has a way to, to within a lattice's cell.
-
-    Returns:
-        Shape (2,) [m]; None where none was found.
-    """
-    router = Router(world, required, np.array([start[:2], goal[:2]]))
-    closed, place = NO_BARRIERS, goal
-    for _ in range(MAX_GOALS_TRIED):
-        closed = LatticeRoute().followed(router, router.lattice, start, place, closed).closed
-        candidate = _nearest_in_room(router, start, goal, closed)
-        if candidate is None:
-            return None
-        nothing_met = np.zeros(len(world), np.bool_)
-        if router.find(start, candidate, NO_BARRIERS, nothing_met).value is not None:
-            return candidate
-        place = candidate
-    return None
-
-
-def _nearest_in_room(router: Router, start: Floats, goal: Floats, closed: Floats) -> Floats | None:
-    """The middle of a free cell that is connected to the start's, as near to the goal as can be."""
-    from scipy.ndimage import label
-
-    lattice = router.lattice.without(closed)
-    rooms: NDArray[Any] = label(lattice.cells == 0)[0]
-    here = lattice.at(rooms, start[None, :2])[0]
-    if here == 0:
-        return None
-    rows, columns = np.nonzero(rooms == here)
-    free = (np.column_stack((columns, rows)) + 0.5) * lattice.side + (lattice.x, lattice.y)
-    free = free[np.argsort(np.hypot(*(free - goal[:2]).T), kind="stable")]
-    for some in np.array_split(free, max(1, len(free) // 1000)):
-        roomy = np.flatnonzero(router.world.distance(some) >= router.required + 1e-3)
-        if roomy.size:
-            nearest: Floats = some[roomy[0]]
-            return nearest
-    return None
 
 
 def explain_tight_leg(
@@ -197,74 +253,11 @@ def _forced(
     )
 
 
-def _way(
-    start: RouteVia, goal: RouteVia, world: World, required: float, barriers: Floats
-) -> TautPath | None:
+def _way(start: RouteVia, goal: RouteVia, world: World, required: float) -> TautPath | None:
+    """The shortest way on any side."""
     router = Router(world, required, np.array([start.at[:2], goal.at[:2]]))
     active = on_the_line(world, start.at, goal.at, required)
-    return router.find(start.at, goal.at, barriers, active).value
-
-
-def _widest(
-    start: RouteVia, goal: RouteVia, world: World, required: float
-) -> tuple[float, TautPath] | None:
-    """The largest distance that a way can keep, and that way; None if there is no way at all."""
-    low, high = 1e-6, required
-    best = _way(start, goal, world, low, NO_BARRIERS)
-    if best is None:
-        return None
-    for _ in range(MAX_BISECTIONS):
-        middle = 0.5 * (low + high)
-        taut_path = _way(start, goal, world, middle, NO_BARRIERS)
-        if taut_path is None:
-            high = middle
-        else:
-            low, best = middle, taut_path
-        if high - low < WIDTH_RESOLUTION * required:
-            break
-    return low, best
-
-
-class _Gap(NamedTuple):
-    """The narrowest place of a way: where [m], how wide [m], and what stands on either side."""
-
-    at: tuple[float, float]
-    width: float
-    sides: tuple[str, ...]
-
-    @property
-    def between(self) -> str:
-        """The sides in words."""
-        return "beside " + repr(self.sides[0]) if len(self.sides) == 1 else _pair(self.sides)
-
-
-def _pair(names: tuple[str, ...]) -> str:
-    return f"between {names[0]!r} and {names[1]!r}"
-
-
-def _narrowest(taut_path: TautPath, world: World) -> _Gap:
-    """Where a way is tightest."""
-    w = np.linspace(0.0, 1.0, PLACES_ON_STRAIGHT)[:, None]
-    corners = taut_path.corners[:, X : Y + 1]
-    places = np.vstack([a + w * (b - a) for a, b in pairwise(corners)])
-    inner = places[2:-2] if len(places) > 4 else places
-    distance, index = world.nearest(inner)
-    k = int(np.argmin(distance))
-    at, room = inner[k], float(distance[k])
-    step = 1e-3 * max(room, 1e-6)
-    away = world.distance(at + step * np.eye(2)) - room
-    size = float(np.hypot(*away))
-    sides = [world.name(int(index[k]))]
-    if size > 0.0:
-        opposite = int(world.nearest(at + 0.5 * room * away / size)[1])
-        sides.append(world.name(opposite))
-    return _Gap((float(at[0]), float(at[1])), 2.0 * room, tuple(dict.fromkeys(sides)))
-
-
-def _walls(start: RouteVia, goal: RouteVia, world: World) -> tuple[str, ...]:
-    """The obstacles that the straight line between two via points meets."""
-    found = on_the_line(world, start.at, goal.at, PROOF_SLACK_M)
-    return tuple(world.name(int(i)) for i in np.flatnonzero(found))
+    return router.find(start.at, goal.at, NO_BARRIERS, active).value
 
 
 def _listed(names: tuple[str, ...]) -> str:

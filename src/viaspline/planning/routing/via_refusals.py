@@ -33,7 +33,7 @@ def _no_room(
     via: RouteVia, room: float, index: int, world: World, requirements: Requirements
 ) -> NoPathError:
     name = world.name(index)
-    free = room - requirements.radius
+    free = room - requirements.radius - requirements.tracking_error
     place = _nearest_free(via.at, world, requirements.required)
     moves = [] if place is None else [f"move it to ({place[0]:.3f}, {place[1]:.3f})"]
     changes = change_moving(via, place)
