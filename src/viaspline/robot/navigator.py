@@ -149,17 +149,18 @@ class Navigator:
         if not progress.finished or isinstance(sensed, Scan):
             knowledge, sighting = perceive(knowledge, sensed)
         # what does it do about that?
-        if sighting is not None:
+        work = 0.0
+        if sighting is not None or schedule.pending is not None:
             began = clock.perf_counter()
             decision = decide(task, progress, knowledge, schedule, sighting)
             log = log.with_decision(decision, clock.perf_counter() - began)
-            schedule = decision.schedule
+            schedule, work = decision.schedule, decision.work
             progress, log = note_arrivals(task, progress, schedule, log)
         # what is it to do now?
         controller = before.progress.controller
-        progress, schedule = with_command(controller, progress, schedule, measured, time)
+        progress, schedule = with_command(controller, progress, schedule, measured, time, work)
         command = command_for(task.mission.robot, progress, schedule, measured)
-        return command, self._with(NavigationState(progress, knowledge, schedule, log))
+        return command, self._with(NavigationState(progress, knowledge, schedule, log, work))
 
     def _with(self, state: NavigationState) -> Navigator:
         navigator = object.__new__(Navigator)
@@ -177,6 +178,19 @@ class Navigator:
     def controller(self) -> Controller | None:
         """The controller of a robot with a drive; None if it follows exactly."""
         return self._state.progress.controller
+
+    @property
+    def work(self) -> float:
+        """What the last step has spent on looking for a new path [s of the reference machine].
+
+        The robot goes on as it had meant to for that long: its command is due so much later.
+        """
+        return self._state.work
+
+    @property
+    def searches(self) -> bool:
+        """Whether it is still looking for a new path, and so every step counts."""
+        return self._state.schedule.pending is not None
 
     @property
     def mission(self) -> Mission:

@@ -16,6 +16,7 @@ from viaspline.planning.checking.cost import CandidateCost, measure
 from viaspline.planning.problem.method import Outcome, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.problem.work_budget import ROUTE_S
 from viaspline.planning.routing.route_problem import NO_BARRIERS
 from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.side_barrier import barriers_of
@@ -92,6 +93,7 @@ class LegSearch:
         """
         barriers = self.forced_barriers(active)
         while True:
+            self.requirements.spend(ROUTE_S)
             outcome = self.router.find(*self.ends, np.vstack((closed, barriers)), active)
             needed = self.forced_barriers(active)
             if len(needed) == len(barriers):

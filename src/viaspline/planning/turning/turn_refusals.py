@@ -5,7 +5,7 @@ Tested through ``planning/methods/test_ordered`` and ``planning/test_plan_path``
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -13,8 +13,9 @@ import numpy as np
 
 from viaspline.errors import GaveUpError, NoPathError, PlanningError
 from viaspline.planning.problem.method import GaveUp, Refusal
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.headings import legs_of, posed
+from viaspline.planning.turning.headings import legs_of, lengths_cost, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_path import OVERSHOOT
 
@@ -51,10 +52,10 @@ def unlaid(problem: DrivenProblem, outcome: Refusal | GaveUp) -> PlanningError:
 
 def _circle_remedy(via: str, radius: float, serves: Callable[[float], bool]) -> str:
     """What would allow a path, where there may be one with a smaller radius [m]."""
-    smaller = next((part * radius for part in RADIUS_PARTS if serves(part * radius)), None)
+    smaller = _first(lambda part: serves(part * radius), RADIUS_PARTS)
     if smaller is None:
         return f"move {via!r} to where there is room to turn, or leave it out"
-    shown = np.floor(smaller * 10**SHOWN_DIGITS) / 10**SHOWN_DIGITS
+    shown = np.floor(smaller * radius * 10**SHOWN_DIGITS) / 10**SHOWN_DIGITS
     return (
         f"a radius of {shown:g} m would do (robot.min_turn_radius_m); or move {via!r} to "
         "where there is room to turn"
@@ -63,11 +64,19 @@ def _circle_remedy(via: str, radius: float, serves: Callable[[float], bool]) -> 
 
 def _body_remedy(via: str, has_room: Callable[[float], bool]) -> str:
     """What would allow a path, where there may be one with a part of the clearance."""
-    less = next((part for part in CLEARANCE_PARTS if has_room(part)), None)
+    less = _first(has_room, CLEARANCE_PARTS)
     moves = [f"move {via!r} to where there is room for the body"]
     if less is not None:
         moves.insert(0, f"{less:g} of the clearance would do (robot.clearance_m)")
     return ", or ".join(moves)
+
+
+def _first(serves: Callable[[float], bool], parts: Sequence[float]) -> float | None:
+    """The first of some parts that serves; None as well where there is no time to look for one."""
+    try:
+        return next((part for part in parts if serves(part)), None)
+    except SpentBudgetError:
+        return None
 
 
 def _serves(problem: DrivenProblem, radius: float) -> bool:
@@ -78,6 +87,7 @@ def _serves(problem: DrivenProblem, radius: float) -> bool:
     )
     legs = legs_of(problem.bends, problem.spots)
     closed = problem.sequence.closed
+    problem.requirements.spend(lengths_cost(legs))
     return posed(legs, rho, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS) is not None
 
 

@@ -53,10 +53,28 @@ def rescheduled(
             task, progress, knowledge, schedule, speed, path=path, turns=turns, at_least=probed
         )
     except GeometryError:
-        if knowledge.belief is None:
+        if knowledge.belief is None and schedule.held_at >= path.length:
             raise
-        trajectory = braking(progress.distance, speed, task.limits.brake, progress.time)
+        trajectory = braking_at_once(task, progress, schedule, speed)
     return replace(schedule, trajectory=trajectory)
+
+
+def braking_at_once(
+    task: DriveTask, progress: Progress, schedule: Schedule, speed: float
+) -> Trajectory:
+    """The trajectory of a robot that brakes as hard as it can, from here or where it may first.
+
+    Args:
+        task: What is asked of the drive.
+        progress: Where the robot is on the path, and when.
+        schedule: What it means to do up to now, and how long it is committed to that.
+        speed: Of the robot where it begins to brake [m/s].
+    """
+    old, until = schedule.trajectory, schedule.committed_until
+    if until <= progress.time:
+        return braking(progress.distance, speed, task.limits.brake, progress.time)
+    distance = max(float(old.state_at(until)[0]), progress.distance)
+    return old.followed_by(braking(distance, speed, task.limits.brake, until), progress.time)
 
 
 def rescheduled_by_sight(
@@ -100,10 +118,13 @@ def trajectory_within_sight(
     Raises:
         GeometryError: When the robot is too fast to stop where it has to.
     """
-    distance, time = progress.distance, progress.time
+    distance, time, accel = progress.distance, progress.time, None
+    if time < schedule.committed_until:
+        time = schedule.committed_until
+        distance, speed, accel = (float(x) for x in schedule.trajectory.state_at(time))
     required = task.requirements.required
     certain = _certain_until(knowledge.belief, distance, schedule, path, required, shared)
-    end = max(certain, at_least)
+    end = max(min(certain, schedule.held_at), at_least)
     stops = [Station(turn) for turn in turns if turn > distance + SAME_PLACE_M]
     stops += [
         Station(max(at, distance), via.dwell, via.name)
@@ -124,11 +145,14 @@ def trajectory_within_sight(
         zones=task.mission.world.speed_zones,
         start=min(distance, path.length),
         start_speed=speed,
-        start_accel=float(schedule.trajectory.state_at(time)[2]),
+        start_accel=float(schedule.trajectory.state_at(time)[2]) if accel is None else accel,
         start_time=time,
         replaces=schedule.trajectory,
     )
-    return trajectory if end >= path.length else trajectory.until(end)
+    trajectory = trajectory if end >= path.length else trajectory.until(end)
+    if time == progress.time:
+        return trajectory
+    return schedule.trajectory.followed_by(trajectory, progress.time)
 
 
 def _certain_until(

@@ -29,6 +29,24 @@ class Wait:
 
 
 @dataclass(frozen=True)
+class PendingSearch:
+    """A search for a new path that is not over yet.
+
+    Attributes:
+        since: When it began [s].
+        obstacles: What is in the way.
+        begin_with: The stage with which it goes on.
+        standing_limit: What its next step may spend if the robot stands [s of the reference
+            machine]; None: what every first step may.
+    """
+
+    since: float
+    obstacles: World
+    begin_with: tuple[int, int]
+    standing_limit: float | None = None
+
+
+@dataclass(frozen=True)
 class ReducedClearance:
     """A robot that has come closer to something than it should, and is on its way out.
 
@@ -58,6 +76,10 @@ class Schedule:
             [m].
         reviewed_at: When it was last asked whether there is a better path [s].
         wait: Since when and why the robot waits, if it does.
+        pending: The search for a new path that is not over yet, if there is one.
+        held_at: The robot goes no farther along the path while it searches [m].
+        committed_until: Up to this time the trajectory stays as it is, because what is to follow
+            is still being found [s].
         giving_up: Why the robot brakes for good, if it does.
     """
 
@@ -71,6 +93,9 @@ class Schedule:
     probed_until: float = 0.0
     reviewed_at: float = -math.inf
     wait: Wait | None = None
+    pending: PendingSearch | None = None
+    held_at: float = math.inf
+    committed_until: float = -math.inf
     giving_up: str | None = None
 
     @property
