@@ -45,7 +45,9 @@ def with_time_to_search(context: ReplanContext) -> ReplanContext:
         committed = context.searching(share * longest)
         if committed.is_clear(committed.stop):
             return committed
-    return context.searching(0.0)
+    # who is guided by a lidar may be too close already, and slow: it leaves as soon as it can
+    is_late = context.knowledge.belief is not None and not context.is_clear(context.stop)
+    return context.searching(SHARES[-1] * STEP_WORK_S if is_late else 0.0)
 
 
 def gone_on(context: ReplanContext, begin_with: tuple[int, int]) -> PendingSearch | None:

@@ -18,11 +18,12 @@ from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLeg
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.schedule import ReducedClearance, Wait
 from viaspline.robot.replanning.better_path import better_path, with_spare
+from viaspline.robot.replanning.deadline import with_time_to_search
 from viaspline.robot.replanning.recovery import restore_clearance, way_out
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.replan_search import ReplanResult, search
 from viaspline.robot.replanning.sight_limit import within_sight
-from viaspline.robot.replanning.transitions import braked, stop_for_good, take_over
+from viaspline.robot.replanning.transitions import braked, keep_searching, stop_for_good, take_over
 from viaspline.world.world import World
 
 MIN_REPLAN_INTERVAL_S = 0.25
@@ -51,7 +52,8 @@ def replan_from_scan(context: ReplanContext, *, opened: bool) -> Decision:
         blocked = replace(context, schedule=replace(schedule, probed_until=0.0))
         decision = _round_obstruction(blocked, free)
     else:
-        unblocked = replace(schedule, wait=None) if schedule.is_blocked else schedule
+        unblocked = replace(schedule, pending=None, held_at=math.inf)
+        unblocked = replace(unblocked, wait=None) if schedule.is_blocked else unblocked
         decision = better_path(replace(context, schedule=unblocked), opened=opened)
     if decision.schedule.giving_up is not None:
         return decision
@@ -74,9 +76,14 @@ def _round_obstruction(context: ReplanContext, free: float) -> Decision:
         obstruction=Obstruction(world, names, free),
         floor=context.requirements.required,
     )
+    blocked = with_time_to_search(blocked)
     result = _way_round(blocked)
+    if result.begin_with is not None:
+        decision = keep_searching(blocked, result)
+        return replace(decision, searched=True, work=blocked.work)
     if result.candidate is None:
-        return replace(_hold(context, _plain(result.refusal)), searched=True)
+        decision = _hold(context, _plain(result.refusal))
+        return replace(decision, searched=True, work=blocked.work)
     decision = take_over(blocked, result.candidate, result.skip)
     detected = tuple(context.detection(world, index) for index in indices)
     return replace(
@@ -84,12 +91,15 @@ def _round_obstruction(context: ReplanContext, free: float) -> Decision:
         schedule=replace(decision.schedule, wait=None),
         events=detected + decision.events,
         searched=True,
+        work=blocked.work,
     )
 
 
 def _may_wait(context: ReplanContext, free: float) -> bool:
     """Whether a blocked path is not to be laid anew yet: it was just now, or it was in vain."""
     progress, schedule = context.progress, context.schedule
+    if schedule.pending is not None:
+        return False
     if schedule.wait is not None and schedule.wait.reason is not None:
         return progress.time < schedule.wait.again
     if progress.time >= schedule.laid_at + MIN_REPLAN_INTERVAL_S:
@@ -126,7 +136,8 @@ def _way_round(context: ReplanContext) -> ReplanResult:
     room = _room(context, cell_size)
     if room >= requirements.required:
         found = search(replace(context, requirements=spared))
-        return search(context) if found.candidate is None else found
+        is_over = found.candidate is not None or found.begin_with is not None
+        return found if is_over else search(context)
     floor = max(room - MAX_APPROACH_M, requirements.radius - cell_size)
     if requirements.required - room > cell_size:
         out = way_out(context, spared, floor) or way_out(context, requirements, floor)
@@ -170,4 +181,5 @@ def _hold(context: ReplanContext, reason: str) -> Decision:
         return stop_for_good(context, reason)
     events = (braked(context, reason),) if context.speed > 0.0 and wait is None else ()
     waiting = Wait(since, time + RETRY_INTERVAL_S, reason)
-    return Decision(replace(context.schedule, wait=waiting), events)
+    schedule = replace(context.schedule, wait=waiting, pending=None, held_at=math.inf)
+    return Decision(schedule, events)
