@@ -23,7 +23,7 @@ from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.navigation_state import NavigationState
 from viaspline.robot.navigation.progress import Progress
-from viaspline.robot.navigation.reschedule import caught_up, rescheduled
+from viaspline.robot.navigation.reschedule import caught_up, renewed_at, rescheduled
 from viaspline.robot.navigation.schedule import Schedule, vias_after
 from viaspline.robot.navigation.track_path import track, with_command
 from viaspline.robot.path_following import command_for
@@ -193,6 +193,12 @@ class Navigator:
         return self._state.schedule.pending is not None
 
     @property
+    def renewed_at(self) -> float:
+        """When it finds a new trajectory though nothing new was seen [s]; inf: never."""
+        state = self._state
+        return renewed_at(self._task, state.knowledge, state.schedule)
+
+    @property
     def mission(self) -> Mission:
         """What was asked for."""
         return self._task.mission
@@ -270,7 +276,8 @@ def _at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     progress = Progress(time=0.0, controller=controller)
     knowledge = Knowledge(world, frozenset(world.obstacles), belief)
     schedule = Schedule(plan.path, plan.trajectory, laid_in=world)
-    schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
+    if task.limits.max_jerk is None or belief is not None or task.reaction != REACTION_S:
+        schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
     return NavigationState(progress, knowledge, schedule, Log())
 
 

@@ -102,6 +102,17 @@ class Trajectory:
         """The time law begun so much later [s]."""
         return replace(self, times=self.times + seconds)
 
+    def moved(self, by: float) -> Trajectory:
+        """The time law so much farther along the path [m]."""
+        over, harsh = self.over_limit_until, self.over_jerk_until
+        return replace(
+            self,
+            distances=self.distances + by,
+            stations=tuple(replace(stop, distance=stop.distance + by) for stop in self.stations),
+            over_limit_until=None if over is None else over + by,
+            over_jerk_until=None if harsh is None else harsh + by,
+        )
+
     def until(self, distance: float) -> Trajectory:
         """The time law as far as the first rest at a distance along the path [m] or beyond it."""
         rests = np.flatnonzero((self.speeds == 0.0) & (self.distances >= distance))

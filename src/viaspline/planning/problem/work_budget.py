@@ -36,6 +36,10 @@ CHAIN_SEGMENT_S = 1e-4
 """Of the shortcuts of what such a search has found, for each segment [s]."""
 
 
+TIME_LAW_S, JERK_LAW_S = 1e-3, 5e-2
+"""Of a time law, and of one with a limit of the jerk [s]."""
+
+
 class SpentBudgetError(GaveUpError):
     """A search was stopped because what it might spend was spent."""
 

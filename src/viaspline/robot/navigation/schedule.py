@@ -70,6 +70,7 @@ class Schedule:
         laid_at: When it was laid under way [s]; -inf before the first re-plan.
         turns: Distances along the path where it has a corner to turn on the spot [m].
         reduced: Where the path keeps less clearance than it should, if it does.
+        timed_at: When the trajectory was found [s]; -inf: before the robot set off.
         sighted_until: Up to this distance along the path the robot has seen where its body will
             be [m].
         probed_until: Up to this distance along the path the robot goes though it sees too little
@@ -89,6 +90,7 @@ class Schedule:
     laid_at: float = -math.inf
     turns: tuple[float, ...] = ()
     reduced: ReducedClearance | None = None
+    timed_at: float = -math.inf
     sighted_until: float = 0.0
     probed_until: float = 0.0
     reviewed_at: float = -math.inf

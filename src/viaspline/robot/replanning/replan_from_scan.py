@@ -14,6 +14,7 @@ import numpy as np
 
 from viaspline.errors import PlanningError
 from viaspline.planning.checking.conflicts import too_close
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.schedule import ReducedClearance, Wait
@@ -21,7 +22,7 @@ from viaspline.robot.replanning.better_path import better_path, with_spare
 from viaspline.robot.replanning.deadline import with_time_to_search
 from viaspline.robot.replanning.recovery import restore_clearance, way_out
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
-from viaspline.robot.replanning.replan_search import ReplanResult, search
+from viaspline.robot.replanning.replan_search import FIRST_STAGE, ReplanResult, search
 from viaspline.robot.replanning.sight_limit import within_sight
 from viaspline.robot.replanning.transitions import braked, keep_searching, stop_for_good, take_over
 from viaspline.world.world import World
@@ -77,7 +78,10 @@ def _round_obstruction(context: ReplanContext, free: float) -> Decision:
         floor=context.requirements.required,
     )
     blocked = with_time_to_search(blocked)
-    result = _way_round(blocked)
+    try:
+        result = _way_round(blocked)
+    except SpentBudgetError as error:
+        result = ReplanResult(None, error, begin_with=FIRST_STAGE)
     if result.begin_with is not None:
         decision = keep_searching(blocked, result)
         return replace(decision, searched=True, work=blocked.work)

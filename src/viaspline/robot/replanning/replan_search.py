@@ -15,7 +15,7 @@ import numpy as np
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.problem.work_budget import SpentBudgetError
+from viaspline.planning.problem.work_budget import JERK_LAW_S, TIME_LAW_S, SpentBudgetError
 from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.navigation.reschedule import trajectory_within_sight
 from viaspline.robot.navigation.schedule import ReducedClearance
@@ -166,13 +166,13 @@ def first_candidate(
         before = context.work
         try:
             solution = _laid(context, mode, leave, world, skip)
+            candidate = timed(context, mode, solution)
         except SpentBudgetError as error:
             raise UnfinishedSearchError(error, _next(stage, before, context)) from error
         except PlanningError:
             if mode == "from_rest":
                 raise
             continue  # a robot that leaves later, or that stands, may find a way
-        candidate = timed(context, mode, solution)
         if mode == "from_rest":
             assert candidate is not None  # a robot that stands can go any way on
             return candidate
@@ -235,7 +235,12 @@ def timed(
         mode: How the path was found; from rest the robot turns where it stops.
         solution: The path.
         turns: More distances along it where the robot turns, from rest [m].
+
+    Raises:
+        SpentBudgetError: When there is no time left for that.
     """
+    has_jerk = context.task.limits.max_jerk is not None
+    context.requirements.spend(JERK_LAW_S if has_jerk else TIME_LAW_S)
     schedule, leave = replace(context.schedule, held_at=math.inf), solution.changed_from
     corners = tuple(turn for turn in schedule.turns if turn <= leave + SAME_PLACE_M)
     stands = mode == "from_rest"

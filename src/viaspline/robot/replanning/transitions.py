@@ -40,6 +40,7 @@ def take_over(
             trajectory=candidate.trajectory,
             laid_in=context.knowledge.world,
             laid_at=progress.time,
+            timed_at=progress.time,
             turns=candidate.turns,
             reduced=candidate.reduced,
             sighted_until=min(old.sighted_until, candidate.solution.changed_from),

@@ -94,7 +94,8 @@ def _quiet(
     The robot follows exactly, so a step in which the sensor shows nothing new and the drive is
     not over gives the same navigator whether it is made or left out.
     """
-    to_end = int(np.ceil((nav.trajectory.end_time - tick * step) / step))
+    until = min(nav.trajectory.end_time, nav.renewed_at)
+    to_end = int(np.ceil((until - tick * step) / step))
     most = min(max(to_end, 1), MAX_QUIET_STEPS)
     if sensor is None:
         return most
