@@ -26,8 +26,10 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
 from viaspline.planning.problem.via_sequence import RouteVia
 from viaspline.planning.stretch import (
+    LEAST_RUN_OUT_M,
     PASSED_M,
     Stretch,
+    leaving_place,
     refuse_the_end,
     room_to_run_out,
     sequence_through,
@@ -56,7 +58,7 @@ def reflex(path: Path, at: float, world: World, requirements: Requirements) -> S
     Raises:
         NoPathError: When the legs can't be led round so.
     """
-    u = float(path.parameter(at))
+    at, u = leaving_place(path, at)
     blocked = _blocked_spans(path, u, world, requirements)
     if not blocked.size:
         certificate = proven(_ahead(path, u), world, requirements)
@@ -84,7 +86,7 @@ def planned(
     Raises:
         NoPathError: When there is no way.
     """
-    u = float(path.parameter(at))
+    at, u = leaving_place(path, at)
     return _joined(
         path,
         Stretch(u, vias_remaining(path, at, world, requirements, skip), None),
@@ -142,6 +144,12 @@ def _join(
 ) -> Solution:
     tail = stretch.tail
     first_room, last_room = room_to_run_out(path, stretch)
+    if min(first_room, last_room) < LEAST_RUN_OUT_M:
+        raise NoPathError(
+            "via points are too near to each other to turn away between them under way",
+            where=np.asarray(path.evaluate(stretch.u)),
+            remedy="stop and turn on the spot, or look farther ahead",
+        )
     out = run_out(path, stretch.u, min(reach, first_room))
     _refuse_blocked(out, world, requirements)
     back = None
