@@ -2,7 +2,7 @@
 
     pip install ".[bench]" && python benchmarks/steps.py [DRIVES [SEED]]
 
-Counted is the processor's time of every ``Navigator.step`` with all kernels warm. A step of a robot
+An interrupt ends it with what was measured by then. Counted is the processor's time of every ``Navigator.step`` with all kernels warm. A step of a robot
 that stands may take longer: nothing happens to it meanwhile, so it may search on with more.
 """
 
@@ -11,6 +11,7 @@ from __future__ import annotations
 import sys
 import time
 from collections import defaultdict
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -67,22 +68,23 @@ def main(count: int, seed: int) -> None:
     vs.simulate(first)  # what is left to be compiled
     tables: dict[str, Steps] = defaultdict(Steps)
     refused = 0
-    for k, (family, mission) in enumerate(drives(count, seed)):
-        sensor = "lidar" if mission.robot.sensor.lidar else "range sensor"
-        jerk = [] if mission.robot.max_jerk_mps3 is None else ["limit of the jerk"]
-        into = [tables[name] for name in (family, sensor, *jerk, "all")]
-        try:
-            run = measured(mission, vs.plan(mission), into)
-        except vs.ViasplineError:
-            refused += 1
-            continue
-        for steps in into:
-            steps.drives += 1
-            steps.reached += run.reached
-            steps.replans += len(run.replans)
-        slowest = max(max(s.under_way, default=0.0) for s in into[:1])
-        print(f"{k + 1}: {family}, {sensor}, slowest so far {1e3 * slowest:.0f} ms",
-              file=sys.stderr)  # fmt: skip
+    with suppress(KeyboardInterrupt):
+        for k, (family, mission) in enumerate(drives(count, seed)):
+            sensor = "lidar" if mission.robot.sensor.lidar else "range sensor"
+            jerk = [] if mission.robot.max_jerk_mps3 is None else ["limit of the jerk"]
+            into = [tables[name] for name in (family, sensor, *jerk, "all")]
+            try:
+                run = measured(mission, vs.plan(mission), into)
+            except vs.ViasplineError:
+                refused += 1
+                continue
+            for steps in into:
+                steps.drives += 1
+                steps.reached += run.reached
+                steps.replans += len(run.replans)
+            slowest = max(max(s.under_way, default=0.0) for s in into[:1])
+            print(f"{k + 1}: {family}, {sensor}, slowest so far {1e3 * slowest:.0f} ms",
+                  file=sys.stderr)  # fmt: skip
     head = "drives | reached | re-plans | steps under way | median ms | 99 % ms | most ms"
     print(f"| robot | {head} | most ms standing |\n|{'---|' * 9}")
     for name in sorted(tables, key=lambda name: name == "all"):

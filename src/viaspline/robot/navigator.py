@@ -16,6 +16,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import Plan
 from viaspline.planner import plan as plan_mission
+from viaspline.planning.turning.hybrid_astar.pose_search import prepare_body
 from viaspline.robot.controller import Controller
 from viaspline.robot.navigation.arrivals import note_arrivals
 from viaspline.robot.navigation.drive_task import DriveTask, requirements_under_way
@@ -117,6 +118,8 @@ class Navigator:
         mission = mission.model_copy(update={"spline": plan.mission.spline})
         model = drive_model_of(mission.robot, period) if is_driven(mission.robot) else None
         requirements = requirements_under_way(mission, plan.tracking_error)
+        if mission.robot.footprint is not None and mission.robot.sensor is not None:
+            prepare_body(requirements)
         self._plan = plan
         self._task = DriveTask(mission, requirements, limits, reaction, model)
         self._state = _at_start(self._task, plan, period)

@@ -121,6 +121,12 @@ class PoseProblem:
         )
 
 
+def prepare_body(requirements: Requirements) -> None:
+    """Find the discs that cover a body before they are asked for under way: that takes long."""
+    for effort in SEARCH_EFFORTS:
+        Body.of(requirements, effort.overhang)
+
+
 def find_poses(
     world: World,
     requirements: Requirements,
