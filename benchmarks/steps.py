@@ -2,8 +2,9 @@
 
     pip install ".[bench]" && python benchmarks/steps.py [DRIVES [SEED]]
 
-An interrupt ends it with what was measured by then. Counted is the processor's time of every ``Navigator.step`` with all kernels warm. A step of a robot
-that stands may take longer: nothing happens to it meanwhile, so it may search on with more.
+Counted is the processor's time of every ``Navigator.step`` with all kernels warm. A step of a robot
+that stands may take longer: nothing happens to it meanwhile, so it may search on with more. An
+interrupt ends it with what was measured by then.
 """
 
 from __future__ import annotations
