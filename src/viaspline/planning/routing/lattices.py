@@ -30,7 +30,7 @@ Box = tuple[float, float, float, float]
 
 HALF_DIAGONAL = math.sqrt(0.5)  # of a cell of side 1
 OPEN_CELL_RADII, PROOF_CELL_RADII = 0.5, 0.25  # side of open cells, in required distances
-CELLS_WANTED, CELLS_QUICK = 2**16, 2**18  # of the lattice that is tried first without maps
+CELLS_WANTED, CELLS_QUICK = 2**16, 2**20  # of the lattice that is tried first without maps
 MAX_CELLS = 2**25  # of any lattice
 MAX_PARTS = 4  # of a map's cell aside, where other things stand beside the map
 MISALIGNMENT = 1e-9  # what a map may lie off the lattice, in cells

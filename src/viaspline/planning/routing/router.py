@@ -18,7 +18,7 @@ RouteMethod = Method[RouteProblem, TautPath]
 MAX_EXACT_OBSTACLES = 16  # in the way of a leg, beyond which a lattice is asked first
 # A search among half as many again takes a millisecond more where the lattice takes ten. What it
 # finds is worth it if it is another way round; by less than the gain the two turn corners apart.
-MAX_EXACT_AGAIN, LEAST_GAIN_AGAIN = 24, 1e-3
+MAX_EXACT_AGAIN, LEAST_GAIN_AGAIN = 40, 1e-3
 
 ROUTE_METHODS: tuple[RouteMethod, ...] = (
     ExactRoute(max_met=MAX_EXACT_OBSTACLES),

@@ -54,24 +54,6 @@ class Bends:
         rows[k, KEPT] += by
         return Bends(rows, self.vias, self.closed)
 
-    def joined(self, reach: float) -> Bends:
-        """These bends with neighbours as one that the path goes round in one turn.
-
-        Two detour bends to the same side whose middles are nearer to each other than ``reach`` [m]
-        become one that holds both: at the end of a thin wall there is no room for two turns.
-        """
-        for k in range(1, len(self.rows)):
-            pair, gap = self.rows[k - 1 : k + 1], np.diff(self.rows[k - 1 : k + 1, :2], axis=0)
-            size = float(np.linalg.norm(gap))
-            is_detour = bool((self.vias[k - 1 : k + 1] == DETOUR).all())
-            if is_detour and pair[0, SIDE] == pair[1, SIDE] and size < reach:
-                kept = max(0.5 * (size + pair[:, KEPT].sum()), *pair[:, KEPT])
-                share = 0.0 if size == 0.0 else (kept - pair[0, KEPT]) / size
-                x, y = pair[0, :2] + min(share, 1.0) * gap[0]
-                row = bend(float(x), float(y), float(kept), float(pair[0, SIDE]))
-                return self.without(k).without(k - 1).with_bend(k - 1, row).joined(reach)
-        return self
-
     def leg_of(self, k: int) -> int:
         """The leg on which bend k lies; the last of the via points ends the last one."""
         vias = self.vias != DETOUR

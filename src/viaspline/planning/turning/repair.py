@@ -89,9 +89,6 @@ def _pushed_clear(
     """The turn path to the sides that are set, pushed clear, or where it got stuck."""
     ramp = RAMP
     turn_path = turn_path_on_sides(bends, rho, ramp)
-    if isinstance(turn_path, NoTurnPath):
-        joined = turn_path_on_sides(bends.joined(2.0 * rho), rho, ramp)
-        turn_path = joined if isinstance(joined, TurnPath) else turn_path
     for _ in range(MAX_PUSH_ROUNDS):
         requirements.spend(_turn_path_cost(bends))
         if isinstance(turn_path, NoTurnPath):

@@ -194,10 +194,13 @@ def _settled(
         chosen = -1
         lean = 0.0
         place = 0.0
+        gap = math.hypot(
+            rows[k + 1, BEND_X] - rows[k, BEND_X], rows[k + 1, BEND_Y] - rows[k, BEND_Y]
+        )
         for attempt in range(2):  # what is too near to the line, then what a wall leads on to
             spare = 0.0 if attempt == 0 else np.inf
             wide = 1.02 * floor + SAME_DISTANCE_M
-            while chosen < 0 and wide < 40.0 * floor + 4.0 * side:
+            while chosen < 0 and wide < 40.0 * floor + 4.0 * side + 2.0 * gap:
                 near = features_near(world, x, y, wide, found)
                 chosen, lean, place = _most_in_the_way(
                     rows, k, at, guide, found, near, rho, heading, spare
