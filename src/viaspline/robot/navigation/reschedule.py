@@ -209,7 +209,8 @@ def trajectory_within_sight(
         distance, speed, accel = (float(x) for x in schedule.trajectory.state_at(time))
     required = task.requirements.required
     certain = _certain_until(knowledge.belief, distance, schedule, path, required, shared)
-    end = max(min(certain, schedule.held_at, distance + _reach(task, schedule)), at_least)
+    end = min(certain, schedule.held_at, distance + _reach(task, schedule))
+    end = max(end, at_least, distance)  # a stop that lies behind would be none
     stops = [Station(turn) for turn in turns if turn > distance + SAME_PLACE_M]
     stops += [
         Station(max(at, distance), via.dwell, via.name)
