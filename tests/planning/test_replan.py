@@ -274,3 +274,24 @@ def test_a_path_of_one_span_can_be_replanned() -> None:
     found = reflex(path, 0.0, world, Requirements(radius=0.5, clearance=0.5))
     assert found.certificate.holds
     assert served(found.path) == [0, 1]
+
+
+@pytest.mark.parametrize("ahead", [1.1e-6, 3e-6, 2e-5, 3e-4, 2e-3, 4e-3, 0.1])
+@pytest.mark.parametrize("mode", LEAVING)
+def test_a_path_is_left_smoothly_however_near_the_next_via_point_is(
+    mode: Any, ahead: float
+) -> None:
+    """A run-out of micrometres took the curvature from rounding: 0.01 1/m off."""
+    path, world, requirements = start(
+        [30, 20], [45, 31], [60, 22], [80, 30], [100, 21], robot={"min_turn_radius_m": 1}
+    )
+    world = world.with_obstacles([disc(72, 27, 1)])
+    at = float(path.via_distances[1]) - ahead
+    found = mode(path, at, world, requirements)
+    u, new_u = (float(p.parameter(found.changed_from)) for p in (path, found.path))
+    after = min(round(u), path.domain[1]) if abs(u - round(u)) < 1e-7 else u
+    new_after = round(new_u) if abs(new_u - round(new_u)) < 1e-7 else new_u
+    assert abs(found.path.curvature(new_after) - path.curvature(after)) < 1e-6
+    assert found.changed_from >= at - 1e-9
+    turned = float(found.path.heading(new_after)) - float(path.heading(after))
+    assert abs(math.remainder(turned, math.tau)) < 1e-8

@@ -121,14 +121,26 @@ def follow(
     )  # fmt: skip
 
 
+PROFILE_STEP_S = 0.02
+"""For so long an acceleration that changes is taken for constant [s]."""
+
+
 def speed_profile_of(trajectory: Trajectory) -> SpeedProfile:
-    """A time law for kernels, which want arrays that they may write to."""
-    return SpeedProfile(
-        np.array(trajectory.distances),
-        np.array(trajectory.speeds),
-        np.array(trajectory.times),
-        np.array(trajectory.accelerations),
-    )
+    """A time law for kernels, which want arrays that they may write to.
+
+    Where the acceleration changes it is taken for constant over short times.
+    """
+    if trajectory.changes is None:
+        return SpeedProfile(
+            np.array(trajectory.distances),
+            np.array(trajectory.speeds),
+            np.array(trajectory.times),
+            np.array(trajectory.accelerations),
+        )
+    even = np.arange(trajectory.start_time, trajectory.end_time, PROFILE_STEP_S)
+    times = np.unique(np.concatenate((trajectory.times, even)))
+    distances, speeds, _ = trajectory.state_at(times)
+    return SpeedProfile(distances, speeds, times, np.diff(speeds) / np.diff(times))
 
 
 def start_of(

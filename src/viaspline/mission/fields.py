@@ -26,6 +26,8 @@ ANGULAR_SPEEDS_DEGPS: Final = (1e-3, 1e6)
 ANGULAR_ACCELERATIONS_DEGPS2: Final = (1e-3, 1e8)
 MAX_DURATION_S: Final = 1e7
 """The longest stop, some four months."""
+MIN_TIME_LIMIT_S: Final = 1e-3
+"""The least time that something may take."""
 MAX_HEADING_DEG: Final = 36_000.0
 """The farthest turned heading; a hundred times round lose no digit that matters."""
 
@@ -67,6 +69,8 @@ AngularSpeedNoise: TypeAlias = Annotated[
     NotNegative, DEGREES_PER_SECOND, Field(le=ANGULAR_SPEEDS_DEGPS[1])
 ]
 Duration: TypeAlias = Annotated[NotNegative, SECONDS, Field(le=MAX_DURATION_S)]
+TimeLimit: TypeAlias = Annotated[Number, SECONDS, Field(ge=MIN_TIME_LIMIT_S, le=MAX_DURATION_S)]
+"""How long something may take [s]."""
 Heading: TypeAlias = Annotated[
     Number, HEADING_DEGREES, Field(ge=-MAX_HEADING_DEG, le=MAX_HEADING_DEG)
 ]

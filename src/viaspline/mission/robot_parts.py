@@ -22,6 +22,7 @@ from viaspline.mission.fields import (
     NotNegative,
     Ring,
     Speed,
+    TimeLimit,
     TurnRadius,
 )
 from viaspline.mission.sensor_spec import Sensor
@@ -77,6 +78,8 @@ class RobotSpec(
         tracking_error_m: How far beside its path the robot may get [m]; the path keeps that much
             more. None: as far as it gets on a trial drive; nothing if it follows exactly.
         sensor: What finds the obstacles that are not on the map.
+        max_replan_s: How long it may look for a new path under way, from when it sees what is in
+            its way [s]; then it brakes, and goes on looking. None: until it has to brake.
     """
 
     radius_m: Distance = 0.5
@@ -100,6 +103,7 @@ class RobotSpec(
     localization: Localization | None = None
     tracking_error_m: Distance | None = None
     sensor: Sensor | None = None
+    max_replan_s: TimeLimit | None = None
 
     @model_validator(mode="after")
     def _one_body(self) -> RobotSpec:

@@ -17,7 +17,7 @@ from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
 from viaspline.planning.problem.via_sequence import RouteVia
-from viaspline.planning.stretch import Stretch, room_to_run_out
+from viaspline.planning.stretch import LEAST_RUN_OUT_M, Stretch, room_to_run_out
 from viaspline.world.world import World
 
 
@@ -37,7 +37,9 @@ def rolling(
     path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
 ) -> Departure:
     """Leave a path while rolling on it, by a run-out of a length [m]."""
-    out = run_out(path, stretch.u, min(reach, room_to_run_out(path, stretch)[0]))
+    room = room_to_run_out(path, stretch)[0]
+    refuse_no_room(path, stretch.u, room)
+    out = run_out(path, stretch.u, min(reach, room))
     refuse_blocked(out, world, requirements)
     return Departure(out.span[None], RouteVia("the robot", out.end, None), out.tangent)
 
@@ -62,4 +64,14 @@ def refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> N
             where=piece.span[0],
             remedy="stop and turn on the spot, or look farther ahead",
             obstacles=(name,),
+        )
+
+
+def refuse_no_room(path: Path, u: float, room: float) -> None:
+    """Raise NoPathError for a place on a path by which a run-out has no room to speak of [m]."""
+    if room < LEAST_RUN_OUT_M:
+        raise NoPathError(
+            "via points are too near to each other to turn away between them under way",
+            where=np.asarray(path.evaluate(u)),
+            remedy="stop and turn on the spot, or look farther ahead",
         )

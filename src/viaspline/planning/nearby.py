@@ -5,8 +5,6 @@ Tested through ``planning/test_replan`` and ``robot/navigation/test_rounds``.
 
 from __future__ import annotations
 
-from contextlib import suppress
-
 import numpy as np
 
 from viaspline.errors import PlanningError
@@ -17,6 +15,7 @@ from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.world.world import World
 
 NEAR_SIZES, NEAR_WIDTHS = 0.5, 10.0
@@ -34,8 +33,12 @@ def lay_nearby(
     (x0, y0), (x1, y1) = (low - margin).tolist(), (high + margin).tolist()
     near = world.near((x0, y0, x1, y1))
     if len(near) < len(world):
-        with suppress(PlanningError):
+        try:
             laid = lay_path(sequence, near, requirements)
             if is_clear(world, laid[0].spans, requirements):
                 return laid
+        except SpentBudgetError:
+            raise
+        except PlanningError:
+            pass  # there may be a way farther round
     return lay_path(sequence, world, requirements)

@@ -16,6 +16,7 @@ from viaspline.planning.problem.method import Found, first_settled
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.problem.work_budget import LAY_S
 from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.turning.driven_alternatives import as_driven
 from viaspline.planning.turning.driven_problem import DrivenProblem
@@ -47,6 +48,7 @@ def lay_path(
     """
     if not requirements.is_free_disc:
         sequence = replace(sequence, tangents="continuous")
+    requirements.spend(LAY_S)
     asked = PathProblem.of(sequence, world, requirements)
     while True:
         spline_path, account = _laid(asked, methods)

@@ -22,18 +22,27 @@ from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
-from viaspline.planning.departure import Departure, Leave, refuse_blocked, rolling, standing
+from viaspline.planning.departure import (
+    Departure,
+    Leave,
+    refuse_blocked,
+    refuse_no_room,
+    rolling,
+    standing,
+)
 from viaspline.planning.nearby import lay_nearby
 from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import run_out
 from viaspline.planning.problem.via_sequence import RouteVia
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.planning.sides_ahead import refuse_wrong_side, spans_on_wrong_side
 from viaspline.planning.stretch import (
     PASSED_M,
     Stretch,
     is_round,
+    leaving_place,
     refuse_the_end,
     room_to_run_out,
     sequence_through,
@@ -67,7 +76,7 @@ def reflex(
     Raises:
         NoPathError: When the legs can't be led round so.
     """
-    u = float(path.parameter(at))
+    at, u = leaving_place(path, at)
     ahead = _ahead(path, u, until)
     blocked = _blocked_spans(path, u, world, requirements, until)
     if not blocked.size:
@@ -78,6 +87,8 @@ def reflex(
     wide = stretch_round(users, users, u, blocked)
     try:
         return _joined(path, narrow, world, requirements, until)
+    except SpentBudgetError:
+        raise
     except PlanningError:
         if wide == narrow:
             raise
@@ -100,11 +111,10 @@ def planned(
     Raises:
         NoPathError: When there is no way.
     """
+    at, u = leaving_place(path, at)
     if is_round(path):
         return _on_round(path, at, world, requirements, skip, until, rolling)
-    stretch = Stretch(
-        float(path.parameter(at)), vias_remaining(path, at, world, requirements, skip), None
-    )
+    stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
     return _joined(path, stretch, world, requirements, until)
 
 
@@ -154,6 +164,8 @@ def _on_round(
     for stretch in stretches_on_round(path, at, world, requirements, skip, blocked, until):
         try:
             return _joined(path, stretch, world, requirements, until, leave)
+        except SpentBudgetError:
+            raise
         except PlanningError as error:
             problem = error
     assert problem is not None  # there is a stretch at least
@@ -178,6 +190,8 @@ def _joined(
             return _join(path, stretch, departure, world, requirements, reach, until)
         except BlockedLegError:
             raise  # a run-out is clear: where none leads on from one, none does from another
+        except SpentBudgetError:
+            raise
         except PlanningError as error:
             problem = error
     assert problem is not None  # RUN_OUT_LENGTHS is not empty
@@ -196,6 +210,7 @@ def _join(
     tail, back = stretch.tail, None
     if tail is not None:
         last_room = room_to_run_out(path, stretch)[1]
+        refuse_no_room(path, tail.u, last_room)
         back = run_out(path, tail.u, min(reach, last_room), sense=-1).reversed()
         refuse_blocked(back, world, requirements)
     meet = None if back is None else RouteVia("the old path", back.span[0], None)

@@ -28,6 +28,10 @@ PASSED_M = 1e-6  # via points nearer along the path than this have been passed
 MAX_RUN_OUT = 0.4  # part of the way to the next via point that a run-out may take
 
 
+LEAST_RUN_OUT_M = 1e-3
+"""Of a shorter run-out rounding leaves no curvature to speak of [m]."""
+
+
 @dataclass(frozen=True)
 class Stretch:
     """What is laid anew: from ``u`` on the old path to a via point of it, or to the goal.
@@ -62,6 +66,22 @@ def stretch_round(
     if tail.u >= users[-1].u:
         return Stretch(leave, (*within, users[-1]), None)
     return Stretch(leave, within, tail)
+
+
+def leaving_place(path: Path, at: float) -> tuple[float, float]:
+    """Where a path is left that may be left from a distance on [m]: there, or after a via point.
+
+    A via point that lies so little ahead that there is no room to run out before it is passed
+    first.
+
+    Returns:
+        The distance [m] and the parameter.
+    """
+    least = LEAST_RUN_OUT_M / MAX_RUN_OUT
+    for via, distance in zip(path.vias, path.via_distances.tolist(), strict=True):
+        if PASSED_M < distance - at < 1.5 * least and via.u < path.domain[1]:
+            return distance, via.u
+    return at, float(path.parameter(at))
 
 
 def room_to_run_out(path: Path, stretch: Stretch) -> tuple[float, float]:

@@ -87,6 +87,7 @@ def _replan(replan: Replan) -> dict[str, Any]:
         "position_jump_m": replan.position_jump,
         "heading_jump_rad": replan.heading_jump,
         "curvature_jump_1pm": replan.curvature_jump,
+        "work_s": replan.work,
         "length_before_m": replan.driven + replan.old_path.length,
         "length_after_m": replan.driven + replan.path.length,
     }

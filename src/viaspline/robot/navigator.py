@@ -17,6 +17,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import Plan
 from viaspline.planner import plan as plan_mission
+from viaspline.planning.turning.hybrid_astar.pose_search import prepare_body
 from viaspline.robot.controller import Controller
 from viaspline.robot.navigation.arrivals import note_arrivals
 from viaspline.robot.navigation.drive_task import DriveTask, requirements_under_way
@@ -24,14 +25,8 @@ from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.navigation_state import NavigationState
 from viaspline.robot.navigation.progress import Progress
-from viaspline.robot.navigation.reschedule import caught_up, rescheduled
-from viaspline.robot.navigation.rounds import (
-    first_round,
-    is_due,
-    is_timed_out,
-    next_part,
-    quiet_until,
-)
+from viaspline.robot.navigation.reschedule import caught_up, renewed_at, rescheduled
+from viaspline.robot.navigation.rounds import first_round, grows_after, is_due, next_part
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.navigation.track_path import track, with_command
 from viaspline.robot.path_following import command_for
@@ -77,6 +72,11 @@ class Navigator:
     its body was there. It is laid a new path when the old one is blocked, or when something
     that has gone opened one that is 5 % and 0.5 m shorter; and it passes what it knows on the side
     that it meant to, unless the other is shorter by as much.
+
+    A step is bounded. Where something is in its way, a robot under way looks for a new path no
+    longer than it can and still stop, and no longer than a tenth of a second of work in each step;
+    meanwhile it goes on as it meant to (see ``work``). What it had no time for goes on in the steps
+    to come, while it brakes; at rest it looks on with twice as much each time.
 
     A robot with a drive, or with a localisation that is not exact, is controlled in a closed loop:
     its commands bring it to where it should be when they take effect, after the delay of the drive.
@@ -128,6 +128,8 @@ class Navigator:
         mission = mission.model_copy(update={"spline": plan.mission.spline})
         model = drive_model_of(mission.robot, period) if is_driven(mission.robot) else None
         requirements = requirements_under_way(mission, plan.tracking_error)
+        if mission.robot.footprint is not None and mission.robot.sensor is not None:
+            prepare_body(requirements)
         self._plan = plan
         self._task = DriveTask(mission, requirements, limits, reaction, model)
         self._state = _at_start(self._task, plan, period)
@@ -158,31 +160,31 @@ class Navigator:
         progress, knowledge = before.progress, before.knowledge
         schedule, log = before.schedule, before.log
         # how far has the robot come?
+        respond = decide
         if not progress.finished or progress.controller is not None:
             progress, schedule = track(progress, schedule, measured, time)
             progress, log = note_arrivals(task, progress, schedule, log)
             if is_due(progress, schedule):
                 progress, schedule, log = _next_part(task, progress, knowledge, schedule, log)
-            elif is_timed_out(progress, schedule):
-                speed = float(schedule.trajectory.state_at(progress.time)[1])
-                schedule = rescheduled(task, progress, knowledge, schedule, speed)
+                respond = look_again
             schedule = caught_up(task, progress, knowledge, schedule, measured.speed)
         # what does it perceive? after the end only a lidar goes on
         sighting = None
         if not progress.finished or isinstance(sensed, Scan):
             knowledge, sighting = perceive(knowledge, sensed)
         # what does it do about that?
-        if sighting is not None:
+        work = 0.0
+        if sighting is not None or schedule.pending is not None or respond is look_again:
             began = clock.perf_counter()
-            decision = decide(task, progress, knowledge, schedule, sighting)
+            decision = respond(task, progress, knowledge, schedule, sighting)
             log = log.with_decision(decision, clock.perf_counter() - began)
-            schedule = decision.schedule
+            schedule, work = decision.schedule, decision.work
             progress, log = note_arrivals(task, progress, schedule, log)
         # what is it to do now?
         controller = before.progress.controller
-        progress, schedule = with_command(controller, progress, schedule, measured, time)
+        progress, schedule = with_command(controller, progress, schedule, measured, time, work)
         command = command_for(task.mission.robot, progress, schedule, measured)
-        return command, self._with(NavigationState(progress, knowledge, schedule, log))
+        return command, self._with(NavigationState(progress, knowledge, schedule, log, work))
 
     def _with(self, state: NavigationState) -> Navigator:
         navigator = object.__new__(Navigator)
@@ -200,6 +202,19 @@ class Navigator:
     def controller(self) -> Controller | None:
         """The controller of a robot with a drive; None if it follows exactly."""
         return self._state.progress.controller
+
+    @property
+    def work(self) -> float:
+        """What the last step has spent on looking for a new path [s of the reference machine].
+
+        The robot goes on as it had meant to for that long: its command is due so much later.
+        """
+        return self._state.work
+
+    @property
+    def searches(self) -> bool:
+        """Whether it is still looking for a new path, and so every step counts."""
+        return self._state.schedule.pending is not None
 
     @property
     def mission(self) -> Mission:
@@ -244,7 +259,9 @@ class Navigator:
     @property
     def quiet_until(self) -> float:
         """Until then a robot that follows exactly and sees nothing new may leave out steps [s]."""
-        return quiet_until(self._state.schedule)
+        state, end = self._state, self.trajectory.end_time
+        renewed = renewed_at(self._task, state.knowledge, state.schedule)
+        return min(renewed, grows_after(state.schedule), end)
 
     @property
     def finished(self) -> bool:
@@ -299,22 +316,20 @@ def _at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     knowledge = Knowledge(world, frozenset(world.obstacles), belief)
     path, laps = first_round(task, plan.path)
     schedule = Schedule(path, plan.trajectory, laid_in=world, laps=laps)
-    schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
+    has_jerk = task.limits.max_jerk is not None
+    if not has_jerk or belief is not None or laps is not None or task.reaction != REACTION_S:
+        schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
     return NavigationState(progress, knowledge, schedule, Log())
 
 
 def _next_part(
     task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule, log: Log
 ) -> tuple[Progress, Schedule, Log]:
-    """The robot with what it has driven at its path's end, and clear as far as it looks."""
+    """The robot with what it has driven at its path's end."""
     progress, schedule, behind = next_part(progress, schedule)
     log = log.with_driven(behind)
     speed = float(schedule.trajectory.state_at(progress.time)[1])
-    schedule = rescheduled(task, progress, knowledge, schedule, speed)
-    began = clock.perf_counter()
-    decision = look_again(task, progress, knowledge, schedule)
-    log = log.with_decision(decision, clock.perf_counter() - began)
-    return progress, decision.schedule, log
+    return progress, rescheduled(task, progress, knowledge, schedule, speed), log
 
 
 def _set_off(state: NavigationState, time: float) -> NavigationState:

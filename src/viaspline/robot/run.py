@@ -84,6 +84,8 @@ class Replan:
         changed_from: Distance [m] along the path from which it differs.
         rejoins_at: Distance along the new path from which it is the old one again; None if never.
         obstacles: What was seen that made it necessary.
+        work: What was spent on the step that found it [s of the reference machine]; so long the
+            robot went on as it had meant to.
         position_jump: Between old and new at the joint [m].
         heading_jump: [rad].
         curvature_jump: [1/m].
@@ -106,6 +108,7 @@ class Replan:
     path: Path
     old_path: Path
     driven: float = 0.0
+    work: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,9 @@ MAX_FINE_CELLS = 400
 MIN_REST_STRETCHES = 32
 """Stretches from rest to rest, at least."""
 
+LEAST_STRETCHES = 4
+"""Stretches with which a motion can be found that keeps a jerk, at least."""
+
 STRETCH_GROWTH = 1.25
 """Beside a rest every stretch is longer than the one before it by this."""
 
@@ -128,10 +131,12 @@ def _under_way(
     """The motion on a section, and up to where it is over another limit and over the jerk [m]."""
     assert limits.max_jerk is not None
     line, widths, rows = section.line, np.diff(section.line), section.rows(start, end)
+    first, last = np.searchsorted(plain.points, line[[0, -1]])
+    if len(widths) < LEAST_STRETCHES:  # a hair: as far as a robot rolls on when it stops
+        return *_between(plain, int(first), int(last)), plain.over, float(line[-1])
     if isinstance(start, Rest):
         return line, smoothest(widths, rows, limits.max_jerk, end), -np.inf, -np.inf
     begin = Moving(start.square, min(max(start.accel, -limits.brake), limits.max_accel))
-    first, last = np.searchsorted(plain.points, line[[0, -1]])
     rough, sudden = _between(plain, int(first), int(last))
     sums = sudden.speeds[1:] + sudden.speeds[:-1]
     quick = float((2.0 * np.diff(rough) / np.maximum(sums, 1e-12)).sum())

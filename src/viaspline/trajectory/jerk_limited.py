@@ -150,7 +150,14 @@ def smoothest_from(
         if not (found.over or found.harsh) and found.time < MAX_DURATION_RATIO * quick:
             break
     assert found is not None
+    if _first_jerk(found.motion) > (1.0 + ROUNDING_EXCESS) * jerk:
+        found = found._replace(harsh=max(found.harsh, 1))
     return found
+
+
+def _first_jerk(motion: Motion) -> float:
+    """The largest jerk on the first stretch of a motion that begins at a speed [m/s³]."""
+    return float(abs(motion.changes[0]) * motion.speeds[:2].max())
 
 
 def _passed(excess: Floats) -> int:

@@ -102,17 +102,15 @@ class Trajectory:
         """The time law begun so much later [s]."""
         return replace(self, times=self.times + seconds)
 
-    def moved(self, distance: float) -> Trajectory:
-        """The time law of a path that begins so much earlier [m]: all its distances are larger."""
+    def moved(self, by: float) -> Trajectory:
+        """The time law so much farther along a path [m]: all its distances are larger."""
         over, jerky = self.over_limit_until, self.over_jerk_until
         return replace(
             self,
-            distances=self.distances + distance,
-            stations=tuple(
-                replace(station, distance=station.distance + distance) for station in self.stations
-            ),
-            over_limit_until=None if over is None else over + distance,
-            over_jerk_until=None if jerky is None else jerky + distance,
+            distances=self.distances + by,
+            stations=tuple(replace(stop, distance=stop.distance + by) for stop in self.stations),
+            over_limit_until=None if over is None else over + by,
+            over_jerk_until=None if jerky is None else jerky + by,
         )
 
     def until(self, distance: float) -> Trajectory:
@@ -131,6 +129,61 @@ class Trajectory:
             jerks=None if self.jerks is None else self.jerks[:last],
             stations=tuple(s for s in self.stations if s.distance <= self.distances[last]),
         )
+
+    def cut_after(self, time: float) -> float:
+        """The first time from here on at which another time law may take over [s].
+
+        The last moments before a rest, in which the acceleration changes with time, stay whole.
+        """
+        i = int(self.times.searchsorted(time, side="right")) - 1
+        if self.jerks is None or not 0 <= i < len(self.jerks):
+            return time
+        is_last = self.jerks[i] > 0.0 and self.speeds[i] > 0.0
+        return float(self.times[i + 1]) if is_last else time
+
+    def followed_by(self, later: Trajectory, since: float) -> Trajectory:
+        """The time law from a time on [s], and from where a later one begins that one.
+
+        Args:
+            later: It begins in the state in which this one is then, at a time at which it may be
+                cut.
+            since: What was before is left out.
+        """
+        begin = later.start_time
+        first = max(int(self.times.searchsorted(since, side="right")) - 1, 0)
+        last = int(self.times.searchsorted(begin, side="left"))
+        if last <= first or self.times[first] >= begin:
+            return later
+        if last > len(self.accelerations):
+            return later  # it rested by then
+        kept = slice(first, last)
+        passed = tuple(
+            stop
+            for stop in self.stations
+            if self.distances[first] <= stop.distance < later.distances[0]
+        )
+        joined = replace(
+            later,
+            distances=np.concatenate((self.distances[kept], later.distances)),
+            speeds=np.concatenate((self.speeds[kept], later.speeds)),
+            times=np.concatenate((self.times[kept], later.times)),
+            accelerations=np.concatenate((self.accelerations[kept], later.accelerations)),
+            stations=(*passed, *later.stations),
+        )
+        if self.changes is None and later.changes is None:
+            return joined
+        changes, jerks = (
+            np.concatenate((before[kept], after_it))
+            for before, after_it in zip(self._bends, later._bends, strict=True)
+        )
+        return replace(joined, changes=changes, jerks=jerks)
+
+    @property
+    def _bends(self) -> tuple[Floats, Floats]:
+        """How the acceleration changes in every piece, with the distance and with time."""
+        none = np.zeros(len(self.accelerations))
+        changes, jerks = self.changes, self.jerks
+        return none if changes is None else changes, none if jerks is None else jerks
 
     def state_at(self, time: ArrayLike) -> tuple[Floats, Floats, Floats]:
         """Distance [m], speed [m/s] and acceleration [m/s²] at any time [s].

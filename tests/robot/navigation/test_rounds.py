@@ -14,11 +14,13 @@ from hypothesis import strategies as st
 from viaspline.curve.path import SEAM
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.spline_spec import SplineSpec
 from viaspline.planner import plan
 from viaspline.robot.logbook import Logbook
 from viaspline.robot.navigation.laps_ahead import LapsAhead
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.range_sensor import RangeSensor
+from viaspline.robot.replanning import deadline
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 from viaspline.world.world import World
@@ -221,3 +223,45 @@ def test_a_logbook_has_what_the_steps_handed_out() -> None:
     assert [(e.kind, e.message) for e in book.events] == [(e.kind, e.message) for e in run.events]
     assert [replan.driven for replan in book.replans] == [r.driven for r in run.replans]
     np.testing.assert_allclose(book.path(nav).spans, run.path.spans, atol=1e-9)
+
+
+def test_a_search_that_has_no_time_on_a_round_goes_on_at_rest_and_serves_every_lap(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(deadline, "STEP_WORK_S", 1e-3)
+    run = simulate(patrol(5, [disc(*BESIDE, 1.0, "rock")]))
+    assert run.reached, run.reason
+    assert run.certificate.holds
+    assert "braked" in [event.kind for event in run.events]
+    assert [replan.obstacles for replan in run.replans] == [("rock",)]
+    assert statuses(run) == ["served"] * 21
+
+
+def test_a_search_that_has_no_time_on_a_round_keeps_the_side_that_is_asked_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for side, sense in (("left", 1.0), ("right", -1.0)):
+        for y in (-sense, 0.0, sense * 1.8):  # the last is only passed on the wrong side
+            rock = {**disc(30, y, 1.0, "rock"), "pass_on": side}
+            straight = patrol(4, [rock]).model_copy(update={"spline": SplineSpec(tension=0.95)})
+            for limit in (1e-3, 0.1):
+                monkeypatch.setattr(deadline, "STEP_WORK_S", limit)
+                run = simulate(straight)
+                assert run.reached, run.reason
+                assert run.replans
+                line = run.path.sample(0.05)[2]
+                beside = line[(np.abs(line[:, 0] - 30.0) < 0.1) & (line[:, 1] < 20.0)]
+                assert len(beside)
+                assert (sense * (beside[:, 1] - y) > 1.4).all()
+
+
+def test_on_a_round_the_jerk_keeps_its_limit_from_part_to_part() -> None:
+    jerk = 1.5
+    nav, states = Navigator(patrol(4, max_jerk_mps3=jerk)), []
+    while not nav.finished:
+        time = 0.05 * len(states)
+        states.append([float(x) for x in nav.trajectory.state_at(time)[1:]])
+        _, nav = nav.step(nav.reference(time), [], time)
+    assert nav.reached
+    assert np.abs(np.diff([accel for _, accel in states])).max() <= 1.001 * jerk * 0.05
+    assert nav.driven + nav.path.length == pytest.approx(nav.plan.path.length)

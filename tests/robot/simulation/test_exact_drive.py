@@ -57,3 +57,15 @@ def test_a_drive_that_does_not_end_is_broken_off(
     assert run.reason is not None
     assert "broken off" in run.reason
     assert run.visits[-1].reason == run.reason
+
+
+def test_a_long_body_touches_what_its_outline_touches_and_not_its_outer_disc(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    plank = [(-0.2, -0.2), (1.5, -0.2), (1.5, 0.2), (-0.2, 0.2)]
+    mission = mission_of(
+        [0, 0], [10, 0], known=[disc_at(5, 1, 0.5, "post")], footprint=plank, clearance_m=0.1
+    )
+    run = simulate(mission)
+    assert run.reached, run.reason
+    assert 0.1 <= run.certificate.clearance < 0.4

@@ -23,6 +23,7 @@ from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.problem.method import Found
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
@@ -141,7 +142,12 @@ def shortest_laid(
     tried = 0
     while open_ and tried < max_rows and (best is None or open_[0][0] < best.length):
         tried += 1
-        made = attempt(heapq.heappop(open_)[2])
+        try:
+            made = attempt(heapq.heappop(open_)[2])
+        except SpentBudgetError:
+            if best is None:
+                raise
+            break
         if made.laid is None:
             add(made.then)
         elif best is None or made.laid.length < best.length * (1.0 - LEAST_GAIN):

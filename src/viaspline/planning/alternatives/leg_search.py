@@ -17,6 +17,7 @@ from viaspline.planning.checking.cost import CandidateCost, measure
 from viaspline.planning.problem.method import Outcome, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.problem.work_budget import ROUTE_S
 from viaspline.planning.routing.asked_sides import AskedSides
 from viaspline.planning.routing.route_problem import NO_BARRIERS
 from viaspline.planning.routing.router import Router
@@ -96,6 +97,7 @@ class LegSearch:
         """
         barriers = self.sides.closed_among(active)
         while True:
+            self.requirements.spend(ROUTE_S)
             outcome = self.router.find(*self.ends, np.vstack((closed, barriers)), active)
             if outcome.value is not None:
                 corners = outcome.value.corners[:, X : Y + 1]

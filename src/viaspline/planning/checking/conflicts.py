@@ -14,6 +14,14 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import conflicts
 from viaspline.planning.problem.requirements import LEAST_KEPT_M, Requirements
+from viaspline.planning.problem.work_budget import (
+    CONFLICTS_BODY_SPAN_S,
+    CONFLICTS_S,
+    CONFLICTS_SPAN_S,
+    PROOF_BODY_S,
+    PROOF_S,
+    PROOF_SPAN_S,
+)
 from viaspline.world.outline import outline
 from viaspline.world.world import World
 
@@ -53,7 +61,9 @@ def conflicts_within(
 ) -> NDArray[np.int64]:
     """What the body comes too close to if the path itself is to keep ``required`` [m], (m,)."""
     if requirements.footprint is None:
+        requirements.spend(CONFLICTS_S + CONFLICTS_SPAN_S * len(spans))
         return too_close(world, spans, required)
+    requirements.spend(CONFLICTS_S + CONFLICTS_BODY_SPAN_S * len(spans))
     least = max(required - requirements.radius, LEAST_KEPT_M)
     return footprint_conflicts.body_conflicts(
         world.packed, spans, outline(requirements.footprint), least
@@ -62,6 +72,8 @@ def conflicts_within(
 
 def proven(curve: PiecewiseCubic, world: World, requirements: Requirements) -> Certificate:
     """The certificate of a curve that the body drives."""
+    cost = PROOF_S + PROOF_SPAN_S * len(curve.spans)
+    requirements.spend(cost if requirements.footprint is None else cost + PROOF_BODY_S)
     if requirements.footprint is None:
         return certify(curve, world, requirements.kept, radius=requirements.radius)
     return certify(curve, world, requirements.kept, footprint=requirements.footprint)

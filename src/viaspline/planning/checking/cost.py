@@ -13,6 +13,7 @@ from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.kernels.curve.measure import length_and_curvature
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import PROOF_S, PROOF_SPAN_S
 from viaspline.world.world import World
 
 CLEARANCE_TOLERANCE_M = 1e-2  # of a candidate; the path's own certificate is proven anew
@@ -35,6 +36,7 @@ def measure(spans: Floats, world: World, requirements: Requirements) -> Candidat
         world: The known world.
         requirements: What it keeps.
     """
+    requirements.spend(PROOF_S + PROOF_SPAN_S * len(spans))
     lower = float(tightest(world.packed, spans, STILL, CLEARANCE_TOLERANCE_M)[0])
     length, sharpest = length_and_curvature(spans)
     return CandidateCost(

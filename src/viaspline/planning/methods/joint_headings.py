@@ -12,7 +12,7 @@ from functools import partial
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import TurnProblem
-from viaspline.planning.turning.headings import legs_of, posed
+from viaspline.planning.turning.headings import legs_of, lengths_cost, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 
 
@@ -35,12 +35,14 @@ class JointHeadings:
         """See ``Method``."""
         path, rho = problem.path, problem.rho
         legs, closed = legs_of(path.bends, path.spots), path.bends.closed
+        path.requirements.spend(lengths_cost(legs))
         as_it_is, pushed = (
             partial(path.leg_on_sides, rho=rho, lay=lay)
             for lay in (turn_path_if_clear, clear_turn_path)
         )
         poses = posed(legs, rho, closed, as_it_is, self.max_rows, self.max_rows, bound)
         if poses is None:
+            path.requirements.spend(lengths_cost(legs))
             rows, pairs = self.max_pushed_rows, self.max_pushed_pairs
             poses = posed(legs, rho, closed, pushed, rows, pairs, bound)
         if poses is None:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, shortest_laid
 from viaspline.planning.problem.method import Found, Method, Outcome, first_settled
 from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.turning.driven_problem import DrivenProblem
 
 
@@ -37,7 +38,10 @@ class OtherSides:
             laid = problem.turns_along(row.taut_paths)
             return Attempt(laid, () if laid is None else _other_rows(problem, row))
 
-        rows = _other_rows(problem, problem.shortest_row)
+        try:
+            rows = list(_other_rows(problem, problem.shortest_row))
+        except SpentBudgetError:  # there is a path, and no time left to look for another
+            return outcome
         shortest = shortest_laid(rows, attempt, best=outcome.value)
         assert shortest is not None  # there was one to begin with
         return Found(shortest, shortest.length)

@@ -14,6 +14,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Generic, Protocol, TypeAlias, TypeVar
 
+from viaspline.planning.problem.work_budget import SpentBudgetError
+
 Value = TypeVar("Value", covariant=True)
 Asked = TypeVar("Asked", contravariant=True)
 
@@ -99,6 +101,9 @@ def first_settled(
         The shortest of what was found; else the refusal that ended the search; else that all of
         them gave up, and what they tried.
 
+    Raises:
+        SpentBudgetError: When what may be spent on the problem was spent before anything was found.
+
     Example:
         >>> class Guess:
         ...     def lay(self, problem: int, bound: float = math.inf) -> Outcome[int]:
@@ -112,7 +117,12 @@ def first_settled(
     tried: list[str] = []
     last = GaveUp(())
     for method in methods:
-        outcome = method.lay(problem, bound if best is None else best.length)
+        try:
+            outcome = method.lay(problem, bound if best is None else best.length)
+        except SpentBudgetError:
+            if best is None:
+                raise
+            break
         if isinstance(outcome, GaveUp):
             tried += outcome.tried
             last = outcome

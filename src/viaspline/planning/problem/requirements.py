@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import TurnOnSpot
 from viaspline.mission.spline_spec import SplineSpec, Tangents
+from viaspline.planning.problem.work_budget import WorkBudget
 
 LEAST_KEPT_M = 1e-5  # even by a point without clearance, so that touching is not crossing
 
@@ -30,6 +31,7 @@ class Requirements:
         turn_radius: The radius of the tightest circle that the robot can drive [m]; None if it
             has no limit.
         turns_on_spot: Where it may stand and turn.
+        budget: What may be spent on looking for a path; None: as much as it takes.
     """
 
     radius: float
@@ -41,6 +43,16 @@ class Requirements:
     tracking_error: float = 0.0
     turn_radius: float | None = None
     turns_on_spot: TurnOnSpot = "stations"
+    budget: WorkBudget | None = None
+
+    def spend(self, cost: float) -> None:
+        """Take what the next step of a search costs off its budget [s of the reference machine].
+
+        Raises:
+            SpentBudgetError: When less is left.
+        """
+        if self.budget is not None:
+            self.budget.spend(cost)
 
     @property
     def is_free_disc(self) -> bool:

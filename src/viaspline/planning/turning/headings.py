@@ -20,6 +20,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.heading_costs import cheapest, leg_lengths
+from viaspline.planning.problem.work_budget import HEADING_PAIR_BEND_S
 from viaspline.planning.turning.bend_row import DETOUR, HEADING, SIDE, Bends
 from viaspline.planning.turning.turn_path import RAMP, TurnPath
 
@@ -102,6 +103,12 @@ def _headings(bends: Bends, via: int, count: int, spots: Collection[int]) -> Flo
     if via % (count - bends.closed) in spots:
         return np.array([math.nan])
     return np.arange(HEADING_COUNT, dtype=np.float64) * (math.tau / HEADING_COUNT)
+
+
+def lengths_cost(legs: Sequence[HeadingLeg]) -> float:
+    """What the lengths of all legs between all headings cost [s of the reference machine]."""
+    sizes = (len(leg.starts) * len(leg.goals) * len(leg.rows) for leg in legs)
+    return HEADING_PAIR_BEND_S * sum(sizes)
 
 
 def posed(

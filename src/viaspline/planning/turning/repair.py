@@ -15,6 +15,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, is_clear, proven
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
 from viaspline.planning.turning.bend_row import DETOUR, KEPT, SIDE, Bends, bend
 from viaspline.planning.turning.turn_path import (
     RAMP,
@@ -75,6 +76,7 @@ def turn_path_if_clear(
     bends: Bends, rho: float, world: World, requirements: Requirements
 ) -> TurnPath | None:
     """The shortest turn path to any sides of given headings, if it is clear as it is."""
+    requirements.spend(_turn_path_cost(bends))
     turn_path = turn_path_round(bends, rho)
     if isinstance(turn_path, NoTurnPath) or not is_clear(world, turn_path.spans, requirements):
         return None
@@ -88,6 +90,7 @@ def _pushed_clear(
     ramp = RAMP
     turn_path = turn_path_on_sides(bends, rho, ramp)
     for _ in range(MAX_PUSH_ROUNDS):
+        requirements.spend(_turn_path_cost(bends))
         if isinstance(turn_path, NoTurnPath):
             return _stuck_between(turn_path)
         close = body_conflicts(world, turn_path.spans, requirements)
@@ -104,6 +107,11 @@ def _pushed_clear(
     assert isinstance(turn_path, TurnPath)
     close = body_conflicts(world, turn_path.spans, requirements)
     return turn_path if (close == CLEAR).all() else _stuck_at(turn_path, close, world, requirements)
+
+
+def _turn_path_cost(bends: Bends) -> float:
+    """What a turn path round bends costs [s of the reference machine]."""
+    return TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows)
 
 
 def _stuck_between(failed: NoTurnPath) -> Stuck:

@@ -14,13 +14,14 @@ import numpy as np
 from viaspline.errors import GaveUpError, NoPathError, PlanningError
 from viaspline.planning.problem.method import GaveUp, Refusal
 from viaspline.planning.problem.via_sequence import RouteVia
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.side_refusals import (
     changes_freeing,
     freeing_in_words,
     sides_in_words,
 )
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.headings import Poses, legs_of, posed
+from viaspline.planning.turning.headings import Poses, legs_of, lengths_cost, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_path import OVERSHOOT
 
@@ -80,15 +81,21 @@ def _no_path_on_sides(
 
 
 def _sides_in_the_way(problem: DrivenProblem) -> list[int]:
-    """The obstacles that a path passes on the wrong side which there would be without sides."""
+    """The obstacles that a path passes on the wrong side which there would be without sides.
+
+    None as well where there is no time to look for such a path.
+    """
     if not any(sides.binding.any() for sides in problem.sides):
         return []
     cleared = replace(problem.cleared, sides=tuple(sides.freed for sides in problem.sides))
     free = replace(problem, cleared=cleared)
-    spline_path = free.turns_along(free.shortest_row.taut_paths)
-    if spline_path is None:
-        poses = _poses(free, free.least_radii[-1])
-        spline_path = None if poses is None else free.through_turns(poses.turn_paths)
+    try:
+        spline_path = free.turns_along(free.shortest_row.taut_paths)
+        if spline_path is None:
+            poses = _poses(free, free.least_radii[-1])
+            spline_path = None if poses is None else free.through_turns(poses.turn_paths)
+    except SpentBudgetError:
+        return []
     if spline_path is None:
         return []
     wrong = [sides.wrong(spline_path.leg(k)) for k, sides in enumerate(problem.sides)]
@@ -97,10 +104,10 @@ def _sides_in_the_way(problem: DrivenProblem) -> list[int]:
 
 def _circle_remedy(via: str, radius: float, serves: Callable[[float], bool]) -> str:
     """What would allow a path, where there may be one with a smaller radius [m]."""
-    smaller = next((part * radius for part in RADIUS_PARTS if serves(part * radius)), None)
+    smaller = _first(lambda part: serves(part * radius), RADIUS_PARTS)
     if smaller is None:
         return f"move {via!r} to where there is room to turn, or leave it out"
-    shown = np.floor(smaller * 10**SHOWN_DIGITS) / 10**SHOWN_DIGITS
+    shown = np.floor(smaller * radius * 10**SHOWN_DIGITS) / 10**SHOWN_DIGITS
     return (
         f"a radius of {shown:g} m would do (robot.min_turn_radius_m); or move {via!r} to "
         "where there is room to turn"
@@ -109,11 +116,19 @@ def _circle_remedy(via: str, radius: float, serves: Callable[[float], bool]) -> 
 
 def _body_remedy(via: str, has_room: Callable[[float], bool]) -> str:
     """What would allow a path, where there may be one with a part of the clearance."""
-    less = next((part for part in CLEARANCE_PARTS if has_room(part)), None)
+    less = _first(has_room, CLEARANCE_PARTS)
     moves = [f"move {via!r} to where there is room for the body"]
     if less is not None:
         moves.insert(0, f"{less:g} of the clearance would do (robot.clearance_m)")
     return ", or ".join(moves)
+
+
+def _first(serves: Callable[[float], bool], parts: Sequence[float]) -> float | None:
+    """The first of some parts that serves; None as well where there is no time to look for one."""
+    try:
+        return next((part for part in parts if serves(part)), None)
+    except SpentBudgetError:
+        return None
 
 
 def _serves(problem: DrivenProblem, radius: float) -> bool:
@@ -126,6 +141,7 @@ def _poses(problem: DrivenProblem, rho: float) -> Poses | None:
     lay = partial(problem.leg_on_sides, rho=rho, lay=turn_path_if_clear)
     legs = legs_of(problem.bends, problem.spots)
     closed = problem.sequence.closed
+    problem.requirements.spend(lengths_cost(legs))
     return posed(legs, rho, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS)
 
 

@@ -21,6 +21,7 @@ class Decision:
         replan: The new path, if it goes over to one.
         skipped: Points of the route that it gives up for that, with their indices and the reason.
         searched: Whether a new path was looked for, in vain or not.
+        work: What that has spent [s of the reference machine].
     """
 
     schedule: Schedule
@@ -28,3 +29,4 @@ class Decision:
     replan: Replan | None = None
     skipped: tuple[tuple[int, str], ...] = ()
     searched: bool = False
+    work: float = 0.0

@@ -22,9 +22,12 @@ class NavigationState:
         knowledge: What it knows of the world.
         schedule: What it means to do from now on.
         log: What has happened.
+        work: What the last step has spent on its search for a new path [s of the reference
+            machine].
     """
 
     progress: Progress
     knowledge: Knowledge
     schedule: Schedule
     log: Log
+    work: float = 0.0

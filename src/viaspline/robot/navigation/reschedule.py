@@ -6,6 +6,7 @@ Tested through ``robot/test_navigator`` and ``robot/replanning/test_sight_limit`
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 from viaspline.curve.path import Path
@@ -17,8 +18,22 @@ from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
 from viaspline.robot.perception.belief import Belief
 from viaspline.trajectory.limits import Station
+from viaspline.trajectory.part import retime_part
 from viaspline.trajectory.retime import braking, retime
 from viaspline.trajectory.trajectory import Trajectory
+
+PART_RATIO, PART_S = 2.0, 3.0
+"""With a limit of the jerk a new trajectory reaches so many stopping distances ahead, and what the
+robot drives in so long a time [s],"""
+
+LEAST_PART_M = 0.01
+"""but no less than this: a robot that stands stays there, and one that stops there does [m];"""
+
+RENEWAL_S = 0.5
+"""and is found anew so much before it has to brake for its end [s]."""
+
+DRIVEN_RATIO = 0.5
+"""On a round without such a limit one is found anew when so much of it is driven."""
 
 
 def caught_up(
@@ -33,8 +48,11 @@ def caught_up(
         schedule: What the robot means to do.
         speed: As measured [m/s].
     """
-    if progress.along_track == 0.0:
+    if progress.along_track == 0.0 and progress.time < renewed_at(task, knowledge, schedule):
         return schedule
+    if progress.along_track == 0.0:
+        speed = float(schedule.trajectory.state_at(progress.time)[1])
+        return rescheduled(task, progress, knowledge, schedule, speed)
     allowed = float(schedule.trajectory.speed_at(progress.distance))
     return rescheduled(task, progress, knowledge, schedule, min(speed, allowed))
 
@@ -53,10 +71,67 @@ def rescheduled(
             task, progress, knowledge, schedule, speed, path=path, turns=turns, at_least=probed
         )
     except GeometryError:
-        if knowledge.belief is None:
+        if knowledge.belief is None and schedule.held_at >= path.length:
             raise
-        trajectory = braking(progress.distance, speed, task.limits.brake, progress.time)
-    return replace(schedule, trajectory=trajectory)
+        trajectory = braking_at_once(task, progress, schedule, speed)
+    return replace(schedule, trajectory=trajectory, timed_at=progress.time)
+
+
+def renewed_at(task: DriveTask, knowledge: Knowledge, schedule: Schedule) -> float:
+    """When a trajectory is to be found anew though nothing was seen, because it ends too soon [s].
+
+    On a round, and with a limit of the jerk, a trajectory is found for a part of the path, which
+    has to grow while the robot drives; else inf, and with a lidar, which sees to that itself.
+
+    Args:
+        task: What is asked of the drive.
+        knowledge: All that is known.
+        schedule: What the robot means to do.
+    """
+    law, has_jerk = schedule.trajectory, task.limits.max_jerk is not None
+    first, end = law.distances[[0, -1]].tolist()
+    is_whole = end >= min(schedule.path.length, schedule.held_at) - SAME_PLACE_M
+    is_part = (has_jerk or schedule.is_round) and not is_whole
+    if not is_part or knowledge.belief is not None or schedule.giving_up is not None:
+        return math.inf
+    if not has_jerk:
+        return float(law.time_at(DRIVEN_RATIO * first + (1.0 - DRIVEN_RATIO) * end))
+    left = _stopping_distance(task) + RENEWAL_S * task.limits.max_speed
+    return float(law.time_at(max(end - left, first)))
+
+
+def _reach(task: DriveTask, schedule: Schedule) -> float:
+    """How far ahead a new trajectory reaches at most [m]."""
+    if task.limits.max_jerk is not None:
+        return PART_RATIO * _stopping_distance(task) + PART_S * task.limits.max_speed
+    laps = schedule.laps
+    return laps.timed if laps is not None and schedule.is_round else math.inf
+
+
+def _stopping_distance(task: DriveTask) -> float:
+    """In which a robot with a limit of the jerk stops from full speed [m]."""
+    limits = task.limits
+    assert limits.max_jerk is not None
+    top = limits.max_speed
+    return 0.5 * top * (top / limits.brake + limits.brake / limits.max_jerk)
+
+
+def braking_at_once(
+    task: DriveTask, progress: Progress, schedule: Schedule, speed: float
+) -> Trajectory:
+    """The trajectory of a robot that brakes as hard as it can, from here or where it may first.
+
+    Args:
+        task: What is asked of the drive.
+        progress: Where the robot is on the path, and when.
+        schedule: What it means to do up to now, and how long it is committed to that.
+        speed: Of the robot where it begins to brake [m/s].
+    """
+    old, until = schedule.trajectory, schedule.committed_until
+    if until <= progress.time:
+        return braking(progress.distance, speed, task.limits.brake, progress.time)
+    distance = max(float(old.state_at(until)[0]), progress.distance)
+    return old.followed_by(braking(distance, speed, task.limits.brake, until), progress.time)
 
 
 def rescheduled_by_sight(
@@ -68,6 +143,33 @@ def rescheduled_by_sight(
     sighted = _sighted_until(knowledge.belief, progress.distance, schedule, schedule.path, required)
     seen = replace(schedule, sighted_until=sighted)
     return rescheduled(task, progress, knowledge, seen, speed)
+
+
+def is_due(task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule) -> bool:
+    """Whether the trajectory of a robot with a lidar is to be found anew after one more look.
+
+    Without a limit of the jerk it always is. With one that takes long, and what there is will do
+    for a while: as long as it is certain to be free, and the robot is under way on it.
+
+    Args:
+        task: What is asked of the drive.
+        progress: How far the robot has come.
+        knowledge: All that is known, by a lidar.
+        schedule: What it means to do.
+    """
+    law, now = schedule.trajectory, progress.time
+    moves = bool(law.state_at(now)[1] > 0.0) and now < law.end_time
+    if task.limits.max_jerk is None or not moves:
+        return True
+    stops = float(law.distances[-1]) - progress.distance < LEAST_PART_M
+    if now >= schedule.timed_at + RENEWAL_S and not stops:
+        return True
+    required, end = task.requirements.required, float(law.distances[-1])
+    assert knowledge.belief is not None
+    for start, until, floor in schedule.kept(progress.distance, end, required):
+        if knowledge.belief.clear_until(schedule.path, start, until, floor) < until:
+            return True
+    return False
 
 
 def trajectory_within_sight(
@@ -101,9 +203,14 @@ def trajectory_within_sight(
         GeometryError: When the robot is too fast to stop where it has to.
     """
     distance, time = progress.distance, progress.time
+    accel = float(schedule.trajectory.state_at(time)[2])
+    if time < schedule.committed_until:
+        time = schedule.committed_until
+        distance, speed, accel = (float(x) for x in schedule.trajectory.state_at(time))
     required = task.requirements.required
     certain = _certain_until(knowledge.belief, distance, schedule, path, required, shared)
-    end = max(certain, at_least)
+    end = min(certain, schedule.held_at, distance + _reach(task, schedule))
+    end = max(end, at_least, distance)  # a stop that lies behind would be none
     stops = [Station(turn) for turn in turns if turn > distance + SAME_PLACE_M]
     stops += [
         Station(max(at, distance), via.dwell, via.name)
@@ -117,24 +224,54 @@ def trajectory_within_sight(
         stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
     if task.model is not None:
         stops = with_turns(path, task.model, stops, distance)
+    trajectory = _timed(task, schedule, path, stops, (distance, end), (speed, accel), time)
+    if time == progress.time:
+        return trajectory
+    return schedule.trajectory.followed_by(trajectory, progress.time)
+
+
+def _timed(
+    task: DriveTask,
+    schedule: Schedule,
+    path: Path,
+    stops: Sequence[Station],
+    part: tuple[float, float],
+    motion: tuple[float, float],
+    time: float,
+) -> Trajectory:
+    """The trajectory of a part of a path, to rest at its end.
+
+    With a limit of the jerk, and on a round, it costs no more than the part.
+
+    Args:
+        task: What is asked of the drive.
+        schedule: What the robot means to do up to now.
+        path: What is driven.
+        stops: On the part.
+        part: From where to where [m].
+        motion: Speed and acceleration at its start [m/s], [m/s²].
+        time: There [s].
+    """
+    (distance, end), (speed, accel) = part, motion
+    zones = task.mission.world.speed_zones
+    if task.limits.max_jerk is not None:
+        if end - distance < LEAST_PART_M:
+            if speed > 0.0:
+                raise GeometryError(f"the robot can't stop within {end - distance:g} m")
+            return braking(distance, 0.0, task.limits.brake, time)
+        return retime_part(
+            path, distance, end, task.limits, stops, zones=zones, start_speed=speed,
+            start_accel=accel, start_time=time, replaces=schedule.trajectory,
+        )  # fmt: skip
     timed = path
-    if schedule.laps is not None and schedule.is_round:
-        last = max(distance + schedule.laps.timed, at_least)
-        if last < path.length:  # the law reaches farther when the robot has come nearer
-            timed = Path(path.section(0.0, float(path.parameter(last))).spans, [])
-            stops = [stop for stop in stops if stop.distance < timed.length]
+    if schedule.is_round and end < path.length:
+        timed = Path(path.section(0.0, float(path.parameter(end))).spans, [])
+        stops = [stop for stop in stops if stop.distance < timed.length]
     trajectory = retime(
-        timed,
-        task.limits,
-        stops,
-        zones=task.mission.world.speed_zones,
-        start=min(distance, timed.length),
-        start_speed=speed,
-        start_accel=float(schedule.trajectory.state_at(time)[2]),
-        start_time=time,
-        replaces=schedule.trajectory,
-    )
-    return trajectory if end >= path.length else trajectory.until(end)
+        timed, task.limits, stops, zones=zones, start=min(distance, timed.length),
+        start_speed=speed, start_accel=accel, start_time=time, replaces=schedule.trajectory,
+    )  # fmt: skip
+    return trajectory if timed is not path or end >= path.length else trajectory.until(end)
 
 
 def _certain_until(

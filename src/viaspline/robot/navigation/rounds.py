@@ -18,7 +18,7 @@ from viaspline.curve.path import SEAM, Path, PathVia
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.laps_ahead import LapsAhead
-from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
+from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
 
 UNSEEN_RATIO = 3.0 / 8.0
@@ -62,31 +62,19 @@ def first_round(task: DriveTask, path: Path) -> tuple[Path, LapsAhead | None]:
     return first, LapsAhead(points, count * points, goal, unseen, timed)
 
 
-def quiet_until(schedule: Schedule) -> float:
-    """When the path or its time law grows if nothing new is seen, or else the drive ends [s]."""
-    trajectory, places = schedule.trajectory, (_grows_at(schedule), _timed_at(schedule))
-    return min((float(trajectory.time_at(s)) for s in places if s is not None),
-               default=trajectory.end_time)  # fmt: skip
+def grows_after(schedule: Schedule) -> float:
+    """When the path grows if nothing new is seen [s]; inf: never."""
+    grows_at = _grows_at(schedule)
+    return math.inf if grows_at is None else float(schedule.trajectory.time_at(grows_at))
 
 
 def is_due(progress: Progress, schedule: Schedule) -> bool:
-    """Whether it is time for the path to grow by what was driven of it."""
+    """Whether it is time for the path to grow by what was driven of it.
+
+    That waits for a search to be over: until then the robot stays where it has looked.
+    """
     grows_at = _grows_at(schedule)
-    return grows_at is not None and progress.distance >= grows_at
-
-
-def is_timed_out(progress: Progress, schedule: Schedule) -> bool:
-    """Whether it is time for the time law to reach farther: half of it is driven."""
-    timed_at = _timed_at(schedule)
-    return timed_at is not None and progress.distance >= timed_at
-
-
-def _timed_at(schedule: Schedule) -> float | None:
-    """Where the robot is when its time law grows [m]."""
-    if not schedule.is_round or schedule.giving_up is not None:
-        return None
-    first, last = schedule.trajectory.distances[[0, -1]].tolist()
-    return 0.5 * (first + last) if last < schedule.path.length - SAME_PLACE_M else None
+    return grows_at is not None and progress.distance >= grows_at and schedule.pending is None
 
 
 def _grows_at(schedule: Schedule) -> float | None:

@@ -30,6 +30,26 @@ class Wait:
 
 
 @dataclass(frozen=True)
+class PendingSearch:
+    """A search for a new path that is not over yet.
+
+    Attributes:
+        since: When it began [s].
+        obstacles: What is in the way.
+        names: Of those that are new.
+        begin_with: The stage with which it goes on.
+        standing_limit: What its next step may spend if the robot stands [s of the reference
+            machine]; None: what every first step may.
+    """
+
+    since: float
+    obstacles: World
+    names: tuple[str, ...]
+    begin_with: tuple[int, int]
+    standing_limit: float | None = None
+
+
+@dataclass(frozen=True)
 class ReducedClearance:
     """A robot that has come closer to something than it should, and is on its way out.
 
@@ -54,12 +74,17 @@ class Schedule:
         laid_at: When it was laid under way [s]; -inf before the first re-plan.
         turns: Distances along the path where it has a corner to turn on the spot [m].
         reduced: Where the path keeps less clearance than it should, if it does.
+        timed_at: When the trajectory was found [s]; -inf: before the robot set off.
         sighted_until: Up to this distance along the path the robot has seen where its body will
             be [m].
         probed_until: Up to this distance along the path the robot goes though it sees too little
             [m].
         reviewed_at: When it was last asked whether there is a better path [s].
         wait: Since when and why the robot waits, if it does.
+        pending: The search for a new path that is not over yet, if there is one.
+        held_at: The robot goes no farther along the path while it searches [m].
+        committed_until: Up to this time the trajectory stays as it is, because what is to follow
+            is still being found [s].
         giving_up: Why the robot brakes for good, if it does.
         laps: What the path goes on with at its end; None if the path was all laps from the start.
         driven: Distance that was driven before the path begins [m].
@@ -71,10 +96,14 @@ class Schedule:
     laid_at: float = -math.inf
     turns: tuple[float, ...] = ()
     reduced: ReducedClearance | None = None
+    timed_at: float = -math.inf
     sighted_until: float = 0.0
     probed_until: float = 0.0
     reviewed_at: float = -math.inf
     wait: Wait | None = None
+    pending: PendingSearch | None = None
+    held_at: float = math.inf
+    committed_until: float = -math.inf
     giving_up: str | None = None
     laps: LapsAhead | None = None
     driven: float = 0.0

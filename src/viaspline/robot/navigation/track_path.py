@@ -72,6 +72,7 @@ def with_command(
     schedule: Schedule,
     measured: RobotState,
     time: float,
+    work: float = 0.0,
 ) -> tuple[Progress, Schedule]:
     """The robot when its controller has given its command, by the schedule that there is now.
 
@@ -81,6 +82,7 @@ def with_command(
         schedule: What the robot means to do now: if that is new, the controller decides again.
         measured: Where the robot is.
         time: When that was measured [s].
+        work: How much later the command is given [s].
     """
     controller = progress.controller
     if controller is None or before is None:
@@ -90,7 +92,7 @@ def with_command(
         controller = before.on(schedule.path, schedule.trajectory).step(measured, time)
         if controller.late > 0.0 and not waited:
             schedule = replace(schedule, trajectory=schedule.trajectory.delayed(controller.late))
-    return replace(progress, controller=controller.gave(time)), schedule
+    return replace(progress, controller=controller.gave(time + work)), schedule
 
 
 def project(

@@ -28,6 +28,10 @@ MIN_SURFACE_DISTANCE_M = 4.0 * MIN_DISC_RADIUS_M
 LOOKAHEAD_RATIO = 1.3
 """How far a robot looks ahead, of the distance in which it stops."""
 
+JERK_LOOKAHEAD_S = 0.5
+"""With a limit of the jerk it looks ahead for so much longer, because it looks more seldom how it
+goes on [s]."""
+
 MAX_LOOSE_DISCS = 64
 """Surfaces beyond which all of them are packed anew."""
 
@@ -95,7 +99,10 @@ class Belief:
         required = robot.outer_radius + robot.clearance_m
         disc = float(np.clip(DISC_RATIO * required, MIN_DISC_RADIUS_M, MAX_DISC_RADIUS_M))
         cell_size = disc + lidar.noise_m
-        stop = robot.max_speed_mps**2 / (2.0 * (robot.max_brake_mps2 or robot.max_accel_mps2))
+        brake = robot.max_brake_mps2 or robot.max_accel_mps2
+        stop = robot.max_speed_mps**2 / (2.0 * brake)
+        if robot.max_jerk_mps3 is not None:
+            stop += robot.max_speed_mps * (0.5 * brake / robot.max_jerk_mps3 + JERK_LOOKAHEAD_S)
         lookahead = LOOKAHEAD_RATIO * stop + 2.0 * required
         scans = ScanHistory(
             near=2.0 * lookahead, apart=max(required, 4.0 * cell_size), noise=lidar.noise_m

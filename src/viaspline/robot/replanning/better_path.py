@@ -9,6 +9,7 @@ from itertools import pairwise
 from viaspline.errors import PlanningError
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.robot.navigation.decision import Decision
+from viaspline.robot.replanning.deadline import unhurried
 from viaspline.robot.replanning.passing_sides import is_better
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.replan_search import first_candidate
@@ -36,18 +37,20 @@ def better_path(context: ReplanContext, *, opened: bool) -> Decision:
     if not due or not (tight or (opened and is_better(_straight_on(context), rest))):
         return Decision(schedule)
     reviewed = replace(schedule, reviewed_at=progress.time)
-    freed = replace(
-        context,
-        schedule=replace(reviewed, reduced=None),
-        requirements=with_spare(context.requirements),
+    freed = unhurried(
+        replace(
+            context,
+            schedule=replace(reviewed, reduced=None),
+            requirements=with_spare(context.requirements),
+        )
     )
     try:
         candidate = first_candidate(freed, world, modes=("planned",))
     except PlanningError:
-        return Decision(reviewed, searched=True)
+        return Decision(reviewed, searched=True, work=freed.work)
     if not tight and not is_better(candidate.solution.path.length - here, rest):
-        return Decision(reviewed, searched=True)
-    return replace(take_over(freed, candidate, {}), searched=True)
+        return Decision(reviewed, searched=True, work=freed.work)
+    return replace(take_over(freed, candidate, {}), searched=True, work=freed.work)
 
 
 def with_spare(requirements: Requirements) -> Requirements:

@@ -11,10 +11,17 @@ from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.perception.belief import News
 from viaspline.robot.perception.perceive import Sighting
+from viaspline.robot.replanning.deadline import with_time_to_search
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.replan_from_scan import replan_from_scan
-from viaspline.robot.replanning.replan_search import search
-from viaspline.robot.replanning.transitions import stop_for_good, take_over
+from viaspline.robot.replanning.replan_search import FIRST_STAGE, search
+from viaspline.robot.replanning.transitions import (
+    keep_searching,
+    let_go,
+    stop_for_good,
+    take_over,
+)
+from viaspline.robot.run import Event
 from viaspline.world.world import World
 
 
@@ -23,7 +30,7 @@ def decide(
     progress: Progress,
     knowledge: Knowledge,
     schedule: Schedule,
-    sighting: Sighting,
+    sighting: Sighting | None,
 ) -> Decision:
     """Go on, go round what is in the way, give up a point of the route, wait or stop.
 
@@ -32,8 +39,10 @@ def decide(
         progress: How far it has come.
         knowledge: All that is known, with what was just seen.
         schedule: What the robot has meant to do so far.
-        sighting: What was just seen.
+        sighting: What was just seen, if it was anything new.
     """
+    if sighting is None:
+        sighting = World()
     if isinstance(sighting, News) and (progress.finished or schedule.giving_up is not None):
         return Decision(schedule)
     context = ReplanContext.of(task, progress, knowledge, schedule)
@@ -43,37 +52,66 @@ def decide(
 
 
 def look_again(
-    task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule
+    task: DriveTask,
+    progress: Progress,
+    knowledge: Knowledge,
+    schedule: Schedule,
+    sighting: Sighting | None,
 ) -> Decision:
-    """Go round what is known and stands in the way of a part of the path that has come nearer."""
+    """As ``decide`` when a part of the path has come nearer: whatever is known may be in its way.
+
+    Args:
+        task: What is asked of the drive.
+        progress: How far it has come.
+        knowledge: All that is known, with what was just seen.
+        schedule: What the robot has meant to do so far.
+        sighting: What was just seen, if it was anything new.
+    """
     context = ReplanContext.of(task, progress, knowledge, schedule)
-    world = knowledge.world
+    new, world = sighting if isinstance(sighting, World) else World(), knowledge.world
     free = context.free_until(world)
     if free is None:
-        return Decision(schedule)
-    return _go_round(context, Obstruction(world, context.in_the_way(world), free))
+        return _round_obstacles(context, new)
+    return _go_round(context, Obstruction(world, context.in_the_way(world), free), new)
 
 
 def _round_obstacles(context: ReplanContext, new: World) -> Decision:
     """Round obstacles that are known exactly from when they are seen; if there is no way, stop."""
-    detected = tuple(context.detection(new, i) for i in range(len(new)))
-    unchanged = Decision(context.schedule, detected)
     if context.schedule.giving_up is not None:
-        return unchanged
-    free = context.free_until(new)
+        return Decision(context.schedule, _detected(context, new))
+    pending, met, names = context.schedule.pending, new, new.names
+    if pending is not None:
+        met = World((*pending.obstacles.obstacles, *new.obstacles))
+        names = (*pending.names, *new.names)
+    free = context.free_until(met)
     if free is None:
-        free = context.on_side_until(new)
+        free = context.on_side_until(met)
     if free is None:
-        return unchanged
-    decision = _go_round(context, Obstruction(new, new.names, free))
-    return replace(decision, events=detected + decision.events)
+        return Decision(let_go(context), _detected(context, new))
+    if pending is not None and len(new):  # what has just been seen may bar what was tried
+        begun = replace(pending, obstacles=met, begin_with=FIRST_STAGE)
+        context = replace(context, schedule=replace(context.schedule, pending=begun))
+    return _go_round(context, Obstruction(met, names, free), new)
 
 
-def _go_round(context: ReplanContext, obstruction: Obstruction) -> Decision:
+def _go_round(context: ReplanContext, obstruction: Obstruction, new: World) -> Decision:
+    """Round what is in the way, of which some may be new, in the time that there is."""
     blocked = replace(context, obstruction=obstruction)
-    result = search(blocked)
-    if result.candidate is None:
-        decision = stop_for_good(blocked, str(result.refusal))
+    decision = _searched(with_time_to_search(blocked))
+    return replace(decision, events=_detected(context, new) + decision.events)
+
+
+def _detected(context: ReplanContext, new: World) -> tuple[Event, ...]:
+    return tuple(context.detection(new, i) for i in range(len(new)))
+
+
+def _searched(context: ReplanContext) -> Decision:
+    """Go over to a new path, stop for good, or go on looking for one."""
+    result = search(context)
+    if result.candidate is not None:
+        decision = take_over(context, result.candidate, result.skip)
+    elif result.begin_with is None:
+        decision = stop_for_good(context, str(result.refusal))
     else:
-        decision = take_over(blocked, result.candidate, result.skip)
-    return replace(decision, searched=True)
+        decision = keep_searching(context, result)
+    return replace(decision, searched=True, work=context.work)

@@ -14,6 +14,7 @@ from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning import replan
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.sides_ahead import spans_on_wrong_side
 from viaspline.robot.navigation.schedule import ReducedClearance
 from viaspline.robot.replanning.replan_context import ReplanContext
@@ -61,6 +62,8 @@ def way_out(
     at = stop + math.dist(here, place)
     try:
         found = replan.from_rest(straight, at, world, requirements)
+    except SpentBudgetError:
+        raise  # it goes on in the next step
     except PlanningError:
         return None
     return timed(
@@ -101,6 +104,8 @@ def restore_clearance(
     at = float(places[roomy[0]])
     try:
         found = replan.planned(path, at, world, requirements, skip)
+    except SpentBudgetError:
+        raise  # it goes on in the next step
     except PlanningError:
         return None
     less = with_less_until(context, at, floor)

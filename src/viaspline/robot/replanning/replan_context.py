@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from viaspline.curve.path import PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.checking.conflicts import CLEAR, conflicts_within
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.sides_ahead import spans_on_wrong_side
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
@@ -40,6 +41,43 @@ class Obstruction:
 
 
 @dataclass(frozen=True)
+class MotionAhead:
+    """How a robot moves where its trajectory may be changed: now, or where it is committed to it.
+
+    Attributes:
+        speed: [m/s].
+        stop: Where the robot stands if it brakes from there, as a distance along the path [m].
+        leaves: Where a new path may leave the old one without a stop, the nearest place first [m].
+    """
+
+    speed: float
+    stop: float
+    leaves: tuple[float, ...]
+
+    @classmethod
+    def of(
+        cls, task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule
+    ) -> MotionAhead:
+        """The motion of a robot."""
+        distance, trajectory = progress.distance, schedule.trajectory
+        time = max(progress.time, schedule.committed_until)
+        speed, rest = 0.0, distance
+        if progress.dwell is None:
+            if time > progress.time:
+                distance = max(float(trajectory.state_at(time)[0]), distance)
+            speed = float(trajectory.state_at(time)[1])
+            rest = trajectory.next_rest(distance + SAME_PLACE_M)
+        stop = min(distance + speed * speed / (2.0 * task.limits.brake), rest)
+        reaction = speed * max(task.reaction - max(time - progress.time, 0.0), 0.0)
+        leaves = {min(distance + reaction, rest): None}
+        if task.limits.max_lateral_accel is not None:
+            leaves[min(stop + reaction, rest)] = None  # it may be slow enough for a sharper bend
+        if knowledge.belief is not None:
+            leaves[stop] = None  # there it may have seen enough of another way
+        return cls(speed, stop, tuple(leaves))
+
+
+@dataclass(frozen=True)
 class ReplanContext:
     """A robot at the moment in which it decides how to go on.
 
@@ -54,9 +92,7 @@ class ReplanContext:
         vias_ahead: The route's points still to come, with their distances along the path [m]; on a
             round only those that are looked at already.
         kept: From where to where the path ahead keeps which distance [m].
-        speed: Of the robot [m/s].
-        stop: Where the robot stands if it brakes now, as a distance along the path [m].
-        leaves: Where a new path may leave this one without a stop, the nearest place first [m].
+        motion: How the robot moves.
         floor: Distance that the path keeps up to where it is left [m].
     """
 
@@ -69,9 +105,7 @@ class ReplanContext:
     here: tuple[float, ...]
     vias_ahead: tuple[tuple[PathVia, float], ...]
     kept: tuple[tuple[float, float, float], ...]
-    speed: float
-    stop: float
-    leaves: tuple[float, ...]
+    motion: MotionAhead
     floor: float
 
     @classmethod
@@ -79,19 +113,7 @@ class ReplanContext:
         cls, task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule
     ) -> ReplanContext:
         """A robot as it is now, with nothing in its way."""
-        distance, path, trajectory = progress.distance, schedule.path, schedule.trajectory
-        speed, rest = 0.0, distance
-        if progress.dwell is None:
-            speed = float(trajectory.state_at(progress.time)[1])
-            rest = trajectory.next_rest(distance + SAME_PLACE_M)
-        stop = min(distance + speed * speed / (2.0 * task.limits.brake), rest)
-        reaction = speed * task.reaction
-        leaves = {min(distance + reaction, rest): None}
-        if task.limits.max_lateral_accel is not None:
-            leaves[min(stop + reaction, rest)] = None  # it may be slow enough for a sharper bend
-        if knowledge.belief is not None:
-            leaves[stop] = None  # there it may have seen enough of another way
-        until = schedule.looked_at
+        distance, path, until = progress.distance, schedule.path, schedule.looked_at
         kept = schedule.kept(distance, until, task.requirements.required)
         return cls(
             task=task,
@@ -107,9 +129,7 @@ class ReplanContext:
                 if at <= until + SAME_PLACE_M
             ),
             kept=kept,
-            speed=speed,
-            stop=stop,
-            leaves=tuple(leaves),
+            motion=MotionAhead.of(task, progress, knowledge, schedule),
             floor=kept[0][2],
         )
 
@@ -121,11 +141,55 @@ class ReplanContext:
             return laps.is_goal(via.index)
         return via.u >= self.schedule.path.domain[1] - PATH_END_U
 
+    @property
+    def speed(self) -> float:
+        """Of the robot [m/s]."""
+        return self.motion.speed
+
+    @property
+    def stop(self) -> float:
+        """Where the robot stands if it brakes as soon as it can, along the path [m]."""
+        return self.motion.stop
+
+    @property
+    def leaves(self) -> tuple[float, ...]:
+        """Where a new path may leave this one without a stop, the nearest place first [m]."""
+        return self.motion.leaves
+
+    @property
+    def work(self) -> float:
+        """What its search has spent so far [s of the reference machine]."""
+        budget = self.requirements.budget
+        return 0.0 if budget is None else budget.spent
+
+    @property
+    def _unbudgeted(self) -> Requirements:
+        """What a path keeps: to look at the one that there is, there is always time."""
+        return replace(self.requirements, budget=None)
+
+    def searching(self, limit: float) -> ReplanContext:
+        """The robot with what its search may spend, on its way for as long as that takes.
+
+        Args:
+            limit: [s of the reference machine], which are taken for seconds.
+        """
+        budget, trajectory = WorkBudget(limit), self.schedule.trajectory
+        until = trajectory.cut_after(self.progress.time + limit)
+        task = replace(self.task, requirements=replace(self.task.requirements, budget=budget))
+        schedule = replace(self.schedule, committed_until=until)
+        return replace(
+            self,
+            task=task,
+            schedule=schedule,
+            requirements=replace(self.requirements, budget=budget),
+            motion=MotionAhead.of(task, self.progress, self.knowledge, schedule),
+        )
+
     def free_until(self, world: World) -> float | None:
         """Start of the first span ahead that comes too close to a world [m]; None if none does."""
-        path = self.schedule.path
+        path, requirements = self.schedule.path, self._unbudgeted
         for start, u, part, floor in self.parts_ahead():
-            conflict = _first_conflict(part, world, floor, self.requirements)
+            conflict = _first_conflict(part, world, floor, requirements)
             if conflict == 0:
                 return start
             if conflict is not None:
@@ -138,13 +202,13 @@ class ReplanContext:
         None if none does.
         """
         path, here = self.schedule.path, self.progress.distance
-        wrong = spans_on_wrong_side(path, float(path.parameter(here)), world, self.requirements)
+        wrong = spans_on_wrong_side(path, float(path.parameter(here)), world, self._unbudgeted)
         return max(here, float(path.distance(float(min(wrong))))) if wrong else None
 
     def in_the_way(self, world: World) -> tuple[str, ...]:
         """Names of what a world has in the way of the path ahead, one for each span."""
         found = [
-            conflicts_within(floor, world, part.spans, self.requirements).tolist()
+            conflicts_within(floor, world, part.spans, self._unbudgeted).tolist()
             for _, _, part, floor in self.parts_ahead()
         ]
         return tuple(dict.fromkeys(world.name(i) for row in found for i in row if i != CLEAR))
@@ -171,7 +235,7 @@ class ReplanContext:
             return float(world.distance(point)) >= self.floor - SAME_PLACE_M
         first, last = np.asarray(path.parameter(np.array([start, place]))).tolist()
         part = path.section(first, last)
-        return _first_conflict(part, world, self.floor, self.requirements) is None
+        return _first_conflict(part, world, self.floor, self._unbudgeted) is None
 
     def clear_leaves(self) -> list[float]:
         """Where a new path can leave this one while the robot rolls on [m]."""

@@ -15,16 +15,18 @@ import numpy as np
 from viaspline.errors import PlanningError
 from viaspline.planning.checking.conflicts import too_close
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.schedule import ReducedClearance, Wait
 from viaspline.robot.replanning.better_path import better_path, with_spare
+from viaspline.robot.replanning.deadline import with_time_to_search
 from viaspline.robot.replanning.recovery import restore_clearance, way_out
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
-from viaspline.robot.replanning.replan_search import ReplanResult, search
+from viaspline.robot.replanning.replan_search import FIRST_STAGE, ReplanResult, search
 from viaspline.robot.replanning.retreat import retreat
 from viaspline.robot.replanning.sight_limit import within_sight
-from viaspline.robot.replanning.transitions import braked, stop_for_good, take_over
+from viaspline.robot.replanning.transitions import braked, keep_searching, stop_for_good, take_over
 from viaspline.world.world import World
 
 MIN_REPLAN_INTERVAL_S = 0.25
@@ -59,7 +61,8 @@ def replan_from_scan(context: ReplanContext, *, opened: bool) -> Decision:
         blocked = replace(context, schedule=replace(schedule, probed_until=0.0))
         decision = _round_obstruction(blocked, free)
     else:
-        unblocked = replace(schedule, wait=None) if schedule.is_blocked else schedule
+        unblocked = replace(schedule, pending=None, held_at=math.inf)
+        unblocked = replace(unblocked, wait=None) if schedule.is_blocked else unblocked
         decision = better_path(replace(context, schedule=unblocked), opened=opened)
     if decision.schedule.giving_up is not None:
         return decision
@@ -82,9 +85,17 @@ def _round_obstruction(context: ReplanContext, free: float) -> Decision:
         obstruction=Obstruction(world, names, free),
         floor=context.requirements.required,
     )
-    result = _way_round(blocked)
+    blocked = with_time_to_search(blocked)
+    try:
+        result = _way_round(blocked)
+    except SpentBudgetError as error:
+        result = ReplanResult(None, error, begin_with=FIRST_STAGE)
+    if result.begin_with is not None:
+        decision = keep_searching(blocked, result)
+        return replace(decision, searched=True, work=blocked.work)
     if result.candidate is None:
-        return replace(_hold(context, _plain(result.refusal)), searched=True)
+        decision = _hold(context, _plain(result.refusal))
+        return replace(decision, searched=True, work=blocked.work)
     decision = take_over(blocked, result.candidate, result.skip)
     detected = tuple(context.detection(world, index) for index in indices)
     return replace(
@@ -92,12 +103,15 @@ def _round_obstruction(context: ReplanContext, free: float) -> Decision:
         schedule=replace(decision.schedule, wait=None),
         events=detected + decision.events,
         searched=True,
+        work=blocked.work,
     )
 
 
 def _may_wait(context: ReplanContext, free: float) -> bool:
     """Whether a blocked path is not to be laid anew yet: it was just now, or it was in vain."""
     progress, schedule = context.progress, context.schedule
+    if schedule.pending is not None:
+        return False
     if schedule.wait is not None and schedule.wait.reason is not None:
         return progress.time < schedule.wait.again
     if progress.time >= schedule.laid_at + MIN_REPLAN_INTERVAL_S:
@@ -136,7 +150,8 @@ def _way_round(context: ReplanContext) -> ReplanResult:
         found = _way_on(context, spared)
     else:
         found = _way_out(context, room, spared)
-    if found.candidate is not None or context.speed > 0.0:
+    is_over = found.candidate is not None or found.begin_with is not None
+    if is_over or context.speed > 0.0:
         return found
     errors = belief.surfaces.tolerance + requirements.tracking_error
     least = requirements.radius - belief.cell_size - errors
@@ -160,7 +175,9 @@ def _way_on(context: ReplanContext, spared: Requirements) -> ReplanResult:
     found = search(replace(context, requirements=spared))
     if found.candidate is not None:
         return found
-    return search(context) if needed is None else needed
+    if needed is not None:
+        return needed
+    return found if found.begin_with is not None else search(context)
 
 
 def _way_out(context: ReplanContext, room: float, spared: Requirements) -> ReplanResult:
@@ -222,4 +239,5 @@ def _hold(context: ReplanContext, reason: str) -> Decision:
         return stop_for_good(context, reason)
     events = (braked(context, reason),) if context.speed > 0.0 and wait is None else ()
     waiting = Wait(since, time + RETRY_INTERVAL_S, reason)
-    return Decision(replace(context.schedule, wait=waiting), events)
+    schedule = replace(context.schedule, wait=waiting, pending=None, held_at=math.inf)
+    return Decision(schedule, events)

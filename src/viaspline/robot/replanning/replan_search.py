@@ -5,14 +5,17 @@ Tested through ``robot/test_navigator`` and ``robot/replanning/test_decide``.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+import math
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
 
 import numpy as np
 
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.problem.work_budget import JERK_LAW_S, TIME_LAW_S, SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.navigation.reschedule import trajectory_within_sight
@@ -28,6 +31,18 @@ MODES: tuple[Mode, ...] = ("reflex", "planned")
 
 TURN_BACK_SAMPLES = 129
 """Places along a path at which it is seen whether it leads back."""
+
+Stage: TypeAlias = tuple[int, int]
+"""A part of a search: which mode, and which place at which the path so far is left."""
+
+ORDER: tuple[Mode, ...] = (*MODES, "from_rest")
+"""The modes, from the least change to the greatest."""
+
+FIRST_STAGE: Stage = (0, 0)
+"""With which a search begins."""
+
+MAX_SHARE_BEFORE = 0.2
+"""A part of a search that was stopped had a step for itself if no more was spent before."""
 
 
 @dataclass(frozen=True)
@@ -57,11 +72,25 @@ class ReplanResult:
         candidate: The path; None if there is none.
         refusal: Why there is none.
         skip: Indices of points of the route that are given up for it, each with the reason.
+        begin_with: The stage with which the search goes on; None if it is over.
     """
 
     candidate: PathCandidate | None
     refusal: PlanningError | str = ""
     skip: Mapping[int, str] = field(default_factory=dict)
+    begin_with: Stage | None = None
+
+
+class UnfinishedSearchError(SpentBudgetError):
+    """A search for a new path has spent what it may in one step.
+
+    Attributes:
+        begin_with: The stage with which it goes on.
+    """
+
+    def __init__(self, spent: SpentBudgetError, begin_with: Stage) -> None:
+        super().__init__(spent.reason, where=spent.where, remedy=spent.remedy, tried=spent.tried)
+        self.begin_with = begin_with
 
 
 def search(context: ReplanContext) -> ReplanResult:
@@ -74,6 +103,8 @@ def search(context: ReplanContext) -> ReplanResult:
     while True:
         try:
             return ReplanResult(_on_kept_sides(context, frozenset(skip)), skip=skip)
+        except UnfinishedSearchError as error:
+            return ReplanResult(None, error, begin_with=error.begin_with)
         except PlanningError as error:
             lost = _lost(context, skip, error)
             if lost is None:
@@ -131,37 +162,83 @@ def first_candidate(
         modes: In this order.
 
     Raises:
+        UnfinishedSearchError: When it has spent what it may.
         PlanningError: If there is no way to the goal, or none was found.
     """
-    path, requirements = context.schedule.path, context.requirements
-    until = context.schedule.looked_at
-    leaves = context.clear_leaves()
     forced = any(obstacle.forced_side for obstacle in context.knowledge.world.obstacles)
     laid_anew = set()  # from there a reflex has laid all that a planned path would
-    for mode in ("planned",) if skip else modes:
-        for leave in leaves:
-            if mode == "planned" and leave in laid_anew:
-                continue
-            try:
-                if mode == "reflex":
-                    solution = replan.reflex(path, leave, world, requirements, until)
-                else:
-                    solution = replan.planned(path, leave, world, requirements, skip, until)
-            except BlockedLegError:
-                if mode == "planned" and not forced:
-                    raise  # nor does anything lead on from rest: a clear path joins the places
-                break
-            except PlanningError:
-                continue  # a robot that leaves later, or that stands, may find a way
-            if solution.rejoins_at is None and solution.changed_from <= leave + SAME_PLACE_M:
-                laid_anew.add(leave)
+    closed = set()  # modes by which nothing leads on, wherever the path is left
+    for stage, mode, leave in _stages(context, ("planned",) if skip else modes):
+        if mode in closed or (mode == "planned" and leave in laid_anew):
+            continue
+        before = context.work
+        try:
+            solution = _laid(context, mode, leave, world, skip)
             candidate = timed(context, mode, solution)
-            if candidate is not None and not _turns_back(context, solution):
-                return candidate
-    solution = replan.from_rest(path, context.stop, world, requirements, skip, until)
-    candidate = timed(context, "from_rest", solution)
-    assert candidate is not None  # a robot that stands can go any way on
-    return candidate
+        except SpentBudgetError as error:
+            raise UnfinishedSearchError(error, _next(stage, before, context)) from error
+        except BlockedLegError:
+            if mode == "from_rest" or (mode == "planned" and not forced):
+                raise  # nor does anything lead on from rest: a clear path joins the places
+            closed.add(mode)
+            continue
+        except PlanningError:
+            if mode == "from_rest":
+                raise
+            continue  # a robot that leaves later, or that stands, may find a way
+        if mode == "from_rest":
+            assert candidate is not None  # a robot that stands can go any way on
+            return candidate
+        if solution.rejoins_at is None and solution.changed_from <= leave + SAME_PLACE_M:
+            laid_anew.add(leave)
+        if candidate is not None and not _turns_back(context, solution):
+            return candidate
+    raise AssertionError("the last stage of a search finds something or says why there is nothing")
+
+
+def _stages(context: ReplanContext, modes: tuple[Mode, ...]) -> Iterator[tuple[Stage, Mode, float]]:
+    """What is tried one after the other, from the stage with which a search goes on.
+
+    Yields:
+        The stage, the mode, and where the path so far is left [m].
+    """
+    pending = context.schedule.pending
+    first = FIRST_STAGE if pending is None else pending.begin_with
+    leaves = context.clear_leaves()
+    for mode in modes:
+        for k, leave in enumerate(leaves):
+            stage = (ORDER.index(mode), k)
+            if stage >= first:
+                yield stage, mode, leave
+    yield (ORDER.index("from_rest"), 0), "from_rest", context.stop
+
+
+def _laid(
+    context: ReplanContext, mode: Mode, leave: float, world: World, skip: Collection[int]
+) -> Solution:
+    """The path of one stage."""
+    path, requirements = context.schedule.path, context.requirements
+    until = context.schedule.looked_at
+    if mode == "reflex":
+        return replan.reflex(path, leave, world, requirements, until)
+    lay = replan.planned if mode == "planned" else replan.from_rest
+    return lay(path, leave, world, requirements, skip, until)
+
+
+def _next(stage: Stage, before: float, context: ReplanContext) -> Stage:
+    """With which stage a search goes on that was stopped at one.
+
+    One that had a step for itself isn't tried again, unless it is the last.
+
+    Args:
+        stage: At which it was stopped.
+        before: What had been spent before that [s of the reference machine].
+        context: The robot that has searched.
+    """
+    budget = context.requirements.budget
+    assert budget is not None  # it has been spent
+    had_most = before <= MAX_SHARE_BEFORE * budget.limit and budget.limit > 0.0
+    return (stage[0], stage[1] + 1) if had_most and stage[0] < len(ORDER) - 1 else stage
 
 
 def timed(
@@ -174,8 +251,13 @@ def timed(
         mode: How the path was found; from rest the robot turns where it stops.
         solution: The path.
         turns: More distances along it where the robot turns, from rest [m].
+
+    Raises:
+        SpentBudgetError: When there is no time left for that.
     """
-    schedule, leave = context.schedule, solution.changed_from
+    has_jerk = context.task.limits.max_jerk is not None
+    context.requirements.spend(JERK_LAW_S if has_jerk else TIME_LAW_S)
+    schedule, leave = replace(context.schedule, held_at=math.inf), solution.changed_from
     corners = tuple(turn for turn in schedule.turns if turn <= leave + SAME_PLACE_M)
     stands = mode == "from_rest"
     if stands:

@@ -16,6 +16,7 @@ from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning import replan
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.replanning.recovery import by_way_of, with_less_until
 from viaspline.robot.replanning.replan_context import ReplanContext
@@ -55,6 +56,8 @@ def retreat(
     at = 2.0 * stop - place
     try:
         found = replan.from_rest(route, at, context.knowledge.world, requirements)
+    except SpentBudgetError:
+        raise  # it goes on in the next step
     except PlanningError as error:
         return ReplanResult(None, error)
     turns = sorted(2.0 * stop - turn for turn in context.schedule.turns if place < turn < stop)

@@ -11,7 +11,7 @@ from dataclasses import replace
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
-from viaspline.robot.navigation.reschedule import rescheduled_by_sight
+from viaspline.robot.navigation.reschedule import is_due, rescheduled_by_sight
 from viaspline.robot.navigation.schedule import Schedule, Wait
 
 PROBE_WAIT_S = 0.5
@@ -32,6 +32,8 @@ def within_sight(
     """
     belief, path, here = knowledge.belief, schedule.path, progress.distance
     assert belief is not None
+    if not is_due(task, progress, knowledge, schedule):
+        return replace(schedule, wait=None)
     schedule = rescheduled_by_sight(task, progress, knowledge, schedule, speed)
     if schedule.is_blocked:
         return schedule

@@ -14,10 +14,12 @@ import numpy as np
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.navigation.decision import Decision
+from viaspline.robot.navigation.reschedule import braking_at_once, rescheduled
+from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.replanning.deadline import gone_on, last_place, must_brake
 from viaspline.robot.replanning.replan_context import ReplanContext
-from viaspline.robot.replanning.replan_search import PathCandidate
+from viaspline.robot.replanning.replan_search import PathCandidate, ReplanResult
 from viaspline.robot.run import Event, Replan
-from viaspline.trajectory.retime import braking
 
 SAME_U = 1e-9
 """A parameter nearer than this to a joint of two spans is that joint."""
@@ -30,7 +32,7 @@ def take_over(
     progress, old = context.progress, context.schedule
     path = candidate.solution.path
     if path is old.path:
-        return Decision(replace(old, reduced=candidate.reduced))
+        return Decision(replace(old, reduced=candidate.reduced, pending=None, held_at=math.inf))
     given_up = tuple(sorted(skip.items()))
     return Decision(
         replace(
@@ -39,11 +41,14 @@ def take_over(
             trajectory=candidate.trajectory,
             laid_in=context.knowledge.world,
             laid_at=progress.time,
+            timed_at=progress.time,
             turns=candidate.turns,
             reduced=candidate.reduced,
             sighted_until=min(old.sighted_until, candidate.solution.changed_from),
             probed_until=0.0,
             laps=None if old.laps is None else old.laps.without(skip),
+            pending=None,
+            held_at=math.inf,
         ),
         events=_events(context, candidate, given_up),
         replan=_record(context, candidate),
@@ -53,10 +58,38 @@ def take_over(
 
 def stop_for_good(context: ReplanContext, reason: str) -> Decision:
     """Brake as hard as possible, and stand."""
-    distance, time = context.progress.distance, context.progress.time
-    trajectory = braking(distance, context.speed, context.task.limits.brake, time)
-    schedule = replace(context.schedule, trajectory=trajectory, giving_up=reason)
+    schedule = context.schedule
+    trajectory = braking_at_once(context.task, context.progress, schedule, context.speed)
+    schedule = replace(schedule, trajectory=trajectory, giving_up=reason, pending=None)
     return Decision(schedule, (braked(context, reason),) if context.speed > 0.0 else ())
+
+
+def keep_searching(context: ReplanContext, result: ReplanResult) -> Decision:
+    """Look on in the steps to come; until then go no farther than the path is clear.
+
+    Under way the robot brakes for that as late as it can, or as soon as its time to search is up.
+    """
+    assert result.begin_with is not None
+    pending = gone_on(context, result.begin_with)
+    if pending is None:
+        return stop_for_good(context, str(result.refusal))
+    before, schedule = context.schedule, context.schedule
+    held_at = context.stop if must_brake(context) else min(last_place(context), before.held_at)
+    held = replace(schedule, pending=pending, held_at=held_at)
+    held = rescheduled(context.task, context.progress, context.knowledge, held, context.speed)
+    if before.pending is not None or context.speed == 0.0:
+        return Decision(held)
+    names = ", ".join(f"'{name}'" for name in context.obstruction.names)
+    why = f"looks for a way round {names}, and goes no farther until it has one"
+    return Decision(held, (Event("braked", context.progress.time, context.here, why),))
+
+
+def let_go(context: ReplanContext) -> Schedule:
+    """The schedule of a robot that has nothing in its way: a search for a new path is over."""
+    if context.schedule.pending is None:
+        return context.schedule
+    free = replace(context.schedule, pending=None, held_at=math.inf)
+    return rescheduled(context.task, context.progress, context.knowledge, free, context.speed)
 
 
 def braked(context: ReplanContext, reason: str) -> Event:
@@ -93,6 +126,7 @@ def _record(context: ReplanContext, candidate: PathCandidate) -> Replan:
         changed_from=leave,
         rejoins_at=solution.rejoins_at,
         obstacles=context.obstruction.names,
+        work=context.work,
         position_jump=position,
         heading_jump=heading,
         curvature_jump=curvature,

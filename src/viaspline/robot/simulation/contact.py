@@ -25,7 +25,7 @@ def first_contact(robot: RobotSpec, world: World, rows: Floats) -> Event | None:
     Args:
         robot: Its body.
         world: Everything that is there.
-        rows: Time, x, y, heading, …, shape (n, 6).
+        rows: Time, x, y, heading, and what else there is, shape (n, 4) or more.
     """
     gaps, nearest = world.nearest(rows[:, 1:3])
     inside = np.flatnonzero(gaps < robot.inner_radius - TOUCH_DEPTH_M)

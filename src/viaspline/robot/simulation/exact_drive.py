@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,8 +12,9 @@ from viaspline.robot.logbook import Logbook
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.range_sensor import RangeSensor
 from viaspline.robot.run import Event
-from viaspline.robot.simulation.contact import TOUCH_DEPTH_M
+from viaspline.robot.simulation.contact import first_contact
 from viaspline.robot.simulation.machine_drive import Tell
+from viaspline.robot.simulation.pace import steps_taken
 from viaspline.robot.simulation.sensors import sensors_of
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
@@ -85,7 +86,9 @@ def drive_exactly(
         if time > limit:
             reason = f"the drive was broken off after {time:.0f} s, its limit"
             return ExactDrive(nav, book, tuple(trajectories), tick, time, None, reason)
-        skipped = 1 if lidar is not None else _quiet(nav, sensor, known, tick, step)
+        steady = lidar is None and not nav.searches
+        skipped = _quiet(nav, sensor, known, tick, step) if steady else 1
+        skipped = max(skipped, steps_taken(nav.work, step))
         touched = _contact(nav, world, step * np.arange(tick, tick + skipped + 1, dtype=float))
         tick += skipped
     return ExactDrive(nav, book, tuple(trajectories), tick, touched.time, touched, None)
@@ -117,12 +120,11 @@ def _contact(nav: Navigator, world: World, times: Floats) -> Event | None:
     steps = np.diff(distances, prepend=distances[0])
     for k in np.flatnonzero(gaps <= steps).tolist():
         fine = np.linspace(times[max(k - 1, 0)], times[k], 33)
-        places = np.asarray(nav.path.at_distance(nav.trajectory.distance_at(fine)))
-        depths, nearest = world.nearest(places)
-        inside = np.flatnonzero(depths < radius - TOUCH_DEPTH_M)
-        if inside.size:
-            i = int(inside[0])
-            name = world.name(int(nearest[i]))
-            where = tuple(places[i].tolist())
-            return Event("contact", float(fine[i]), where, f"touches '{name}'", {"name": name})
+        u = np.asarray(nav.path.parameter(nav.trajectory.distance_at(fine)))
+        places, headings = np.asarray(nav.path.evaluate(u)), np.asarray(nav.path.heading(u))
+        rows = np.column_stack((fine, places[:, :2], headings))
+        contact = first_contact(nav.mission.robot, world, rows)
+        if contact is not None:
+            where = tuple(places[int(fine.searchsorted(contact.time))].tolist())
+            return replace(contact, at=where)
     return None

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.curve.certificate import certify
 from viaspline.curve.path import SEAM, Path
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.run import Event, Run
 from viaspline.robot.simulation.exact_drive import ExactDrive
+from viaspline.robot.simulation.machine_run import proven
 from viaspline.robot.simulation.outcome import outcome
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
@@ -42,7 +42,7 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
         reason=reason,
         duration=drive.end,
         path=path,
-        certificate=certify(path, world, robot.clearance_m, radius=robot.outer_radius),
+        certificate=proven(path, world, robot),
         times=times,
         positions=np.asarray(path.evaluate(u)),
         headings=np.asarray(path.heading(u)),

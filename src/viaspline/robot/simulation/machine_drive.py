@@ -28,6 +28,7 @@ from viaspline.robot.logbook import Logbook
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
+from viaspline.robot.simulation.pace import steps_taken
 from viaspline.robot.simulation.sensors import sensors_of
 from viaspline.robot.state import RobotState
 from viaspline.world.world import World
@@ -105,12 +106,16 @@ def drive_machine(
         if time > limit:
             overdue = f"the drive was broken off after {time:.0f} s, its limit"
             break
-        moved = move(
-            model, state, time, step / substeps, controller.given.copy(), faults.driven(substeps),
-        )  # fmt: skip
-        contact = first_contact(nav.mission.robot, world, np.vstack((rows[-1][-1:], moved)))
-        rows.append(moved)
-        tick += 1
+        for _ in range(steps_taken(nav.work, step)):
+            moved = move(
+                model, state, tick * step, step / substeps, controller.given.copy(),
+                faults.driven(substeps),
+            )  # fmt: skip
+            contact = first_contact(nav.mission.robot, world, np.vstack((rows[-1][-1:], moved)))
+            rows.append(moved)
+            tick += 1
+            if contact is not None:
+                break
     track = np.concatenate(rows)
     if contact is not None:
         track = track[track[:, ROW_TIME] <= contact.time + 1e-9]

@@ -8,7 +8,7 @@ that it can reach. What is found is shortened and laid as spans.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,6 +19,7 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL_SHARE
 from viaspline.kernels.turning.hybrid_astar.primitives import MotionPrimitives, primitives_of
 from viaspline.kernels.turning.segment_chain import chain_spans, merged, shortened
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import CHAIN_SEGMENT_S, POSE_S, TREE_S
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
@@ -71,11 +72,19 @@ LEAST_SEARCH_RAMP = 0.08  # of the radius
 
 @dataclass(frozen=True)
 class PoseProblem:
-    """What is asked for, in one window with one effort."""
+    """What is asked for, in one window with one effort.
+
+    Attributes:
+        search_window: Where.
+        moves: What the robot can do.
+        room: States that are kept, at most.
+        spend: Takes off what work costs; see ``Requirements``.
+    """
 
     search_window: SearchWindow
     moves: MotionPrimitives
     room: int
+    spend: Callable[[float], None]
 
     def closed_by(self, barriers: Floats) -> PoseProblem:
         """This problem with segments that the reference point must not cross [m], (b, 4)."""
@@ -86,6 +95,7 @@ class PoseProblem:
     ) -> SearchTree:
         """A search from some poses to the goal."""
         place = np.array([goal.x, goal.y])
+        self.spend(TREE_S)
         return SearchTree(
             self.search_window,
             self.search_window.cache,
@@ -101,6 +111,7 @@ class PoseProblem:
         """A search from the goal to the start, as of a robot that drives backwards."""
         starts = np.zeros((len(headings), 4))
         starts[:, 0], starts[:, 1], starts[:, 2] = goal.x, goal.y, headings + math.pi
+        self.spend(TREE_S)
         place, back = np.array([start.x, start.y]), np.array([start.heading + math.pi])
         return SearchTree(
             self.search_window,
@@ -112,6 +123,12 @@ class PoseProblem:
             self.room,
             SHARE_AFTER_ARRIVAL,
         )
+
+
+def prepare_body(requirements: Requirements) -> None:
+    """Find the discs that cover a body before they are asked for under way: that takes long."""
+    for effort in SEARCH_EFFORTS:
+        Body.of(requirements, effort.overhang)
 
 
 def find_poses(
@@ -174,7 +191,10 @@ def pose_problems(
             (effort.care[0] * rho, effort.care[1] * rho),
         )
         yield PoseProblem(
-            search_window, primitives_of(rho, bent, steps, search_window.pace), effort.room
+            search_window,
+            primitives_of(rho, bent, steps, search_window.pace),
+            effort.room,
+            requirements.spend,
         )
 
 
@@ -191,6 +211,7 @@ def _one_way(problem: PoseProblem, start: Pose, goal: Goal) -> tuple[Chain | Not
     bridge, due = None, FIRST_BRIDGE_STATES
     while bridge is None and not any(tree.is_over for tree in both):
         for tree, other in (both, both[::-1]):
+            problem.spend(POSE_S * tree.quota)
             tree.go_on(other)
         if both[0].expanded >= due and not any(tree.has_arrived for tree in both):
             bridge, due = bridged(*both, BRIDGE_ENDS), 2 * due
@@ -248,6 +269,7 @@ def finished(
     for _ in range(MAX_SHORTCUT_PASSES):
         spacing = max(SHORTCUT_SPACING * rho, float(segments[:, 2].sum()) / MAX_SHORTCUT_STATES)
         segments = merged(segments, rho)
+        problem.spend(CHAIN_SEGMENT_S * len(segments))
         segments = shortened(problem.search_window.cache, begin, goal, segments, rho, ramp, spacing)
         before, length = length, float(segments[:, 2].sum())
         if length > (1.0 - LEAST_PASS_GAIN) * before:

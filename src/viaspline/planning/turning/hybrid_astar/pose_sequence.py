@@ -14,6 +14,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import POSE_S
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     HEADING_SECTORS,
     SEARCH_EFFORTS,
@@ -147,11 +148,13 @@ def _grown(
     """
     back: SearchTree | None = None
     while not tree.is_over:
+        problem.spend(POSE_S * tree.quota)
         tree.go_on()
         if tree.has_arrived or tree.expanded < DOUBT_STATES:
             continue
         if back is None:
             back = problem.backwards(Pose(*start[:3].tolist()), goal, headings)
+        problem.spend(POSE_S * back.quota)
         back.go_on()
         if back.state == EMPTY and problem.search_window.area.is_whole:
             return True, tree.expanded + back.expanded

@@ -102,6 +102,11 @@ class SearchTree:
         """Whether it has come to the goal, or to what another search has found."""
         return bool((self.search.ends >= 0).any() or math.isfinite(self.search.meeting[0]))
 
+    @property
+    def quota(self) -> int:
+        """How many states are looked at next, at most."""
+        return max(int(min(self._slice, self._until - self.expanded)), 0)
+
     def go_on(self, other: SearchTree | None = None, bound: float = math.inf) -> None:
         """Look at some more states.
 
@@ -109,8 +114,7 @@ class SearchTree:
             other: A search that comes the other way.
             bound: Only shorter arrivals count [m].
         """
-        left = self._until - self.expanded
-        quota = int(min(self._slice, left)) if left > 0 else 0
+        quota = self.quota
         self._slice = min(2 * self._slice, SLICE_STATES)
         had = self.has_arrived
         opposite = self._nobody if other is None else other.search

@@ -1,0 +1,80 @@
+"""What a search may spend, counted in work: the same search stops at the same place everywhere.
+
+No clock is read. Work is counted in seconds of a reference machine: every step of a search that
+takes its time says what it costs before it begins, by the sizes of what it is given. A step that
+would cost more than is left isn't begun.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from viaspline.errors import GaveUpError
+
+LAY_S = 2e-3
+"""What every path that is laid costs besides what it is made of [s]."""
+
+ROUTE_S = 5e-4
+"""Of a route between two places [s]."""
+
+CONFLICTS_S, CONFLICTS_SPAN_S, CONFLICTS_BODY_SPAN_S = 3e-5, 1e-6, 7e-6
+"""Of looking for conflicts: in all, for each span, and for each span if a polygon drives [s]."""
+
+PROOF_S, PROOF_SPAN_S, PROOF_BODY_S = 3e-4, 2e-6, 3e-3
+"""Of a certificate: in all, for each span, and more if a polygon drives [s]."""
+
+TURN_PATH_S, TURN_PATH_BEND_S = 5e-5, 2e-5
+"""Of a turn path: in all, and for each bend [s]."""
+
+HEADING_PAIR_BEND_S = 1.7e-5
+"""Of the length of a leg between two headings, for each bend [s]."""
+
+TREE_S, POSE_S = 2e-3, 4e-5
+"""Of a search among poses: to begin one, and for each pose [s]."""
+
+CHAIN_SEGMENT_S = 1e-4
+"""Of the shortcuts of what such a search has found, for each segment [s]."""
+
+
+TIME_LAW_S, JERK_LAW_S = 1e-3, 5e-2
+"""Of a time law, and of one with a limit of the jerk [s]."""
+
+
+class SpentBudgetError(GaveUpError):
+    """A search was stopped because what it might spend was spent."""
+
+
+@dataclass(eq=False)
+class WorkBudget:
+    """What a search may spend, and what it has spent so far.
+
+    It is handed from method to method like a generator of random numbers, and like one it changes.
+
+    Attributes:
+        limit: [s of the reference machine].
+        spent: [s of the reference machine].
+
+    Example:
+        >>> budget = WorkBudget(0.01)
+        >>> budget.spend(PROOF_S)
+        >>> budget.spent
+        0.0003
+    """
+
+    limit: float
+    spent: float = 0.0
+
+    def spend(self, cost: float) -> None:
+        """Take off what the next step costs [s].
+
+        Raises:
+            SpentBudgetError: When less is left; then nothing is taken off.
+        """
+        if self.spent + cost > self.limit:
+            raise SpentBudgetError(
+                "the search was stopped: its time was up",
+                where=(),
+                remedy="give it more time by robot.max_replan_s",
+                tried=(f"what can be tried in {self.limit:.3g} s",),
+            )
+        self.spent += cost

@@ -1,0 +1,103 @@
+"""How long a robot under way may look for a new path before it has to brake.
+
+Tested through ``robot/replanning/test_decide``.
+"""
+
+from __future__ import annotations
+
+from viaspline.robot.navigation.schedule import PendingSearch
+from viaspline.robot.replanning.replan_context import ReplanContext
+
+STEP_WORK_S = 0.1
+"""What one step of a robot under way spends on a search, at most [s of the reference machine]."""
+
+SHARES = (1.0, 0.5, 0.25)
+"""Parts of that which are tried where the robot has to brake before."""
+
+ROOM_RATIO = 2.0
+"""So many required distances are left before what is in the way,"""
+
+SPARE_RATIO = 0.5
+"""and so much of one the place is known to."""
+
+MAX_STANDING_WORK_S = 3.2
+"""What one step of a robot that stands spends, at most; a step spends twice what the one before it
+has spent in vain."""
+
+
+def with_time_to_search(context: ReplanContext) -> ReplanContext:
+    """The robot with what this step may spend on its search, and committed to its path for that.
+
+    It goes on as it meant to while it searches. So it begins with a new path where it is then, and
+    it searches no longer than it can and still stop before what is in its way.
+
+    Args:
+        context: The robot, with what is in its way.
+    """
+    pending = context.schedule.pending
+    if context.speed == 0.0:
+        limit = STEP_WORK_S if pending is None else pending.standing_limit or STEP_WORK_S
+        standing = context.searching(limit)
+        if standing.speed == 0.0:
+            return standing
+    longest = min(STEP_WORK_S, _left(context))
+    for share in SHARES if longest > 0.0 else ():
+        committed = context.searching(share * longest)
+        if committed.is_clear(committed.stop):
+            return committed
+    # who is guided by a lidar may be too close already, and slow: it leaves as soon as it can
+    is_late = context.knowledge.belief is not None and not context.is_clear(context.stop)
+    return context.searching(SHARES[-1] * STEP_WORK_S if is_late else 0.0)
+
+
+def gone_on(context: ReplanContext, begin_with: tuple[int, int]) -> PendingSearch | None:
+    """How a search that was stopped goes on; None if it has spent all that it may, at rest.
+
+    Args:
+        context: The robot that has searched.
+        begin_with: The stage that comes next.
+    """
+    before, obstacles = context.schedule.pending, context.obstruction.world
+    names = context.obstruction.names
+    since = context.progress.time if before is None else before.since
+    if context.speed > 0.0:
+        return PendingSearch(since, obstacles, names, begin_with)
+    budget = context.requirements.budget
+    assert budget is not None
+    if budget.limit >= MAX_STANDING_WORK_S:
+        return None
+    limit = min(2.0 * budget.limit, MAX_STANDING_WORK_S)
+    return PendingSearch(since, obstacles, names, begin_with, limit)
+
+
+def must_brake(context: ReplanContext) -> bool:
+    """Whether the robot has searched for as long as ``max_replan_s`` lets it under way."""
+    return context.speed > 0.0 and _left(context) <= 0.0
+
+
+def last_place(context: ReplanContext) -> float:
+    """How far the robot goes on while it searches [m]: where it stands there is room to turn away.
+
+    Args:
+        context: The robot, that can stop before what is in its way.
+    """
+    low, high = context.stop, context.schedule.looked_at
+    if context.is_clear(high):  # what it passes on a wrong side is not too near
+        high = max(low, context.obstruction.free_until)
+    while high - low > SPARE_RATIO * context.requirements.required:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if context.is_clear(middle) else (low, middle)
+    return max(context.stop, low - ROOM_RATIO * context.requirements.required)
+
+
+def unhurried(context: ReplanContext) -> ReplanContext:
+    """The robot with what a step may spend while nothing is in its way."""
+    return context.searching(STEP_WORK_S)
+
+
+def _left(context: ReplanContext) -> float:
+    """How much longer the robot may search under way [s]."""
+    longest, pending = context.task.mission.robot.max_replan_s, context.schedule.pending
+    if longest is None:
+        return float("inf")
+    return longest if pending is None else longest - (context.progress.time - pending.since)

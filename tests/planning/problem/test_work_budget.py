@@ -1,0 +1,77 @@
+"""A search stops where what it may spend is spent, at the same place every time."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+
+import pytest
+
+from viaspline.errors import GaveUpError
+from viaspline.mission.model import Mission
+from viaspline.planning.plan_drive import find_drive
+from viaspline.planning.problem.method import Found, GaveUp, Outcome, first_settled
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import SpentBudgetError, WorkBudget
+from viaspline.world.world import World
+
+
+def cramped() -> Mission:
+    """Via points too near to each other for the turning circle, which takes many headings."""
+    return Mission.model_validate({
+        "world": {"known": [{"circle": {"center": [6, 1], "radius": 1}}]},
+        "robot": {"radius_m": 0.3, "clearance_m": 0.2, "min_turn_radius_m": 2},
+        "route": {"start": [0, 0], "via": [[9, 0], [9, 1], [8, 3]], "goal": [0, 4]},
+    })  # fmt: skip
+
+
+def spent_by(limit: float) -> tuple[float, bool]:
+    mission, budget = cramped(), WorkBudget(limit)
+    requirements = replace(Requirements.of(mission), budget=budget)
+    try:
+        find_drive(mission, World.known(mission), requirements)
+    except SpentBudgetError:
+        return budget.spent, False
+    return budget.spent, True
+
+
+def test_a_step_that_costs_more_than_is_left_is_not_begun() -> None:
+    budget = WorkBudget(1.0)
+    budget.spend(0.75)
+    with pytest.raises(SpentBudgetError, match="max_replan_s"):
+        budget.spend(0.5)
+    budget.spend(0.25)
+    assert budget.spent == 1.0
+
+
+def test_who_has_spent_his_budget_gave_up_and_has_refused_nothing() -> None:
+    with pytest.raises(GaveUpError):
+        WorkBudget(0.0).spend(1e-6)
+
+
+def test_no_search_spends_more_than_it_may_and_with_enough_it_finds_a_path() -> None:
+    whole, found = spent_by(float("inf"))
+    assert found
+    for part in (0.0, 0.01, 0.1, 0.5, 0.99):
+        spent, _ = spent_by(part * whole)
+        assert spent <= part * whole
+    assert spent_by(whole) == (whole, True)
+
+
+def test_the_same_search_spends_the_same_every_time() -> None:
+    for limit in (0.003, 0.02, float("inf")):
+        assert len({spent_by(limit) for _ in range(2)}) == 1
+
+
+def test_what_was_found_before_the_budget_was_spent_is_kept() -> None:
+    class Long:
+        def lay(self, problem: WorkBudget, bound: float = 0.0) -> Outcome[str]:
+            problem.spend(0.5)
+            return Found("long", 2.0, is_settled=False)
+
+    for many in (1, 2, 3):
+        found = first_settled(list(itertools.repeat(Long(), many)), WorkBudget(0.6))
+        assert not isinstance(found, GaveUp)
+        assert found.value == "long"
+    with pytest.raises(SpentBudgetError):
+        first_settled([Long()], WorkBudget(0.1))

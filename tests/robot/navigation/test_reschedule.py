@@ -1,0 +1,84 @@
+"""A trajectory is found anew only when it is due, and what is driven keeps the jerk throughout."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+from viaspline.mission.model import Mission
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.perception.lidar import LidarSensor
+from viaspline.robot.perception.range_sensor import RangeSensor
+
+Make = Callable[..., Mission]
+Shape = Callable[..., dict[str, Any]]
+STEP, JERK = 0.05, 1.5
+
+
+def drive(mission: Mission, until: float = 90.0) -> list[Navigator]:
+    """The navigator after every step of a robot that follows exactly."""
+    spec, things = mission.robot.sensor, (*mission.world.known, *mission.world.unseen)
+    assert spec is not None
+    lidar = None if spec.lidar is None else LidarSensor(things, spec.lidar)
+    sensor = RangeSensor(mission.world.unseen, spec.reach)
+    nav, navs = Navigator(mission), []
+    for tick in range(round(until / STEP)):
+        state = nav.reference(tick * STEP)
+        seen: Any = sensor.seen(state.position)
+        if lidar is not None:
+            seen = lidar.scan(state.position, state.heading, tick)
+        _, nav = nav.step(state, seen, tick * STEP)
+        navs.append(nav)
+        if nav.finished:
+            break
+    return navs
+
+
+def driven(navs: list[Navigator]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Times, speeds and accelerations that were driven, and where the jerk is said to be kept."""
+    fine = np.arange(0.0, STEP - 1e-9, STEP / 10)
+    times = np.concatenate([k * STEP + fine for k in range(len(navs))])
+    states = [nav.trajectory.state_at(k * STEP + fine) for k, nav in enumerate(navs)]
+    speeds, accels = (np.concatenate([state[i] for state in states]) for i in (1, 2))
+    places = np.concatenate([state[0] for state in states])
+    harsh = [nav.trajectory.over_jerk_until or 0.0 for nav in navs]
+    return times, speeds, accels, places > np.repeat(harsh, len(fine))
+
+
+@pytest.mark.parametrize("sensor", [{"range_m": 9}, {"lidar": {"range_m": 9}}])
+def test_the_driven_acceleration_changes_no_faster_than_the_jerk_limit(
+    mission_of: Make, disc_at: Shape, sensor: dict[str, Any]
+) -> None:
+    mission = mission_of(
+        [0, 0], [22, 4], [40, 0], unseen=[disc_at(14, 2.6, 1), disc_at(30, 2, 0.8)],
+        sensor=sensor, max_jerk_mps3=JERK, max_lateral_accel_mps2=0.8,
+    )  # fmt: skip
+    navs = drive(mission)
+    assert navs[-1].reached, navs[-1].reason
+    assert any(nav.replans for nav in navs)
+    times, speeds, accels, kept = driven(navs)
+    jerks = np.diff(accels) / np.diff(times)
+    kept = kept[1:] & kept[:-1]
+    assert kept.mean() > 0.6
+    assert np.abs(jerks[kept]).max() <= JERK * 1.001
+    found = np.diff(speeds) / np.diff(times)
+    np.testing.assert_allclose(found[kept], accels[:-1][kept], atol=0.02)
+
+
+def test_nothing_is_solved_where_nothing_new_was_seen(mission_of: Make) -> None:
+    navs = drive(mission_of([0, 0], [30, 0], max_jerk_mps3=JERK))
+    assert navs[-1].reached
+    laws = {id(nav.trajectory) for nav in navs}
+    assert len(laws) == 1
+
+
+def test_with_a_lidar_a_law_that_will_do_is_kept_for_a_while(mission_of: Make) -> None:
+    sensor = {"lidar": {"range_m": 8}}
+    navs = drive(mission_of([0, 0], [25, 0], sensor=sensor, max_jerk_mps3=JERK))
+    assert navs[-1].reached
+    changed = sum(a.trajectory is not b.trajectory for a, b in pairwise(navs))
+    assert changed <= len(navs) * STEP / 0.5 + 5

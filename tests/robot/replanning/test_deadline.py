@@ -1,0 +1,116 @@
+"""A step is bounded: what it hasn't time for goes on in later steps, while the robot brakes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+from viaspline.mission.model import Mission
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.replanning import deadline
+from viaspline.robot.replanning.deadline import MAX_STANDING_WORK_S, STEP_WORK_S
+from viaspline.robot.simulator import simulate
+
+Make = Callable[..., Mission]
+Shape = Callable[..., dict[str, Any]]
+STEP = 0.05
+
+
+def steps_of(mission: Mission, until: float = 60.0) -> list[Navigator]:
+    """The navigator after every step of a drive that is followed exactly."""
+    seen = mission.world.unseen
+    assert mission.robot.sensor is not None
+    nav, navs = Navigator(mission), []
+    for time in np.arange(0.0, until, STEP):
+        state = nav.reference(time)
+        near = [
+            rock
+            for rock in seen
+            if rock.circle is not None
+            and np.hypot(*(np.array(rock.circle.center) - state.position))
+            <= rock.circle.radius + mission.robot.sensor.reach
+        ]
+        _, nav = nav.step(state, near, float(time))
+        navs.append(nav)
+        if nav.finished:
+            break
+    return navs
+
+
+def cramped(mission_of: Make, disc_at: Shape, **robot: Any) -> Mission:
+    """Turns that have to be looked for long, and something new in the way of them."""
+    return mission_of(
+        [0, 0], [20, 0], [22, 1], [22, 4], [0, 8],
+        unseen=[disc_at(11, 0.0, 1.5, "rock")], min_turn_radius_m=2.5, sensor={"range_m": 6},
+        **robot,
+    )  # fmt: skip
+
+
+def test_no_step_under_way_spends_more_than_it_may(mission_of: Make, disc_at: Shape) -> None:
+    navs = steps_of(cramped(mission_of, disc_at))
+    assert navs[-1].reached
+    assert 0.0 < max(nav.work for nav in navs) <= MAX_STANDING_WORK_S
+    for k, (before, nav) in enumerate(pairwise(navs)):
+        if before.trajectory.state_at((k + 1) * STEP)[1] > 0.0:
+            assert nav.work <= STEP_WORK_S
+
+
+def test_the_robot_goes_on_as_it_meant_to_while_a_new_path_is_sought(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    mission = mission_of([0, 0], [50, 0], unseen=[disc_at(25, 0.3, 2, "rock")])
+    navs = steps_of(mission)
+    for before, nav in pairwise(navs):
+        if nav.replans and not before.replans:
+            begin = nav.replans[0].time
+            times = begin + np.linspace(0.0, nav.work, 9)
+            old, new = before.trajectory.state_at(times), nav.trajectory.state_at(times)
+            np.testing.assert_allclose(new[0], old[0], atol=1e-9)
+            np.testing.assert_allclose(new[1], old[1], atol=1e-9)
+            assert nav.replans[0].changed_from >= old[0][-1]
+            assert nav.replans[0].work == nav.work > 0.0
+            return
+    pytest.fail("no new path was laid")
+
+
+def test_a_search_without_time_stops_the_robot_where_it_is_clear_and_then_finds_a_path(
+    mission_of: Make, disc_at: Shape, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(deadline, "STEP_WORK_S", 1e-3)
+    mission = mission_of([0, 0], [50, 0], unseen=[disc_at(25, 0.3, 2, "rock")])
+    run = simulate(mission)
+    assert run.reached, run.reason
+    assert run.certificate.holds
+    assert "braked" in [event.kind for event in run.events]
+    assert run.speeds[(run.times > 5.0) & (run.times < run.times[-1] - 5.0)].min() == 0.0
+
+
+def test_a_robot_brakes_when_its_time_to_search_is_up(
+    mission_of: Make, disc_at: Shape, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(deadline, "STEP_WORK_S", 1e-3)
+    places = []
+    for longest in (None, 0.3):
+        mission = mission_of(
+            [0, 0], [20, 0], [50, 0], unseen=[disc_at(35, 0.3, 2, "rock")],
+            sensor={"range_m": 25}, max_replan_s=longest,
+        )  # fmt: skip
+        run = simulate(mission)
+        assert run.reached, run.reason
+        stood = run.positions[(run.speeds < 1e-6) & (run.times > 3.0)]
+        places.append(float(stood[0, 0]))
+    late, early = places
+    assert early < late
+
+
+def test_the_world_goes_on_while_a_robot_thinks(mission_of: Make, disc_at: Shape) -> None:
+    mission = cramped(mission_of, disc_at)
+    first, second = simulate(mission), simulate(mission)
+    assert first.reached
+    assert first.certificate.holds
+    assert [replan.work for replan in first.replans] == [replan.work for replan in second.replans]
+    assert first.positions.tobytes() == second.positions.tobytes()

@@ -1,0 +1,66 @@
+"""The time law of a part of a path is that of the part, wherever on the path it lies."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from viaspline.curve.cardinal import CardinalSpline
+from viaspline.curve.path import Path
+from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.part import retime_part
+from viaspline.trajectory.retime import retime
+
+LIMITS = Limits(max_speed=2.0, max_accel=1.0, max_lateral_accel=0.5, max_jerk=2.0)
+
+
+def bent() -> Path:
+    points = [[0, 0], [6, 3], [12, -2], [20, 4], [26, 0], [34, 5]]
+    return Path(CardinalSpline(points).spans, vias=[])
+
+
+def test_a_part_that_is_the_whole_is_timed_as_the_whole() -> None:
+    path = bent()
+    whole, part = retime(path, LIMITS), retime_part(path, 0.0, path.length, LIMITS)
+    assert part.duration == pytest.approx(whole.duration, rel=1e-4)
+    assert part.distances[-1] == path.length
+
+
+@settings(max_examples=6, deadline=None)
+@given(start=st.floats(0.0, 20.0), length=st.floats(0.5, 12.0))
+def test_a_part_begins_and_ends_where_it_is_asked_to(start: float, length: float) -> None:
+    path = bent()
+    end = min(start + length, path.length)
+    law = retime_part(path, start, end, LIMITS, start_time=3.0)
+    assert law.distances[0] == start
+    assert law.distances[-1] == pytest.approx(end, abs=1e-9)
+    assert law.distances[-1] <= end
+    assert law.speeds[[0, -1]].tolist() == [0.0, 0.0]
+    assert law.start_time == 3.0
+
+
+def test_stations_stay_at_their_places_along_the_path() -> None:
+    stops = [Station(10.0, 2.0, "pump"), Station(30.0, 1.0, "beyond")]
+    law = retime_part(bent(), 6.0, 18.0, LIMITS, stops)
+    assert [(stop.distance, stop.name) for stop in law.stations] == [(10.0, "pump")]
+    assert law.speed_at(10.0) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_time_law_goes_on_as_another_where_that_takes_over() -> None:
+    path = bent()
+    old = retime(path, LIMITS)
+    for begin in (0.4, 3.0, 7.7):
+        cut = old.cut_after(begin)
+        distance, speed, accel = (float(x) for x in old.state_at(cut))
+        new = retime_part(
+            path, distance, distance + 8.0, LIMITS, start_speed=speed, start_accel=accel,
+            start_time=cut, replaces=old,
+        )  # fmt: skip
+        both = old.followed_by(new, since=cut - 0.3)
+        before, after = np.linspace(cut - 0.3, cut, 50), np.linspace(cut, new.end_time, 50)
+        for law, times in ((old, before), (new, after)):
+            for found, true in zip(both.state_at(times)[:2], law.state_at(times)[:2], strict=True):
+                np.testing.assert_allclose(found, true, atol=1e-9)
+        assert (np.diff(both.times) >= 0.0).all()
