@@ -151,28 +151,32 @@ def test_no_path_is_explained_and_leaves_no_folder(tmp_path: Path) -> None:
 def test_a_search_that_gave_up_is_no_refusal(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """With a budget for one gap of a lattice, of many that look alike."""
-    slots = [4 + 9 * k for k in range(11)]
-    ends = [0.0, *(y + d for y in slots for d in (-0.9995, 0.9995)), 100.0]
-    rings = [
-        [[49, low], [51, low], [51, high], [49, high]]
-        for low, high in zip(ends[::2], ends[1::2], strict=True)
-    ]
-    file = tmp_path / "slots.json.yaml"
-    file.write_text(json.dumps({
-        "world": {"bounds": [0, 0, 100, 100], "known": [{"polygon": ring} for ring in rings]},
-        "robot": {"radius_m": 1.0, "clearance_m": 0.0},
-        "route": {"start": [10, 50], "goal": [90, 50]},
-    }))  # fmt: skip
-    refused = call("plan", file, "--out", tmp_path / "out")
+    """A wall with slots: too narrow, that is proven; wide enough, a budget of nothing gives up."""
+
+    def asked(half: float) -> Path:
+        slots = [4 + 9 * k for k in range(11)]
+        ends = [0.0, *(y + d for y in slots for d in (-half, half)), 100.0]
+        rings = [
+            [[49, low], [51, low], [51, high], [49, high]]
+            for low, high in zip(ends[::2], ends[1::2], strict=True)
+        ]
+        file = tmp_path / "slots.json.yaml"
+        file.write_text(json.dumps({
+            "world": {"bounds": [0, 0, 100, 100], "known": [{"polygon": ring} for ring in rings]},
+            "robot": {"radius_m": 1.0, "clearance_m": 0.0},
+            "route": {"start": [10, 50], "goal": [90, 50]},
+        }))  # fmt: skip
+        return file
+
+    refused = call("plan", asked(0.9995), "--out", tmp_path / "out")
     assert refused.exit_code == 3
     assert "there is no such path: " in refused.stderr
     from viaspline.planning.routing import router
     from viaspline.planning.routing.lattice_route import LatticeRoute
 
-    slight = partial(router.Router, methods=(LatticeRoute(max_gaps=1),))
+    slight = partial(router.Router, methods=(LatticeRoute(max_gaps=0),))
     monkeypatch.setattr("viaspline.planning.routing.path_problem.Router", slight)
-    result = call("plan", file, "--out", tmp_path / "out")
+    result = call("plan", asked(1.01), "--out", tmp_path / "out")
     assert result.exit_code == 5
     assert "gave up: no way from 'start' to 'goal' was found" in result.stderr
     assert "\n  where:  (" in result.stderr

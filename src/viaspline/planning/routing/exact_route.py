@@ -52,7 +52,8 @@ class ExactRoute:
         taut_path = TautPath.through(corners)
         if not taut_path.length <= (1.0 - self.least_gain) * bound:
             return GaveUp((f"a route of {taut_path.length:.3f} m, which is not shorter",))
-        return Found(taut_path, taut_path.length, _is_surely_shortest(problem))
+        is_settled = len(taut_path.bends) > 0 and _is_surely_shortest(problem)
+        return Found(taut_path, taut_path.length, is_settled)
 
     def _gave_up(self, problem: RouteProblem) -> GaveUp:
         met = problem.active_count
