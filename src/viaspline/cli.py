@@ -108,8 +108,15 @@ QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all g
 @click.option(
     "--animate", type=click.Path(path_type=Path), metavar="FILE", help="A .gif or .mp4 of the run."
 )
+@click.option(
+    "--real-time",
+    is_flag=True,
+    help="Let re-plans take what they take here, by the clock: no two runs are the same then.",
+)
 @QUIET
-def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet: bool) -> None:
+def run(
+    mission: Path, out: Path | None, seed: int, animate: Path | None, real_time: bool, quiet: bool
+) -> None:
     r"""Plan a mission, drive it and report: the main job.
 
     Writes plan.json, path.csv, plan.png, run.json, run.csv, run.png and timing.json.
@@ -126,9 +133,11 @@ def run(mission: Path, out: Path | None, seed: int, animate: Path | None, quiet:
     ):
         plan = _plan(asked, watch)
         with watch.stage("simulate", "driving"):
+            from viaspline.robot.simulation.pace import by_clock, by_work
             from viaspline.robot.simulator import simulate
 
-            done = simulate(plan.mission, seed=seed, progress=watch.driven, plan=plan)
+            pace = by_clock if real_time else by_work
+            done = simulate(plan.mission, seed=seed, progress=watch.driven, plan=plan, pace=pace)
         with watch.stage("report", "drawing and writing"):
             from viaspline.report import results
 

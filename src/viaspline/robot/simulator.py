@@ -14,6 +14,7 @@ from viaspline.robot.simulation.exact_drive import drive_exactly
 from viaspline.robot.simulation.exact_run import run_of_exact
 from viaspline.robot.simulation.machine_drive import drive_machine
 from viaspline.robot.simulation.machine_run import run_of_machine
+from viaspline.robot.simulation.pace import Pace, by_work
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.world.world import World
 
@@ -33,6 +34,7 @@ def simulate(
     step: float = 0.05,
     progress: ProgressCallback | None = None,
     plan: Plan | None = None,
+    pace: Pace = by_work,
 ) -> Run:
     """Drive a mission in the world as it is, with what is not on the map.
 
@@ -50,6 +52,8 @@ def simulate(
         step: Time between two looks of the sensor [s].
         progress: Called with the time [s], the distance driven and the length of the path [m].
         plan: The mission's plan, if there is one already.
+        pace: How much of the world's time passes while the robot searches for a new path:
+            ``by_work``, the same on every machine, or ``by_clock``, what it takes here.
 
     Returns:
         What was driven, whether the robot reached its goal or not: see ``Run.reached``.
@@ -82,5 +86,5 @@ def simulate(
             progress(time, nav.driven + nav.distance, length)
 
     if nav.controller is None:
-        return run_of_exact(drive_exactly(nav, world, step, seed, tell, limit), world, step)
-    return run_of_machine(drive_machine(nav, world, step, seed, tell, limit), world, step)
+        return run_of_exact(drive_exactly(nav, world, step, seed, tell, limit, pace), world, step)
+    return run_of_machine(drive_machine(nav, world, step, seed, tell, limit, pace), world, step)

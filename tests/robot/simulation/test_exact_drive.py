@@ -11,8 +11,10 @@ from viaspline.mission.model import Mission
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot import simulator
+from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Run
 from viaspline.robot.simulation import exact_drive
+from viaspline.robot.simulation.pace import by_clock
 from viaspline.robot.simulator import simulate
 
 Make = Callable[..., Mission]
@@ -69,3 +71,39 @@ def test_a_long_body_touches_what_its_outline_touches_and_not_its_outer_disc(
     run = simulate(mission)
     assert run.reached, run.reason
     assert 0.1 <= run.certificate.clearance < 0.4
+
+
+def test_a_robot_that_thinks_for_long_goes_on_by_its_old_path_meanwhile(mission_of: Make) -> None:
+    """Two rocks: the second comes in sight while the robot still searches a way round the first."""
+    rocks = [Circle(center=(x, 0.5), radius=1.5) for x in (30, 36)]
+    world = {"unseen": tuple(Obstacle(circle=rock) for rock in rocks)}
+    mission = mission_of([0, 0], [60, 0])
+    mission = mission.model_copy(update={"world": mission.world.model_copy(update=world)})
+    at_once = simulate(mission, pace=lambda nav: 0.0)
+    slowly = simulate(mission, pace=lambda nav: 1.0 if nav.compute_times else 0.0)
+    for run in (at_once, slowly):
+        assert run.reached
+        assert run.certificate.holds
+    seen = [
+        [event.time for event in run.events if event.kind == "detected"]
+        for run in (at_once, slowly)
+    ]
+    assert seen[1][1] >= seen[0][1]
+    assert seen[1][1] - seen[1][0] >= 1.0 - 1e-9
+
+
+def test_by_the_clock_a_search_takes_what_it_took(mission_of: Make) -> None:
+    rock = Obstacle(circle=Circle(center=(25, 0), radius=3))
+    mission = mission_of([0, 0], [50, 0])
+    world = mission.world.model_copy(update={"unseen": (rock,)})
+    told: list[float] = []
+
+    def pace(nav: Navigator) -> float:
+        told.append(by_clock(nav))
+        assert told[-1] == sum(nav.compute_times)
+        return told[-1]
+
+    run = simulate(mission.model_copy(update={"world": world}), pace=pace)
+    assert run.reached
+    assert sum(told) == pytest.approx(sum(run.compute_times))
+    assert max(told) > 0.0

@@ -14,7 +14,7 @@ from viaspline.robot.perception.range_sensor import RangeSensor
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
 from viaspline.robot.simulation.machine_drive import Tell
-from viaspline.robot.simulation.pace import steps_taken
+from viaspline.robot.simulation.pace import Pace, by_work, steps_taken
 from viaspline.robot.simulation.sensors import sensors_of
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
@@ -48,7 +48,13 @@ class ExactDrive:
 
 
 def drive_exactly(
-    nav: Navigator, world: World, step: float, seed: int, tell: Tell, limit: float
+    nav: Navigator,
+    world: World,
+    step: float,
+    seed: int,
+    tell: Tell,
+    limit: float,
+    pace: Pace = by_work,
 ) -> ExactDrive:
     """Drive until the navigator has finished; the robot is always where it should be.
 
@@ -59,6 +65,7 @@ def drive_exactly(
         seed: Of the lidar's noise.
         tell: Called with the time and the navigator at every step that is not left out.
         limit: The drive is broken off at this time [s].
+        pace: How long a search keeps the robot from looking again.
     """
     lidar, sensor = sensors_of(nav.mission, world, seed)
     book, last = Logbook(), None
@@ -88,7 +95,7 @@ def drive_exactly(
             return ExactDrive(nav, book, tuple(trajectories), tick, time, None, reason)
         steady = lidar is None and not nav.searches
         skipped = _quiet(nav, sensor, known, tick, step) if steady else 1
-        skipped = max(skipped, steps_taken(nav.work, step))
+        skipped = max(skipped, steps_taken(pace(nav), step))
         touched = _contact(nav, world, step * np.arange(tick, tick + skipped + 1, dtype=float))
         tick += skipped
     return ExactDrive(nav, book, tuple(trajectories), tick, touched.time, touched, None)

@@ -28,7 +28,7 @@ from viaspline.robot.logbook import Logbook
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
-from viaspline.robot.simulation.pace import steps_taken
+from viaspline.robot.simulation.pace import Pace, by_work, steps_taken
 from viaspline.robot.simulation.sensors import sensors_of
 from viaspline.robot.state import RobotState
 from viaspline.world.world import World
@@ -66,7 +66,13 @@ class MachineDrive:
 
 
 def drive_machine(
-    nav: Navigator, world: World, step: float, seed: int, tell: Tell, limit: float
+    nav: Navigator,
+    world: World,
+    step: float,
+    seed: int,
+    tell: Tell,
+    limit: float,
+    pace: Pace = by_work,
 ) -> MachineDrive:
     """Drive until the navigator has finished and the robot stands.
 
@@ -77,6 +83,7 @@ def drive_machine(
         seed: Of the noise of the drive, of the localisation and of a lidar.
         tell: Called with the time and the navigator at every step.
         limit: The drive is broken off at this time [s].
+        pace: How long a search keeps the robot from looking again.
     """
     controller = nav.controller
     assert controller is not None
@@ -106,7 +113,7 @@ def drive_machine(
         if time > limit:
             overdue = f"the drive was broken off after {time:.0f} s, its limit"
             break
-        for _ in range(steps_taken(nav.work, step)):
+        for _ in range(steps_taken(pace(nav), step)):
             moved = move(
                 model, state, tick * step, step / substeps, controller.given.copy(),
                 faults.driven(substeps),
