@@ -121,3 +121,22 @@ def test_maps_keep_their_place_when_a_mission_is_saved_elsewhere(
         saved = client.ask("save", "saved", name="sub/b.yaml")
         assert saved["document"]["world"]["known"][0]["map"] == "../m.map"
         assert client.edit([["route", "start"], [2, 3]])["ok"]
+
+
+def test_two_pages_on_one_mission_plan_each_their_own_and_lose_nothing(
+    start: START, patrol: Path
+) -> None:
+    studio = start(patrol)
+    with studio.client() as one, studio.client() as other:
+        places = {"one": [92, 331], "other": [95, 320]}
+        for client, place in zip((one, other), places.values(), strict=True):
+            client.send(type="edit", rev=1, changes=[[["route", "via", 0], place]])
+        drawn = [client.hear("planned")["spans"] for client in (one, other)]
+        assert [row[6:8] for row in drawn] == list(places.values())
+        assert one.ask("save", "saved", name=patrol.name)["name"] == patrol.name
+        asked = other.ask("save", "exists", name=patrol.name)
+        assert asked["lost"] == ["what was saved there since it was opened here"]
+        assert "[92, 331]" in patrol.read_text()
+        assert other.ask("save", "saved", name=patrol.name, replace=True)["name"] == patrol.name
+        assert "[95, 320]" in patrol.read_text()
+        assert other.ask("save", "saved", name=patrol.name)["name"] == patrol.name

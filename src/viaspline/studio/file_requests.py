@@ -67,13 +67,15 @@ async def save(
     path = current.folder.to_save(name)
     if not is_yaml(path):
         return await _save_waypoints(current, message, path, planned)
-    if path.exists() and name != current.name and message.get("replace") is not True:
-        return {"type": "exists", "name": name}
+    if path.exists() and message.get("replace") is not True:
+        lost = current.would_lose(name, path)
+        if lost or name != current.name:
+            return {"type": "exists", "name": name, "lost": lost}
     old = _text_of(path) if path.exists() else None
     if path.parent != current.base:
         current.document = _moved(current.document, current.base, path.parent)
     current.folder.save(path, yaml_round_trip.text_of(current.document, old))
-    current.name = name
+    current.saved_as(name)
     return _saved(name, current.document, (), current)
 
 
@@ -86,7 +88,7 @@ async def _save_waypoints(
     """Save a file that may not hold the whole mission; then it is a copy of a part of it."""
     name, document, before = text_of(message, "name"), current.document, current.name
     origin = origin_from(text_of(message, "origin", "")) or current.origin
-    there = _not_understood(path) if path.exists() else ()
+    there = (*_not_understood(path), *current.would_lose(name, path)) if path.exists() else ()
     if path.exists() and (name != current.name or there) and message.get("replace") is not True:
         return {"type": "exists", "name": name, "lost": there}
     mission = (await planned()).mission
@@ -98,7 +100,8 @@ async def _save_waypoints(
     current.folder.save(path, text)
     if current.name == before:  # nothing else was opened meanwhile
         current.origin = origin
-        current.name = before if lost else name
+        if not lost:
+            current.saved_as(name)
     return {**_saved(name, document, lost, current), "origin": origin}
 
 

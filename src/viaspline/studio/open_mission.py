@@ -5,9 +5,11 @@ Tested through ``studio/test_server_files``.
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from viaspline.bounded_file import MISSION_FILE, read_bytes
 from viaspline.formats.items import LatLon
 from viaspline.studio.document import EMPTY_DOCUMENT, Document
 from viaspline.studio.folder import Folder
@@ -23,12 +25,14 @@ class OpenMission:
         name: The name of its file from the folder, or None for a new mission.
         document: As it is on the screen.
         origin: Latitude and longitude of its 0, 0 [deg], if they are known.
+        digest: Of what its file held when it was opened or saved here; None where there is none.
     """
 
     folder: Folder
     name: str | None = None
     document: Document = field(default_factory=lambda: EMPTY_DOCUMENT)
     origin: LatLon | None = None
+    digest: str | None = None
 
     @property
     def base(self) -> Path:
@@ -46,8 +50,28 @@ class OpenMission:
         """
         found = opened(self.folder.to_open(name))
         self.document, self.name, self.origin = found.document, name, found.origin
+        self.digest = _digest(self.folder.to_open(name))
         return found.warnings
+
+    def saved_as(self, name: str) -> None:
+        """Note that the document has just been written to a file."""
+        self.name, self.digest = name, _digest(self.folder.to_open(name))
+
+    def would_lose(self, name: str, path: Path) -> tuple[str, ...]:
+        """What saving to a file that is there would drop, if it is the mission's own.
+
+        Somebody else may have saved it meanwhile: another page, or an editor.
+        """
+        if name != self.name or self.digest is None or _digest(path) == self.digest:
+            return ()
+        return ("what was saved there since it was opened here",)
 
     def clear(self) -> None:
         """Begin a new mission."""
         self.document, self.name, self.origin = EMPTY_DOCUMENT, None, None
+        self.digest = None
+
+
+def _digest(path: Path) -> str:
+    """Of a file's content."""
+    return hashlib.sha256(read_bytes(path, MISSION_FILE)).hexdigest()
