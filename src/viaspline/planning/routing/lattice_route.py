@@ -101,6 +101,8 @@ class LatticeRoute:
             narrow = narrow_places(space.world.packed, guide, space.floor)
             if stuck[0, 4] < 0.0 and _is_too_narrow(space, stuck[:, :4]):
                 narrow = np.vstack((narrow, stuck[:, :4]))
+            if len(closed) == begun:
+                narrow = np.vstack((narrow, space.narrow_disc_gaps))
             if not len(narrow):
                 break
             closed = np.vstack((closed, narrow))

@@ -27,6 +27,7 @@ from viaspline.world.world import World
 TURN_MARGINS_M = (1e-3, 1e-4, -0.25 * PROOF_SLACK_M)
 TURN_STEPS_RAD = (np.pi / 6, np.pi / 32, np.pi / 200)  # largest turn at one corner
 NO_BARRIERS = np.empty((0, 4))
+MAX_DISC_PAIRS = 200_000  # near enough to each other that their gaps are looked at all at once
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,30 @@ class SearchSpace:
     def lattice(self) -> Lattice:
         """The coarsest lattice."""
         return next(self._all_lattices())
+
+    @cached_property
+    def narrow_disc_gaps(self) -> Floats:
+        """Segments between discs with too little room between them, (n, 4) [m].
+
+        What a lidar sees is hundreds of discs: closed one by one, their gaps take a search each.
+        """
+        from scipy.spatial import cKDTree
+
+        rings = [obstacle.ring for obstacle in self.world.obstacles]
+        discs = [
+            (*ring.vertices[0], ring.radius) for ring in rings if ring is not None and ring.is_disc
+        ]
+        if len(discs) < 2:
+            return NO_BARRIERS
+        table = np.array(discs)
+        tree, reach = cKDTree(table[:, :2]), 2.0 * (self.floor + float(table[:, 2].max()))
+        if tree.count_neighbors(tree, reach) > MAX_DISC_PAIRS:
+            return NO_BARRIERS
+        first, second = tree.query_pairs(reach, output_type="ndarray").T
+        a, b = table[first], table[second]
+        gaps = np.hypot(*(b - a)[:, :2].T) - a[:, 2] - b[:, 2]
+        ends: Floats = np.hstack((a[:, :2], b[:, :2]))[gaps < 2.0 * self.floor]
+        return ends
 
     def ever_finer(self) -> Iterator[Lattice]:
         """The lattices of this space, the coarsest first."""
