@@ -3,7 +3,6 @@ import re
 import pytest
 
 from viaspline.mission.annotations import Unit
-from viaspline.mission.json_schema import documentation
 from viaspline.mission.key_places import (
     Model,
     is_union,
@@ -13,6 +12,7 @@ from viaspline.mission.key_places import (
     options_at,
     path_of_error,
 )
+from viaspline.mission.key_rules import documentation
 from viaspline.mission.mission_parts import MissionParts
 
 MODELS = [model for _, model in models_below(MissionParts)]

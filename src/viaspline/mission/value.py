@@ -8,33 +8,18 @@ Tested through ``mission/test_model``.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
+
+from viaspline.mission.key_rules import KeyRules, describe_keys
 
 if TYPE_CHECKING:
     from typing import Self
 
     from pydantic import GetJsonSchemaHandler
     from typing_extensions import Unpack
-
-
-class KeyRules(TypedDict, total=False):
-    """What a class says of its keys together, as keywords of the class; all may be left out.
-
-    Attributes:
-        expected: What would be right where the class is asked for, in words; by default a mapping
-            with its keys.
-        exactly_one: Keys of which exactly one has to be given.
-        excluding: Pairs of keys of which one at most may be given.
-        needing: Keys that make sense beside another only.
-    """
-
-    expected: str
-    exactly_one: tuple[str, ...]
-    excluding: tuple[tuple[str, str], ...]
-    needing: tuple[tuple[str, str], ...]
 
 
 class Value(BaseModel):
@@ -61,10 +46,8 @@ class Value(BaseModel):
         cls, core_schema: Any, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
         """The schema with what the class says of its keys."""
-        from viaspline.mission.json_schema import describe_keys
-
         schema = handler(core_schema)
-        describe_keys(cls, handler.resolve_ref_schema(schema))
+        describe_keys(cls, cls.key_rules, handler.resolve_ref_schema(schema))
         return schema
 
 
