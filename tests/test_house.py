@@ -5,6 +5,7 @@ import re
 from collections import defaultdict
 from pathlib import Path
 
+import grimp
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -80,3 +81,14 @@ def test_commands_of_the_documentation_name_files_that_exist() -> None:
         for name in re.findall(r"`((?:[\w-]+/)+[\w-]+\.(?:py|md|yaml))`", page.read_text()):
             places = (ROOT / name, SOURCE / name, ROOT / "src" / name)
             assert any(place.exists() for place in places), f"{page.name} names {name}"
+
+
+def test_no_files_import_each_other_in_a_circle() -> None:
+    """Imports inside functions count, too."""
+    graph = grimp.build_graph("viaspline")
+    imports = {name: graph.find_modules_directly_imported_by(name) for name in graph.modules}
+    while free := [name for name, needed in imports.items() if not needed & imports.keys()]:
+        for name in free:
+            del imports[name]
+    circle = {name: needed & imports.keys() for name, needed in imports.items()}
+    assert not circle
