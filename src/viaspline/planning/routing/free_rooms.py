@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import label
 
 from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.world.rasterize import rasterized
@@ -48,6 +47,8 @@ class FreeRooms:
     @classmethod
     def of(cls, world: World, required: float, places: Floats, cells: int) -> FreeRooms:
         """Those of a world about some places (n, 2) [m], on a lattice of so many cells."""
+        from scipy.ndimage import label
+
         x0, y0, x1, y1 = _box(world, required, places)
         side = math.sqrt((x1 - x0) * (y1 - y0) / cells)
         shape = math.ceil((y1 - y0) / side), math.ceil((x1 - x0) / side)

@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
 
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.maps.grid import Grid
@@ -145,6 +144,8 @@ def _gaps_in(
     nodes: Flags, part: tuple[slice, slice, slice, slice], reach: float
 ) -> tuple[Ints, Ints, Floats]:
     """Nodes at both ends of gaps (k, 2), row and column, and the widths in cells (k,)."""
+    from scipy.ndimage import distance_transform_edt
+
     blocked = nodes[part[:2]]
     nothing = np.empty((0, 2), np.int64)
     if not blocked.any() or blocked.all():
