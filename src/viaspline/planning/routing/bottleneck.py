@@ -13,7 +13,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse.csgraph import breadth_first_order
 
 from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.routing.odd_cycle import first_odd_cycle
@@ -97,6 +96,7 @@ def _crossings(graph: GapGraph, start: Floats, goal: Floats) -> Bytes:
 def _odd_ring(links: GapLinks, odd: Bytes, count: int, piece: int) -> Ints:
     """The pieces of the shortest odd cycle of links through one of ``count`` pieces, in order."""
     from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import breadth_first_order
 
     a, b = links.pairs.T
     crossed = count * odd.astype(np.int64)  # pieces a second time, where crossings were odd
