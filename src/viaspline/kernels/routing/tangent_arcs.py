@@ -30,7 +30,7 @@ BEND_X, BEND_Y, BEND_RADIUS, SIDE, HEADING_IN, TURN = range(6)
 
 
 @inner
-def _nearest_turn(angle: float, about: float) -> float:
+def nearest_turn(angle: float, about: float) -> float:
     """The angle plus whole turns that is nearest to ``about``: a route may wrap far round."""
     return angle - 2 * math.pi * math.floor((angle - about + math.pi) / (2 * math.pi))
 
@@ -100,7 +100,7 @@ def bends_of(route: Floats) -> Floats:
                 return bends[:0]
         for k in range(1, count - 1):
             turn = bends[k, SIDE] * (bends[k + 1, HEADING_IN] - bends[k, HEADING_IN])
-            turn = _nearest_turn(turn, bends[k, TURN])
+            turn = nearest_turn(turn, bends[k, TURN])
             if turn < 0.0:
                 for row in range(k, count - 1):
                     for column in range(6):

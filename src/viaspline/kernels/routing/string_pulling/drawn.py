@@ -17,7 +17,11 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.growable import new_floats
 from viaspline.kernels.jit import fused, inlined, inner
 from viaspline.kernels.routing.string_pulling.features import features_near
-from viaspline.kernels.routing.string_pulling.string_conflicts import SAME_DISTANCE_M, arc_conflict
+from viaspline.kernels.routing.string_pulling.string_conflicts import (
+    SAME_DISTANCE_M,
+    arc_conflict,
+    closest_on,
+)
 from viaspline.kernels.routing.string_pulling.string_rows import (
     PLACE,
     ROW_COLUMNS,
@@ -32,6 +36,7 @@ from viaspline.kernels.routing.tangent_arcs import (
     HEADING_IN,
     SIDE,
     TURN,
+    nearest_turn,
 )
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.ring_features import FEATURE_RADIUS, FEATURE_X, FEATURE_Y
@@ -45,12 +50,6 @@ MAX_FEATURES_MET = 1024  # features that are looked at near one place
 
 
 @inlined
-def _nearest_turn(angle: float, about: float) -> float:
-    """The angle plus whole turns that is nearest to ``about``."""
-    return angle - math.tau * math.floor((angle - about + math.pi) / math.tau)
-
-
-@inlined
 def _heading_to(
     rows: Floats, k: int, x: float, y: float, reach: float, about: float
 ) -> float:  # fmt: skip
@@ -61,7 +60,7 @@ def _heading_to(
     if gap == 0.0:
         return about
     sine = (reach - rows[k, SIDE] * rows[k, BEND_RADIUS]) / gap
-    return _nearest_turn(math.atan2(dy, dx) - math.asin(min(max(sine, -1.0), 1.0)), about)
+    return nearest_turn(math.atan2(dy, dx) - math.asin(min(max(sine, -1.0), 1.0)), about)
 
 
 @inlined
@@ -83,26 +82,6 @@ def _on_step(
     if before == after:
         return 1.0
     return min(max(before / (before - after), 0.0), 1.0)
-
-
-@inner
-def _closest_on(
-    world: PackedWorld, ax: float, ay: float, bx: float, by: float, floor: float
-) -> tuple[float, float]:
-    """The first place on the segment a-b near which it comes closer than ``floor``."""
-    size = math.hypot(bx - ax, by - ay)
-    while size > 0.25 * floor + SAME_DISTANCE_M:
-        mx = 0.5 * (ax + bx)
-        my = 0.5 * (ay + by)
-        distance, _ = nearest_to_segment(world, ax, ay, mx, my, floor)
-        if distance < floor:
-            bx = mx
-            by = my
-        else:
-            ax = mx
-            ay = my
-        size *= 0.5
-    return 0.5 * (ax + bx), 0.5 * (ay + by)
 
 
 @inlined
@@ -181,7 +160,7 @@ def _meets(
     distance, _ = nearest_to_segment(world, ax, ay, x, y, floor)
     if distance >= floor:
         return False, 0.0, 0.0
-    cx, cy = _closest_on(world, ax, ay, x, y, floor)
+    cx, cy = closest_on(world, ax, ay, x, y, floor, 0.25 * floor)
     return True, cx, cy
 
 

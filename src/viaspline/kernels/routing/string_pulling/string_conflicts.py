@@ -25,13 +25,23 @@ SAME_DISTANCE_M = 1e-9  # [m]
 CLOSE_SHARE = 0.02  # of the distance that is kept: how exactly the place of a conflict is told
 
 
-@fused
-def _closest_on(
-    world: PackedWorld, ax: float, ay: float, bx: float, by: float, floor: float
+@inner
+def closest_on(
+    world: PackedWorld, ax: float, ay: float, bx: float, by: float, floor: float, within: float
 ) -> tuple[float, float]:
-    """A place on a segment near which it comes closer than ``floor`` to the world."""
+    """A place on a segment near which it comes closer than ``floor`` to the world, the first one.
+
+    Args:
+        world: PackedWorld.
+        ax: The segment's one end [m].
+        ay: Of that, the other coordinate [m].
+        bx: The segment's other end [m].
+        by: Of that, the other coordinate [m].
+        floor: Distance to keep [m].
+        within: How exactly the place is told [m].
+    """
     size = math.hypot(bx - ax, by - ay)
-    while size > CLOSE_SHARE * floor + SAME_DISTANCE_M:
+    while size > within + SAME_DISTANCE_M:
         mx = 0.5 * (ax + bx)
         my = 0.5 * (ay + by)
         distance, _ = nearest_to_segment(world, ax, ay, mx, my, floor)
@@ -93,7 +103,7 @@ def _conflict(
     by = rows[k + 1, BEND_Y] - reach * math.cos(heading)
     distance, _ = nearest_to_segment(world, ax, ay, bx, by, floor)
     if distance < floor:
-        x, y = _closest_on(world, ax, ay, bx, by, floor)
+        x, y = closest_on(world, ax, ay, bx, by, floor, CLOSE_SHARE * floor)
         return k, heading, x, y
     x, y, turned = arc_conflict(world, rows, k, 0.0, rows[k, TURN], floor)
     if turned < 0.0:
