@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from viaspline.kernels.routing.narrow_gaps import narrow_places, narrowest
+from viaspline.kernels.routing.narrow_gaps import narrow_places
 from viaspline.maps.grid import Grid
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.world import World
@@ -64,23 +64,6 @@ def test_a_guide_beside_a_lone_wall_goes_through_no_gap() -> None:
     world = World([wall(0.5)])
     guide = np.array([(-20.0, 0.0), (20.0, 0.0)])
     assert len(narrow_places(world.packed, guide, 1.0)) == 0
-
-
-def test_the_narrowest_of_a_funnel_is_at_its_end() -> None:
-    world = World([wall(2.0, -1.5), wall(-2.0, 1.5)])
-    guide = np.array([(-20.0, 0.0), (0.0, 0.0), (20.0, 0.0)])
-    gap = narrowest(world.packed, guide, 1.45, 1.0)  # at (9, 0)
-    assert size(gap[0]) == pytest.approx(1.0, abs=0.1)
-    assert abs(gap[0, 0] - 10.0) < 0.3
-
-
-@pytest.mark.parametrize("place", [0.0, 0.5, 1.0, 1.999, 2.0])
-def test_the_narrowest_is_found_near_any_place_of_a_guide(place: float) -> None:
-    world = World([wall(0.7), wall(-0.7)])
-    guide = np.array([(-9.0, 0.0), (0.0, 0.0), (9.0, 0.0)])
-    gap = narrowest(world.packed, guide, place, 1.0)
-    assert size(gap[0]) == pytest.approx(1.4, abs=1e-2)
-    assert abs(gap[0, 0] - 9.0 * (place - 1.0)) <= 3.0
 
 
 @given(seeds, st.floats(0.2, 3.0))

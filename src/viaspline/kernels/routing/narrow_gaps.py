@@ -70,44 +70,6 @@ def _write_chord(
 
 
 @kernel
-def narrowest(world: PackedWorld, guide: Floats, place: float, rho: float) -> Floats:
-    """The shortest segment across a guide, within 3 rho of a place on it.
-
-    Args:
-        world: PackedWorld.
-        guide: (k, 2) [m].
-        place: The number of a piece, and the part of it that lies before the place.
-        rho: Distance to keep [m].
-
-    Returns:
-        x0, y0, x1, y1 [m], (1, 4).
-    """
-    chords = new_floats(2, 4)  # the shortest, and the one that is looked at
-    best = np.inf
-    travelled = 0.0  # from the start of the guide
-    middle = 0.0
-    for k in range(guide.shape[0] - 1):
-        size = math.hypot(guide[k + 1, 0] - guide[k, 0], guide[k + 1, 1] - guide[k, 1])
-        middle += min(max(place - k, 0.0), 1.0) * size
-    for k in range(guide.shape[0] - 1):
-        dx = guide[k + 1, 0] - guide[k, 0]
-        dy = guide[k + 1, 1] - guide[k, 1]
-        size = math.hypot(dx, dy)
-        first = max(travelled, middle - 3.0 * rho) - travelled
-        last = min(travelled + size, middle + 3.0 * rho) - travelled
-        travelled += size
-        parts = int(np.ceil((last - first) / (0.1 * rho)))
-        for part in range(parts):
-            w = (first + (part + 0.5) / parts * (last - first)) / size
-            width = _write_chord(world, guide[k, 0] + w * dx, guide[k, 1] + w * dy, rho, chords, 1)
-            if width < best:
-                best = width
-                for column in range(4):
-                    chords[0, column] = chords[1, column]
-    return chords[:1]
-
-
-@kernel
 def narrow_places(world: PackedWorld, guide: Floats, rho: float) -> Floats:
     """Segments across a guide where it goes between two things less than 2 rho apart.
 

@@ -1,4 +1,4 @@
-"""Where along a guide a feature lies and on which side, and how the guide turns at a corner.
+"""Where along a guide a feature lies, and on which side.
 
 Tested through ``kernels/routing/string_pulling/test_pull``.
 """
@@ -13,7 +13,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inlined
 from viaspline.kernels.world.ring_features import FEATURE_RADIUS, FEATURE_X, FEATURE_Y, OUT_X, OUT_Y
 
-ALONG_SLACK = 1e-9  # as a share of a piece, and as a turn [rad]
+ALONG_SLACK = 1e-9  # as a share of a piece
 
 
 @inlined
@@ -70,24 +70,3 @@ def side_of(guide: Floats, place: float, found: Floats, j: int) -> float:
         dy = guide[k + 1, 1] - guide[k, 1]
         area = dy * found[j, OUT_X] - dx * found[j, OUT_Y]
     return 1.0 if area > 0.0 else -1.0
-
-
-@inlined
-def turn_at(guide: Floats, k: int) -> tuple[float, float, float]:
-    """How far the guide turns at a corner [rad], 0 where it goes straight on, and to where.
-
-    Returns:
-        (turn, x, y): above 0 to the left, and the unit vector to the inside of the turn.
-    """
-    ux = guide[k, 0] - guide[k - 1, 0]
-    uy = guide[k, 1] - guide[k - 1, 1]
-    vx = guide[k + 1, 0] - guide[k, 0]
-    vy = guide[k + 1, 1] - guide[k, 1]
-    long_u = math.hypot(ux, uy)
-    long_v = math.hypot(vx, vy)
-    area = ux * vy - uy * vx
-    if abs(area) <= ALONG_SLACK * long_u * long_v:
-        return 0.0, 0.0, 0.0
-    turn = math.atan2(area, ux * vx + uy * vy)
-    half = math.atan2(uy, ux) + 0.5 * turn + math.copysign(0.5 * math.pi, turn)
-    return turn, math.cos(half), math.sin(half)

@@ -22,7 +22,6 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     HERE,
     LEVEL,
     NODES,
-    OUTSIDE,
     THERE,
     Ahead,
     PoseSearch,
@@ -86,11 +85,6 @@ class SearchTree:
     def expanded(self) -> int:
         """How many states were looked at."""
         return int(self.search.counts[EXPANDED])
-
-    @property
-    def was_cut(self) -> bool:
-        """Whether it came to the edge of the window."""
-        return bool(self.search.counts[OUTSIDE])
 
     @property
     def is_over(self) -> bool:
