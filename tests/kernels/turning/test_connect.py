@@ -12,6 +12,7 @@ from viaspline.kernels.turning.segment_chain import chain_spans, merged
 from viaspline.kernels.turning.turn_sequence import (
     FINE,
     HEADING,
+    RADIUS,
     SIDE,
     turn_sequence,
     turn_sequence_length,
@@ -69,12 +70,12 @@ def test_far_apart_the_best_is_no_longer_than_the_best_swing_of_two_bends(way, g
     lengths, swings = [], []
     for s1, s2 in [(1, 1), (1, -1), (-1, 1), (-1, -1)]:
         lengths.append(connected(x, y, start, goal, s1, s2)[1])
-        bends = np.zeros((2, 5))
+        bends = np.zeros((2, 6))
         bends[1, :2] = x, y
-        bends[:, HEADING], bends[:, SIDE] = (start, goal), (s1, s2)
-        *found, state, _ = turn_sequence(bends, False, RHO, RAMP)
+        bends[:, HEADING], bends[:, SIDE], bends[:, RADIUS] = (start, goal), (s1, s2), RHO
+        *found, state, _ = turn_sequence(bends, False, RAMP / RHO)
         if state == FINE:
-            swings.append(turn_sequence_length(bends, False, RHO, *found))
+            swings.append(turn_sequence_length(bends, False, *found))
     assert min(lengths) <= min(swings, default=math.inf) + 1e-6
     assert min(lengths) < math.inf
 

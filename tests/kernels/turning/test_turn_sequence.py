@@ -12,6 +12,7 @@ from viaspline.kernels.turning.turn_sequence import (
     HEADING,
     KEPT,
     LEFT_OUT,
+    RADIUS,
     SIDE,
     X,
     Y,
@@ -29,7 +30,7 @@ def along_ramp(sharpness, distance):
 
 
 def bends_through(points, kept=0.0, side=0.0, ends=(math.nan, math.nan), sides=(0.0, 0.0)):
-    rows = np.zeros((len(points), 5))
+    rows = np.zeros((len(points), 6))
     rows[:, [X, Y]] = points
     rows[:, KEPT], rows[:, SIDE], rows[:, HEADING] = kept, side, math.nan
     rows[[0, -1], HEADING], rows[[0, -1], SIDE] = ends, sides
@@ -38,12 +39,14 @@ def bends_through(points, kept=0.0, side=0.0, ends=(math.nan, math.nan), sides=(
 
 
 def swung(bends, closed=False, rho=RHO, ramp=RHO):
-    *found, state, _ = turn_sequence(bends, closed, rho, ramp)
+    bends = bends.copy()
+    bends[:, RADIUS] = rho
+    *found, state, _ = turn_sequence(bends, closed, ramp / rho)
     if state != FINE:
         return None
     lines, turns, apexes, ramps = found
-    spans, begins = turn_sequence_spans(bends, closed, rho, lines, turns, apexes, ramps)
-    length = turn_sequence_length(bends, closed, rho, lines, turns, apexes, ramps)
+    spans, begins = turn_sequence_spans(bends, closed, lines, turns, apexes, ramps)
+    length = turn_sequence_length(bends, closed, lines, turns, apexes, ramps)
     return PiecewiseCubic(spans, closed=closed), begins, length
 
 
@@ -132,5 +135,6 @@ def test_a_bend_that_the_others_make_needless_is_left_out():
     rows = bends_through(
         [(0, 0), (20, 10), (30, 30), (60, 0)], kept=[0, 3, 3, 0], side=[0.0, -1.0, 1.0, 0.0]
     )
-    *_, state, where = turn_sequence(rows, False, RHO, RHO)
+    rows[:, RADIUS] = RHO
+    *_, state, where = turn_sequence(rows, False, 1.0)
     assert (state, where) == (LEFT_OUT, 2)

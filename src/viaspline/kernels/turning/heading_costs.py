@@ -21,15 +21,14 @@ from viaspline.kernels.turning.turn_sequence import (
 
 
 @kernel
-def leg_lengths(bends: Floats, starts: Floats, goals: Floats, rho: float, ramp: float) -> Floats:
+def leg_lengths(bends: Floats, starts: Floats, goals: Floats, ramp: float) -> Floats:
     """Lengths of a leg from every heading at its start to every heading at its goal.
 
     Args:
-        bends: The leg's row of bends, see ``kernels.turning.turn_sequence``, (n, 5).
+        bends: The leg's row of bends, see ``kernels.turning.turn_sequence``, (n, 6).
         starts: Headings at its start [rad], (k,); NaN: it is free.
         goals: Headings at its goal [rad], (l,); NaN: it is free.
-        rho: The least radius [m].
-        ramp: Length of the ramps [m].
+        ramp: Length of the ramps, in least radii.
 
     Returns:
         (k, l, 2, 2) [m]: leaving to the left or to the right, arriving in a left or in a right
@@ -49,10 +48,10 @@ def leg_lengths(bends: Floats, starts: Floats, goals: Floats, rho: float, ramp: 
                         continue
                     row[0, SIDE] = 0.0 if math.isnan(starts[i]) else 1.0 - 2.0 * a
                     row[last, SIDE] = 0.0 if math.isnan(goals[j]) else 1.0 - 2.0 * b
-                    lines, turns, apexes, ramps, state, _ = turn_sequence(row, False, rho, ramp)
+                    lines, turns, apexes, ramps, state, _ = turn_sequence(row, False, ramp)
                     if state == FINE:
                         lengths[i, j, a, b] = turn_sequence_length(
-                            row, False, rho, lines, turns, apexes, ramps
+                            row, False, lines, turns, apexes, ramps
                         )
     return lengths
 

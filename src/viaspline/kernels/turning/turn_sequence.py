@@ -24,8 +24,9 @@ from viaspline.kernels.turning.clothoid import (
 )
 
 # Columns of a bend: its middle, the radius that is kept from it, the side to which it turns (1
-# left, -1 right, 0 whichever comes), and the heading that is given at an end (NaN: it is free).
-X, Y, KEPT, SIDE, HEADING = range(5)
+# left, -1 right, 0 whichever comes), the heading that is given at an end (NaN: it is free), and
+# the least radius of its turn.
+X, Y, KEPT, SIDE, HEADING, RADIUS = range(6)
 FINE, NO_TANGENT, NO_ROOM, RESTLESS, LEFT_OUT = range(5)
 MAX_HEADING_ROUNDS = 400
 SETTLED_RAD = 1e-13  # change of a heading in the last round [rad]
@@ -66,8 +67,14 @@ def _turn_at(bend: Floats, before: float, after: float, last: float) -> float:
 
 
 @inner
-def _settle(bend: Floats, kind: int, turn: float, heading: float, rho: float, ramp: float,
-            circle: Floats, apex: Floats) -> None:  # fmt: skip
+def _turn_radius(bend: Floats) -> float:
+    """The radius of its turn [m]: no less than what is kept from its middle."""
+    return max(bend[RADIUS], bend[KEPT])
+
+
+@inner
+def _settle(bend: Floats, kind: int, turn: float, heading: float, ramp: float, circle: Floats,
+            apex: Floats) -> None:  # fmt: skip
     """Where the turn of a bend lies: the circle that its lines touch, and its apex.
 
     Args:
@@ -75,7 +82,6 @@ def _settle(bend: Floats, kind: int, turn: float, heading: float, rho: float, ra
         kind: -1 where the path starts at it, 1 where it ends, 0 in between.
         turn: [rad], left is positive.
         heading: At the apex [rad].
-        rho: The least radius [m].
         ramp: [m].
         circle: x, y, signed radius; filled. A radius of 0 is the point where the lines meet.
         apex: x, y; filled.
@@ -87,7 +93,7 @@ def _settle(bend: Floats, kind: int, turn: float, heading: float, rho: float, ra
         circle[0], circle[1], circle[2] = apex[0], apex[1], 0.0
         return
     side = 1.0 if turn > 0.0 else -1.0
-    radius, shift, lead = shape_of(theta, max(rho, bend[KEPT]), ramp)
+    radius, shift, lead = shape_of(theta, _turn_radius(bend), ramp)
     touch = radius + shift
     out_x, out_y = side * math.sin(heading), -side * math.cos(heading)
     if kind == 0:
@@ -129,7 +135,7 @@ def _failed(bends: Floats, closed: bool, turns: Floats, state: int, where: int) 
 
 @inner
 def _relaxed(
-    bends: Floats, closed: bool, rho: float, ramps: Floats, lines: Floats, turns: Floats,
+    bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats,
     circles: Floats, apexes: Floats,
 ) -> tuple[int, int]:  # fmt: skip
     """Let lines and turns settle; both have the values of a first guess.
@@ -163,7 +169,7 @@ def _relaxed(
                 before, after = lines[(k - 1) % last], lines[k]
             turns[k] = _turn_at(bends[k], before, after, turns[k])
             middle = before + 0.5 * turns[k] if kind >= 0 else after - 0.5 * turns[k]
-            _settle(bends[k], kind, turns[k], middle, rho, ramps[k], circles[k], apexes[k])
+            _settle(bends[k], kind, turns[k], middle, ramps[k], circles[k], apexes[k])
     return _failed(bends, closed, turns, FINE if moved < 1e-10 else RESTLESS, -1)
 
 
@@ -197,8 +203,8 @@ def _heading_at(bends: Floats, closed: bool, lines: Floats, turns: Floats, k: in
 
 @inner
 def _nodes_of(
-    bends: Floats, closed: bool, rho: float, lines: Floats, turns: Floats, apexes: Floats,
-    ramps: Floats, k: int, nodes: Floats,
+    bends: Floats, closed: bool, lines: Floats, turns: Floats, apexes: Floats, ramps: Floats,
+    k: int, nodes: Floats,
 ) -> int:  # fmt: skip
     """Fill in the nodes of one bend, the apex in the middle; returns their number."""
     heading = _heading_at(bends, closed, lines, turns, k)
@@ -206,20 +212,20 @@ def _nodes_of(
         nodes[0, 0], nodes[0, 1] = bends[k, X], bends[k, Y]
         nodes[0, 2], nodes[0, 3] = heading, 0.0
         return 1
-    radius = max(rho, bends[k, KEPT])
+    radius = _turn_radius(bends[k])
     return turn_nodes(apexes[k, 0], apexes[k, 1], heading, turns[k], radius, ramps[k], nodes)
 
 
 @inner
 def _crowded(
-    bends: Floats, closed: bool, rho: float, ramps: Floats, lines: Floats, turns: Floats,
-    apexes: Floats, ends: Floats,
+    bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats, apexes: Floats,
+    ends: Floats,
 ) -> int:  # fmt: skip
     """The first line on which two turns overlap, -1 if there is none."""
     count = bends.shape[0]
     nodes = np.empty((MAX_TURN_NODES, 4))
     for k in range(count):
-        size = _nodes_of(bends, closed, rho, lines, turns, apexes, ramps, k, nodes)
+        size = _nodes_of(bends, closed, lines, turns, apexes, ramps, k, nodes)
         for i in range(2):
             ends[k, i], ends[k, 2 + i] = nodes[0, i], nodes[size - 1, i]
     for k in range(count if closed else count - 1):
@@ -232,15 +238,14 @@ def _crowded(
 
 @kernel
 def turn_sequence(
-    bends: Floats, closed: bool, rho: float, ramp: float
+    bends: Floats, closed: bool, ramp: float
 ) -> tuple[Floats, Floats, Floats, Floats, int, int]:
     """Lay lines and turns round a row of bends.
 
     Args:
-        bends: (n, 5), see the columns above; start and goal among them unless closed.
+        bends: (n, 6), see the columns above; start and goal among them unless closed.
         closed: Whether the last bend is followed by the first.
-        rho: The least radius [m].
-        ramp: Length of the ramps [m]; shorter where there is not as much room.
+        ramp: Length of the ramps, in least radii; shorter where there is not as much room.
 
     Returns:
         Headings of the lines (n - 1,) or (n,), turns (n,) [rad], apexes (n, 2) [m] and ramps
@@ -249,22 +254,23 @@ def turn_sequence(
     count = bends.shape[0]
     lines, turns = np.zeros(count if closed else count - 1), np.zeros(count)
     circles, apexes = np.zeros((count, 3)), np.zeros((count, 2))
-    ends, ramps = np.empty((count, 4)), np.full(count, ramp)
+    ends, ramps = np.empty((count, 4)), ramp * bends[:, RADIUS]
+    shortest = MIN_RAMP_RADII * bends[:, RADIUS]
     _guess(bends, closed, lines, turns, circles)
     while True:
-        state, where = _relaxed(bends, closed, rho, ramps, lines, turns, circles, apexes)
+        state, where = _relaxed(bends, closed, ramps, lines, turns, circles, apexes)
         if state == FINE:
-            where = _crowded(bends, closed, rho, ramps, lines, turns, apexes, ends)
+            where = _crowded(bends, closed, ramps, lines, turns, apexes, ends)
             if where < 0:
                 return lines, turns, apexes, ramps, FINE, -1
             state = NO_ROOM
         if state != NO_ROOM and state != NO_TANGENT:
             return lines, turns, apexes, ramps, state, where
         after = (where + 1) % count
-        if max(ramps[where], ramps[after]) <= MIN_RAMP_RADII * rho:
+        if ramps[where] <= shortest[where] and ramps[after] <= shortest[after]:
             return lines, turns, apexes, ramps, state, where
-        ramps[where] = max(RAMP_SHRINK * ramps[where], MIN_RAMP_RADII * rho)
-        ramps[after] = max(RAMP_SHRINK * ramps[after], MIN_RAMP_RADII * rho)
+        ramps[where] = max(RAMP_SHRINK * ramps[where], shortest[where])
+        ramps[after] = max(RAMP_SHRINK * ramps[after], shortest[after])
         if state == NO_TANGENT:
             _guess(bends, closed, lines, turns, circles)
 
@@ -279,15 +285,13 @@ def _straight(nodes: Floats, a: int, b: int, polygons: Floats) -> None:
 
 @kernel
 def turn_sequence_spans(
-    bends: Floats, closed: bool, rho: float, lines: Floats, turns: Floats, apexes: Floats,
-    ramps: Floats,
+    bends: Floats, closed: bool, lines: Floats, turns: Floats, apexes: Floats, ramps: Floats
 ) -> tuple[Floats, Ints]:  # fmt: skip
     """The spans of a swing.
 
     Args:
-        bends: (n, 5).
+        bends: (n, 6).
         closed: As in ``turn_sequence``.
-        rho: The same.
         lines: What ``turn_sequence`` found.
         turns: The same.
         apexes: The same.
@@ -305,9 +309,9 @@ def turn_sequence_spans(
     size = 0
     for row in range(total):
         k = row % count
-        number = _nodes_of(bends, closed, rho, lines, turns, apexes, ramps, k, nodes[1:])
+        number = _nodes_of(bends, closed, lines, turns, apexes, ramps, k, nodes[1:])
         if number > 1:
-            _lengths(abs(turns[k]), max(rho, bends[k, KEPT]), ramps[k], number, lengths)
+            _lengths(abs(turns[k]), _turn_radius(bends[k]), ramps[k], number, lengths)
         first, end, middle = 1, number, 1 + number // 2
         if closed and row == 0:
             first = middle
@@ -357,16 +361,15 @@ def _lengths(theta: float, rho: float, ramp: float, number: int, lengths: Floats
 
 @kernel
 def turn_sequence_length(
-    bends: Floats, closed: bool, rho: float, lines: Floats, turns: Floats, apexes: Floats,
-    ramps: Floats,
+    bends: Floats, closed: bool, lines: Floats, turns: Floats, apexes: Floats, ramps: Floats
 ) -> float:  # fmt: skip
     """Length of a swing [m]."""
     count = bends.shape[0]
     ends = np.empty((count, 4))
-    _crowded(bends, closed, rho, ramps, lines, turns, apexes, ends)
+    _crowded(bends, closed, ramps, lines, turns, apexes, ends)
     length = 0.0
     for k in range(count):
-        length += turn_length(turns[k], max(rho, bends[k, KEPT]), ramps[k])
+        length += turn_length(turns[k], _turn_radius(bends[k]), ramps[k])
         if closed or k < count - 1:
             after = (k + 1) % count
             length += math.hypot(ends[after, 0] - ends[k, 2], ends[after, 1] - ends[k, 3])

@@ -33,18 +33,17 @@ class JointHeadings:
 
     def lay(self, problem: TurnProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
         """See ``Method``."""
-        path, rho = problem.path, problem.rho
-        legs, closed = legs_of(path.bends, path.spots), path.bends.closed
+        path = problem.path
+        legs, closed = legs_of(path.bends.turning(problem.rho), path.spots), path.bends.closed
         path.requirements.spend(lengths_cost(legs))
         as_it_is, pushed = (
-            partial(path.leg_on_sides, rho=rho, lay=lay)
-            for lay in (turn_path_if_clear, clear_turn_path)
+            partial(path.leg_on_sides, lay=lay) for lay in (turn_path_if_clear, clear_turn_path)
         )
-        poses = posed(legs, rho, closed, as_it_is, self.max_rows, self.max_rows, bound)
+        poses = posed(legs, closed, as_it_is, self.max_rows, self.max_rows, bound)
         if poses is None:
             path.requirements.spend(lengths_cost(legs))
             rows, pairs = self.max_pushed_rows, self.max_pushed_pairs
-            poses = posed(legs, rho, closed, pushed, rows, pairs, bound)
+            poses = posed(legs, closed, pushed, rows, pairs, bound)
         if poses is None:
             return GaveUp((f"{self.max_rows} rows of headings at the via points",))
         spline_path = path.through_turns(poses.turn_paths)

@@ -36,8 +36,8 @@ class NextHomotopyClasses:
         path = problem.path
 
         def attempt(row: TautRow) -> Attempt[TurnPath]:
-            bends = bends_along(path.sequence, row.taut_paths)
-            made = clear_turn_path_or_why(bends, problem.rho, path.world, path.requirements)
+            bends = bends_along(path.sequence, row.taut_paths).turning(problem.rho)
+            made = clear_turn_path_or_why(bends, path.world, path.requirements)
             places = path.passed_wrong(made) if isinstance(made, TurnPath) else made.places
             if isinstance(made, TurnPath) and not places:
                 return Attempt(made)

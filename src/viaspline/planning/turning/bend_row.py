@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.routing.tangent_arcs import BEND_RADIUS, BEND_X, BEND_Y
 from viaspline.kernels.routing.tangent_arcs import SIDE as BEND_SIDE
-from viaspline.kernels.turning.turn_sequence import HEADING, KEPT, SIDE, X, Y
+from viaspline.kernels.turning.turn_sequence import HEADING, KEPT, RADIUS, SIDE, X, Y
 from viaspline.kernels.world.corner_fans import X as CORNER_X
 from viaspline.kernels.world.corner_fans import Y as CORNER_Y
 from viaspline.planning.problem.via_sequence import ViaSequence
@@ -29,7 +29,7 @@ class Bends:
     """Bends in the order of the path.
 
     Attributes:
-        rows: See ``kernels.turning.turn_sequence``, shape (n, 5).
+        rows: See ``kernels.turning.turn_sequence``, shape (n, 6).
         vias: Index of each one's via point in the sequence, or ``DETOUR``, shape (n,).
         closed: Whether the last one is followed by the first.
     """
@@ -48,6 +48,12 @@ class Bends:
         """These bends without bend k."""
         return Bends(np.delete(self.rows, k, axis=0), np.delete(self.vias, k), self.closed)
 
+    def turning(self, radii: float | Floats) -> Bends:
+        """These bends with other least radii of their turns: one [m], or one for each, (n,)."""
+        rows = self.rows.copy()
+        rows[:, RADIUS] = radii
+        return replace(self, rows=rows)
+
     def widened(self, k: int, by: float) -> Bends:
         """These bends with more room kept from what detour bend k goes round [m]."""
         rows = self.rows.copy()
@@ -65,10 +71,10 @@ class Bends:
         return int(np.flatnonzero(self.vias == via)[0])
 
 
-def bend(x: float, y: float, kept: float = 0.0, side: float = 0.0) -> Floats:
+def bend(x: float, y: float, kept: float = 0.0, side: float = 0.0, radius: float = 0.0) -> Floats:
     """A row of ``Bends``."""
-    row = np.array([x, y, 0.0, 0.0, math.nan])
-    row[KEPT], row[SIDE] = kept, side
+    row = np.array([x, y, 0.0, 0.0, math.nan, 0.0])
+    row[KEPT], row[SIDE], row[RADIUS] = kept, side, radius
     return row
 
 
@@ -107,4 +113,4 @@ def _bends_of(taut_path: TautPath) -> list[Floats]:
     ]
 
 
-__all__ = ["DETOUR", "HEADING", "KEPT", "SIDE", "Bends", "X", "Y", "bend", "bends_along"]
+__all__ = ["DETOUR", "HEADING", "KEPT", "RADIUS", "SIDE", "Bends", "X", "Y", "bend", "bends_along"]

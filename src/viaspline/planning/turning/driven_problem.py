@@ -35,7 +35,7 @@ FREE_TURN_RADII = (6.0, 3.0, 1.5)
 LEAST_FREE_TURN_RADIUS = 0.5
 LEAST_REQUIRED_M = 1e-3  # that these are of
 
-LayTurns = Callable[[Bends, float, World, Requirements], TurnPath | None]
+LayTurns = Callable[[Bends, World, Requirements], TurnPath | None]
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,7 @@ class DrivenProblem(PathProblem):
         """Lines and turns along a row of taut paths, with the widest turns that keep clear."""
         bends = bends_along(self.sequence, taut_paths)
         for rho in self.least_radii:
-            turn_path = clear_turn_path(bends, rho, self.world, self.requirements)
+            turn_path = clear_turn_path(bends.turning(rho), self.world, self.requirements)
             if turn_path is None:
                 continue
             spline_path = self.through_turns([turn_path])
@@ -142,16 +142,15 @@ class DrivenProblem(PathProblem):
                 return spline_path
         return None
 
-    def leg_on_sides(self, leg: int, bends: Bends, rho: float, lay: LayTurns) -> TurnPath | None:
+    def leg_on_sides(self, leg: int, bends: Bends, lay: LayTurns) -> TurnPath | None:
         """The turn path of one leg, if it keeps clear and to the sides that are asked for.
 
         Args:
             leg: The leg.
             bends: Its bends.
-            rho: The least radius [m].
             lay: Lays a clear turn path round bends, if it can.
         """
-        turn_path = lay(bends, rho, self.world, self.requirements)
+        turn_path = lay(bends, self.world, self.requirements)
         if turn_path is None or self.sides[leg].crossed(turn_path.spans).any():
             return None
         return turn_path

@@ -35,7 +35,7 @@ class HeadingLeg:
     """What lies between two via points of a row of bends.
 
     Attributes:
-        rows: Its bends, the via points among them, (n, 5).
+        rows: Its bends, the via points among them, (n, 6).
         starts: The headings at its start [rad], (k,); a NaN is free.
         goals: The headings at its goal [rad], (l,).
     """
@@ -44,9 +44,9 @@ class HeadingLeg:
     starts: Floats
     goals: Floats
 
-    def lengths(self, rho: float) -> Floats:
+    def lengths(self) -> Floats:
         """See ``kernels.turning.heading_costs.leg_lengths``."""
-        found: Floats = leg_lengths(self.rows, self.starts, self.goals, rho, RAMP * rho)
+        found: Floats = leg_lengths(self.rows, self.starts, self.goals, RAMP)
         return found
 
     def between(self, start: float, goal: float) -> Bends:
@@ -113,7 +113,6 @@ def lengths_cost(legs: Sequence[HeadingLeg]) -> float:
 
 def posed(
     legs: Sequence[HeadingLeg],
-    rho: float,
     closed: bool,
     lay: Lay,
     max_rows: int,
@@ -124,7 +123,6 @@ def posed(
 
     Args:
         legs: The legs.
-        rho: The least radius [m].
         closed: Whether the last heading is the first.
         lay: Lays a clear turn path round the bends of a leg, if it can.
         max_rows: Rows of headings that are tried.
@@ -134,7 +132,7 @@ def posed(
     counts = np.array([*(len(leg.starts) for leg in legs), len(legs[-1].goals)])
     costs = np.full((len(legs), counts.max(), counts.max()), np.inf)
     for k, leg in enumerate(legs):
-        costs[k, : counts[k], : counts[k + 1]] = leg.lengths(rho).min(axis=(2, 3))
+        costs[k, : counts[k], : counts[k + 1]] = leg.lengths().min(axis=(2, 3))
     spline_path: dict[tuple[int, int, int], TurnPath] = {}
     failed, is_hopeful = np.zeros(len(legs), np.int64), np.zeros(len(legs), np.bool_)
     for _ in range(max_rows):

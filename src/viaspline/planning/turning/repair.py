@@ -16,7 +16,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, is_clear, proven
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
-from viaspline.planning.turning.bend_row import DETOUR, KEPT, SIDE, Bends, bend
+from viaspline.planning.turning.bend_row import DETOUR, KEPT, RADIUS, SIDE, Bends, bend
 from viaspline.planning.turning.turn_path import (
     RAMP,
     NoTurnPath,
@@ -48,47 +48,40 @@ class Stuck:
     places: tuple[tuple[int, Floats], ...]
 
 
-def clear_turn_path(
-    bends: Bends, rho: float, world: World, requirements: Requirements
-) -> TurnPath | None:
+def clear_turn_path(bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
     """The shortest clear turn path, to any sides of given headings, pushed away from what is near.
 
     Args:
         bends: The row.
-        rho: The least radius [m].
         world: What to keep clear of.
         requirements: What to keep.
     """
-    found = clear_turn_path_or_why(bends, rho, world, requirements)
+    found = clear_turn_path_or_why(bends, world, requirements)
     return found if isinstance(found, TurnPath) else None
 
 
 def clear_turn_path_or_why(
-    bends: Bends, rho: float, world: World, requirements: Requirements
+    bends: Bends, world: World, requirements: Requirements
 ) -> TurnPath | Stuck:
     """The shortest clear turn path, or where it got stuck; see ``clear_turn_path``."""
-    found = [_pushed_clear(tried, rho, world, requirements) for tried in with_sides(bends)]
+    found = [_pushed_clear(tried, world, requirements) for tried in with_sides(bends)]
     clear = [turn_path for turn_path in found if isinstance(turn_path, TurnPath)]
     return min(clear, key=lambda turn_path: turn_path.length) if clear else found[0]
 
 
-def turn_path_if_clear(
-    bends: Bends, rho: float, world: World, requirements: Requirements
-) -> TurnPath | None:
+def turn_path_if_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
     """The shortest turn path to any sides of given headings, if it is clear as it is."""
     requirements.spend(_turn_path_cost(bends))
-    turn_path = turn_path_round(bends, rho)
+    turn_path = turn_path_round(bends)
     if isinstance(turn_path, NoTurnPath) or not is_clear(world, turn_path.spans, requirements):
         return None
     return turn_path
 
 
-def _pushed_clear(
-    bends: Bends, rho: float, world: World, requirements: Requirements
-) -> TurnPath | Stuck:
+def _pushed_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPath | Stuck:
     """The turn path to the sides that are set, pushed clear, or where it got stuck."""
     ramp = RAMP
-    turn_path = turn_path_on_sides(bends, rho, ramp)
+    turn_path = turn_path_on_sides(bends, ramp)
     for _ in range(MAX_PUSH_ROUNDS):
         requirements.spend(_turn_path_cost(bends))
         if isinstance(turn_path, NoTurnPath):
@@ -96,11 +89,11 @@ def _pushed_clear(
         close = body_conflicts(world, turn_path.spans, requirements)
         if (close == CLEAR).all():
             return turn_path
-        pushed = turn_path_on_sides(_pushed(turn_path, close, world, requirements), rho, ramp)
+        pushed = turn_path_on_sides(_pushed(turn_path, close, world, requirements), ramp)
         rows = turn_path.bends.rows
         if isinstance(pushed, TurnPath) and np.array_equal(pushed.bends.rows, rows):
             ramp *= RAMP_SHORTENING  # the lines are far enough off, the ramps cut the corner
-            pushed = turn_path_on_sides(turn_path.bends, rho, ramp)
+            pushed = turn_path_on_sides(turn_path.bends, ramp)
         if isinstance(pushed, NoTurnPath) or ramp < LEAST_RAMP:
             return _stuck_at(turn_path, close, world, requirements)
         turn_path = pushed
@@ -165,7 +158,8 @@ def _push(
             if off < max(same, bends.rows[near, KEPT] - same):
                 return bends.widened(near, 1.1 * tight.missing + BEND_SLACK_M)
     x, y = tight.wall.tolist()
-    return bends.with_bend(row, bend(x, y, tight.kept + BEND_SLACK_M, side))
+    radius = float(bends.rows[[row - 1, row % len(bends.rows)], RADIUS].min())
+    return bends.with_bend(row, bend(x, y, tight.kept + BEND_SLACK_M, side, radius))
 
 
 def _row_before(turn_path: TurnPath, u: float) -> int:

@@ -60,18 +60,17 @@ class NoTurnPath:
     where: int
 
 
-def turn_path_round(bends: Bends, rho: float) -> TurnPath | NoTurnPath:
+def turn_path_round(bends: Bends) -> TurnPath | NoTurnPath:
     """The shortest turn path round a row of bends, to whichever sides given headings are left.
 
     A detour bend that the others make needless is left out.
 
     Args:
         bends: The row.
-        rho: The least radius [m].
     """
     best: TurnPath | NoTurnPath | None = None
     for tried in with_sides(bends):
-        found = turn_path_on_sides(tried, rho)
+        found = turn_path_on_sides(tried)
         if best is None or (isinstance(found, TurnPath) and _is_longer(best, found)):
             best = found
     assert best is not None  # there is always one choice of sides
@@ -82,24 +81,21 @@ def _is_longer(turn_sequence: TurnPath | NoTurnPath, other: TurnPath) -> bool:
     return isinstance(turn_sequence, NoTurnPath) or turn_sequence.length > other.length
 
 
-def turn_path_on_sides(bends: Bends, rho: float, ramp: float = RAMP) -> TurnPath | NoTurnPath:
+def turn_path_on_sides(bends: Bends, ramp: float = RAMP) -> TurnPath | NoTurnPath:
     """The turn path round a row of bends, to the sides that are set.
 
     Args:
         bends: The row.
-        rho: The least radius [m].
         ramp: Length of the ramps, in radii.
     """
     while True:
-        lines, turns, apexes, ramps, state, where = turn_sequence(
-            bends.rows, bends.closed, rho, ramp * rho
-        )
+        lines, turns, apexes, ramps, state, where = turn_sequence(bends.rows, bends.closed, ramp)
         if state != LEFT_OUT:
             break
         bends = bends.without(where)
     if state != FINE:
         return NoTurnPath(bends, int(state), int(where))
-    spline_path = (bends.rows, bends.closed, rho, lines, turns, apexes, ramps)
+    spline_path = (bends.rows, bends.closed, lines, turns, apexes, ramps)
     spans, begins = turn_sequence_spans(*spline_path)
     return TurnPath(bends, spans, begins, float(turn_sequence_length(*spline_path)))
 

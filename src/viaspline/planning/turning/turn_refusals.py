@@ -138,11 +138,11 @@ def _serves(problem: DrivenProblem, radius: float) -> bool:
 
 def _poses(problem: DrivenProblem, rho: float) -> Poses | None:
     """Headings and turns of at least a radius [m] along the shortest way, if any are clear."""
-    lay = partial(problem.leg_on_sides, rho=rho, lay=turn_path_if_clear)
-    legs = legs_of(problem.bends, problem.spots)
+    lay = partial(problem.leg_on_sides, lay=turn_path_if_clear)
+    legs = legs_of(problem.bends.turning(rho), problem.spots)
     closed = problem.sequence.closed
     problem.requirements.spend(lengths_cost(legs))
-    return posed(legs, rho, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS)
+    return posed(legs, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS)
 
 
 def _has_room(problem: DrivenProblem, part: float) -> bool:
@@ -150,6 +150,6 @@ def _has_room(problem: DrivenProblem, part: float) -> bool:
     clearance = part * problem.requirements.clearance
     requirements = replace(problem.requirements, clearance=clearance)
     return any(
-        clear_turn_path(problem.bends, rho, problem.world, requirements) is not None
+        clear_turn_path(problem.bends.turning(rho), problem.world, requirements) is not None
         for rho in problem.least_radii
     )
