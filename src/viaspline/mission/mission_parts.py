@@ -32,9 +32,5 @@ class MissionParts(Value):
 
     @property
     def tangents(self) -> Tangents:
-        """Those of the spline, as it says or as the robot asks for."""
-        if self.spline.tangents is not None:
-            return self.spline.tangents
-        robot = self.robot
-        steers = robot.drive is not None or robot.turn_radius is not None
-        return "continuous" if steers or robot.footprint is not None else "cardinal"
+        """Those of the spline, as it says; without jumps of the curvature if it doesn't."""
+        return "continuous" if self.spline.tangents is None else self.spline.tangents

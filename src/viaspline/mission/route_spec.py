@@ -15,6 +15,8 @@ from viaspline.mission.corridor_spec import Corridor
 from viaspline.mission.fields import Duration, Heading, Name, Point, plain
 from viaspline.mission.value import Value
 
+Optimise: TypeAlias = Literal["time", "length"]
+
 MAX_LAPS: Final = 1000
 """How often a closed route can be driven at most."""
 MAX_VIAS: Final = 20_000
@@ -82,6 +84,8 @@ class Route(Value):
         laps: How often a closed route is driven, without a halt between laps. The path is that of
             the whole drive, and every lap visits every point.
         corridor: A strip that the path stays inside of.
+        optimise: What sides and shapes are chosen by: the ``time`` in which the path is driven
+            within the robot's limits, or its ``length``, the paper's rule.
     """
 
     start: End
@@ -91,6 +95,7 @@ class Route(Value):
     order: Literal["given", "shortest"] = "given"
     laps: Annotated[int, Field(strict=True, ge=1, le=MAX_LAPS)] = 1
     corridor: Corridor | None = None
+    optimise: Optimise = "time"
 
     def points(self) -> Iterator[tuple[str, ViaPoint]]:
         """Every point of the route in order, with its key in the mission file."""

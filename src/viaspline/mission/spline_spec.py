@@ -36,8 +36,8 @@ class SplineSpec(
         slack: The tension by its other name, s = (1 - t) / 2. Give one of the two.
         knots: How far apart the points are in parameter: equally, by the root of their distance,
             by their distance.
-        tangents: ``cardinal``, or ``continuous`` for continuous curvature. None: continuous if the
-            robot has a drive, a turning circle or a footprint, else cardinal.
+        tangents: ``continuous`` for continuous curvature, or ``cardinal``, the paper's. None:
+            continuous.
     """
 
     tension: Annotated[

@@ -11,7 +11,7 @@ from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.methods.clear_spline import ClearSpline
-from viaspline.planning.methods.ordered import PATH_METHODS, PathMethod
+from viaspline.planning.methods.ordered import PathMethod, methods_for
 from viaspline.planning.problem.method import Found, first_settled
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
@@ -28,7 +28,7 @@ def lay_path(
     sequence: ViaSequence,
     world: World,
     requirements: Requirements,
-    methods: Sequence[PathMethod] = PATH_METHODS,
+    methods: Sequence[PathMethod] | None = None,
 ) -> tuple[SplinePath, Account]:
     """The curve through via points that the robot can drive clear of everything.
 
@@ -40,7 +40,8 @@ def lay_path(
         sequence: The via points.
         world: The known world.
         requirements: What to keep.
-        methods: In the order in which they are asked, once there is a clear spline.
+        methods: In the order in which they are asked, once there is a clear spline; None: those
+            for the robot.
 
     Raises:
         NoPathError: When there is none, with the least change that would serve.
@@ -50,8 +51,9 @@ def lay_path(
         sequence = replace(sequence, tangents="continuous")
     requirements.spend(LAY_S)
     asked = PathProblem.of(sequence, world, requirements)
+    asked_methods = methods_for(requirements) if methods is None else methods
     while True:
-        spline_path, account = _laid(asked, methods)
+        spline_path, account = _laid(asked, asked_methods)
         near = [
             tuple(sides.overlooked(spline_path.leg(k), world, requirements.required).tolist())
             for k, sides in enumerate(asked.sides)
@@ -71,7 +73,7 @@ def _laid(asked: PathProblem, methods: Sequence[PathMethod]) -> tuple[SplinePath
     outcome = first_settled(methods, problem)
     if not isinstance(outcome, Found):
         raise unlaid(problem, outcome)
-    driven = None if requirements.is_free_disc else partial(as_driven, problem)
+    driven = None if requirements.is_cardinal else partial(as_driven, problem)
     return outcome.value, Account(outcome.value, world, requirements, cleared.passed, driven)
 
 

@@ -96,12 +96,15 @@ class Comparison:
             none = np.empty((0, dimension))
             return Candidate(side, none, none.reshape(0, 4, dimension), impossible=reason)
         chosen = any(curve is self.winner for curve in passing)
-        curve = self.winner if chosen else min(passing, key=lambda c: c.measured.length)
+        objective = self.leg.requirements.objective
+        best = min(passing, key=lambda curve: curve.measured.of(objective))
+        curve = self.winner if chosen else best
         return Candidate(
             side=side,
             vias=curve.vias,
             spans=curve.spans,
             length=curve.measured.length,
+            duration=curve.measured.duration,
             clearance=curve.measured.clearance,
             max_curvature=curve.measured.max_curvature,
             chosen=chosen,

@@ -2,8 +2,8 @@
 
 A row has a taut path for every leg. Rows that pass something on another side come from the row
 before them: where what was laid along it got stuck, or where a leg has another side to offer.
-What is laid along a taut path is no shorter than it, so a row that is longer than the best of what
-was laid can't win, nor any that comes after it.
+What is laid along a taut path is no shorter than it, so a row that would cost more than the best of
+what was laid can't win, nor any that comes after it.
 """
 
 from __future__ import annotations
@@ -34,16 +34,20 @@ GAP_END = 1e-3  # distance at which the segment across a gap ends, in required d
 MAX_RAY_STEPS = 200  # of such a segment to either side
 
 
-class HasLength(Protocol):
-    """What is laid along a row."""
+Laid = TypeVar("Laid")
+LaidIn = TypeVar("LaidIn", contravariant=True)
 
-    @property
-    def length(self) -> float:
-        """[m]."""
+
+class Price(Protocol[LaidIn]):
+    """What is laid along rows is to have little of [m or s]."""
+
+    def of(self, laid: LaidIn, /) -> float:
+        """What it has."""
         ...
 
-
-Laid = TypeVar("Laid", bound=HasLength)
+    def least(self, row: TautRow, /) -> float:
+        """No less has anything that is laid along a row."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -111,13 +115,14 @@ class Attempt(Generic[Laid]):
     then: Iterable[TautRow] = ()
 
 
-def shortest_laid(
+def cheapest_laid(
     first: Iterable[TautRow],
     attempt: Callable[[TautRow], Attempt[Laid]],
+    price: Price[Laid],
     best: Laid | None = None,
     max_rows: float = math.inf,
 ) -> Laid | None:
-    """The shortest of what can be laid along rows, from the shortest row to the longest.
+    """The best of what can be laid along rows, from the most promising row on.
 
     The rows that come after one are tried too where it got stuck, and where what was laid along it
     is the best so far.
@@ -125,6 +130,7 @@ def shortest_laid(
     Args:
         first: The rows to begin with.
         attempt: Lays something along a row, if it can.
+        price: What it is to have little of.
         best: What is there already.
         max_rows: Rows that are tried.
     """
@@ -136,11 +142,11 @@ def shortest_laid(
         for row in rows:
             if not any(row.is_same(before) for before in seen):
                 seen.append(row)
-                heapq.heappush(open_, (row.length, next(number), row))
+                heapq.heappush(open_, (price.least(row), next(number), row))
 
     add(first)
-    tried = 0
-    while open_ and tried < max_rows and (best is None or open_[0][0] < best.length):
+    tried, bound = 0, math.inf if best is None else price.of(best)
+    while open_ and tried < max_rows and open_[0][0] < bound:
         tried += 1
         try:
             made = attempt(heapq.heappop(open_)[2])
@@ -150,8 +156,10 @@ def shortest_laid(
             break
         if made.laid is None:
             add(made.then)
-        elif best is None or made.laid.length < best.length * (1.0 - LEAST_GAIN):
-            best = made.laid
+            continue
+        cost = price.of(made.laid)
+        if cost < bound * (1.0 - LEAST_GAIN):
+            best, bound = made.laid, cost
             add(made.then)
     return best
 

@@ -79,6 +79,11 @@ class LegSearch:
         start, goal = self.sequence.ends(self.index)
         return start.at, goal.at
 
+    @property
+    def stands(self) -> tuple[bool, bool]:
+        """Whether the robot stands still at the via points before and after."""
+        return self.sequence.stands(self.index), self.sequence.stands(self.index + 1)
+
     def shortest_allowed(
         self, active: Flags, closed: Floats = NO_BARRIERS
     ) -> tuple[Outcome[TautPath], Floats]:
@@ -122,7 +127,7 @@ class LegSearch:
         if fitted is None:
             return None
         vias = fitted.sequence.legs[self.index].points
-        cost = measure(fitted.spans, self.world, self.requirements)
+        cost = measure(fitted.spans, self.world, self.requirements, self.stands)
         return Spline(taut_path, vias, fitted.spans, cost, fitted)
 
 

@@ -67,7 +67,8 @@ class PassedLeg:
             curves += [] if other is None else [other]
             reasons.append(reason)
         rivals = curves if self.is_weighed else curves[:1]
-        winner = min(rivals, key=lambda curve: curve.measured.length)
+        objective = self.in_the_way.leg.requirements.objective
+        winner = min(rivals, key=lambda curve: curve.measured.of(objective))
         return Comparison(self.in_the_way.leg, met, tuple(curves), winner, tuple(reasons))
 
     @property

@@ -60,7 +60,7 @@ class Account:
         winner, spans = comparison.winner, self.spline_path.leg(leg)
         if np.array_equal(winner.spans, spans):
             return comparison
-        cost = measure(spans, self.world, self.requirements)
+        cost = measure(spans, self.world, self.requirements, comparison.leg.stands)
         return comparison.taking(
             Curve(winner.taut_path, self.spline_path.detours(leg), spans, cost)
         )

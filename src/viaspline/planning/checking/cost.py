@@ -7,11 +7,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.kernels.curve.measure import length_and_curvature
 from viaspline.planning.checking.conflicts import proven
+from viaspline.planning.checking.driving_time import driving_time
+from viaspline.planning.problem.objective import Objective
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import PROOF_S, PROOF_SPAN_S
 from viaspline.world.world import World
@@ -21,31 +25,55 @@ CLEARANCE_TOLERANCE_M = 1e-2  # of a candidate; the path's own certificate is pr
 
 @dataclass(frozen=True)
 class CandidateCost:
-    """What a curve costs: length [m], proven clearance of the body [m], sharpest bend [1/m]."""
+    """What a curve costs.
+
+    Attributes:
+        length: [m].
+        duration: The time in which it is driven, as far as its shape tells [s].
+        clearance: Proven, of the body [m].
+        max_curvature: Its sharpest bend [1/m].
+    """
 
     length: float
+    duration: float
     clearance: float
     max_curvature: float
 
+    def of(self, objective: Objective) -> float:
+        """What it is chosen by [s or m]."""
+        return self.duration if objective.is_time else self.length
 
-def measure(spans: Floats, world: World, requirements: Requirements) -> CandidateCost:
+
+def measure(
+    spans: Floats, world: World, requirements: Requirements, ends: tuple[bool, bool]
+) -> CandidateCost:
     """What a curve costs.
 
     Args:
         spans: A curve that is known to keep what is required, shape (m, 4, d).
         world: The known world.
         requirements: What it keeps.
+        ends: Whether the robot stands still where it begins, and where it ends.
     """
     requirements.spend(PROOF_S + PROOF_SPAN_S * len(spans))
     lower = float(tightest(world.packed, spans, STILL, CLEARANCE_TOLERANCE_M)[0])
     length, sharpest = length_and_curvature(spans)
-    return CandidateCost(
-        float(length), max(lower - requirements.radius, requirements.kept), float(sharpest)
-    )
+    clearance = max(lower - requirements.radius, requirements.kept)
+    duration = _duration(spans, requirements, ends)
+    return CandidateCost(float(length), duration, clearance, float(sharpest))
 
 
-def measure_body(spans: Floats, world: World, requirements: Requirements) -> CandidateCost:
+def measure_body(
+    spans: Floats, world: World, requirements: Requirements, ends: tuple[bool, bool]
+) -> CandidateCost:
     """What a curve costs that a body drives, whether it keeps what is required or not."""
     length, sharpest = length_and_curvature(spans)
     clearance = proven(PiecewiseCubic(spans), world, requirements).clearance
-    return CandidateCost(float(length), clearance, float(sharpest))
+    duration = _duration(spans, requirements, ends)
+    return CandidateCost(float(length), duration, clearance, float(sharpest))
+
+
+def _duration(spans: Floats, requirements: Requirements, ends: tuple[bool, bool]) -> float:
+    rests = np.zeros(len(spans) + 1, np.bool_)
+    rests[[0, -1]] = ends
+    return driving_time(spans, requirements.objective.pace, rests)

@@ -47,7 +47,7 @@ class HybridAStar:
         spline_path = path.through(spans, joints, ())
         if not path.keeps_sides(spline_path):
             return GaveUp(("a search among poses, whose path takes another side",))
-        return Found(spline_path, spline_path.length)
+        return Found(spline_path, path.cost(spline_path))
 
 
 def _nothing(path: DrivenProblem, rho: float, failed: NotFound) -> Refusal | GaveUp:

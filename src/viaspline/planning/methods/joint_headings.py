@@ -34,6 +34,7 @@ class JointHeadings:
     def lay(self, problem: TurnProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
         """See ``Method``."""
         path = problem.path
+        bound = path.requirements.objective.metres(bound)
         legs, closed = legs_of(path.bends.turning(problem.rho), path.spots), path.bends.closed
         path.requirements.spend(lengths_cost(legs))
         as_it_is, pushed = (
@@ -47,4 +48,4 @@ class JointHeadings:
         if poses is None:
             return GaveUp((f"{self.max_rows} rows of headings at the via points",))
         spline_path = path.through_turns(poses.turn_paths)
-        return Found(spline_path, spline_path.length)
+        return Found(spline_path, path.cost(spline_path))

@@ -9,7 +9,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, shortest_laid
+from viaspline.planning.alternatives.homotopy_classes import (
+    Attempt,
+    TautRow,
+    cheapest_laid,
+)
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.bend_row import bends_along
@@ -45,8 +49,19 @@ class NextHomotopyClasses:
             return Attempt(None, (other for other in others if other is not None))
 
         first = path.shortest_row
-        found = shortest_laid([first], attempt, max_rows=self.max_rows)
+        found = cheapest_laid([first], attempt, _Length(), max_rows=self.max_rows)
         if found is None:
             return GaveUp((f"turns on up to {self.max_rows} longer ways",))
         is_settled = found.length <= self.settled_within * first.length
-        return Found(path.through_turns([found]), found.length, is_settled)
+        spline_path = path.through_turns([found])
+        return Found(spline_path, path.cost(spline_path), is_settled)
+
+
+class _Length:
+    """Little of length: see ``Price``."""
+
+    def of(self, laid: TurnPath, /) -> float:
+        return laid.length
+
+    def least(self, row: TautRow, /) -> float:
+        return row.length

@@ -11,14 +11,28 @@ from viaspline.planning.methods.joint_headings import JointHeadings
 from viaspline.planning.methods.next_homotopy_classes import NextHomotopyClasses
 from viaspline.planning.methods.other_sides import OtherSides
 from viaspline.planning.methods.spline_as_is import SplineAsItIs
+from viaspline.planning.methods.spline_led_round import SplineLedRound
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
 from viaspline.planning.problem.method import Method
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import DrivenProblem
 
 PathMethod = Method[DrivenProblem, SplinePath]
 
-PATH_METHODS: tuple[PathMethod, ...] = (
+CARDINAL_METHODS: tuple[PathMethod, ...] = (SplineLedRound(),)
+"""For the paper's curve."""
+
+DISC_METHODS: tuple[PathMethod, ...] = (
+    SplineAsItIs(),
+    OtherSides((
+        TurnsOnShortest(),
+        SplineLedRound(),
+    )),
+)  # fmt: skip
+"""For a disc that can follow any curve."""
+
+BODY_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
     OtherSides((
         TurnsOnShortest(),
@@ -29,3 +43,11 @@ PATH_METHODS: tuple[PathMethod, ...] = (
         )),
     )),
 )  # fmt: skip
+"""For a robot with a turning circle or a long body."""
+
+
+def methods_for(requirements: Requirements) -> tuple[PathMethod, ...]:
+    """The methods that lay paths for a robot."""
+    if requirements.is_cardinal:
+        return CARDINAL_METHODS
+    return DISC_METHODS if requirements.is_free_disc else BODY_METHODS

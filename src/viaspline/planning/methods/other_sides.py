@@ -1,4 +1,4 @@
-"""Shorter paths on the other sides of what the legs meet.
+"""Better paths on the other sides of what the legs meet.
 
 Tested through ``planning/test_plan_path`` and ``planning/turning/test_driven_alternatives``.
 """
@@ -9,18 +9,18 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, shortest_laid
+from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, cheapest_laid
 from viaspline.planning.problem.method import Found, Method, Outcome, first_settled
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.work_budget import SpentBudgetError
-from viaspline.planning.turning.driven_problem import DrivenProblem
+from viaspline.planning.turning.driven_problem import DrivenPrice, DrivenProblem
 
 
 @dataclass(frozen=True)
 class OtherSides:
-    """What other methods find, or a shorter path on other sides of the groups in its way.
+    """What other methods find, or a better path on other sides of the groups in its way.
 
-    A side that is shorter for a point can be longer for a robot that has to swing out for it.
+    A side that is shorter for a point can take longer for a robot that has to swing out for it.
 
     Attributes:
         methods: The others, in the order in which they are asked.
@@ -42,9 +42,9 @@ class OtherSides:
             rows = list(_other_rows(problem, problem.shortest_row))
         except SpentBudgetError:  # there is a path, and no time left to look for another
             return outcome
-        shortest = shortest_laid(rows, attempt, best=outcome.value)
-        assert shortest is not None  # there was one to begin with
-        return Found(shortest, shortest.length)
+        best = cheapest_laid(rows, attempt, DrivenPrice(problem), best=outcome.value)
+        assert best is not None  # there was one to begin with
+        return Found(best, problem.cost(best))
 
 
 def _other_rows(problem: DrivenProblem, row: TautRow) -> Iterator[TautRow]:

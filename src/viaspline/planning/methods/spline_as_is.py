@@ -1,4 +1,4 @@
-"""The spline as it is, if the robot can drive it.
+"""The spline through the via points as it is, where nothing stands in its way.
 
 Tested through ``planning/test_plan_path``.
 """
@@ -15,11 +15,15 @@ from viaspline.planning.turning.driven_problem import DrivenProblem
 
 @dataclass(frozen=True)
 class SplineAsItIs:
-    """Takes the spline that is clear for the disc in the body."""
+    """Takes the spline, if it was not led round anything and the robot can drive it.
+
+    Where the mission doesn't say how taut it is to be, turns may be faster.
+    """
 
     def lay(self, problem: DrivenProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
         """See ``Method``."""
-        spline_path = problem.cleared.spline_path
-        if problem.requirements.is_free_disc or problem.is_drivable(spline_path.spans):
-            return Found(spline_path, spline_path.length)
-        return GaveUp(("the spline as it is",))
+        spline_path, needs = problem.cleared.spline_path, problem.requirements
+        if problem.cleared.passed or not problem.is_drivable(spline_path.spans):
+            return GaveUp(("the spline as it is",))
+        is_asked_for = needs.has_own_tension or not needs.objective.is_time
+        return Found(spline_path, problem.cost(spline_path), is_settled=is_asked_for)

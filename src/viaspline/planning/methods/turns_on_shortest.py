@@ -23,4 +23,4 @@ class TurnsOnShortest:
         spline_path = problem.turns_along(problem.shortest_row.taut_paths)
         if spline_path is None:
             return GaveUp((f"turns on the shortest way, pushed away {MAX_PUSH_ROUNDS} times",))
-        return Found(spline_path, spline_path.length)
+        return Found(spline_path, problem.cost(spline_path))

@@ -19,6 +19,7 @@ class Candidate:
         spans: The curve of the whole leg as Bézier control polygons [m], shape (m, 4, d); empty
             when the side is impossible.
         length: Length of the leg's curve [m].
+        duration: The time in which that is driven, as far as its shape tells [s].
         clearance: Proven distance between the body and every known obstacle on this leg [m].
         max_curvature: Largest curvature of the leg's curve [1/m].
         chosen: Whether the plan takes it.
@@ -29,6 +30,7 @@ class Candidate:
     vias: NDArray[np.float64]
     spans: NDArray[np.float64]
     length: float | None = None
+    duration: float | None = None
     clearance: float | None = None
     max_curvature: float | None = None
     chosen: bool = False

@@ -26,13 +26,13 @@ class Found(Generic[Value]):
 
     Attributes:
         value: The thing itself.
-        length: Of its path [m].
-        is_settled: Whether no other method need be asked. Where it is not, a shorter one may be
+        cost: What it costs, in what the problem asks to have little of [m or s].
+        is_settled: Whether no other method need be asked. Where it is not, a better one may be
             found by one of them.
     """
 
     value: Value
-    length: float
+    cost: float
     is_settled: bool = True
 
 
@@ -82,7 +82,7 @@ class Method(Protocol[Asked, Value]):
 
         Args:
             problem: What is asked.
-            bound: Only what is shorter is of use [m].
+            bound: Only what costs less is of use [m or s].
         """
         ...
 
@@ -95,10 +95,10 @@ def first_settled(
     Args:
         methods: In the order in which they are asked.
         problem: What is asked.
-        bound: Only what is shorter is of use [m].
+        bound: Only what costs less is of use [m or s].
 
     Returns:
-        The shortest of what was found; else the refusal that ended the search; else that all of
+        The cheapest of what was found; else the refusal that ended the search; else that all of
         them gave up, and what they tried.
 
     Raises:
@@ -109,7 +109,7 @@ def first_settled(
         ...     def lay(self, problem: int, bound: float = math.inf) -> Outcome[int]:
         ...         return Found(problem // 2, 1.0) if problem % 2 == 0 else GaveUp(("halves",))
         >>> first_settled([Guess()], 4)
-        Found(value=2, length=1.0, is_settled=True)
+        Found(value=2, cost=1.0, is_settled=True)
         >>> first_settled([Guess(), Guess()], 5).tried
         ('halves', 'halves')
     """
@@ -118,7 +118,7 @@ def first_settled(
     last = GaveUp(())
     for method in methods:
         try:
-            outcome = method.lay(problem, bound if best is None else best.length)
+            outcome = method.lay(problem, bound if best is None else best.cost)
         except SpentBudgetError:
             if best is None:
                 raise
@@ -129,7 +129,7 @@ def first_settled(
         elif isinstance(outcome, Refusal):
             return outcome if best is None else best
         else:
-            if best is None or outcome.length < best.length:
+            if best is None or outcome.cost < best.cost:
                 best = outcome
             if outcome.is_settled:
                 break

@@ -8,8 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from viaspline.mission.model import Mission
-from viaspline.mission.robot_parts import TurnOnSpot
+from viaspline.mission.robot_parts import RobotSpec, TurnOnSpot
 from viaspline.mission.spline_spec import SplineSpec, Tangents
+from viaspline.planning.problem.objective import Objective
+from viaspline.planning.problem.pace import Pace
 from viaspline.planning.problem.work_budget import WorkBudget
 
 LEAST_KEPT_M = 1e-5  # even by a point without clearance, so that touching is not crossing
@@ -31,6 +33,7 @@ class Requirements:
         turn_radius: The radius of the tightest circle that the robot can drive [m]; None if it
             has no limit.
         turns_on_spot: Where it may stand and turn.
+        objective: By what paths are chosen.
         budget: What may be spent on looking for a path; None: as much as it takes.
     """
 
@@ -43,6 +46,7 @@ class Requirements:
     tracking_error: float = 0.0
     turn_radius: float | None = None
     turns_on_spot: TurnOnSpot = "stations"
+    objective: Objective = field(default_factory=lambda: Objective("time", Pace.of(RobotSpec())))
     budget: WorkBudget | None = None
 
     def spend(self, cost: float) -> None:
@@ -58,6 +62,16 @@ class Requirements:
     def is_free_disc(self) -> bool:
         """Whether a disc drives that can follow any curve."""
         return self.turn_radius is None and self.footprint is None
+
+    @property
+    def is_cardinal(self) -> bool:
+        """Whether the paper's own curve is asked for, of a robot that can follow it."""
+        return self.is_free_disc and self.tangents == "cardinal"
+
+    @property
+    def has_own_tension(self) -> bool:
+        """Whether the mission says how taut the spline is to be."""
+        return self.spline.tension is not None or self.spline.slack is not None
 
     @property
     def kept(self) -> float:
@@ -95,4 +109,5 @@ class Requirements:
             ),
             turn_radius=robot.turn_radius,
             turns_on_spot=robot.turns_on_spot,
+            objective=Objective(mission.route.optimise, Pace.of(robot)),
         )

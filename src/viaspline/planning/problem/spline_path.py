@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from viaspline.curve.path import PathVia, ViaKind
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.planning.problem.via_sequence import ViaSequence
 
 
@@ -60,6 +60,12 @@ class SplinePath:
         first, last = self.joints[k], self.joints[k + 1]
         found = [via.at for via in self.vias if first < via.u < last]
         return np.array(found).reshape(-1, self.spans.shape[2])
+
+    def rests(self, sequence: ViaSequence) -> Flags:
+        """Where a robot that drives it stands still, of the joints of its spans, (m + 1,)."""
+        found = np.zeros(len(self.spans) + 1, np.bool_)
+        found[self.joints] = [sequence.stands(k) for k in range(len(self.joints))]
+        return found
 
     def vias_from(self, first: int) -> tuple[PathVia, ...]:
         """The via points if the curve begins with span ``first`` of another one."""

@@ -112,6 +112,12 @@ class ViaSequence:
         """This sequence with another leg."""
         return replace(self, legs=(*self.legs[:index], leg, *self.legs[index + 1 :]))
 
+    def stands(self, via: int) -> bool:
+        """Whether the robot stands still at a via point, the one after the last the first again."""
+        at = self.vias[via % len(self.vias)]
+        is_end = via in (0, len(self.vias) - (not self.closed))
+        return at.dwell > 0.0 or (is_end and at.index is not None)
+
     @property
     def pieces(self) -> int:
         """Cubics from one via point to the next, detours counted."""

@@ -55,7 +55,8 @@ def as_driven(
 def _driven(problem: DrivenProblem, leg: int, spline: Curve) -> Curve | None:
     """The spline if it can be driven, else the leg laid along its taut path."""
     if problem.is_drivable(spline.spans[:, :, :2]):
-        cost = measure_body(spline.spans, problem.world, problem.requirements)
+        stands = problem.legs[leg].stands
+        cost = measure_body(spline.spans, problem.world, problem.requirements, stands)
         return replace(spline, measured=cost)
     row = problem.shortest_row.with_leg(leg, spline.taut_path)
     spline_path = problem.turns_along(row.taut_paths)
@@ -65,7 +66,8 @@ def _driven(problem: DrivenProblem, leg: int, spline: Curve) -> Curve | None:
 def _curve(problem: DrivenProblem, leg: int, spline_path: SplinePath) -> Curve:
     """A leg of a path that was laid."""
     spans = spline_path.leg(leg)
-    cost = measure_body(spans, problem.world, problem.requirements)
+    stands = problem.legs[leg].stands
+    cost = measure_body(spans, problem.world, problem.requirements, stands)
     return Curve(_path_along(spans), spline_path.detours(leg), spans, cost)
 
 

@@ -18,6 +18,7 @@ from viaspline.planning.alternatives.cleared_spline import ClearedSpline
 from viaspline.planning.alternatives.homotopy_classes import TautRow
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.checking.conflicts import is_clear
+from viaspline.planning.checking.driving_time import driving_time, straight_time
 from viaspline.planning.problem.heights import with_heights
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
@@ -28,11 +29,13 @@ from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import DETOUR, Bends, bends_along
 from viaspline.planning.turning.repair import clear_turn_path
 from viaspline.planning.turning.turn_path import OVERSHOOT, TurnPath
+from viaspline.planning.turning.wide_turns import WideTurns
 from viaspline.world.world import World
 
 # Radii of turns for a long body without a turning circle, wide ones first, in required distances.
-FREE_TURN_RADII = (6.0, 3.0, 1.5)
+FREE_TURN_RADII = (3.0, 1.5)
 LEAST_FREE_TURN_RADIUS = 0.5
+ROOMY_TURN_RADIUS = 2.0  # of turns where there is room, even if sharper ones are as fast
 LEAST_REQUIRED_M = 1e-3  # that these are of
 
 LayTurns = Callable[[Bends, World, Requirements], TurnPath | None]
@@ -130,17 +133,33 @@ class DrivenProblem(PathProblem):
                 return False
         return self.is_clear(spans)
 
+    def cost(self, spline_path: SplinePath) -> float:
+        """What a path is chosen by [s or m]."""
+        objective = self.requirements.objective
+        if not objective.is_time:
+            return spline_path.length
+        rests = spline_path.rests(self.sequence)
+        return driving_time(spline_path.spans, objective.pace, rests)
+
     def turns_along(self, taut_paths: Sequence[TautPath]) -> SplinePath | None:
         """Lines and turns along a row of taut paths, with the widest turns that keep clear."""
         bends = bends_along(self.sequence, taut_paths)
         for rho in self.least_radii:
-            turn_path = clear_turn_path(bends.turning(rho), self.world, self.requirements)
+            turn_path = self._turns_round(bends, rho)
             if turn_path is None:
                 continue
             spline_path = self.through_turns([turn_path])
             if self.keeps_sides(spline_path):
                 return spline_path
         return None
+
+    def _turns_round(self, bends: Bends, rho: float) -> TurnPath | None:
+        """Turns of at least a radius [m]: no wider ones where it is the length that counts."""
+        objective = self.requirements.objective
+        if not objective.is_time:
+            return clear_turn_path(bends.turning(rho), self.world, self.requirements)
+        roomy = ROOMY_TURN_RADIUS * self.requirements.required
+        return WideTurns(objective.pace, rho, roomy).lay(bends, self.world, self.requirements)
 
     def leg_on_sides(self, leg: int, bends: Bends, lay: LayTurns) -> TurnPath | None:
         """The turn path of one leg, if it keeps clear and to the sides that are asked for.
@@ -190,6 +209,34 @@ class DrivenProblem(PathProblem):
             if u > 0:
                 spans[u - 1, 3] = via.at
         return SplinePath.through(sequence, spans, joints, detours)
+
+
+@dataclass(frozen=True)
+class DrivenPrice:
+    """What paths along rows of taut paths are chosen by.
+
+    Attributes:
+        problem: What is to be driven.
+    """
+
+    problem: DrivenProblem
+
+    def of(self, laid: SplinePath, /) -> float:
+        """See ``Price``."""
+        return self.problem.cost(laid)
+
+    def least(self, row: TautRow, /) -> float:
+        """See ``Price``: straight lines of the same lengths from halt to halt."""
+        objective, sequence = self.problem.requirements.objective, self.problem.sequence
+        if not objective.is_time:
+            return row.length
+        total, run = 0.0, 0.0
+        for k, taut_path in enumerate(row.taut_paths):
+            run += taut_path.length
+            if sequence.stands(k + 1):
+                total += straight_time(run, objective.pace)
+                run = 0.0
+        return total + run / objective.pace.speed
 
 
 @dataclass(frozen=True)

@@ -36,12 +36,14 @@ class TurnPath:
         spans: Bézier control polygons [m], shape (m, 4, 2); curvature is continuous.
         begins: The span that begins at the apex of each bend, (n,), (n + 1,) when closed; at the
             goal and where a closed curve ends it is m.
+        turns: By how much it turns at each bend, left is positive [rad], (n,).
         length: [m].
     """
 
     bends: Bends
     spans: Floats
     begins: NDArray[np.int64]
+    turns: Floats
     length: float
 
 
@@ -97,7 +99,7 @@ def turn_path_on_sides(bends: Bends, ramp: float = RAMP) -> TurnPath | NoTurnPat
         return NoTurnPath(bends, int(state), int(where))
     spline_path = (bends.rows, bends.closed, lines, turns, apexes, ramps)
     spans, begins = turn_sequence_spans(*spline_path)
-    return TurnPath(bends, spans, begins, float(turn_sequence_length(*spline_path)))
+    return TurnPath(bends, spans, begins, turns, float(turn_sequence_length(*spline_path)))
 
 
 def with_sides(bends: Bends) -> Iterator[Bends]:

@@ -1,0 +1,39 @@
+"""How long a path takes to be driven, as far as its shape tells.
+
+Tested through ``planning/checking/test_driving_time``.
+"""
+
+from __future__ import annotations
+
+import math
+
+from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.timing.path_time import path_time
+from viaspline.planning.problem.pace import Pace
+
+
+def driving_time(spans: Floats, pace: Pace, rests: Flags) -> float:
+    """The time in which a curve is driven [s], to a part in a thousand.
+
+    Args:
+        spans: Bézier control polygons [m], (m, 4, d).
+        pace: How fast it may be driven.
+        rests: Whether the robot stands still at each joint, (m + 1,).
+    """
+    return float(
+        path_time(
+            spans, rests, pace.speed, pace.accel, pace.brake, pace.lateral, pace.yaw_rate
+        )
+    )  # fmt: skip
+
+
+def straight_time(length: float, pace: Pace) -> float:
+    """The time from rest to rest along a straight line [s]: no curve as long is faster.
+
+    Example:
+        >>> straight_time(10.0, Pace(speed=2.0, accel=1.0, brake=1.0, lateral=1.0))
+        7.0
+    """
+    each = 0.5 / pace.accel + 0.5 / pace.brake  # to speed up and to slow down, a m/s
+    speed = min(pace.speed, math.sqrt(length / each)) if length > 0.0 else pace.speed
+    return length / speed + speed * each if length > 0.0 else 0.0

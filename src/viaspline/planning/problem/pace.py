@@ -1,0 +1,88 @@
+"""How fast a robot may go, as far as the choice of a path hangs on it.
+
+The time law itself is laid later, with all limits of the drive; here paths are compared.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.mission.robot_parts import RobotSpec
+
+RADII_TRIED: Final = 24
+"""Radii of a corner that are compared, evenly in their logarithm."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pace:
+    """Limits of the speed along a path.
+
+    Attributes:
+        speed: [m/s].
+        accel: Along the path, speeding up [m/s²].
+        brake: Along the path, slowing down [m/s²].
+        lateral: Across the path [m/s²].
+        yaw_rate: [rad/s]; infinite where there is no limit.
+    """
+
+    speed: float
+    accel: float
+    brake: float
+    lateral: float
+    yaw_rate: float = math.inf
+
+    @classmethod
+    def of(cls, robot: RobotSpec) -> Pace:
+        """The pace of a robot."""
+        lateral, rate = robot.max_lateral_accel_mps2, robot.max_yaw_rate_degps
+        brake = robot.max_brake_mps2
+        return cls(
+            speed=robot.max_speed_mps,
+            accel=robot.max_accel_mps2,
+            brake=robot.max_accel_mps2 if brake is None else brake,
+            lateral=robot.max_accel_mps2 if lateral is None else lateral,
+            yaw_rate=math.inf if rate is None else math.radians(rate),
+        )
+
+    @property
+    def widest_radius(self) -> float:
+        """The radius of turns that are driven at full speed; wider ones are no faster [m]."""
+        return max(self.speed**2 / self.lateral, self.speed / self.yaw_rate)
+
+    def corner_radii(self, turns: Floats, kept: Floats) -> Floats:
+        r"""The radius with which each corner of a taut path is passed in the least time.
+
+        A turn by :math:`\theta` that touches a circle of radius k at its apex is longer with the
+        radius R by :math:`(R - k)(\theta - 2 \sin(\theta / 2))` than one that hugs the circle,
+        where the lines that lead to it are long: the lines move outwards. It is driven at
+        :math:`v_R = \min(v, \sqrt{a R}, \omega R)` in return, and slowing down to that costs
+        :math:`(v - v_R)^2 / 2 v` for each metre per second squared, before and after.
+
+        Args:
+            turns: By how much the path turns at each [rad], (n,).
+            kept: The radius of what it goes round [m], (n,).
+
+        Returns:
+            [m], (n,), no less than what is kept.
+        """
+        theta, least = np.abs(turns)[:, None], kept[:, None]
+        widest = np.maximum(least, self.widest_radius)
+        lowest = np.maximum(least, 1e-3 * widest)
+        share = np.linspace(0.0, 1.0, RADII_TRIED)
+        radii = lowest * (widest / lowest) ** share
+        driven = np.minimum(np.sqrt(self.lateral * radii), self.yaw_rate * radii)
+        driven = np.minimum(driven, self.speed)
+        longer = (radii - least) * (theta - 2.0 * np.sin(0.5 * theta))
+        slowed = (self.speed - driven) ** 2 / (2.0 * self.speed)
+        time = (
+            longer / self.speed
+            + slowed * (1.0 / self.accel + 1.0 / self.brake)
+            + radii * theta * (1.0 / driven - 1.0 / self.speed)
+        )
+        found: Floats = np.take_along_axis(radii, time.argmin(axis=1)[:, None], axis=1)[:, 0]
+        return found

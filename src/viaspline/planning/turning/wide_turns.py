@@ -1,0 +1,114 @@
+"""Turns as wide as a good driver makes them: each for itself, where there is room for it.
+
+Every bend is given the radius with which it is passed soonest. What swings out too far for what
+stands beside the path, or for the turns before and after it, is narrowed until it fits.
+
+Tested through ``planning/methods/test_ordered``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
+from viaspline.planning.problem.pace import Pace
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
+from viaspline.planning.turning.bend_row import KEPT, Bends
+from viaspline.planning.turning.repair import clear_turn_path
+from viaspline.planning.turning.turn_path import NoTurnPath, TurnPath, turn_path_on_sides
+from viaspline.world.world import World
+
+NARROWER = 0.7  # a radius that doesn't fit, over the next one that is tried
+MOST_NARROWED = 0.5  # of the widest swing of those between which it is too tight: narrowed as well
+MAX_NARROWINGS = 40
+
+
+@dataclass(frozen=True)
+class WideTurns:
+    """What turns should be like.
+
+    Attributes:
+        pace: How fast the robot may go.
+        least: The least radius of all [m].
+        roomy: What turns have where there is room, even if sharper ones were as fast [m].
+    """
+
+    pace: Pace
+    least: float
+    roomy: float
+
+    def lay(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
+        """The turn path with the widest turns that fit; None where not even the least are clear."""
+        narrowest = turn_path_on_sides(bends.turning(self.least))
+        if isinstance(narrowest, NoTurnPath):
+            return None
+        radii = np.full(len(bends.rows), self.least)
+        rows = _rows_left(bends, narrowest.bends)
+        radii[:] = np.maximum(self.roomy, self.least)
+        radii[rows] = np.maximum(
+            radii[rows], self.pace.corner_radii(narrowest.turns, bends.rows[rows, KEPT])
+        )
+        for _ in range(MAX_NARROWINGS):
+            requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
+            turn_path = turn_path_on_sides(bends.turning(radii))
+            if isinstance(turn_path, NoTurnPath):
+                left = _rows_left(bends, turn_path.bends)
+                count = len(left)
+                pair = left[[turn_path.where % count, (turn_path.where + 1) % count]]
+                tight = [pair] if turn_path.where >= 0 else [np.arange(len(radii))]
+                swings = radii
+            else:
+                close = body_conflicts(world, turn_path.spans, requirements)
+                if (close == CLEAR).all():
+                    return turn_path
+                left = _rows_left(bends, turn_path.bends)
+                tight = _pairs_between(turn_path, left, np.flatnonzero(close != CLEAR))
+                swings = np.zeros(len(radii))
+                swings[left] = _swings(turn_path)
+            narrowed = _narrowed(radii, tight, swings, self.least)
+            if np.array_equal(narrowed, radii):
+                break
+            radii = narrowed
+        return clear_turn_path(bends.turning(radii), world, requirements)
+
+
+def _swings(turn_path: TurnPath) -> Floats:
+    """How far each turn moves the lines before and after it out, beyond what is kept [m], (n,)."""
+    rows = turn_path.bends.rows
+    wider = np.maximum(rows[:, -1] - rows[:, KEPT], 0.0)
+    return np.asarray(wider * (1.0 - np.cos(0.5 * np.abs(turn_path.turns))))
+
+
+def _pairs_between(turn_path: TurnPath, left: Ints, spans: NDArray[np.intp]) -> list[Ints]:
+    """The bends before and after each of some spans, as rows of the bends asked for."""
+    count = len(left)
+    before = np.searchsorted(turn_path.begins[:count], spans, side="right") - 1
+    return [left[[k % count, (k + 1) % count]] for k in np.unique(before)]
+
+
+def _narrowed(radii: Floats, tight: list[Ints], swings: Floats, least: float) -> Floats:
+    """Radii with narrower ones at those bends of tight places that swing out most."""
+    result = radii.copy()
+    for pair in tight:
+        free = pair[radii[pair] > least]
+        if free.size:
+            widest = swings[free].max()
+            free = free[swings[free] >= MOST_NARROWED * widest]
+        result[free] = np.maximum(NARROWER * radii[free], least)
+    return result
+
+
+def _rows_left(asked: Bends, left: Bends) -> Ints:
+    """The rows of the bends asked for that are left in others, from which some were left out."""
+    found, k = [], 0
+    for row, via in zip(left.rows, left.vias, strict=True):
+        while not (asked.vias[k] == via and np.array_equal(asked.rows[k, :2], row[:2])):
+            k += 1
+        found.append(k)
+        k += 1
+    return np.array(found)
