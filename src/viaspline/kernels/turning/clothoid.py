@@ -49,6 +49,21 @@ def along_ramp(sharpness: float, distance: float) -> tuple[float, float]:
 
 
 @inner
+def ramp_end(heading: float) -> tuple[float, float]:
+    """Where a ramp of length 1 ends that begins at the origin along x: Fresnel's series.
+
+    Args:
+        heading: In which it ends [rad], at most about 1.5.
+    """
+    square = heading * heading
+    x, y = 0.0, 0.0
+    for n in range(9, -1, -1):
+        x = 1.0 / (4 * n + 1) - square / ((2 * n + 1) * (2 * n + 2)) * x
+        y = 1.0 / (4 * n + 3) - square / ((2 * n + 2) * (2 * n + 3)) * y
+    return x, heading * y
+
+
+@inner
 def arc_and_ramp(theta: float, rho: float, ramp: float) -> tuple[float, float]:
     """Radius of the arc of a turn and length of its ramps [m].
 
@@ -75,8 +90,9 @@ def shape_of(theta: float, rho: float, ramp: float) -> tuple[float, float, float
         ramp: Length of either ramp [m].
     """
     radius, ramp = arc_and_ramp(theta, rho, ramp)
-    x, y = along_ramp(1.0 / (radius * ramp), ramp)
     heading = 0.5 * ramp / radius
+    x, y = ramp_end(heading)
+    x, y = ramp * x, ramp * y
     return radius, y - radius * (1.0 - math.cos(heading)), x - radius * math.sin(heading)
 
 

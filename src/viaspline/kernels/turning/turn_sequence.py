@@ -30,6 +30,8 @@ X, Y, KEPT, SIDE, HEADING, RADIUS = range(6)
 FINE, NO_TANGENT, NO_ROOM, RESTLESS, LEFT_OUT = range(5)
 MAX_HEADING_ROUNDS = 400
 SETTLED_RAD = 1e-13  # change of a heading in the last round [rad]
+ACCELERATED_RAD = 0.05  # change of a heading from which on the next changes are foreseen [rad]
+MAX_OVERSHOOT = 20.0  # of such a change
 GENTLE_TURN_RAD = 1.2  # turns up to this are reckoned from where their lines meet [rad]
 MIN_RAMP_RADII = 0.08  # of the radius
 RAMP_SHRINK = 0.6
@@ -134,6 +136,21 @@ def _failed(bends: Floats, closed: bool, turns: Floats, state: int, where: int) 
 
 
 @inner
+def _overshoot(steps: Floats, before: Floats) -> float:
+    """How much of the last change is taken back, so that what is left to go is least.
+
+    D. G. Anderson, Iterative procedures for nonlinear integral equations (1965), with one step of
+    memory.
+    """
+    both, square = 0.0, 0.0
+    for k in range(steps.shape[0]):
+        change = steps[k] - before[k]
+        both += steps[k] * change
+        square += change * change
+    return max(min(both / square, 1.0), -MAX_OVERSHOOT) if square > 0.0 else 0.0
+
+
+@inner
 def _relaxed(
     bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats,
     circles: Floats, apexes: Floats,
@@ -145,15 +162,20 @@ def _relaxed(
     """
     count = bends.shape[0]
     last = count if closed else count - 1
+    came_from, steps, steps_before = lines.copy(), np.zeros(last), np.zeros(last)
     for round_ in range(MAX_HEADING_ROUNDS):
         moved = 0.0
         for k in range(last):
             line = _line(circles, k, (k + 1) % count)
             if math.isnan(line):
                 return _failed(bends, closed, turns, NO_TANGENT, k)
-            line = _wrapped(line, lines[k])
-            moved = max(moved, abs(line - lines[k]))
-            lines[k] = line
+            steps_before[k], steps[k] = steps[k], _wrapped(line, lines[k]) - lines[k]
+            moved = max(moved, abs(steps[k]))
+        share = _overshoot(steps, steps_before) if 1 < round_ and moved < ACCELERATED_RAD else 0.0
+        for k in range(last):
+            here, line = lines[k], lines[k] + steps[k]
+            lines[k] = line - share * (line - came_from[k] - steps_before[k])
+            came_from[k] = here
         if round_ > 0 and moved < SETTLED_RAD:
             return _failed(bends, closed, turns, FINE, -1)
         for k in range(count):

@@ -117,7 +117,7 @@ class Attempt(Generic[Laid]):
 
 def cheapest_laid(
     first: Iterable[TautRow],
-    attempt: Callable[[TautRow], Attempt[Laid]],
+    attempt: Callable[[TautRow, float], Attempt[Laid]],
     price: Price[Laid],
     best: Laid | None = None,
     max_rows: float = math.inf,
@@ -129,7 +129,7 @@ def cheapest_laid(
 
     Args:
         first: The rows to begin with.
-        attempt: Lays something along a row, if it can.
+        attempt: Lays something along a row, if it can and that may cost less than what is there.
         price: What it is to have little of.
         best: What is there already.
         max_rows: Rows that are tried.
@@ -149,7 +149,7 @@ def cheapest_laid(
     while open_ and tried < max_rows and open_[0][0] < bound:
         tried += 1
         try:
-            made = attempt(heapq.heappop(open_)[2])
+            made = attempt(heapq.heappop(open_)[2], bound)
         except SpentBudgetError:
             if best is None:
                 raise

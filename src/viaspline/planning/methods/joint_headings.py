@@ -12,7 +12,7 @@ from functools import partial
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import TurnProblem
-from viaspline.planning.turning.headings import legs_of, lengths_cost, posed
+from viaspline.planning.turning.headings import HEADING_COUNT, legs_of, lengths_cost, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 
 
@@ -21,12 +21,14 @@ class JointHeadings:
     """Lays turns between the best row of headings: legs as they are, else pushed clear.
 
     Attributes:
+        headings: That are tried at each via point, evenly round it.
         max_rows: Rows of headings that are tried with legs as they are.
         max_pushed_rows: The same with legs that are pushed clear.
         max_pushed_pairs: Pairs of headings of a leg for which it is pushed, until one of them can
             be cleared.
     """
 
+    headings: int = HEADING_COUNT
     max_rows: int = 300
     max_pushed_rows: int = 40
     max_pushed_pairs: int = 16
@@ -35,7 +37,10 @@ class JointHeadings:
         """See ``Method``."""
         path = problem.path
         bound = path.requirements.objective.metres(bound)
-        legs, closed = legs_of(path.bends.turning(problem.rho), path.spots), path.bends.closed
+        legs, closed = (
+            legs_of(path.bends.turning(problem.rho), path.spots, self.headings),
+            path.bends.closed,
+        )
         path.requirements.spend(lengths_cost(legs))
         as_it_is, pushed = (
             partial(path.leg_on_sides, lay=lay) for lay in (turn_path_if_clear, clear_turn_path)

@@ -39,7 +39,7 @@ class NextHomotopyClasses:
         """See ``Method``."""
         path = problem.path
 
-        def attempt(row: TautRow) -> Attempt[TurnPath]:
+        def attempt(row: TautRow, bound: float) -> Attempt[TurnPath]:
             bends = bends_along(path.sequence, row.taut_paths).turning(problem.rho)
             made = clear_turn_path_or_why(bends, path.world, path.requirements)
             places = path.passed_wrong(made) if isinstance(made, TurnPath) else made.places

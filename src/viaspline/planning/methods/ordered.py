@@ -27,6 +27,7 @@ DISC_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
     OtherSides((
         TurnsOnShortest(),
+        AtRadii((JointHeadings(10, max_rows=100, max_pushed_rows=10, max_pushed_pairs=6),)),
         SplineLedRound(),
     )),
 )  # fmt: skip

@@ -34,7 +34,9 @@ class OtherSides:
         if not isinstance(outcome, Found):
             return outcome
 
-        def attempt(row: TautRow) -> Attempt[SplinePath]:
+        def attempt(row: TautRow, bound: float) -> Attempt[SplinePath]:
+            if not problem.is_promising(row.taut_paths, bound):
+                return Attempt(None)
             laid = problem.turns_along(row.taut_paths)
             return Attempt(laid, () if laid is None else _other_rows(problem, row))
 

@@ -153,13 +153,26 @@ class DrivenProblem(PathProblem):
                 return spline_path
         return None
 
+    def is_promising(self, taut_paths: Sequence[TautPath], bound: float) -> bool:
+        """Whether turns along taut paths may cost less than a bound [m or s].
+
+        Those of a good driver do where nothing else stands beside them.
+        """
+        if not self.requirements.objective.is_time:
+            return True
+        bends = bends_along(self.sequence, taut_paths)
+        ideal = self._wide_turns(self.least_radii[-1]).ideal(bends, self.requirements)
+        return ideal is None or self.cost(self.through_turns([ideal])) < bound
+
+    def _wide_turns(self, rho: float) -> WideTurns:
+        roomy = ROOMY_TURN_RADIUS * self.requirements.required
+        return WideTurns(self.requirements.objective.pace, rho, roomy)
+
     def _turns_round(self, bends: Bends, rho: float) -> TurnPath | None:
         """Turns of at least a radius [m]: no wider ones where it is the length that counts."""
-        objective = self.requirements.objective
-        if not objective.is_time:
+        if not self.requirements.objective.is_time:
             return clear_turn_path(bends.turning(rho), self.world, self.requirements)
-        roomy = ROOMY_TURN_RADIUS * self.requirements.required
-        return WideTurns(objective.pace, rho, roomy).lay(bends, self.world, self.requirements)
+        return self._wide_turns(rho).lay(bends, self.world, self.requirements)
 
     def leg_on_sides(self, leg: int, bends: Bends, lay: LayTurns) -> TurnPath | None:
         """The turn path of one leg, if it keeps clear and to the sides that are asked for.

@@ -75,34 +75,37 @@ class Poses:
         return sum(turn_path.length for turn_path in self.turn_paths)
 
 
-def legs_of(bends: Bends, spots: Collection[int]) -> tuple[HeadingLeg, ...]:
+def legs_of(
+    bends: Bends, spots: Collection[int], count: int = HEADING_COUNT
+) -> tuple[HeadingLeg, ...]:
     """The legs of a row of bends.
 
     Args:
         bends: The row.
         spots: Via points at which the robot may turn on the spot.
+        count: Headings that are tried at a via point.
     """
-    count = bends.closed + int(bends.vias.max()) + 1
-    places = [bends.places(via) for via in range(count - bends.closed)]
+    vias = bends.closed + int(bends.vias.max()) + 1
+    places = [bends.places(via) for via in range(vias - bends.closed)]
     rows = bends.rows
     if bends.closed:
         rows = np.vstack((rows, rows[:1]))
         places.append(len(rows) - 1)
-    headings = [_headings(bends, via, count, spots) for via in range(count)]
+    headings = [_headings(bends, via, vias, spots, count) for via in range(vias)]
     return tuple(
         HeadingLeg(rows[a : b + 1].copy(), headings[k], headings[k + 1])
         for k, (a, b) in enumerate(pairwise(places))
     )
 
 
-def _headings(bends: Bends, via: int, count: int, spots: Collection[int]) -> Floats:
+def _headings(bends: Bends, via: int, vias: int, spots: Collection[int], count: int) -> Floats:
     """The headings that a via point may have [rad]."""
-    is_end = not bends.closed and via in (0, count - 1)
+    is_end = not bends.closed and via in (0, vias - 1)
     if is_end:
         return bends.rows[[bends.places(via)], HEADING]
-    if via % (count - bends.closed) in spots:
+    if via % (vias - bends.closed) in spots:
         return np.array([math.nan])
-    return np.arange(HEADING_COUNT, dtype=np.float64) * (math.tau / HEADING_COUNT)
+    return np.arange(count, dtype=np.float64) * (math.tau / count)
 
 
 def lengths_cost(legs: Sequence[HeadingLeg]) -> float:

@@ -13,7 +13,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.turning.turn_sequence import (
     FINE,
     LEFT_OUT,
@@ -32,7 +32,8 @@ class TurnPath:
     """A curve round a row of bends.
 
     Attributes:
-        bends: The row.
+        bends: The row, without those that the others make needless.
+        left: Which of those that were asked for they are, (n,).
         spans: Bézier control polygons [m], shape (m, 4, 2); curvature is continuous.
         begins: The span that begins at the apex of each bend, (n,), (n + 1,) when closed; at the
             goal and where a closed curve ends it is m.
@@ -41,6 +42,7 @@ class TurnPath:
     """
 
     bends: Bends
+    left: Ints
     spans: Floats
     begins: NDArray[np.int64]
     turns: Floats
@@ -52,12 +54,14 @@ class NoTurnPath:
     """Why there is none.
 
     Attributes:
-        bends: The row.
+        bends: The row, without those that the others make needless.
+        left: Which of those that were asked for they are, (n,).
         state: One of the states of ``kernels.turning.turn_sequence``.
         where: The line or the bend at which it failed, -1 where it can't be said.
     """
 
     bends: Bends
+    left: Ints
     state: int
     where: int
 
@@ -90,16 +94,17 @@ def turn_path_on_sides(bends: Bends, ramp: float = RAMP) -> TurnPath | NoTurnPat
         bends: The row.
         ramp: Length of the ramps, in radii.
     """
+    left = np.arange(len(bends.rows))
     while True:
         lines, turns, apexes, ramps, state, where = turn_sequence(bends.rows, bends.closed, ramp)
         if state != LEFT_OUT:
             break
-        bends = bends.without(where)
+        bends, left = bends.without(where), np.delete(left, where)
     if state != FINE:
-        return NoTurnPath(bends, int(state), int(where))
+        return NoTurnPath(bends, left, int(state), int(where))
     spline_path = (bends.rows, bends.closed, lines, turns, apexes, ramps)
     spans, begins = turn_sequence_spans(*spline_path)
-    return TurnPath(bends, spans, begins, turns, float(turn_sequence_length(*spline_path)))
+    return TurnPath(bends, left, spans, begins, turns, float(turn_sequence_length(*spline_path)))
 
 
 def with_sides(bends: Bends) -> Iterator[Bends]:

@@ -44,20 +44,14 @@ class WideTurns:
 
     def lay(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
         """The turn path with the widest turns that fit; None where not even the least are clear."""
-        narrowest = turn_path_on_sides(bends.turning(self.least))
-        if isinstance(narrowest, NoTurnPath):
+        radii = self._wished(bends)
+        if radii is None:
             return None
-        radii = np.full(len(bends.rows), self.least)
-        rows = _rows_left(bends, narrowest.bends)
-        radii[:] = np.maximum(self.roomy, self.least)
-        radii[rows] = np.maximum(
-            radii[rows], self.pace.corner_radii(narrowest.turns, bends.rows[rows, KEPT])
-        )
         for _ in range(MAX_NARROWINGS):
             requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
             turn_path = turn_path_on_sides(bends.turning(radii))
             if isinstance(turn_path, NoTurnPath):
-                left = _rows_left(bends, turn_path.bends)
+                left = turn_path.left
                 count = len(left)
                 pair = left[[turn_path.where % count, (turn_path.where + 1) % count]]
                 tight = [pair] if turn_path.where >= 0 else [np.arange(len(radii))]
@@ -66,7 +60,7 @@ class WideTurns:
                 close = body_conflicts(world, turn_path.spans, requirements)
                 if (close == CLEAR).all():
                     return turn_path
-                left = _rows_left(bends, turn_path.bends)
+                left = turn_path.left
                 tight = _pairs_between(turn_path, left, np.flatnonzero(close != CLEAR))
                 swings = np.zeros(len(radii))
                 swings[left] = _swings(turn_path)
@@ -75,6 +69,24 @@ class WideTurns:
                 break
             radii = narrowed
         return clear_turn_path(bends.turning(radii), world, requirements)
+
+    def ideal(self, bends: Bends, requirements: Requirements) -> TurnPath | None:
+        """The turn path with the widest turns, clear or not; None where they overlap."""
+        requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
+        radii = self._wished(bends)
+        found = None if radii is None else turn_path_on_sides(bends.turning(radii))
+        return found if isinstance(found, TurnPath) else None
+
+    def _wished(self, bends: Bends) -> Floats | None:
+        """The radius that each turn should have [m], (n,); None where the least have no room."""
+        narrowest = turn_path_on_sides(bends.turning(self.least))
+        if isinstance(narrowest, NoTurnPath):
+            return None
+        rows = narrowest.left
+        radii = np.full(len(bends.rows), max(self.roomy, self.least))
+        fast = self.pace.corner_radii(narrowest.turns, bends.rows[rows, KEPT])
+        radii[rows] = np.maximum(radii[rows], fast)
+        return radii
 
 
 def _swings(turn_path: TurnPath) -> Floats:
@@ -101,14 +113,3 @@ def _narrowed(radii: Floats, tight: list[Ints], swings: Floats, least: float) ->
             free = free[swings[free] >= MOST_NARROWED * widest]
         result[free] = np.maximum(NARROWER * radii[free], least)
     return result
-
-
-def _rows_left(asked: Bends, left: Bends) -> Ints:
-    """The rows of the bends asked for that are left in others, from which some were left out."""
-    found, k = [], 0
-    for row, via in zip(left.rows, left.vias, strict=True):
-        while not (asked.vias[k] == via and np.array_equal(asked.rows[k, :2], row[:2])):
-            k += 1
-        found.append(k)
-        k += 1
-    return np.array(found)
