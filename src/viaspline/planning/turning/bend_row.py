@@ -44,9 +44,10 @@ class Bends:
             np.insert(self.rows, k, row, axis=0), np.insert(self.vias, k, DETOUR), self.closed
         )
 
-    def without(self, k: int) -> Bends:
-        """These bends without bend k."""
-        return Bends(np.delete(self.rows, k, axis=0), np.delete(self.vias, k), self.closed)
+    def without(self, needless: NDArray[np.intp]) -> Bends:
+        """These bends without some of them."""
+        rows = np.delete(self.rows, needless, axis=0)
+        return Bends(rows, np.delete(self.vias, needless), self.closed)
 
     def turning(self, radii: float | Floats) -> Bends:
         """These bends with other least radii of their turns: one [m], or one for each, (n,)."""

@@ -162,7 +162,12 @@ class DrivenProblem(PathProblem):
             return True
         bends = bends_along(self.sequence, taut_paths)
         ideal = self._wide_turns(self.least_radii[-1]).ideal(bends, self.requirements)
-        return ideal is None or self.cost(self.through_turns([ideal])) < bound
+        if ideal is None:
+            return True
+        rests = np.zeros(len(ideal.spans) + 1, np.bool_)
+        stands = [via != DETOUR and self.sequence.stands(int(via)) for via in ideal.bends.vias]
+        rests[ideal.begins[: len(stands)][stands]] = True
+        return driving_time(ideal.spans, self.requirements.objective.pace, rests) < bound
 
     def _wide_turns(self, rho: float) -> WideTurns:
         roomy = ROOMY_TURN_RADIUS * self.requirements.required

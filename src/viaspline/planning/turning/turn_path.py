@@ -25,6 +25,7 @@ from viaspline.planning.turning.bend_row import HEADING, SIDE, Bends
 
 OVERSHOOT = 1.0035  # of the least radius over the turning circle: cubics bend a little more
 RAMP = 1.0  # length of a ramp, in radii
+WRONG_TURN_RAD = 1e-9  # by which a bend is turned at to the wrong side
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +48,26 @@ class TurnPath:
     begins: NDArray[np.int64]
     turns: Floats
     length: float
+
+
+@dataclass(frozen=True, eq=False)
+class SettledTurns:
+    """Where the lines and turns round a row of bends lie.
+
+    Attributes:
+        bends: The row, without those that the others make needless.
+        left: Which of those that were asked for they are, (n,).
+        lines_and_turns: See ``kernels.turning.turn_sequence``.
+    """
+
+    bends: Bends
+    left: Ints
+    lines_and_turns: tuple[Floats, ...]
+
+    @property
+    def turns(self) -> Floats:
+        """By how much it turns at each bend, left is positive [rad], (n,)."""
+        return self.lines_and_turns[1]
 
 
 @dataclass(frozen=True)
@@ -94,17 +115,45 @@ def turn_path_on_sides(bends: Bends, ramp: float = RAMP) -> TurnPath | NoTurnPat
         bends: The row.
         ramp: Length of the ramps, in radii.
     """
+    found = settled_turns(bends, ramp)
+    if isinstance(found, NoTurnPath):
+        return found
+    rows, at = found.bends.rows, found.lines_and_turns
+    spans, begins = turn_sequence_spans(rows, bends.closed, *at)
+    length = float(turn_sequence_length(rows, bends.closed, *at))
+    return TurnPath(found.bends, found.left, spans, begins, found.turns, length)
+
+
+def settled_turns(bends: Bends, ramp: float = RAMP) -> SettledTurns | NoTurnPath:
+    """The lines and turns round a row of bends, to the sides that are set.
+
+    Args:
+        bends: The row.
+        ramp: Length of the ramps, in radii.
+    """
     left = np.arange(len(bends.rows))
     while True:
-        lines, turns, apexes, ramps, state, where = turn_sequence(bends.rows, bends.closed, ramp)
+        *lines_and_turns, state, where = turn_sequence(bends.rows, bends.closed, ramp)
         if state != LEFT_OUT:
             break
-        bends, left = bends.without(where), np.delete(left, where)
+        needless = _needless(bends, lines_and_turns[1], int(where))
+        bends, left = bends.without(needless), np.delete(left, needless)
     if state != FINE:
         return NoTurnPath(bends, left, int(state), int(where))
-    spline_path = (bends.rows, bends.closed, lines, turns, apexes, ramps)
-    spans, begins = turn_sequence_spans(*spline_path)
-    return TurnPath(bends, left, spans, begins, turns, float(turn_sequence_length(*spline_path)))
+    return SettledTurns(bends, left, tuple(lines_and_turns))
+
+
+def _needless(bends: Bends, turns: Floats, worst: int) -> NDArray[np.intp]:
+    """The bends at which a path turns to the wrong side: of neighbours the one that does so most.
+
+    Without that one the others may be needed again. The worst of all is among them.
+    """
+    wrong = np.minimum(bends.rows[:, SIDE] * turns, 0.0)
+    if not bends.closed:
+        wrong[[0, -1]] = 0.0
+    before, after = np.roll(wrong, 1), np.roll(wrong, -1)
+    found = np.flatnonzero((wrong < -WRONG_TURN_RAD) & (wrong < before) & (wrong <= after))
+    return np.union1d(found, worst)
 
 
 def with_sides(bends: Bends) -> Iterator[Bends]:

@@ -20,7 +20,12 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
 from viaspline.planning.turning.bend_row import KEPT, Bends
 from viaspline.planning.turning.repair import clear_turn_path
-from viaspline.planning.turning.turn_path import NoTurnPath, TurnPath, turn_path_on_sides
+from viaspline.planning.turning.turn_path import (
+    NoTurnPath,
+    TurnPath,
+    settled_turns,
+    turn_path_on_sides,
+)
 from viaspline.world.world import World
 
 NARROWER = 0.7  # a radius that doesn't fit, over the next one that is tried
@@ -79,7 +84,7 @@ class WideTurns:
 
     def _wished(self, bends: Bends) -> Floats | None:
         """The radius that each turn should have [m], (n,); None where the least have no room."""
-        narrowest = turn_path_on_sides(bends.turning(self.least))
+        narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None
         rows = narrowest.left
