@@ -60,8 +60,8 @@ def path_time(
 
     Args:
         spans: Bézier control polygons [m], (m, 4, d).
-        rests: Whether the robot stands at each joint, (m + 1,); where it doesn't at an end, it comes
-            and goes as fast as it may.
+        rests: Whether the robot stands at each joint, (m + 1,); where it doesn't at an end, it
+            comes and goes as fast as it may.
         top: Largest speed [m/s].
         accel: Largest acceleration along the curve [m/s²].
         brake: Largest deceleration [m/s²].

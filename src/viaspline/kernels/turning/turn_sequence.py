@@ -171,7 +171,7 @@ def _relaxed(
                 return _failed(bends, closed, turns, NO_TANGENT, k)
             steps_before[k], steps[k] = steps[k], _wrapped(line, lines[k]) - lines[k]
             moved = max(moved, abs(steps[k]))
-        share = _overshoot(steps, steps_before) if 1 < round_ and moved < ACCELERATED_RAD else 0.0
+        share = _overshoot(steps, steps_before) if round_ > 1 and moved < ACCELERATED_RAD else 0.0
         for k in range(last):
             here, line = lines[k], lines[k] + steps[k]
             lines[k] = line - share * (line - came_from[k] - steps_before[k])
