@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from best_curve import Task
+from driving_time import DrivingLimits, driving_time
 from free_space import FreeSpace
 from path_shape import Shape
 from taut_route import Triangles
@@ -55,9 +58,39 @@ class DrivenPlan:
     @cached_property
     def legs(self) -> list[np.ndarray]:
         """Points close together from each of the user's via points to the next [m], (n, 2)."""
-        joints = [round(via.u) for via in self.plan.path.vias if via.kind == "user"]
+        joints = [round(via.u) for via in self.stops]
         first = np.searchsorted(self.shape.span, joints)
-        return [self.shape.points[a:b] for a, b in pairwise(first.tolist()) if b > a]
+        return [self.shape.points[a : b + 1] for a, b in pairwise(first.tolist())]
+
+    @property
+    def stops(self) -> list[vs.PathVia]:
+        """The user's via points, start and goal among them, as they lie on the path."""
+        return [via for via in self.plan.path.vias if via.kind == "user"]
+
+    @property
+    def driving_time(self) -> float:
+        """The least on its path, dwells left out [s]."""
+        rests = [at for via, at in self.plan.path.stops if via.dwell > 0.0]
+        shape, limits = self.shape, DrivingLimits.of(self.plan.mission.robot)
+        return driving_time(shape.along, shape.curvature, np.array(rests), limits)
+
+    @property
+    def task(self) -> Task:
+        """The best curve of its kind is asked for, with these via points and stops."""
+        route, stops = self.plan.mission.route, self.stops
+        ends = {0: route.start, len(stops) - 1: route.goal}
+        return Task(
+            space=self.free_space,
+            legs=tuple(self.legs),
+            rests=(True, *(via.dwell > 0.0 for via in stops[1:-1]), True),
+            limits=DrivingLimits.of(self.plan.mission.robot),
+            headings={
+                k: math.radians(end.heading_deg)
+                for k, end in ends.items()
+                if end is not None and end.heading_deg is not None
+            },
+            closed=route.closed,
+        )
 
     @cached_property
     def taut_legs(self) -> list[np.ndarray]:
@@ -66,6 +99,11 @@ class DrivenPlan:
         margin = 4.0 * self.free_space.required + 1.0
         triangles = Triangles(self.free_space.polygon(around, margin))
         return [triangles.taut(leg) for leg in self.legs]
+
+    @property
+    def task_from_taut(self) -> Task:
+        """The same, begun with the taut route of its kind."""
+        return replace(self.task, legs=tuple(self.taut_legs))
 
     @property
     def taut(self) -> np.ndarray:

@@ -15,6 +15,8 @@ import numpy as np
 FIRST_PIECES = 64  # of a span, before it is looked at where it turns
 MAX_TURN_RAD = 0.01
 MAX_HALVINGS = 30
+STANDING = 1e-7  # of a span's greatest speed in its parameter: less has no direction
+CORNER_RAD = 0.05  # between samples that lie as close as they can
 NEAR_TURN_RAD = math.radians(143.0)
 NEAR_TURN_SHARE = 1.0 / 200.0  # of a span's length
 
@@ -62,6 +64,15 @@ class Shape:
         """The integral of the squared curvature along the curve [1/m]."""
         return float(np.trapezoid(self.curvature**2, self.along))
 
+    @property
+    def corners(self) -> int:
+        """Places at which the heading jumps."""
+        return int(np.count_nonzero(np.abs(np.diff(self.headings)) > CORNER_RAD))
+
+    def is_sharper(self, radius: float) -> bool:
+        """Whether it bends more tightly than a circle [m] anywhere, or has a corner."""
+        return self.corners > 0 or self.peak > 1.0 / radius
+
     def sign_changes(self, threshold: float = 0.02) -> int:
         """How often it turns the other way, bends of less than ``threshold`` [1/m] left out."""
         turning = self.curvature[np.abs(self.curvature) > threshold]
@@ -100,8 +111,10 @@ def _sampled(span: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     w = np.linspace(0.0, 1.0, FIRST_PIECES + 1)
     for _ in range(MAX_HALVINGS):
         first = _tangents(span, w)
+        speed = np.hypot(*first.T)
+        tells = speed > STANDING * speed.max()
         turn = np.abs(_between(first[:-1], first[1:]))
-        wide = turn > MAX_TURN_RAD
+        wide = (turn > MAX_TURN_RAD) & tells[:-1] & tells[1:]
         if not wide.any():
             break
         w = np.sort(np.concatenate((w, 0.5 * (w[:-1] + w[1:])[wide])))
@@ -120,7 +133,7 @@ def _sampled(span: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def _moving(speed: np.ndarray) -> np.ndarray:
     """For every sample itself, or the nearest at which the curve moves, (n,)."""
-    moving = np.flatnonzero(speed > 1e-9 * speed.max())
+    moving = np.flatnonzero(speed > STANDING * speed.max())
     here = np.arange(len(speed))
     after = np.minimum(np.searchsorted(moving, here), len(moving) - 1)
     before = np.maximum(after - 1, 0)
