@@ -15,7 +15,8 @@ import math
 
 import numpy as np
 import shapely
-from best_curve import Nodes, Task, fastest, shortest
+from best_curve import fastest, least_room, shortest
+from curve_nodes import Nodes, Task
 from driven_missions import vector_world
 from driven_plan import DrivenPlan
 from driving_time import DrivingLimits, straight_time
@@ -27,12 +28,12 @@ FAR = 1e6
 OPEN = (-FAR, -FAR, FAR, FAR)
 
 
-def row(name: str, found: Nodes, seconds: float, space: FreeSpace, known: tuple[float, float]):
+def row(name: str, found: Nodes, seconds: float, task: Task, known: tuple[float, float]):
     """Print a case: what was found over what is known, the length [m] and the time [s]."""
     length, time = known
     print(
         f"{name:24s} {found.length / length:9.6f} {found.time / time:9.6f} "
-        f"{found.peak:8.4f} {1e3 * space.room(found.points).min():9.4f} {seconds:6.1f}",
+        f"{found.peak:8.4f} {1e3 * least_room(task, found):9.4f} {seconds:6.1f}",
         flush=True,
     )
 
@@ -84,15 +85,15 @@ def known_cases() -> None:
     for lateral in (100.0, 0.2):
         task, length = disc(lateral)
         seconds, found = clock(lambda task=task: fastest(task))
-        row(f"disc, {lateral:g} m/s²", found, seconds, task.space,
+        row(f"disc, {lateral:g} m/s²", found, seconds, task,
             (length, straight_time(length, task.limits)))  # fmt: skip
     task, length = disc(100.0)
     seconds, found = clock(lambda: shortest(task))
-    row("disc, shortest", found, seconds, task.space, (length, straight_time(length, task.limits)))
+    row("disc, shortest", found, seconds, task, (length, straight_time(length, task.limits)))
     for lateral in (2.0, 0.5):
         task, length = corner(lateral)
         seconds, found = clock(lambda task=task: fastest(task))
-        row(f"corner, {lateral:g} m/s²", found, seconds, task.space,
+        row(f"corner, {lateral:g} m/s²", found, seconds, task,
             (length, straight_time(length, task.limits)))  # fmt: skip
 
 

@@ -15,6 +15,7 @@ import viaspline as vs
 
 SPEED, ACCEL = 5.0, 1.0  # [m/s], [m/s²] along the path and across it
 SIZE = 500.0
+PAIRS = 30  # of places on a map, one of which is taken
 
 
 def vector_world(seed: int) -> vs.Mission:
@@ -124,20 +125,26 @@ def crop(seed: int, folder: Path, side: int = 120) -> vs.Mission:
 def _on_map(
     random: np.random.Generator, blocked: np.ndarray, cell: float, required: float
 ) -> vs.Mission:
-    """Between two far places of the largest area in which the robot gets about."""
+    """Between two far places of the largest area in which the robot gets about.
+
+    The farthest of some pairs between which something stands, if there are such.
+    """
     room = cell * (distance_transform_edt(np.pad(~blocked, 1))[1:-1, 1:-1] - 0.5)
     areas, _ = label(room > 1.3 * required + 0.3 * cell)
     largest = np.argwhere(areas == np.argmax(np.bincount(areas[areas > 0])))
-    picked = largest[random.integers(len(largest), size=60)]
-    far = np.hypot(*(picked[:30] - picked[30:]).T)
-    ends = [cell * (picked[k + int(far.argmax())][::-1] + 0.5) for k in (0, 30)]
+    ends = largest[random.integers(len(largest), size=(PAIRS, 2))][..., ::-1]  # x, y
+    between = ends[:, :1] + np.linspace(0, 1, 200)[:, None] * (ends[:, 1:] - ends[:, :1])
+    column, row = np.rint(between).astype(int).transpose(2, 0, 1)
+    is_met = blocked[row, column].any(axis=1)
+    far = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    start, goal = cell * (ends[np.argmax(far + far.max() * is_met)] + 0.5)
     height, width = blocked.shape
     grid = vs.Obstacle(grid=vs.Grid(blocked, cell))
     robot = {"radius_m": 0.6 * required, "clearance_m": 0.4 * required}
     return vs.Mission.model_validate({
         "world": {"bounds": [0, 0, cell * width, cell * height], "known": [grid]},
         "robot": robot | _limits(2.0),
-        "route": {"start": ends[0].tolist(), "goal": ends[1].tolist()},
+        "route": {"start": start.tolist(), "goal": goal.tolist()},
     })  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from best_curve import Task
+from curve_nodes import Task
 from driving_time import DrivingLimits, driving_time
 from free_space import FreeSpace
 from path_shape import Shape

@@ -57,10 +57,9 @@ class FreeSpace:
         )  # fmt: skip
         return shapely.difference(shapely.intersection(box, inside), shapely.union_all(grown))
 
-    def room(self, points: np.ndarray) -> np.ndarray:
-        """By how much more than required places are clear [m], (n,); 2 m at most."""
-        reach = self.required + 2.0
-        return self.solids.room(shapely.points(points), reach) - self.required
+    def room(self, geometries: np.ndarray) -> np.ndarray:
+        """By how much more than required geometries are clear [m], (n,); 2 m at most."""
+        return self.solids.room(geometries, self.required + 2.0) - self.required
 
 
 def _cores(mission: vs.Mission) -> tuple[np.ndarray, np.ndarray]:
