@@ -100,9 +100,7 @@ class Unknowns:
     @property
     def column(self) -> ca.SX:
         """All of them."""
-        return ca.vertcat(
-            self.x, self.y, self.headings, self.curvature, self.squares, self.legs
-        )  # fmt: skip
+        return ca.vertcat(self.x, self.y, self.headings, self.curvature, self.squares, self.legs)
 
     def drive(self, nodes: Nodes, top: float) -> Drive:
         """The drive on it, the greatest squared speed given [m²/s²]."""
@@ -134,9 +132,7 @@ def solved(task: Task, nodes: Nodes, aim: Aim) -> tuple[Nodes | None, float]:
 def _values(nodes: Nodes, top: float) -> np.ndarray:
     """Of the unknowns, in their order."""
     squares = nodes.squares / top
-    return np.concatenate(
-        (*nodes.points.T, nodes.headings, nodes.curvature, squares, nodes.legs)
-    )  # fmt: skip
+    return np.concatenate((*nodes.points.T, nodes.headings, nodes.curvature, squares, nodes.legs))
 
 
 def _unpacked(nodes: Nodes, values: np.ndarray, top: float) -> Nodes:
