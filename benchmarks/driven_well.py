@@ -1,0 +1,227 @@
+"""The path that a good driver would take: how far the planner's is from it, a table a question.
+
+    python benchmarks/driven_well.py TABLE [--seed 0] [--worlds N] [--maps FOLDER]
+
+    turns            how often the path turns the other way, in the examples, and its taut route
+    best-vector      time, length and bending over those of the best curve of the same kind, in
+                     vector worlds; 40 of them
+    best-maps        the same on 10 crops of the maps in FOLDER, and on as many maps of rooms
+    best-examples    the same in the examples, but for those with a body that is no disc
+    street           what the street example loses to its corners
+    straight         vector worlds at 5 m/s, 1 m/s²: time over that of the straight line; 40
+    sharp            random missions of four via points: how many are sharp, or turn back; 1,000
+    lanes            share of lanes over a lake that the path stays within 1 m of; 20
+    times            of a plan: vector worlds, crops of the maps in FOLDER; 20
+
+Times are the least under the mission's limits of speed and acceleration (across the path as along
+it, where it has none), dwells left out. All figures come from samples of the exact curve and from
+shapely, none from the plan's own report. Put another checkout's ``src`` in ``PYTHONPATH`` to
+measure that.
+"""
+
+from __future__ import annotations
+
+import argparse
+import warnings
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import shapely
+from best_curve import UnsolvedError, fastest, gentlest
+from driven_missions import crop, four_vias, lake, rooms, vector_world
+from driven_plan import DrivenPlan
+from driving_time import DrivingLimits, straight_time
+from path_shape import turning_sides
+from timing import clock, in_turn
+from worlds import length
+
+import viaspline as vs
+
+EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
+NEAR_LANE_M, LANE_STEP_M = 1.0, 0.25
+SHARP_M = 0.1  # radius
+PLAN_ROUNDS = 5
+
+Named = tuple[str, vs.Mission]
+
+
+def turns(asked: argparse.Namespace) -> None:
+    print(f"{'example':18s}  turns  taut  detours  length m  / taut")
+    for name, mission in examples():
+        driven = DrivenPlan.of(mission)
+        taut = driven.taut
+        print(
+            f"{name:18s} {driven.shape.sign_changes():6d} {turning_sides(taut):5d} "
+            f"{driven.detours:8d} {driven.shape.length:9.1f} "
+            f"{driven.shape.length / length(taut):7.4f}",
+            flush=True,
+        )
+
+
+def best_vector(asked: argparse.Namespace) -> None:
+    beside_the_best((f"vector {k}", vector_world(k)) for k in seeds(asked, 40))
+
+
+def best_maps(asked: argparse.Namespace) -> None:
+    picked = list(seeds(asked, 10))
+    beside_the_best((f"crop {k}", crop(k, asked.maps)) for k in picked)
+    beside_the_best((f"rooms {k}", rooms(k)) for k in picked)
+
+
+def best_examples(asked: argparse.Namespace) -> None:
+    beside_the_best(
+        (name, mission.model_copy(update={"route": mission.route.model_copy(update={"laps": 1})}))
+        for name, mission in examples()
+        if mission.robot.footprint is None
+    )
+
+
+def beside_the_best(missions: Iterator[Named]) -> None:
+    """Of each, what it takes over the best curve of its kind.
+
+    Time and length are over those of the fastest curve; peak curvature and bending over those of
+    the gentlest that takes no more than 0.2 % longer.
+    """
+    names = ("time", "length", "peak 1/m", "/ best", "bending", "/ best", "turns", "best s")
+    print(f"{'':18s} " + " ".join(f"{name:>8s}" for name in names))
+    ratios = []
+    for name, mission in missions:
+        try:
+            driven = DrivenPlan.of(mission)
+            seconds, fast = clock(lambda driven=driven: fastest(driven.task))
+            further, gentle = clock(lambda driven=driven, fast=fast: gentlest(driven.task, fast))
+        except (UnsolvedError, vs.PlanningError) as error:
+            print(f"{name:18s} {type(error).__name__} {error}", flush=True)
+            continue
+        shape = driven.shape
+        row = (driven.driving_time / fast.time, shape.length / fast.length,
+               shape.peak / gentle.peak, shape.bending / gentle.bending)  # fmt: skip
+        ratios.append(row)
+        print(
+            f"{name:18s} {row[0]:8.4f} {row[1]:8.4f} {shape.peak:8.3f} {row[2]:8.2f} "
+            f"{shape.bending:8.3f} {row[3]:8.2f} {shape.sign_changes():8d} "
+            f"{seconds + further:8.1f}",
+            flush=True,
+        )
+    for name, values in (("median", np.median(ratios, axis=0)), ("worst", np.max(ratios, axis=0))):
+        print(
+            f"{name:18s} {values[0]:8.4f} {values[1]:8.4f} {'':8s} {values[2]:8.2f} "
+            f"{'':8s} {values[3]:8.2f}"
+        )
+
+
+def street(asked: argparse.Namespace) -> None:
+    driven = DrivenPlan.of(vs.load(EXAMPLES / "street.yaml"))
+    limits = DrivingLimits.of(driven.plan.mission.robot)
+    stops = [at for via, at in driven.plan.path.stops if via.dwell > 0.0]
+    runs = np.diff([0.0, *stops, driven.shape.length])
+    straight = sum(straight_time(float(run), limits) for run in runs)
+    time, top = driven.driving_time, driven.shape.length / limits.speed
+    print(f"driven {time:.1f} s, dwells left out; {driven.shape.length:.1f} m at speed {top:.1f} s")
+    print(f"stops and starts {straight - top:.1f} s, lost to corners {time - straight:.1f} s")
+
+
+def straight(asked: argparse.Namespace) -> None:
+    ratios = []
+    for seed in seeds(asked, 40):
+        mission = vector_world(seed)
+        route, limits = mission.route, DrivingLimits.of(mission.robot)
+        least = straight_time(float(np.hypot(*np.subtract(route.goal.at, route.start.at))), limits)
+        ratios.append(DrivenPlan.of(mission).driving_time / least)
+    print(f"time over the straight line's: median {np.median(ratios):.4f}, worst {max(ratios):.4f}")
+
+
+def sharp(asked: argparse.Namespace) -> None:
+    shapes, refused = [], 0
+    for seed in seeds(asked, 1000):
+        mission = four_vias(seed)
+        try:
+            shapes.append(DrivenPlan.of(mission).shape)
+        except vs.PlanningError:
+            refused += 1
+    print(f"planned {len(shapes)}, refused {refused}")
+    for radius in (SHARP_M, mission.robot.radius_m):
+        share = np.mean([shape.is_sharper(radius) for shape in shapes])
+        print(f"sharper than {radius} m anywhere: {share:.2%}")
+    print(f"with a corner: {np.mean([shape.corners > 0 for shape in shapes]):.2%}")
+    turned = np.mean([shape.near_turns() > 0 for shape in shapes])
+    print(f"with a span that nearly turns back on itself: {turned:.2%}")
+
+
+def lanes(asked: argparse.Namespace) -> None:
+    print("lake  lanes  share kept  worst lane  taut routes'")
+    kept: list[float] = []
+    for seed in seeds(asked, 20):
+        driven = DrivenPlan.of(lake(seed))
+        shares, weights = zip(*(near_lane(leg) for leg in driven.legs), strict=True)
+        taut = [near_lane(leg)[0] for leg in driven.taut_legs]
+        kept.append(float(np.average(shares, weights=weights)))
+        print(
+            f"{seed:4d} {len(shares):6d} {kept[-1]:11.3f} {min(shares):11.3f} "
+            f"{np.average(taut, weights=weights):13.3f}",
+            flush=True,
+        )
+    print(f"median {np.median(kept):.3f}, least {min(kept):.3f}")
+
+
+def near_lane(leg: np.ndarray) -> tuple[float, float]:
+    """Share of the line between a leg's ends that has the leg near it, and its length [m]."""
+    lane = shapely.LineString(leg[[0, -1]])
+    places = lane.interpolate(np.arange(0.0, lane.length, LANE_STEP_M))
+    near = shapely.dwithin(shapely.LineString(leg), places, NEAR_LANE_M)
+    return float(np.mean(near)), float(lane.length)
+
+
+def times(asked: argparse.Namespace) -> None:
+    for name, make in (("vector", vector_world), ("crops", lambda k: crop(k, asked.maps)),
+                       ("rooms", rooms)):  # fmt: skip
+        found = []
+        for mission in map(make, seeds(asked, 20)):
+            spent, _ = in_turn({"plan": lambda mission=mission: vs.plan(mission)}, PLAN_ROUNDS)
+            found.append(1e3 * spent["plan"])
+        print(
+            f"{name:8s} median {np.median(found):8.2f} ms, worst {max(found):8.2f} ms", flush=True
+        )
+
+
+def seeds(asked: argparse.Namespace, usual: int) -> range:
+    """Of the worlds that are asked for."""
+    return range(asked.seed, asked.seed + (asked.worlds or usual))
+
+
+def examples() -> Iterator[Named]:
+    """All examples."""
+    for file in sorted((*EXAMPLES.glob("*.yaml"), *EXAMPLES.glob("*.plan"))):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", vs.MissionWarning)
+            yield file.stem, vs.load(file)
+
+
+TABLES: dict[str, Callable[[argparse.Namespace], None]] = {
+    "turns": turns,
+    "best-vector": best_vector,
+    "best-maps": best_maps,
+    "best-examples": best_examples,
+    "street": street,
+    "straight": straight,
+    "sharp": sharp,
+    "lanes": lanes,
+    "times": times,
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("table", choices=TABLES)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--worlds", type=int)
+    parser.add_argument("--maps", type=Path, default=EXAMPLES / "maps")
+    asked = parser.parse_args()
+    TABLES[asked.table](asked)
+
+
+if __name__ == "__main__":
+    main()
