@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 from numpy.typing import NDArray
 
 from viaspline.kernels.routing.tangent_arcs import SIDE, TURN, bends_of, detour_points, taut_length
@@ -137,3 +138,17 @@ def test_a_bend_that_turns_by_less_than_nothing_is_one_point() -> None:
         ]
     )
     assert np.isfinite(detour_points(bends, 0.2, 1.0, 1.0, 1e-4)).all()
+
+
+def test_a_corner_on_one_line_with_others_is_wrapped_on_the_side_it_points_away_from() -> None:
+    """Rounding made a right turn of it, as if the walls that stand to the left stood there."""
+    far, half = 1 / math.cos(math.radians(15)), math.tan(math.radians(15))
+    fan = [(0, -75), (0, -45), (0, -15), (1, 15), (2, 15), (2, 45), (2, 75)]
+    normals = [(y, math.cos(math.radians(deg)), math.sin(math.radians(deg))) for y, deg in fan]
+    rows = [(1 + far * nx, y + far * ny, 1, y, 1, nx, ny, half) for y, nx, ny in normals]
+    found = np.array([(0, -1, *6 * [0]), *rows, (0, 3, *6 * [0])], float)
+    found[3:6, X] = 2.0
+    bends = bends_of(found)
+    assert (bends[1:-1, SIDE] == 1.0).all()
+    points = detour_points(bends, 0.2, 1.0, 1.0, 0.0)
+    assert shapely.LineString(points).distance(shapely.box(0, 0, 1, 2)) > 1.0 - 1e-12

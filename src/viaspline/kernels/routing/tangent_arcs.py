@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inlined, inner, kernel
 from viaspline.kernels.world.corner_fans import (
     CENTER_X,
     CENTER_Y,
@@ -26,6 +26,7 @@ from viaspline.kernels.world.corner_fans import (
 # columns of a bend: the arc's centre, radius and side (+1: it turns left), the headings with which
 # the route comes to it and leaves it
 MAX_TURN_RAD = 0.9  # turn at one via point [rad]
+SURE_TURN_RAD = 1e-9  # a turn of a route that is more than rounding
 BEND_X, BEND_Y, BEND_RADIUS, SIDE, HEADING_IN, TURN = range(6)
 
 
@@ -47,6 +48,21 @@ def _tangent(bends: Floats, i: int, j: int) -> float:
     return math.atan2(dy, dx) - math.asin(offset / gap)
 
 
+@inlined
+def _side(route: Floats, k: int, turn: float) -> float:
+    """Which way the route wraps round the corner of row k: +1 to the left, -1 to the right.
+
+    The corner says so itself: it points away from what it is a corner of. The turn does only where
+    there is one, and on a straight line of corners that is what rounding makes of it.
+    """
+    hx = route[k + 1, X] - route[k - 1, X]
+    hy = route[k + 1, Y] - route[k - 1, Y]
+    outwards = hx * route[k, NORMAL_Y] - hy * route[k, NORMAL_X]
+    if abs(turn) > SURE_TURN_RAD or outwards == 0.0:
+        return 1.0 if turn > 0.0 else -1.0
+    return 1.0 if outwards < 0.0 else -1.0
+
+
 @inner
 def _merge(route: Floats) -> tuple[Floats, int]:
     """One row for every arc that the route wraps round; start and goal are arcs of radius 0."""
@@ -61,16 +77,16 @@ def _merge(route: Floats) -> tuple[Floats, int]:
             vx = route[k + 1, X] - route[k, X]
             vy = route[k + 1, Y] - route[k, Y]
             turn = math.atan2(ux * vy - uy * vx, ux * vx + uy * vy)
-            side = 1.0 if turn > 0.0 else -1.0
+            side = _side(route, k, turn)
         if (
             0 < k < route.shape[0] - 1
             and bends[count - 1, BEND_X] == route[k, CENTER_X]
             and bends[count - 1, BEND_Y] == route[k, CENTER_Y]
             and bends[count - 1, SIDE] == side
         ):
-            bends[count - 1, TURN] += abs(turn)
+            bends[count - 1, TURN] += side * turn
             continue
-        bends[count, TURN] = abs(turn)
+        bends[count, TURN] = side * turn
         bends[count, SIDE] = side
         bends[count, BEND_RADIUS] = 0.0 if side == 0.0 else route[k, RADIUS]
         bends[count, BEND_X] = route[k, X] if side == 0.0 else route[k, CENTER_X]
