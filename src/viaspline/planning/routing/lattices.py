@@ -187,9 +187,7 @@ def _grown_maps(
         assert place is not None
         row, column, parts = place
         blocked = grid.blocked.astype(np.uint8)
-        if parts > 1:
-            blocked = blocked.repeat(parts, axis=0).repeat(parts, axis=1)
-        grow_into(blocked, max(reach / side, 1e-9), row, column, cells)
+        grow_into(blocked, max(reach / side, 1e-9), row, column, parts, cells)
     return cells
 
 
