@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inlined, inner, kernel
 from viaspline.kernels.world.corner_fans import (
     CENTER_X,
@@ -28,6 +28,7 @@ from viaspline.kernels.world.corner_fans import (
 MAX_TURN_RAD = 0.9  # turn at one via point [rad]
 SURE_TURN_RAD = 1e-9  # a turn of a route that is more than rounding
 BEND_X, BEND_Y, BEND_RADIUS, SIDE, HEADING_IN, TURN = range(6)
+STEP, EASE = range(2)  # columns of an effort
 
 
 @inner
@@ -140,16 +141,15 @@ def _touch(bends: Floats, k: int, heading: float) -> tuple[float, float]:
 
 
 @inner
-def _append(points: Floats, count: int, x: float, y: float) -> int:
+def _append(points: Floats, of: Ints, count: int, bend: int, x: float, y: float) -> int:
     points[count, 0] = x
     points[count, 1] = y
+    of[count] = bend
     return count + 1
 
 
 @inner
-def _helper_distance(
-    bends: Floats, k: int, half: float, length: float, stretch: float, ease: float
-) -> float:
+def _helper_distance(bends: Floats, k: int, half: float, length: float, ease: float) -> float:
     """How far from bend k its helper stands on a straight piece of this length [m].
 
     A span of length h whose end turns by a is longer than its chord by about h a²/15 (two
@@ -157,7 +157,7 @@ def _helper_distance(
     """
     if bends[k, SIDE] == 0.0:
         return 0.0
-    needed = stretch * bends[k, BEND_RADIUS] * math.tan(half)
+    needed = bends[k, BEND_RADIUS] * math.tan(half)
     rounder = min(15.0 * ease * length / (half * half + 1e-12), 0.29 * length)
     return max(needed, rounder)
 
@@ -189,75 +189,74 @@ def _parts(bends: Floats, k: int, step: float, ease: float) -> int:
 
 @inner
 def _straight(
-    points: Floats, count: int, bends: Floats, k: int, halves: Floats, stretch: float, ease: float
+    points: Floats, of: Ints, count: int, bends: Floats, k: int, halves: Floats, efforts: Floats
 ) -> int:
     """Helper via points near the ends of the straight piece from bend k to bend k + 1."""
     heading = bends[k + 1, HEADING_IN]
     ax, ay = _touch(bends, k, heading)
     bx, by = _touch(bends, k + 1, heading)
     length = math.hypot(bx - ax, by - ay)
-    before = _helper_distance(bends, k, halves[k], length, stretch, ease)
-    after = _helper_distance(bends, k + 1, halves[k + 1], length, stretch, ease)
+    before = _helper_distance(bends, k, halves[k], length, efforts[k, EASE])
+    after = _helper_distance(bends, k + 1, halves[k + 1], length, efforts[k + 1, EASE])
     need = before + after
     if length <= 0.0 or need <= 0.0:
         return count
     if need >= 0.6 * length:  # one helper serves both ends
         if before > 0.0 and after > 0.0 and length > 0.25 * need:
             w = before / need
-            count = _append(points, count, ax + w * (bx - ax), ay + w * (by - ay))
+            count = _append(points, of, count, k, ax + w * (bx - ax), ay + w * (by - ay))
         return count
     if before > 0.0:
         w = before / length
-        count = _append(points, count, ax + w * (bx - ax), ay + w * (by - ay))
+        count = _append(points, of, count, k, ax + w * (bx - ax), ay + w * (by - ay))
     if after > 0.0:
         w = 1.0 - after / length
-        count = _append(points, count, ax + w * (bx - ax), ay + w * (by - ay))
+        count = _append(points, of, count, k + 1, ax + w * (bx - ax), ay + w * (by - ay))
     return count
 
 
 @kernel
-def detour_points(bends: Floats, step: float, excess: float, stretch: float, ease: float) -> Floats:
+def detour_points(bends: Floats, efforts: Floats) -> tuple[Floats, Ints]:
     """Via points along taut bends, through which a cardinal spline follows them closely.
 
-    On each arc, equal turns of at most ``step``; a helper on the straight piece before and after
-    each arc, without which the spline would swing out along the whole piece.
+    On each arc, equal turns, so far out that their chords clear it; a helper on the straight piece
+    before and after each arc, without which the spline would swing out along the whole piece.
 
     Args:
         bends: (m, 6), from ``bends_of``.
-        step: Largest turn from via point to via point [rad].
-        excess: 1 puts the points so far out that their chords clear the arc, 0 on the arc.
-        stretch: At least how many steps along the arc the helpers stand from it.
-        ease: Part of a straight piece's length that may be spent on standing farther away, which
-            makes the turn rounder.
+        efforts: For each bend the largest turn from via point to via point [rad], and the part of a
+            straight piece's length that may be spent on helpers that stand farther away than their
+            step along the arc, which makes the turn rounder, (m, 2).
 
     Returns:
-        (n, 2) [m], without start and goal.
+        (points (n, 2) [m] without start and goal, the bend that each is of (n,)).
     """
     count = bends.shape[0]
     halves = np.zeros(count)
     room = 2 * count
     for k in range(1, count - 1):
-        parts = _parts(bends, k, step, ease)
+        parts = _parts(bends, k, efforts[k, STEP], efforts[k, EASE])
         halves[k] = 0.5 * bends[k, TURN] / parts
         room += parts
     points = np.empty((room, 2))
+    of = np.empty(room, np.int64)
     size = 0
     for k in range(count - 1):
-        size = _straight(points, size, bends, k, halves, stretch, ease)
+        size = _straight(points, of, size, bends, k, halves, efforts)
         bend = k + 1
         if bend == count - 1:
             break
-        parts = _parts(bends, bend, step, ease)
+        parts = _parts(bends, bend, efforts[bend, STEP], efforts[bend, EASE])
         half = halves[bend]
-        reach = bends[bend, BEND_RADIUS] * (1.0 + excess * (1.0 / math.cos(half) - 1.0))
+        reach = bends[bend, BEND_RADIUS] / math.cos(half)
         for part in range(parts):
             heading = bends[bend, HEADING_IN] + bends[bend, SIDE] * (2 * part + 1) * half
             size = _append(
-                points, size,
+                points, of, size, bend,
                 bends[bend, BEND_X] + bends[bend, SIDE] * reach * math.sin(heading),
                 bends[bend, BEND_Y] - bends[bend, SIDE] * reach * math.cos(heading),
             )  # fmt: skip
-    return points[:size]
+    return points[:size], of[:size]
 
 
 @kernel
