@@ -150,9 +150,8 @@ def _cut_to_bounds(world: World, cells: Bytes, low: tuple[float, float], side: f
     (left, down), (right, up) = np.stack(
         (np.ceil(lines[0] - slack), np.floor(lines[1] + slack))
     ).clip(0).astype(int).tolist()  # fmt: skip
-    is_inside = np.zeros(cells.shape, np.bool_)
-    is_inside[down:up, left:right] = True
-    cells[~is_inside] = 1
+    cells[:down] = cells[up:] = 1
+    cells[:, :left] = cells[:, right:] = 1
     return bool((np.abs(lines - np.round(lines)) > slack).any())
 
 
