@@ -132,3 +132,20 @@ def test_the_path_of_a_slimmer_robot_is_no_longer(
         for kept in (share * radius, radius)
     ]  # fmt: skip
     assert lengths[0] <= lengths[1] * (1.0 + 1e-4)
+
+
+@pytest.mark.parametrize(("kept", "low"), [(0.062, 2.672618), (0.03, 2.055025), (0.2, 1.258755)])
+def test_a_gap_as_wide_as_a_route_turns_beyond_what_is_required_is_passed(
+    kept: float, low: float
+) -> None:
+    high = low + 2 * kept + 1e-3
+    walls = [
+        [[2, 0], [2.05, 0], [2.05, low], [2, low]],
+        [[2, high], [2.05, high], [2.05, 4], [2, 4]],
+    ]
+    mission = vs.Mission.model_validate({
+        "world": {"known": [{"polygon": wall} for wall in walls], "bounds": [0, 0, 7, 4]},
+        "robot": {"radius_m": kept, "clearance_m": 0},
+        "route": {"start": [0.5, 3.37], "goal": [6, 1.18]},
+    })  # fmt: skip
+    assert vs.plan(mission).certificate.holds
