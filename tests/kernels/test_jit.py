@@ -86,7 +86,7 @@ ONE_KERNEL = """
 import numpy as np
 from viaspline.kernels.routing.navmesh.dilate import grow_into
 cells = np.zeros((5, 5), np.uint8)
-grow_into(np.ones((1, 1), np.uint8), 1.0, 2, 2, cells)
+grow_into(np.ones((1, 1), np.uint8), 1.0, 2, 2, 1, cells)
 print(cells.sum())
 """
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.jit import inner
 
 
@@ -21,6 +21,12 @@ def new_floats(count: int, columns: int) -> Floats:
 def new_ints(count: int, columns: int) -> Ints:
     """Rows that are yet to be written."""
     return np.empty((count, columns), np.int64)
+
+
+@inner
+def new_bytes(count: int) -> Bytes:
+    """Numbers up to 255 that are yet to be written."""
+    return np.empty(count, np.uint8)
 
 
 @inner

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 from numpy.typing import NDArray
 
 from viaspline.kernels.routing.tangent_arcs import SIDE, TURN, bends_of, detour_points, taut_length
@@ -18,6 +19,7 @@ from viaspline.world.pack import pack
 Floats = NDArray[np.float64]
 NONE = np.empty((0, 4))
 STEP = math.pi / 12
+CLOSE, ROUND = np.array([[0.2, 0.0]]), np.array([[0.2, 1e-4]])
 
 
 def disc(x: float, y: float, radius: float) -> Obstacle:
@@ -49,7 +51,7 @@ def test_a_free_route_has_two_corners_and_no_bend() -> None:
     bends = bends_of(found)
     assert len(bends) == 2
     assert taut_length(found, bends) == 40.0
-    assert detour_points(bends, 0.2, 1.0, 1.0, 0.0).shape == (0, 2)
+    assert detour_points(bends, CLOSE.repeat(2, 0))[0].shape == (0, 2)
 
 
 def test_a_route_round_a_circle_wraps_its_arc() -> None:
@@ -112,7 +114,9 @@ def test_a_polygon_with_a_repeated_vertex_keeps_its_corners() -> None:
 
 def test_detour_points_stand_outside_of_the_arc_and_beside_it() -> None:
     found = route(world(disc(0, -1, 5)), (-20, 0), (20, 0))
-    points = detour_points(bends_of(found), 0.2, 1.0, 1.0, 0.0)
+    bends = bends_of(found)
+    points, of = detour_points(bends, CLOSE.repeat(len(bends), 0))
+    assert (np.diff(of) >= 0).all()
     away = np.hypot(points[:, 0], points[:, 1] + 1)
     assert (away > 6.001).all()
     assert away.min() < 6.04
@@ -136,4 +140,18 @@ def test_a_bend_that_turns_by_less_than_nothing_is_one_point() -> None:
             [27.528087, 8.207211, 0.0, 0.0, 0.333888, 0.0],
         ]
     )
-    assert np.isfinite(detour_points(bends, 0.2, 1.0, 1.0, 1e-4)).all()
+    assert np.isfinite(detour_points(bends, ROUND.repeat(len(bends), 0))[0]).all()
+
+
+def test_a_corner_on_one_line_with_others_is_wrapped_on_the_side_it_points_away_from() -> None:
+    """Rounding made a right turn of it, as if the walls that stand to the left stood there."""
+    far, half = 1 / math.cos(math.radians(15)), math.tan(math.radians(15))
+    fan = [(0, -75), (0, -45), (0, -15), (1, 15), (2, 15), (2, 45), (2, 75)]
+    normals = [(y, math.cos(math.radians(deg)), math.sin(math.radians(deg))) for y, deg in fan]
+    rows = [(1 + far * nx, y + far * ny, 1, y, 1, nx, ny, half) for y, nx, ny in normals]
+    found = np.array([(0, -1, *6 * [0]), *rows, (0, 3, *6 * [0])], float)
+    found[3:6, X] = 2.0
+    bends = bends_of(found)
+    assert (bends[1:-1, SIDE] == 1.0).all()
+    points, _ = detour_points(bends, CLOSE.repeat(len(bends), 0))
+    assert shapely.LineString(points).distance(shapely.box(0, 0, 1, 2)) > 1.0 - 1e-12

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
 import viaspline as vs
 from viaspline.planning.methods.clear_spline import ClearSpline
@@ -96,3 +98,54 @@ def test_rounds_that_run_out_are_given_up_with_the_via_point_that_has_least_room
     with pytest.raises(vs.GaveUpError, match="no curve was found that passes") as caught:
         ClearSpline(max_rounds=1).lay(problem(known))
     assert caught.value.tried == ("1 rounds of drawing the spline in",)
+
+
+def bracket(right: float, thickness: float) -> list[dict[str, Any]]:
+    """Walls end to end, past which a way leads by four corners that stand in a straight line."""
+    walls = [
+        (0.0, 30.0, right, 30.0 + thickness),
+        (right - thickness, 30.0, right, 70.0),
+        (20.0, 70.0 - thickness, right, 70.0),
+    ]
+    return [{"polygon": [[a, b], [c, b], [c, d], [a, d]]} for a, b, c, d in walls]
+
+
+@settings(max_examples=15, deadline=None)
+@example(right=70.123, thickness=1.0, radius=0.1, share=0.2)
+@given(
+    right=st.floats(60.0, 80.0),
+    thickness=st.floats(0.1, 3.0),
+    radius=st.floats(0.02, 6.0),
+    share=st.floats(0.05, 1.0),
+)
+def test_the_path_of_a_slimmer_robot_is_no_longer(
+    right: float, thickness: float, radius: float, share: float
+) -> None:
+    lengths = [
+        vs.plan(
+            vs.Mission.model_validate({
+                "world": {"known": bracket(right, thickness), "bounds": [0, 0, 100, 100]},
+                "robot": {"radius_m": kept, "clearance_m": 0},
+                "route": {"start": [10, 15], "goal": [10, 85]},
+            })
+        ).path.length
+        for kept in (share * radius, radius)
+    ]  # fmt: skip
+    assert lengths[0] <= lengths[1] * (1.0 + 1e-4)
+
+
+@pytest.mark.parametrize(("kept", "low"), [(0.062, 2.672618), (0.03, 2.055025), (0.2, 1.258755)])
+def test_a_gap_as_wide_as_a_route_turns_beyond_what_is_required_is_passed(
+    kept: float, low: float
+) -> None:
+    high = low + 2 * kept + 1e-3
+    walls = [
+        [[2, 0], [2.05, 0], [2.05, low], [2, low]],
+        [[2, high], [2.05, high], [2.05, 4], [2, 4]],
+    ]
+    mission = vs.Mission.model_validate({
+        "world": {"known": [{"polygon": wall} for wall in walls], "bounds": [0, 0, 7, 4]},
+        "robot": {"radius_m": kept, "clearance_m": 0},
+        "route": {"start": [0.5, 3.37], "goal": [6, 1.18]},
+    })  # fmt: skip
+    assert vs.plan(mission).certificate.holds

@@ -9,8 +9,8 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.jit import inlined, inner, kernel
 from viaspline.kernels.world.corner_fans import (
     CENTER_X,
     CENTER_Y,
@@ -26,7 +26,9 @@ from viaspline.kernels.world.corner_fans import (
 # columns of a bend: the arc's centre, radius and side (+1: it turns left), the headings with which
 # the route comes to it and leaves it
 MAX_TURN_RAD = 0.9  # turn at one via point [rad]
+SURE_TURN_RAD = 1e-9  # a turn of a route that is more than rounding
 BEND_X, BEND_Y, BEND_RADIUS, SIDE, HEADING_IN, TURN = range(6)
+STEP, EASE = range(2)  # columns of an effort
 
 
 @inner
@@ -47,6 +49,21 @@ def _tangent(bends: Floats, i: int, j: int) -> float:
     return math.atan2(dy, dx) - math.asin(offset / gap)
 
 
+@inlined
+def _side(route: Floats, k: int, turn: float) -> float:
+    """Which way the route wraps round the corner of row k: +1 to the left, -1 to the right.
+
+    The corner says so itself: it points away from what it is a corner of. The turn does only where
+    there is one, and on a straight line of corners that is what rounding makes of it.
+    """
+    hx = route[k + 1, X] - route[k - 1, X]
+    hy = route[k + 1, Y] - route[k - 1, Y]
+    outwards = hx * route[k, NORMAL_Y] - hy * route[k, NORMAL_X]
+    if abs(turn) > SURE_TURN_RAD or outwards == 0.0:
+        return 1.0 if turn > 0.0 else -1.0
+    return 1.0 if outwards < 0.0 else -1.0
+
+
 @inner
 def _merge(route: Floats) -> tuple[Floats, int]:
     """One row for every arc that the route wraps round; start and goal are arcs of radius 0."""
@@ -61,16 +78,16 @@ def _merge(route: Floats) -> tuple[Floats, int]:
             vx = route[k + 1, X] - route[k, X]
             vy = route[k + 1, Y] - route[k, Y]
             turn = math.atan2(ux * vy - uy * vx, ux * vx + uy * vy)
-            side = 1.0 if turn > 0.0 else -1.0
+            side = _side(route, k, turn)
         if (
             0 < k < route.shape[0] - 1
             and bends[count - 1, BEND_X] == route[k, CENTER_X]
             and bends[count - 1, BEND_Y] == route[k, CENTER_Y]
             and bends[count - 1, SIDE] == side
         ):
-            bends[count - 1, TURN] += abs(turn)
+            bends[count - 1, TURN] += side * turn
             continue
-        bends[count, TURN] = abs(turn)
+        bends[count, TURN] = side * turn
         bends[count, SIDE] = side
         bends[count, BEND_RADIUS] = 0.0 if side == 0.0 else route[k, RADIUS]
         bends[count, BEND_X] = route[k, X] if side == 0.0 else route[k, CENTER_X]
@@ -124,16 +141,15 @@ def _touch(bends: Floats, k: int, heading: float) -> tuple[float, float]:
 
 
 @inner
-def _append(points: Floats, count: int, x: float, y: float) -> int:
+def _append(points: Floats, of: Ints, count: int, bend: int, x: float, y: float) -> int:
     points[count, 0] = x
     points[count, 1] = y
+    of[count] = bend
     return count + 1
 
 
 @inner
-def _helper_distance(
-    bends: Floats, k: int, half: float, length: float, stretch: float, ease: float
-) -> float:
+def _helper_distance(bends: Floats, k: int, half: float, length: float, ease: float) -> float:
     """How far from bend k its helper stands on a straight piece of this length [m].
 
     A span of length h whose end turns by a is longer than its chord by about h a²/15 (two
@@ -141,7 +157,7 @@ def _helper_distance(
     """
     if bends[k, SIDE] == 0.0:
         return 0.0
-    needed = stretch * bends[k, BEND_RADIUS] * math.tan(half)
+    needed = bends[k, BEND_RADIUS] * math.tan(half)
     rounder = min(15.0 * ease * length / (half * half + 1e-12), 0.29 * length)
     return max(needed, rounder)
 
@@ -173,75 +189,74 @@ def _parts(bends: Floats, k: int, step: float, ease: float) -> int:
 
 @inner
 def _straight(
-    points: Floats, count: int, bends: Floats, k: int, halves: Floats, stretch: float, ease: float
+    points: Floats, of: Ints, count: int, bends: Floats, k: int, halves: Floats, efforts: Floats
 ) -> int:
     """Helper via points near the ends of the straight piece from bend k to bend k + 1."""
     heading = bends[k + 1, HEADING_IN]
     ax, ay = _touch(bends, k, heading)
     bx, by = _touch(bends, k + 1, heading)
     length = math.hypot(bx - ax, by - ay)
-    before = _helper_distance(bends, k, halves[k], length, stretch, ease)
-    after = _helper_distance(bends, k + 1, halves[k + 1], length, stretch, ease)
+    before = _helper_distance(bends, k, halves[k], length, efforts[k, EASE])
+    after = _helper_distance(bends, k + 1, halves[k + 1], length, efforts[k + 1, EASE])
     need = before + after
     if length <= 0.0 or need <= 0.0:
         return count
     if need >= 0.6 * length:  # one helper serves both ends
         if before > 0.0 and after > 0.0 and length > 0.25 * need:
             w = before / need
-            count = _append(points, count, ax + w * (bx - ax), ay + w * (by - ay))
+            count = _append(points, of, count, k, ax + w * (bx - ax), ay + w * (by - ay))
         return count
     if before > 0.0:
         w = before / length
-        count = _append(points, count, ax + w * (bx - ax), ay + w * (by - ay))
+        count = _append(points, of, count, k, ax + w * (bx - ax), ay + w * (by - ay))
     if after > 0.0:
         w = 1.0 - after / length
-        count = _append(points, count, ax + w * (bx - ax), ay + w * (by - ay))
+        count = _append(points, of, count, k + 1, ax + w * (bx - ax), ay + w * (by - ay))
     return count
 
 
 @kernel
-def detour_points(bends: Floats, step: float, excess: float, stretch: float, ease: float) -> Floats:
+def detour_points(bends: Floats, efforts: Floats) -> tuple[Floats, Ints]:
     """Via points along taut bends, through which a cardinal spline follows them closely.
 
-    On each arc, equal turns of at most ``step``; a helper on the straight piece before and after
-    each arc, without which the spline would swing out along the whole piece.
+    On each arc, equal turns, so far out that their chords clear it; a helper on the straight piece
+    before and after each arc, without which the spline would swing out along the whole piece.
 
     Args:
         bends: (m, 6), from ``bends_of``.
-        step: Largest turn from via point to via point [rad].
-        excess: 1 puts the points so far out that their chords clear the arc, 0 on the arc.
-        stretch: At least how many steps along the arc the helpers stand from it.
-        ease: Part of a straight piece's length that may be spent on standing farther away, which
-            makes the turn rounder.
+        efforts: For each bend the largest turn from via point to via point [rad], and the part of a
+            straight piece's length that may be spent on helpers that stand farther away than their
+            step along the arc, which makes the turn rounder, (m, 2).
 
     Returns:
-        (n, 2) [m], without start and goal.
+        (points (n, 2) [m] without start and goal, the bend that each is of (n,)).
     """
     count = bends.shape[0]
     halves = np.zeros(count)
     room = 2 * count
     for k in range(1, count - 1):
-        parts = _parts(bends, k, step, ease)
+        parts = _parts(bends, k, efforts[k, STEP], efforts[k, EASE])
         halves[k] = 0.5 * bends[k, TURN] / parts
         room += parts
     points = np.empty((room, 2))
+    of = np.empty(room, np.int64)
     size = 0
     for k in range(count - 1):
-        size = _straight(points, size, bends, k, halves, stretch, ease)
+        size = _straight(points, of, size, bends, k, halves, efforts)
         bend = k + 1
         if bend == count - 1:
             break
-        parts = _parts(bends, bend, step, ease)
+        parts = _parts(bends, bend, efforts[bend, STEP], efforts[bend, EASE])
         half = halves[bend]
-        reach = bends[bend, BEND_RADIUS] * (1.0 + excess * (1.0 / math.cos(half) - 1.0))
+        reach = bends[bend, BEND_RADIUS] / math.cos(half)
         for part in range(parts):
             heading = bends[bend, HEADING_IN] + bends[bend, SIDE] * (2 * part + 1) * half
             size = _append(
-                points, size,
+                points, of, size, bend,
                 bends[bend, BEND_X] + bends[bend, SIDE] * reach * math.sin(heading),
                 bends[bend, BEND_Y] - bends[bend, SIDE] * reach * math.cos(heading),
             )  # fmt: skip
-    return points[:size]
+    return points[:size], of[:size]
 
 
 @kernel

@@ -16,21 +16,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.curve.bending import self_loops
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.planning.checking.barrier_crossings import crossings
 from viaspline.planning.checking.conflicts import CLEAR, too_close
 from viaspline.planning.problem.via_sequence import Leg, ViaSequence, lay
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
-# Largest turn from via point to via point [rad], how far out they stand, how far off the helpers,
-# and what part of the length may be spent on roundness. Rounder first, closer where it is tight.
-FIT_EFFORTS = (
-    (0.2, 1.0, 1.0, 1e-4),
-    (0.2, 1.0, 1.0, 2e-5),
-    (0.2, 1.0, 1.0, 0.0),
-    (0.1, 1.0, 1.0, 0.0),
-)
+# Largest turn from via point to via point [rad], and what part of the length may be spent on
+# roundness: rounder first, closer at those bends where it is tight.
+EFFORTS = np.array(((0.2, 1e-4), (0.2, 2e-5), (0.2, 0.0), (0.1, 0.0)))
+MAX_EFFORT_ROUNDS = 8  # in which bends are taken more closely, before the slack is lowered
 STRAIGHT_SLACKS = (0.7, 0.5)  # parts of a straight leg's slack that are tried before helpers
 MAX_HALVINGS = 24  # of slack, after which the spline is its polyline to a ten-millionth
 LEAST_LOOP_SLACK = 1e-3  # below which a loop is too small to matter
@@ -64,19 +60,69 @@ def fit(
         The fitted leg, or None if no slack makes it clear (the two via points themselves have
         then less room than the proof needs).
     """
-    base = _base_slack(sequence, index)
-    for leg in _attempts(sequence, index, taut_path, base):
+    if taut_path.is_direct:
+        return _fit_straight(sequence, index, world, required, closed)
+    return _fit_round(sequence, index, taut_path, world, required, closed)
+
+
+def _fit_straight(
+    sequence: ViaSequence, index: int, world: World, required: float, closed: Floats
+) -> Fitted | None:
+    """Lay the leg straight; with helpers if less slack alone doesn't do."""
+    for leg in _straight_legs(sequence, index):
         candidate = sequence.with_leg(index, leg)
         spans = leg_spans(candidate, index)
         if not _is_blocked(world, spans, required, closed).any():
             return Fitted(candidate, spans)
-    tightened = tighten(candidate, index, world, required, closed)
-    if tightened is not None or taut_path.is_direct:
-        return tightened
+    return tighten(candidate, index, world, required, closed)
+
+
+def _fit_round(
+    sequence: ViaSequence, index: int, taut_path: TautPath, world: World, required: float,
+    closed: Floats,
+) -> Fitted | None:  # fmt: skip
+    """Lay the leg along bends, those that are tight more closely than the others.
+
+    So a robot that is a little slimmer gets no longer path because it got a rounder one.
+    """
+    start, goal = (via.at for via in sequence.ends(index))
+    base = _base_slack(sequence, index)
+    efforts = np.zeros(len(taut_path.bends), np.int64)
+    for _ in range(MAX_EFFORT_ROUNDS if len(efforts) else 0):
+        planar, of = taut_path.points(EFFORTS[efforts])
+        points = lifted(planar, start, goal)
+        candidate = sequence.with_leg(index, Leg(points, np.full(len(points) + 1, base)))
+        spans = leg_spans(candidate, index)
+        close = _is_blocked(world, spans, required, closed).reshape(-1, sequence.pieces)
+        if not close.any():
+            return Fitted(candidate, spans)
+        raised = _raised(efforts, of, np.flatnonzero(close.any(axis=1)))
+        if (raised == efforts).all():
+            break
+        efforts = raised
+    if len(efforts):
+        tightened = tighten(candidate, index, world, required, closed)
+        if tightened is not None:
+            return tightened
     # Arcs that run into each other leave no clear polyline along them; the corners always have one.
-    points = lifted(taut_path.turns, *(via.at for via in sequence.ends(index)))
+    points = lifted(taut_path.turns, start, goal)
     leg = Leg(points, np.full(len(points) + 1, base))
     return tighten(sequence.with_leg(index, leg), index, world, required, closed)
+
+
+def _raised(efforts: Ints, of: Ints, close: Ints) -> Ints:
+    """The efforts of bends, one more where the curve from via point to via point is too close.
+
+    Args:
+        efforts: Rows of ``EFFORTS``, (m,).
+        of: The bend that each detour via point is of, (n,).
+        close: Those of the n + 1 spans between start, detour via points and goal that are, (k,).
+    """
+    raised = efforts.copy()
+    if len(of):
+        met = of[np.clip(np.append(close - 1, close), 0, len(of) - 1)]
+        raised[met] = np.minimum(efforts[met] + 1, len(EFFORTS) - 1)
+    return raised
 
 
 def tighten(
@@ -141,20 +187,14 @@ def _base_slack(sequence: ViaSequence, index: int) -> float:
     return float(sequence.legs[index].slack.max())
 
 
-def _attempts(
-    sequence: ViaSequence, index: int, taut_path: TautPath, slack: float
-) -> Iterator[Leg]:
-    """Legs along a taut path, the roundest first."""
+def _straight_legs(sequence: ViaSequence, index: int) -> Iterator[Leg]:
+    """Legs without detours, the roundest first."""
     start, goal = (via.at for via in sequence.ends(index))
-    if taut_path.is_direct:
-        helpers = np.array([start + w * (goal - start) for w in (HELPER_AT, 1 - HELPER_AT)])
-        for factor in STRAIGHT_SLACKS:
-            yield Leg(np.empty((0, len(start))), np.array([slack * factor]))
-        yield Leg(helpers, np.full(3, slack))
-        return
-    for effort in FIT_EFFORTS:
-        points = lifted(taut_path.points(*effort), start, goal)
-        yield Leg(points, np.full(len(points) + 1, slack))
+    slack = _base_slack(sequence, index)
+    helpers = np.array([start + w * (goal - start) for w in (HELPER_AT, 1 - HELPER_AT)])
+    for factor in STRAIGHT_SLACKS:
+        yield Leg(np.empty((0, len(start))), np.array([slack * factor]))
+    yield Leg(helpers, np.full(3, slack))
 
 
 def lifted(points: Floats, start: Floats, goal: Floats) -> Floats:

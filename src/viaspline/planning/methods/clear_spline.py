@@ -151,11 +151,26 @@ class ClearSpline:
             room = leg.requirements.required + CURVE_SLACK_M
             tight = narrow_places(leg.world.packed, places, room)
             if not len(tight):
+                roomier = _along_fatter(leg, active, closed)
+                if roomier is not None:
+                    return Found(roomier, roomier.measured.length), barriers
                 return GaveUp(("a spline along a route that touches what it passes",)), barriers
             if len(closed) > self.max_closed_gaps:
                 tried = f"routes through {len(closed)} gaps that no curve fits through"
                 return GaveUp((tried,)), barriers
             closed = np.vstack((closed, tight))
+
+
+def _along_fatter(leg: LegSearch, active: Flags, closed: Floats) -> Spline | None:
+    """The curve along the taut path of a body that is a hair fatter.
+
+    A route turns a millimetre off what it goes round, and may touch what is opposite just so: no
+    curve fits there. That of a fatter body has room on both sides.
+    """
+    router = leg.router
+    fatter = replace(router, required=router.required + CURVE_SLACK_M)
+    outcome, _ = replace(leg, router=fatter).shortest_allowed(active, closed)
+    return leg.curve(outcome.value, active)
 
 
 def _no_leg(leg: LegSearch, outcome: Refusal | GaveUp, barriers: Floats) -> PlanningError:

@@ -39,10 +39,10 @@ class SplinePath:
         """The curve of a sequence with a detour via point where each of some spans begins."""
         vias = [_user_via(sequence, k, int(u)) for k, u in enumerate(joints)]
         taken = set(joints.tolist())
+        free = [k for k in detours if k not in taken]
         vias += [
-            PathVia("detour", tuple(spans[k, 0].tolist()), "detour", float(k))
-            for k in detours
-            if k not in taken
+            PathVia("detour", tuple(at), "detour", float(k))
+            for k, at in zip(free, spans[free, 0].tolist(), strict=True)
         ]
         return cls(spans, joints, tuple(sorted(vias, key=lambda via: via.u)))
 

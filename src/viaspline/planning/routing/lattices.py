@@ -150,9 +150,8 @@ def _cut_to_bounds(world: World, cells: Bytes, low: tuple[float, float], side: f
     (left, down), (right, up) = np.stack(
         (np.ceil(lines[0] - slack), np.floor(lines[1] + slack))
     ).clip(0).astype(int).tolist()  # fmt: skip
-    is_inside = np.zeros(cells.shape, np.bool_)
-    is_inside[down:up, left:right] = True
-    cells[~is_inside] = 1
+    cells[:down] = cells[up:] = 1
+    cells[:, :left] = cells[:, right:] = 1
     return bool((np.abs(lines - np.round(lines)) > slack).any())
 
 
@@ -187,9 +186,7 @@ def _grown_maps(
         assert place is not None
         row, column, parts = place
         blocked = grid.blocked.astype(np.uint8)
-        if parts > 1:
-            blocked = blocked.repeat(parts, axis=0).repeat(parts, axis=1)
-        grow_into(blocked, max(reach / side, 1e-9), row, column, cells)
+        grow_into(blocked, max(reach / side, 1e-9), row, column, parts, cells)
     return cells
 
 

@@ -120,6 +120,8 @@ class RouteProblem:
         width = self.space.required + 2 * TURN_MARGINS_M[0]
         packed = self.space.world.packed
         for (ax, ay), (bx, by) in pairwise(taut_path.corners[:, X : Y + 1].tolist()):
+            if self.active.all():
+                return
             mark_near_segment(packed, ax, ay, bx, by, width, self.active)
 
 

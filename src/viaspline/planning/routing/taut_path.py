@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.routing.tangent_arcs import bends_of, detour_points, taut_length
 from viaspline.kernels.routing.tangent_graph import barrier_crossings
 from viaspline.kernels.world.corner_fans import X, Y
@@ -41,11 +41,16 @@ class TautPath:
         """The corners between start and goal [m], shape (n, 2): their polyline is clear."""
         return np.ascontiguousarray(self.corners[1:-1, X : Y + 1])
 
-    def points(self, step: float, excess: float, stretch: float, ease: float) -> Floats:
-        """Detour via points along it [m], shape (n, 2); see ``tangent_arcs.detour_points``."""
-        if len(self.bends) == 0:
-            return self.turns
-        points: Floats = detour_points(self.bends, step, excess, stretch, ease)
+    def points(self, efforts: Floats) -> tuple[Floats, Ints]:
+        """Detour via points along its bends; see ``tangent_arcs.detour_points``.
+
+        Args:
+            efforts: One for each bend, (m, 2).
+
+        Returns:
+            (points (n, 2) [m], the bend that each is of (n,)).
+        """
+        points: tuple[Floats, Ints] = detour_points(self.bends, efforts)
         return points
 
     @classmethod

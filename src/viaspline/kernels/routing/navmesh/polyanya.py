@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.growable import new_floats, new_ints, sized_floats, sized_ints
+from viaspline.kernels.arrays import Bytes, Floats, Ints
+from viaspline.kernels.growable import new_bytes, new_floats, new_ints, sized_floats, sized_ints
 from viaspline.kernels.jit import inlined, inner, kernel
 from viaspline.kernels.routing.navmesh.polyanya_nodes import (
     GOAL,
@@ -59,8 +59,43 @@ def _most_after(mesh: Mesh, search: PolyanyaSearch, here: int) -> int:
     return search.sizes[0, 0] + 1 + 6 * _doors_of(mesh, room)
 
 
+@inlined
+def _way_on(mesh: Mesh, closed: Bytes, room: int) -> int:
+    """A rectangle next to one that is not closed; -1 where there is none."""
+    for up in range(2):
+        for door in range(
+            mesh.doors[room, FIRST_ABOVE if up == 1 else FIRST_BELOW],
+            mesh.doors[room, FIRST_ABOVE + 1 if up == 1 else FIRST_BELOW + 1],
+        ):
+            other = mesh.portals[door, OVER if up == 1 else UNDER]
+            if closed[other] == 0:
+                return other
+    return -1
+
+
 @inner
-def _begun(mesh: Mesh, start: Floats, goal: Floats, room: int) -> PolyanyaSearch:
+def _dead_ends(mesh: Mesh, room: int, last_room: int) -> Bytes:
+    """1 for rectangles out of which a path between two others comes only where it went in, (r,)."""
+    count = mesh.rectangles.shape[0]
+    closed = new_bytes(count)
+    ways = new_ints(count, 1)
+    for r in range(count):
+        closed[r] = 0
+        ways[r, 0] = _doors_of(mesh, r)
+    for end in range(2):
+        ways[room if end == 0 else last_room, 0] += 2  # never closed
+    for r in range(count):
+        here = r
+        while here >= 0 and ways[here, 0] == 1 and closed[here] == 0:
+            closed[here] = 1
+            here = _way_on(mesh, closed, here)
+            if here >= 0:
+                ways[here, 0] -= 1
+    return closed
+
+
+@inner
+def _begun(mesh: Mesh, start: Floats, goal: Floats, room: int, last_room: int) -> PolyanyaSearch:
     """A search with what is seen from the start."""
     cheapest = new_floats(2 * mesh.portals.shape[0], 1)
     for k in range(cheapest.shape[0]):
@@ -69,12 +104,14 @@ def _begun(mesh: Mesh, start: Floats, goal: Floats, room: int) -> PolyanyaSearch
     search = PolyanyaSearch(
         new_floats(size, 5),
         new_ints(size, 4),
-        new_floats(size, 1),
-        new_ints(size, 1),
+        new_floats(size + 1, 1),
+        new_ints(size + 1, 1),
         new_ints(1, 2),
+        _dead_ends(mesh, room, last_room),
         cheapest,
         goal,
     )
+    search.items[size, 0] = -1
     search.sizes[0, 0] = 0
     search.sizes[0, 1] = 0
     left = float(mesh.rectangles[room, LEFT])
@@ -111,7 +148,7 @@ def shortest_path(mesh: Mesh, start: Floats, goal: Floats) -> tuple[Floats, Floa
         chain = new_ints(0, 2)
         path = _path(new_floats(0, 2), 0, start, goal)
         return path, _middles(mesh, chain, 0, room, room, start, goal)
-    search = _begun(mesh, start, goal, room)
+    search = _begun(mesh, start, goal, room, last_room)
     here = next_node(search)
     while here >= 0 and search.links[here, PORTAL] != GOAL:
         most = _most_after(mesh, search, here)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Bytes, Floats, Ints
 from viaspline.kernels.growable import sized_floats, sized_ints
 from viaspline.kernels.jit import inlined, inner
 
@@ -27,9 +27,11 @@ class PolyanyaSearch(NamedTuple):
     Attributes:
         places: The interval, the root, and the length of the path up to it, (n, 5).
         links: The portal, whether the path goes up through it, the root, the node before, (n, 4).
-        keys: The heap's keys: how long a path through the node is at least, (n, 1).
-        items: The heap's nodes, (n, 1).
+        keys: The heap's keys: how long a path through the node is at least, (n, 1). The last row
+            is that of the node that waits beside the heap.
+        items: The heap's nodes, (n, 1); the last row as above, -1 where none waits.
         sizes: How many nodes there are, and how many of them are in the heap, (1, 2).
+        closed: 1 for rectangles that are dead ends, else 0, (r,).
         cheapest: Length of the shortest path yet to each root, (2 p, 1).
         goal: (2,).
     """
@@ -39,13 +41,27 @@ class PolyanyaSearch(NamedTuple):
     keys: Floats
     items: Ints
     sizes: Ints
+    closed: Bytes
     cheapest: Floats
     goal: Floats
 
 
 @inlined
 def push(search: PolyanyaSearch, key: float, item: int) -> None:
-    """Put a node into the heap."""
+    """Have a node expanded in its turn.
+
+    The best of the last ones waits beside the heap: most often it is the next, and never gets in.
+    """
+    beside = search.items.shape[0] - 1
+    other = search.items[beside, 0]
+    if other < 0 or key < search.keys[beside, 0]:
+        other_key = search.keys[beside, 0]
+        search.keys[beside, 0] = key
+        search.items[beside, 0] = item
+        if other < 0:
+            return
+        key = other_key
+        item = other
     k = search.sizes[0, 1]
     while k > 0:
         parent = (k - 1) >> 1
@@ -60,14 +76,8 @@ def push(search: PolyanyaSearch, key: float, item: int) -> None:
 
 
 @inlined
-def _pop(search: PolyanyaSearch) -> int:
-    """Take the node with the smallest key; -1 where there is none."""
-    size = search.sizes[0, 1] - 1
-    if size < 0:
-        return -1
-    first = search.items[0, 0]
-    key = search.keys[size, 0]
-    item = search.items[size, 0]
+def _sink(search: PolyanyaSearch, size: int, key: float, item: int) -> None:
+    """Put a node into a heap of ``size`` whose first place is free."""
     k = 0
     while True:
         child = 2 * k + 1
@@ -82,7 +92,24 @@ def _pop(search: PolyanyaSearch) -> int:
         k = child
     search.keys[k, 0] = key
     search.items[k, 0] = item
+
+
+@inlined
+def _pop(search: PolyanyaSearch) -> int:
+    """Take the node with the smallest key; -1 where there is none."""
+    beside = search.items.shape[0] - 1
+    waiting = search.items[beside, 0]
+    search.items[beside, 0] = -1
+    size = search.sizes[0, 1]
+    if size == 0 or (waiting >= 0 and search.keys[beside, 0] <= search.keys[0, 0]):
+        return waiting
+    first = search.items[0, 0]
+    if waiting >= 0:
+        _sink(search, size, search.keys[beside, 0], waiting)
+        return first
+    size -= 1
     search.sizes[0, 1] = size
+    _sink(search, size, search.keys[size, 0], search.items[size, 0])
     return first
 
 
@@ -133,12 +160,19 @@ def add(
 def sized(search: PolyanyaSearch, room: int) -> PolyanyaSearch:
     """The search with room for that many nodes."""
     count = search.sizes[0, 0]
+    queued = search.sizes[0, 1]
+    beside = search.items.shape[0] - 1
+    keys = sized_floats(search.keys, queued, room + 1)
+    items = sized_ints(search.items, queued, room + 1)
+    keys[room, 0] = search.keys[beside, 0]
+    items[room, 0] = search.items[beside, 0]
     return PolyanyaSearch(
         sized_floats(search.places, count, room),
         sized_ints(search.links, count, room),
-        sized_floats(search.keys, search.sizes[0, 1], room),
-        sized_ints(search.items, search.sizes[0, 1], room),
+        keys,
+        items,
         search.sizes,
+        search.closed,
         search.cheapest,
         search.goal,
     )

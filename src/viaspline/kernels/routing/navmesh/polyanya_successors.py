@@ -40,6 +40,12 @@ from viaspline.kernels.routing.navmesh.rectangles import (
 
 
 @inlined
+def _apart(dx: float, dy: float) -> float:
+    """Length in cells: neither so many nor so few that squares overflow, as ``hypot`` minds."""
+    return math.sqrt(dx * dx + dy * dy)
+
+
+@inlined
 def _crossing(
     rx: float, ry: float, a: float, b: float, y: float, gx: float, gy: float
 ) -> tuple[float, float]:
@@ -55,7 +61,7 @@ def _crossing(
         return x, abs(x - rx) + abs(gx - x)
     x = rx + (gx - rx) * (y - ry) / (gy - ry) if gy != ry else rx
     x = min(max(x, a), b)
-    return x, math.hypot(x - rx, y - ry) + math.hypot(gx - x, gy - y)
+    return x, _apart(x - rx, y - ry) + _apart(gx - x, gy - y)
 
 
 @inlined
@@ -114,7 +120,8 @@ def spread_interval(
         a = low if low > a + SAME_PLACE_CELLS else a
         b = float(mesh.portals[door, RIGHT])
         b = high if high < b - SAME_PLACE_CELLS else b
-        if door != behind:
+        beyond = mesh.portals[door, OVER if up == 1 else UNDER]
+        if door != behind and search.closed[beyond] == 0:
             if far == y and not a <= x <= b:
                 _slide(search, door, parent, up, a, b, x, y, cost, root)
             else:
@@ -174,7 +181,7 @@ def _turn(
     if x != mesh.portals[portal, LEFT + end] or mesh.portals[portal, TURN_LEFT + end] == 0:
         return
     root = 2 * portal + end
-    cost = search.places[here, COST] + math.hypot(
+    cost = search.places[here, COST] + _apart(
         x - search.places[here, ROOT_X], near - search.places[here, ROOT_Y]
     )
     if cost > search.cheapest[root, 0] + SAME_PLACE_CELLS:

@@ -55,17 +55,33 @@ def _next_run(blocked: Bytes, row: int, column: int) -> tuple[int, int]:
     return first, last
 
 
-@inner
-def _new_portals(
+@inlined
+def _most(blocked: Bytes) -> tuple[int, int]:
+    """How many runs of free cells there are, and how many pairs of runs above each other."""
+    height, width = blocked.shape
+    runs = 0
+    pairs = 0
+    for row in range(height):
+        under = max(row - 1, 0)
+        for column in range(width):
+            before = max(column - 1, 0)
+            opens = (column == 0) | (blocked[row, before] != 0)
+            is_free = blocked[row, column] == 0
+            runs += is_free & opens
+            opens |= blocked[under, before] != 0
+            pairs += is_free & (blocked[under, column] == 0) & opens
+    return runs, pairs
+
+
+@inlined
+def _add_portals(
     rectangles: Ints, portals: Ints, count: int, this: int, runs: Ints, k: int, size: int
-) -> tuple[Ints, int]:
+) -> int:
     """Append the portals from rectangle ``this`` to those of the row below from ``runs[k]`` on."""
     left = rectangles[this, LEFT]
     right = rectangles[this, RIGHT]
     while k < size and rectangles[runs[k], LEFT] < right:
         under = runs[k]
-        if count == portals.shape[0]:
-            portals = sized_ints(portals, count, 2 * count)
         portals[count, LEFT] = max(left, rectangles[under, LEFT])
         portals[count, RIGHT] = min(right, rectangles[under, RIGHT])
         portals[count, HEIGHT] = rectangles[this, BOTTOM]
@@ -75,15 +91,16 @@ def _new_portals(
         portals[count, TURN_RIGHT] = 1 if right != rectangles[under, RIGHT] else 0
         count += 1
         k += 1
-    return portals, count
+    return count
 
 
 @kernel
 def mesh_of(blocked: Bytes) -> Mesh:
     """The free cells of a lattice (height, width) of uint8, nonzero where blocked, as a mesh."""
     height, width = blocked.shape
-    rectangles = new_ints(256, 5)
-    portals = new_ints(256, 7)
+    most_runs, most_pairs = _most(blocked)
+    rectangles = new_ints(most_runs, 5)
+    portals = new_ints(most_pairs, 7)
     rows = new_ints(height + 1, 1)
     runs = new_ints(2, width // 2 + 1)  # rectangles of the runs of a row and of the one below
     lower_size = 0
@@ -101,16 +118,12 @@ def mesh_of(blocked: Bytes) -> Mesh:
                 k += 1
             this = lower[k] if k < lower_size else -1
             if this < 0 or rectangles[this, LEFT] != first or rectangles[this, RIGHT] != last:
-                if count == rectangles.shape[0]:
-                    rectangles = sized_ints(rectangles, count, 2 * count)
                 this = count
                 count += 1
                 rectangles[this, LEFT] = first
                 rectangles[this, RIGHT] = last
                 rectangles[this, BOTTOM] = row
-                portals, doors = _new_portals(
-                    rectangles, portals, doors, this, lower, k, lower_size
-                )
+                doors = _add_portals(rectangles, portals, doors, this, lower, k, lower_size)
             rectangles[this, TOP] = row + 1
             upper[size] = this
             size += 1
