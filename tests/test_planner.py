@@ -270,6 +270,22 @@ def test_a_via_point_inside_a_clearance_is_refused_with_moves_that_serve(at: Any
         vs.plan(mission([0, 0], list(at), [100, 0], known=[tank], robot=robot))
 
 
+def test_a_via_point_is_moved_to_where_ways_lead_not_into_a_hole_beside_it() -> None:
+    ring = [[30, 30], [70, 30], [70, 70], [30, 70]]
+    hole = [[40, 40], [60, 40], [60, 62], [40, 62]]
+    known = [{"name": "ring", "polygon": ring, "holes": [hole]}]
+    free = via_sequence_of(mission([10, 50], {"at": [50, 90], "name": "pump"}, [90, 50]))
+    start, pump, goal = free.vias
+    moved = type(pump)(pump.name, np.array([50.0, 61.4]), pump.index, key=pump.key)
+    bad = type(free)((start, moved, goal), free.legs, free.spline)
+    with pytest.raises(vs.NoPathError) as caught:
+        find_path(bad, vs.World([vs.Obstacle(**known[0])]), loose(radius_m=0.5, clearance_m=0.5))
+    assert [change.key for change in caught.value.changes] == ["route.via[0].at"]
+    x, y = caught.value.changes[0].value
+    assert "clearance_m" not in caught.value.remedy
+    vs.plan(mission([10, 50], [x, y], [90, 50], known=known))
+
+
 def test_a_via_point_is_offered_a_clearance_that_leaves_room_for_the_tracking_error() -> None:
     asked = mission([0, 0], {"at": [50, 30], "name": "pump"}, [100, 0])
     world = vs.World([vs.Obstacle(**disc(50, 41, 10))])

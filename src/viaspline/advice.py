@@ -9,7 +9,8 @@ import numpy as np
 
 from viaspline.curve.certificate import PROOF_SLACK_M
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.handed_in import check_kind
+from viaspline.errors import GeometryError
+from viaspline.handed_in import check_kind, numbers_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.kernels.curve.measure import length_and_curvature
@@ -94,10 +95,14 @@ def advise_tension(
     check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
     plain = mission.spline.model_copy(update={"tension": 0.0, "slack": None})
     mission = mission.model_copy(update={"spline": plain})
+    if world is not None:
+        check_kind("world", world, World, "give World(obstacles)")
     world = World.known(mission) if world is None else world
     sequence, requirements = via_sequence_of(mission), Requirements.of(mission)
     limits = limits_of(mission.robot)
-    tried = np.array(tensions, np.float64)
+    tried = np.array(numbers_from("tensions", tensions))
+    if tried.ndim != 1 or not tried.size or not np.isfinite(tried).all():
+        raise GeometryError(f"tensions have shape {tried.shape}; give a list of finite numbers")
     curves = np.array([_laid(sequence, np.full(len(sequence.legs), t)) for t in tried])
     grouped = curves.reshape(len(tried), len(sequence.legs), sequence.pieces, *curves.shape[2:])
     table = np.array([[_measured(span, world, requirements) for span in row] for row in grouped])

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
 
+LONGEST_S = 1e6  # between two steps of a drive, beyond which a time is a mistake
+
 
 def check_kind(name: str, value: object, kind: Any, example: str) -> None:
     """Refuse an argument of another class.
@@ -49,6 +51,48 @@ def number_from(name: str, value: object) -> float:
         return float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         raise GeometryError(f"{name} is {value!r:.40}; give a number") from None
+
+
+def time_from(name: str, value: object) -> float:
+    """A length of time that was handed in [s].
+
+    Raises:
+        GeometryError: It is no number above 0, or longer than a robot's drive can be.
+
+    >>> time_from("step", 0)
+    Traceback (most recent call last):
+    viaspline.errors.GeometryError: step is 0; give a time above 0 s, up to 1e+06 s
+    """
+    seconds = number_from(name, value)
+    if not 0.0 < seconds <= LONGEST_S:
+        raise GeometryError(
+            f"{name} is {value!r:.40}; give a time above 0 s, up to {LONGEST_S:g} s"
+        )
+    return seconds
+
+
+def seed_from(name: str, value: object) -> int:
+    """The seed of a generator of random numbers that was handed in.
+
+    Raises:
+        GeometryError: It is no whole number from 0 on.
+
+    >>> seed_from("seed", 3)
+    3
+    """
+    if not isinstance(value, int | np.integer) or value < 0:
+        raise GeometryError(f"{name} is {value!r:.40}; give a whole number from 0 on")
+    return int(value)
+
+
+def check_callable(name: str, value: object, example: str) -> None:
+    """Refuse an argument that can't be called.
+
+    Raises:
+        GeometryError: It can't be.
+    """
+    if not callable(value):
+        raise GeometryError(f"{name} is {value!r:.40}, which can't be called; {example}")
 
 
 def numbers_from(name: str, values: object) -> NDArray[np.float64]:

@@ -57,6 +57,7 @@ def compile_driving() -> None:
     from viaspline.planning.checking.conflicts import is_clear, proven
     from viaspline.planning.problem.requirements import Requirements
     from viaspline.planning.problem.via_sequence import via_sequence_of
+    from viaspline.planning.problem.work_budget import WorkBudget
     from viaspline.planning.turning.bend_row import Bends, bend
     from viaspline.planning.turning.hybrid_astar.via_route import via_route_chains
     from viaspline.planning.turning.turn_path import RAMP, TurnPath, turn_path_round
@@ -75,7 +76,9 @@ def compile_driving() -> None:
     )
     world, requirements, circle = World.known(mission), Requirements.of(mission), 2.0
     allowance_on_bends(mission.robot, circle)
-    via_route_chains(via_sequence_of(mission), world, requirements, circle, RAMP * circle, ())
+    via_route_chains(
+        via_sequence_of(mission), world, requirements, circle, RAMP * circle, (), WorkBudget(1.0)
+    )
     rows = [bend(0, 0), bend(6, 3, 1.0, 1.0), bend(12, 0)]
     turn_path = turn_path_round(Bends(np.array(rows), np.array([0, -1, 1])).turning(circle))
     assert isinstance(turn_path, TurnPath)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from viaspline.curve.arguments import as_point, call, frozen, outside
 from viaspline.errors import GeometryError
+from viaspline.handed_in import number_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve import arclength, cubic, extrema, frenet
 
@@ -118,7 +119,7 @@ class Measured:
             GeometryError: When the spacing is not above 0, or so small that there would be more
                 than 50 million points.
         """
-        length = self.length
+        length, spacing = self.length, number_from("spacing", spacing)
         if not spacing > 0.0 or length / spacing > MAX_SAMPLES:
             raise GeometryError(f"spacing = {spacing} can't divide a curve of {length:.6g} m")
         steps = max(1, math.ceil(length / spacing - 1e-9))

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viaspline.curve.arguments import frozen
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.handed_in import all_of
 
 ViaKind = Literal["user", "detour"]
 SEAM = "where the round closes"  # the name of a round's end, from where it goes on at its start
@@ -54,7 +55,7 @@ class Path(PiecewiseCubic):
 
     def __init__(self, spans: ArrayLike, vias: Sequence[PathVia]) -> None:
         super().__init__(spans)
-        self.vias = tuple(vias)
+        self.vias = all_of("vias", vias, PathVia, "give PathVia(name, at, kind, u)")
 
     @cached_property
     def via_distances(self) -> NDArray[np.float64]:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from viaspline.curve.arguments import call, frozen, outside, working_copy
 from viaspline.curve.measured import Measured
 from viaspline.errors import GeometryError
+from viaspline.handed_in import number_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve import cubic as kernels
 from viaspline.kernels.curve import frenet
@@ -107,6 +108,8 @@ class PiecewiseCubic(Measured):
         Raises:
             GeometryError: When a parameter is outside the domain of an open curve or not a number.
         """
+        if not isinstance(derivative, int | np.integer):
+            raise GeometryError(f"derivative has to be 0, 1, 2 or 3, not {derivative!r:.40}")
         rows = self._derived.get(derivative)
         if rows is None:
             rows = self._derivative(derivative)
@@ -223,6 +226,7 @@ class PiecewiseCubic(Measured):
             GeometryError: When a parameter is outside the domain or the part is empty.
         """
         start, end = self.domain
+        u0, u1 = number_from("u0", u0), number_from("u1", u1)
         for value in (u0, u1):
             if not start <= value <= end:
                 raise outside("u", value, self.domain)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
+from viaspline.handed_in import number_from, numbers_from
 from viaspline.maps.reading import Reading
 
 MOST_CELLS_ASIDE = 32_000  # kernels count columns in 16 bits
@@ -67,18 +68,19 @@ class Grid:
                 f"a grid of {cells.shape[1]} x {cells.shape[0]} cells is too large; "
                 f"at most {MOST_CELLS_ASIDE} aside"
             )
-        if not 0.0 < self.resolution < math.inf:
+        side = number_from("resolution", self.resolution)
+        if not 0.0 < side < math.inf:
             raise GeometryError(f"resolution is {self.resolution}; give a side above 0 m")
         origin = _origin(self.origin)
         unknown = None if self.unknown is None else _frozen(self.unknown)
         if unknown is not None and not (unknown.shape == cells.shape and (unknown <= cells).all()):
             raise GeometryError("unknown squares have to be blocked: give unknown <= blocked")
-        numbers = np.array((*cells.shape, self.resolution, *origin), dtype="<f8")
+        numbers = np.array((*cells.shape, side, *origin), dtype="<f8")
         digest = hashlib.blake2b(np.packbits(cells).tobytes(), digest_size=16)
         digest.update(numbers.tobytes())
         object.__setattr__(self, "blocked", cells)
         object.__setattr__(self, "unknown", unknown)
-        object.__setattr__(self, "resolution", float(self.resolution))
+        object.__setattr__(self, "resolution", side)
         object.__setattr__(self, "origin", origin)
         object.__setattr__(self, "digest", digest.digest())
 
@@ -120,7 +122,7 @@ class Grid:
             Shape (n, 2).
         """
         x, y, yaw = self.origin
-        along = np.asarray(points, np.float64) * self.resolution
+        along = _places(points) * self.resolution
         cos, sin = math.cos(yaw), math.sin(yaw)
         turned = np.column_stack(
             (cos * along[:, 0] - sin * along[:, 1], sin * along[:, 0] + cos * along[:, 1])
@@ -137,7 +139,7 @@ class Grid:
             Shape (n, 2).
         """
         x, y, yaw = self.origin
-        away = np.subtract(np.asarray(points, np.float64), (x, y)) / self.resolution
+        away = np.subtract(_places(points), (x, y)) / self.resolution
         cos, sin = math.cos(yaw), math.sin(yaw)
         return np.column_stack(
             (cos * away[:, 0] + sin * away[:, 1], cos * away[:, 1] - sin * away[:, 0])
@@ -145,7 +147,8 @@ class Grid:
 
     def center(self, row: int, column: int) -> tuple[float, float]:
         """Middle of a cell [m]."""
-        x, y = self.to_world([(column + 0.5, row + 0.5)])[0].tolist()
+        middle = (number_from("column", column) + 0.5, number_from("row", row) + 0.5)
+        x, y = self.to_world([middle])[0].tolist()
         return x, y
 
     @property
@@ -161,6 +164,14 @@ class Grid:
         return float(x0), float(y0), float(x1), float(y1)
 
 
+def _places(points: ArrayLike) -> NDArray[np.float64]:
+    """Points (n, 2) that were handed in."""
+    places = numbers_from("points", points)
+    if places.ndim != 2 or places.shape[1] != 2:
+        raise GeometryError(f"points have shape {places.shape}; give (n, 2)")
+    return places
+
+
 def _frozen(cells: ArrayLike) -> NDArray[np.bool_]:
     """The cells as an array that nobody can write to, without a copy if nobody can already."""
     given = np.asarray(cells)
@@ -172,7 +183,8 @@ def _frozen(cells: ArrayLike) -> NDArray[np.bool_]:
 
 
 def _origin(given: Sequence[float]) -> Origin:
-    if len(given) != 3 or not all(math.isfinite(value) for value in given):
+    numbers = numbers_from("origin", given)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
         raise GeometryError(f"a grid's origin is x, y [m] and yaw [rad], not {given}")
-    x, y, yaw = (float(value) + 0.0 for value in given)
+    x, y, yaw = (numbers + 0.0).tolist()
     return x, y, yaw

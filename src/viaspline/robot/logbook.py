@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.curve.path import SEAM, Path
+from viaspline.handed_in import check_kind
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.schedule import vias_after
 from viaspline.robot.navigator import Navigator
@@ -40,6 +41,7 @@ class Logbook:
 
     def note(self, nav: Navigator) -> None:
         """Note what happened in a navigator's last step."""
+        check_kind("nav", nav, Navigator, "give the navigator that a step returns")
         log: Log = nav.log
         self._events += log.events
         self._replans += log.replans

@@ -10,7 +10,7 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.handed_in import check_kind
+from viaspline.handed_in import check_kind, number_from, numbers_from, time_from
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.robot_model import PERIOD_S, drive_model_of, is_driven
 from viaspline.mission.model import Mission
@@ -120,8 +120,9 @@ class Navigator:
         period: float = PERIOD_S,
     ) -> None:
         check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
-        if not 0.0 < reaction < float("inf"):
-            raise GeometryError(f"reaction is {reaction}; give a time above 0")
+        reaction, period = time_from("reaction", reaction), time_from("period", period)
+        if plan is not None:
+            check_kind("plan", plan, Plan, "give plan(mission)")
         limits = limits_of(mission.robot, reaction)
         plan = plan_mission(mission) if plan is None else plan
         # with the tension that was advised
@@ -152,6 +153,7 @@ class Navigator:
             GeometryError: When time runs backwards, the state is not finite or has the wrong
                 dimension, or a scan is given to a robot that has no lidar.
         """
+        time = number_from("time", time)
         _check(state, time, self._state)
         task, measured = self._task, state
         before = replace(self._state, log=Log())
@@ -193,7 +195,7 @@ class Navigator:
 
     def reference(self, time: float) -> RobotState:
         """Where a robot that follows exactly will be at a time, if nothing new is seen [s]."""
-        distance, speed, _ = self._state.schedule.trajectory.state_at(time)
+        distance, speed, _ = self._state.schedule.trajectory.state_at(number_from("time", time))
         u = self.path.parameter(float(distance))
         place = np.asarray(self.path.evaluate(u))
         return RobotState(tuple(place.tolist()), float(self.path.heading(u)), float(speed))
@@ -348,12 +350,15 @@ def _set_off(state: NavigationState, time: float) -> NavigationState:
 
 def _check(measured: RobotState, time: float, state: NavigationState) -> None:
     """Refuse what can't have been measured after the last step."""
+    check_kind("state", measured, RobotState, "give RobotState(position, heading, speed)")
     progress, dimension = state.progress, state.schedule.path.dimension
     last = progress.time - (0.0 if progress.controller is None else progress.controller.ahead)
     if progress.set_off and time < last - TIME_ROUNDING * (1.0 + abs(last)):
         raise GeometryError(f"time {time} s is before the last step's, {last} s")
-    numbers = (*measured.position, measured.heading, measured.speed, measured.speed_across, time)
-    if len(measured.position) != dimension or not np.isfinite(numbers).all():
+    position = numbers_from("state.position", measured.position)
+    motion = (measured.heading, measured.speed, measured.speed_across, time)
+    is_finite = np.isfinite(position).all() and np.isfinite(numbers_from("state", motion)).all()
+    if position.shape != (dimension,) or not is_finite:
         raise GeometryError(
             f"the state {measured} at {time} s needs {dimension} finite coordinates, "
             "a finite heading, speed and time"

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from viaspline.errors import GeometryError
-from viaspline.handed_in import check_kind
+from viaspline.handed_in import check_callable, check_kind, seed_from, time_from
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.robot.navigator import Navigator
@@ -74,8 +73,10 @@ def simulate(
         (True, True, 1)
     """
     check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
-    if not 0.0 < step < float("inf"):
-        raise GeometryError(f"step is {step}; give a time above 0 s")
+    step, seed = time_from("step", step), seed_from("seed", seed)
+    check_callable("pace", pace, "give by_work or by_clock")
+    if progress is not None:
+        check_callable("progress", progress, "give a function of a time and two lengths")
     world = World.everything(mission)
     nav = Navigator(mission, plan, reaction=max(step, REACTION_S), period=step)
     limit = MAX_DURATION_RATIO * nav.plan.trajectory.duration + MAX_DELAY_S

@@ -242,3 +242,7 @@ class Station:
     distance: float
     dwell: float = 0.0
     name: str = ""
+
+    def __post_init__(self) -> None:
+        for key in ("distance", "dwell"):
+            object.__setattr__(self, key, number_from(f"Station.{key}", getattr(self, key)))

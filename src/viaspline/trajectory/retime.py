@@ -99,6 +99,7 @@ def retime(
     """
     check_answers("path", path, "domain", "give a CardinalSpline, or the path of a plan")
     stations = all_of("stations", stations, Station, "give Station(distance, dwell)")
+    zones = all_of("zones", zones, SpeedZone, "give SpeedZone(polygon=..., max_speed_mps=...)")
     check_kind("limits", limits, Limits, "give Limits(max_speed=2, max_accel=1)")
     limited_path = limited_path_of(path, limits, grid)
     length = limited_path.length

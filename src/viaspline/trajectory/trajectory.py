@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viaspline.handed_in import numbers_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.integrate import ride
 from viaspline.trajectory.limits import Station
@@ -191,7 +192,7 @@ class Trajectory:
         Before its start and from its end on it stays as it is there, without acceleration.
         Scalar or array in, the same shape out.
         """
-        t = _within(np.asarray(time, dtype=float), self.times[0], self.times[-1])
+        t = _within(numbers_from("time", time), self.times[0], self.times[-1])
         last = self.accelerations.shape[0] - 1
         i = _within(self.times.searchsorted(t, side="right") - 1, 0, last)
         late = t - self.times[i]

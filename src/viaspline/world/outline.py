@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
+from viaspline.handed_in import numbers_from
 
 
 def outline(footprint: ArrayLike) -> NDArray[np.float64]:
@@ -33,7 +34,7 @@ def outline(footprint: ArrayLike) -> NDArray[np.float64]:
     ...
     viaspline.errors.GeometryError: the body does not contain its reference point (0, 0), ...
     """
-    corners = np.array(footprint, np.float64)
+    corners = np.array(numbers_from("footprint", footprint))
     if corners.ndim != 2 or corners.shape[1] != 2:
         raise GeometryError(f"a footprint of shape {corners.shape} is no outline; give (k, 2)")
     if not np.isfinite(corners).all():

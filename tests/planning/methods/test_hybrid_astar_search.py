@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pytest
 
 import viaspline as vs
 from viaspline.curve.bending import curvature_bound
@@ -86,3 +88,31 @@ def test_a_body_without_a_turning_circle_is_refused_for_its_place_alone() -> Non
     told = HybridAStar(SEARCH_EFFORTS[:1]).lay(asked)
     assert isinstance(told, GaveUp)
     assert "far from the start" in told.reason
+
+
+def test_a_search_whose_budget_is_spent_proves_nothing() -> None:
+    asked = pen()
+    told = HybridAStar(max_poses_s=0.001).lay(asked)
+    assert isinstance(told, GaveUp)
+    assert isinstance(HybridAStar().lay(asked), Refusal)
+
+
+def lane(angle: float) -> list[Any]:
+    """A lane out of the origin, a tenth of a metre wider to either side than the robot needs."""
+    c, s = math.cos(angle), math.sin(angle)
+    boxes = [(-1.5, 9, 1.1, 1.5), (-1.5, 9, -1.5, -1.1), (-1.6, -1.2, -1.5, 1.5)]
+    return [
+        {"polygon": [[c * x - s * y, s * x + c * y]
+                     for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))]}
+        for x0, x1, y0, y1 in boxes
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("degrees", [22.5, 67.0, -31.0])
+def test_a_free_start_finds_the_lane_that_leads_out_whichever_way_it_runs(degrees: float) -> None:
+    asked = problem(lane(math.radians(degrees)), [0, 0], [-30, 0])
+    found = HybridAStar().lay(asked)
+    assert isinstance(found, Found)
+    leaves = found.value.spans[0, 1] - found.value.spans[0, 0]
+    away = math.degrees(math.atan2(leaves[1], leaves[0])) - degrees
+    assert abs(away) < 15.0

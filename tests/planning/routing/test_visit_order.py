@@ -1,4 +1,4 @@
-from itertools import permutations
+from itertools import pairwise, permutations
 from typing import Any
 
 import numpy as np
@@ -97,3 +97,52 @@ def test_a_mission_that_gives_its_order_is_left_alone() -> None:
 def test_one_point_alone_and_none_at_all_are_in_order() -> None:
     assert in_order(mission([[0, 0], [5, 0], [9, 0]])).route.via[0].at == (5.0, 0.0)
     assert in_order(mission([[0, 0], [9, 0]])).route.via == ()
+
+
+def past_sides(seed: int) -> dict[str, Any]:
+    """A round of four places among discs that are to be passed on one side each."""
+    random = np.random.default_rng(seed)
+    discs = [
+        {"circle": {"center": at, "radius": float(random.uniform(4, 10))},
+         "pass_on": str(random.choice(["left", "right"]))}
+        for at in random.uniform(15, 85, (3, 2)).tolist()
+    ]  # fmt: skip
+    places: list[list[float]] = []
+    while len(places) < 4:
+        at = random.uniform(0, 100, 2)
+        gaps = [
+            np.hypot(*(at - d["circle"]["center"])) - d["circle"]["radius"] for d in discs
+        ]  # fmt: skip
+        if min(gaps) > 2.0:
+            places.append(at.tolist())
+    route = {"start": places[0], "via": places[1:], "closed": True, "order": "shortest"}
+    return {"world": {"known": discs}, "route": route}
+
+
+def planned_length(data: dict[str, Any], start: Any, goal: Any) -> float:
+    route = {"start": list(start), "goal": list(goal)}
+    try:
+        return vs.plan(vs.Mission.model_validate(data | {"route": route})).path.length
+    except vs.NoPathError:
+        return float("inf")
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_sides_that_are_asked_for_count_in_the_order(seed: int) -> None:
+    data = past_sides(seed)
+    start, via = tuple(data["route"]["start"]), [tuple(at) for at in data["route"]["via"]]
+    legs = {ends: planned_length(data, *ends) for ends in permutations((start, *via), 2)}
+
+    def length(order: Any) -> float:
+        return sum(legs[ends] for ends in pairwise((start, *order, start)))
+
+    taken = in_order(vs.Mission.model_validate(data)).route.via
+    best = min(length(order) for order in permutations(via))
+    assert length([via.at for via in taken]) == pytest.approx(best, rel=2e-3)
+
+
+def test_there_and_back_differ_where_sides_are_asked_for() -> None:
+    post = {"circle": {"center": [20, 3], "radius": 5}, "pass_on": "left"}
+    asked = mission([[0, 0], [40, 0], [60, 0]], known=[post])
+    lengths = lengths_between(asked, World.known(asked))
+    assert abs(lengths[0, 1] - lengths[1, 0]) > 0.5

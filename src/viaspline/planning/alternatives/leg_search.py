@@ -7,18 +7,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.fit import Fitted, fit
 from viaspline.planning.checking.cost import CandidateCost, measure
 from viaspline.planning.problem.method import Outcome, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence
-from viaspline.planning.problem.work_budget import ROUTE_S
 from viaspline.planning.routing.asked_sides import AskedSides
+from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import NO_BARRIERS
 from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.taut_path import TautPath
@@ -89,9 +86,7 @@ class LegSearch:
     ) -> tuple[Outcome[TautPath], Floats]:
         """The shortest taut path that passes what it meets on the sides that the mission allows.
 
-        It can meet obstacles with a side of their own that were not met before, or go round one
-        that the leg's straight line passes as it should; each such round adds at least one barrier,
-        so there are no more rounds than obstacles.
+        See ``route_on_sides``.
 
         Args:
             active: (n,): obstacles to begin with; those met are added in place.
@@ -100,17 +95,9 @@ class LegSearch:
         Returns:
             What came of it, and the barriers that forbid sides, (f, 4).
         """
-        barriers = self.sides.closed_among(active)
-        while True:
-            self.requirements.spend(ROUTE_S)
-            outcome = self.router.find(*self.ends, np.vstack((closed, barriers)), active)
-            if outcome.value is not None:
-                corners = outcome.value.corners[:, X : Y + 1]
-                active[self.sides.gone_round(corners)] = True
-            needed = self.sides.closed_among(active)
-            if len(needed) == len(barriers):
-                return outcome, barriers
-            barriers = needed
+        return route_on_sides(
+            self.router, self.ends, self.sides, active, closed, self.requirements.spend
+        )
 
     def curve(self, taut_path: TautPath | None, active: Flags) -> Spline | None:
         """The spline along a taut path, or None where no slack makes it clear.

@@ -10,6 +10,7 @@ import numpy as np
 
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
 from viaspline.planning.turning.hybrid_astar.pose_search import SEARCH_EFFORTS, Effort
 from viaspline.planning.turning.hybrid_astar.search_outcome import NotFound
@@ -27,16 +28,18 @@ class HybridAStar:
 
     Attributes:
         efforts: How finely and how long it looks, one after the other.
+        max_poses_s: What it may spend on poses in all [s of the reference machine].
     """
 
     efforts: Sequence[Effort] = SEARCH_EFFORTS
+    max_poses_s: float = 6.0
 
     def lay(self, problem: TurnProblem, bound: float = math.inf) -> Outcome[SplinePath]:
         """See ``Method``."""
         path, rho = problem.path, problem.rho
         chains = via_route_chains(
-            path.sequence, path.world, path.requirements, rho, RAMP * rho, path.spots, self.efforts,
-            [sides.closed for sides in path.sides],
+            path.sequence, path.world, path.requirements, rho, RAMP * rho, path.spots,
+            WorkBudget(self.max_poses_s), self.efforts, [sides.closed for sides in path.sides],
         )  # fmt: skip
         if isinstance(chains, NotFound):
             return _nothing(path, rho, chains)

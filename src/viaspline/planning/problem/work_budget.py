@@ -78,3 +78,15 @@ class WorkBudget:
                 tried=(f"what can be tried in {self.limit:.3g} s",),
             )
         self.spent += cost
+
+    def affords(self, cost: float) -> bool:
+        """Take off what the next step costs [s], if so much is left; whether it was.
+
+        >>> budget = WorkBudget(0.01)
+        >>> budget.affords(0.008), budget.affords(0.008), budget.spent
+        (True, False, 0.008)
+        """
+        is_left = self.spent + cost <= self.limit
+        if is_left:
+            self.spent += cost
+        return is_left

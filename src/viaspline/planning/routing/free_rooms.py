@@ -114,6 +114,25 @@ def places_reached(
     return found
 
 
+def are_joined(places: Sequence[Floats], world: World, required: float) -> bool:
+    """Whether some places, each at least (2,) [m], are seen to lie in one part of the free space.
+
+    Args:
+        places: The places.
+        world: What is to be kept clear of.
+        required: Distance to keep [m].
+    """
+    ends = np.array([place[:2] for place in places])
+    for cells in CELLS:
+        rooms = FreeRooms.of(world, required, ends, cells)
+        common = rooms.about(ends[0])
+        for place in ends[1:]:
+            common = np.intersect1d(common, rooms.about(place))
+        if common.size:
+            return True
+    return False
+
+
 def _box(world: World, required: float, places: Floats) -> tuple[float, float, float, float]:
     """What the lattice has to cover [m]."""
     if world.bounds is not None:

@@ -12,6 +12,7 @@ from viaspline.errors import Change, NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import RouteVia, ViaSequence
+from viaspline.planning.routing.free_rooms import SPARE_M, are_joined, places_reached
 from viaspline.world.world import World
 
 RING_PLACES = 180  # on a ring round a via point
@@ -24,21 +25,48 @@ def refuse_blocked_vias(sequence: ViaSequence, world: World, requirements: Requi
     """Raise NoPathError for the first via point that has not the room that is required."""
     at = np.array([via.at[:2] for via in sequence.vias])
     distance, index = world.nearest(at)
-    for via, room, nearest in zip(sequence.vias, distance, index, strict=True):
-        if room < requirements.required - PROOF_SLACK_M:
-            raise _no_room(via, float(room), int(nearest), world, requirements)
+    has_room = distance >= requirements.required - PROOF_SLACK_M
+    for k in np.flatnonzero(~has_room).tolist():
+        beside = [i for i in _neighbours(sequence, k) if has_room[i]]
+        raise _no_room(
+            sequence.vias[k], float(distance[k]), int(index[k]), at[beside], world, requirements
+        )
+
+
+def _neighbours(sequence: ViaSequence, k: int) -> list[int]:
+    """The via points before and after one."""
+    count = len(sequence.vias)
+    around = {(k - 1) % count, (k + 1) % count} if sequence.closed else {k - 1, k + 1}
+    return sorted(i for i in around if 0 <= i < count and i != k)
+
+
+def _place_instead(at: Floats, beside: Floats, world: World, required: float) -> Floats | None:
+    """Where a via point could be, with the room and with ways from its neighbours.
+
+    Args:
+        at: The via point [m], (2,).
+        beside: Its neighbours that have the room themselves [m], (n, 2).
+        world: What is to be kept clear of.
+        required: Distance to keep [m].
+    """
+    nearest = _nearest_free(at, world, required)
+    if nearest is None or not len(beside) or are_joined([nearest, *beside], world, required):
+        return nearest
+    return places_reached([(at, list(beside))], world, required)[0]
 
 
 def _no_room(
-    via: RouteVia, room: float, index: int, world: World, requirements: Requirements
-) -> NoPathError:
+    via: RouteVia, room: float, index: int, beside: Floats, world: World,
+    requirements: Requirements,
+) -> NoPathError:  # fmt: skip
+    place = _place_instead(via.at[:2], beside, world, requirements.required)
     name = world.name(index)
     free = room - requirements.radius - requirements.tracking_error
-    place = _nearest_free(via.at, world, requirements.required)
     moves = [] if place is None else [f"move it to ({place[0]:.3f}, {place[1]:.3f})"]
     changes = change_moving(via, place)
-    if 0 <= free < requirements.clearance:
-        most = float(np.floor(free * 1000) / 1000)
+    most = float(np.floor(free * 1000) / 1000)
+    kept = requirements.radius + requirements.tracking_error + most
+    if 0 <= free < requirements.clearance and are_joined([via.at, *beside], world, kept - SPARE_M):
         moves.append(f"set robot.clearance_m to at most {most:.3f}")
         changes += (Change("robot.clearance_m", most),)
     missing = requirements.required - room

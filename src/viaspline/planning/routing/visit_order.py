@@ -3,21 +3,26 @@
 The travelling salesman's problem over the lengths of the ways between all points, round what stands
 between them: exact for few via points (Held and Karp, "A Dynamic Programming Approach to Sequencing
 Problems", 1962), else by exchanges until none makes the round shorter (2-opt and Or-opt). Among
-very many only exchanges with near neighbours are looked at, and lengths are straight.
+very many only exchanges with near neighbours are looked at, and lengths are straight: neither what
+stands between nor the sides that are asked for count there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, permutations
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.routing.tour import shortened_tour
+from viaspline.kernels.world.clusters import group_labels
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import ViaPoint
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.via_sequence import WholeLeg
+from viaspline.planning.routing.asked_sides import AskedSides, sided
+from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.router import Router
 from viaspline.world.world import World
@@ -77,15 +82,27 @@ def lengths_between(mission: Mission, world: World) -> Floats:
     """Lengths of the shortest ways between all points of the route [m], shape (n, n).
 
     Start first, then the via points, then the goal if there is one; infinite where there is none.
+    Each passes obstacles on the sides that the mission asks for, so that there and back may differ.
+    A curve through more than two points swings out, and may meet sides that these ways don't.
     """
     at = np.array([point.at[:2] for _, point in mission.route.points()])
-    required = Requirements.of(mission).required
-    router = Router(world, required, at)
+    requirements = Requirements.of(mission)
+    router = Router(world, requirements.required, at)
+    indices = sided(world)
+    labels = group_labels(world.packed, 2.0 * requirements.required) if indices.size else indices
     lengths = np.zeros((len(at), len(at)))
-    for i, j in combinations(range(len(at)), 2):
-        active = on_the_line(world, at[i], at[j], required)
-        taut_path = router.find(at[i], at[j], NO_BARRIERS, active).value
-        lengths[i, j] = lengths[j, i] = np.inf if taut_path is None else taut_path.length
+    for i, j in permutations(range(len(at)), 2):
+        if i > j and not indices.size:
+            lengths[i, j] = lengths[j, i]
+            continue
+        sides = AskedSides.of(
+            WholeLeg(at[i], at[j]), indices, world, requirements.required, lambda: labels
+        )
+        active = on_the_line(world, at[i], at[j], requirements.required)
+        found, _ = route_on_sides(
+            router, (at[i], at[j]), sides, active, NO_BARRIERS, requirements.spend
+        )
+        lengths[i, j] = np.inf if found.value is None else found.value.length
     return lengths
 
 

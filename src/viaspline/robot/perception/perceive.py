@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from viaspline.errors import GeometryError
+from viaspline.handed_in import all_of
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.perception.belief import News
@@ -38,7 +39,7 @@ def perceive(
                 "robot.sensor.lidar"
             )
         return knowledge.with_scan(sensed)
-    in_sight = tuple(sensed)
+    in_sight = all_of("sensed", sensed, Obstacle, "give obstacles in sight, or a Scan")
     same = {id(obstacle) for obstacle in knowledge.in_sight}
     others = (obstacle for obstacle in in_sight if id(obstacle) not in same)
     new = tuple(dict.fromkeys(o for o in others if o not in knowledge.told))

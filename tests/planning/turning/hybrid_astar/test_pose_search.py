@@ -11,6 +11,7 @@ from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import dubins
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.turning.hybrid_astar.pose_search import find_poses
 from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
@@ -162,7 +163,7 @@ def test_a_mirrored_world_has_a_way_of_about_the_same_length():
 def test_a_row_of_places_joins_with_headings_that_fit():
     start = Pose(-10, 0, 0)
     goals = [Goal(5.5, 3.8), Goal(14.5, -3.2), Goal(22, 5, (1.0,))]
-    chains = find_row(WALLS, DISC, RHO, RAMP, start, goals)
+    chains = find_row(WALLS, DISC, RHO, RAMP, [start], goals, WorkBudget(9.0))
     assert not isinstance(chains, NotFound)
     for chain, goal in zip(chains, goals, strict=True):
         is_sound(chain, WALLS, DISC, start, goal)
@@ -171,7 +172,7 @@ def test_a_row_of_places_joins_with_headings_that_fit():
 
 def test_a_row_says_which_place_cannot_be_come_to():
     goals = [Goal(0, 5), Goal(5.5, 0), Goal(22, 5)]
-    found = find_row(WALLS, DISC, RHO, RAMP, Pose(-10, 0, 0), goals)
+    found = find_row(WALLS, DISC, RHO, RAMP, [Pose(-10, 0, 0)], goals, WorkBudget(9.0))
     assert isinstance(found, NotFound)
     assert (found.reason, found.goal) == (Reason.GOAL_TAKEN, 1)
 
@@ -181,10 +182,11 @@ def test_a_row_says_that_a_place_cannot_be_come_to_from_anywhere():
     pocket = [box(-1.2, -1, 8, -0.8), box(-1.2, 0.8, 8, 1), box(-1.2, -0.8, -1, 0.8)]
     world = World(pocket)
     start, goals = Pose(0, 0, 0.0), [Goal(20, 9), Goal(0, 0, (0.0,))]
-    found = find_row(world, DISC, RHO, RAMP, start, goals)
+    found = find_row(world, DISC, RHO, RAMP, [start], goals, WorkBudget(9.0))
     assert isinstance(found, NotFound)
     assert (found.reason, found.goal) == (Reason.GOAL_SHUT_IN, 1)
-    assert isinstance(find_row(world, DISC, RHO, RAMP, start, goals[:1]), tuple)
+    one = find_row(world, DISC, RHO, RAMP, [start], goals[:1], WorkBudget(9.0))
+    assert isinstance(one, tuple)
 
 
 def test_a_car_gets_out_of_a_bay_with_short_moves_and_across_a_field_with_long_ones():

@@ -236,11 +236,15 @@ def _one_way(problem: PoseProblem, start: Pose, goal: Goal) -> tuple[Chain | Not
     return finished(problem, start, np.array([goal.x, goal.y, free]), segments, expanded), False
 
 
-def headings_at(problem: PoseProblem, goal: Goal) -> Floats:
-    """The headings with which the body may stand at a goal, of those that are tried."""
-    headings = np.array(
-        goal.headings or np.arange(HEADING_SECTORS) * (2.0 * math.pi / HEADING_SECTORS)
-    )
+def headings_at(problem: PoseProblem, goal: Goal, sectors: int = HEADING_SECTORS) -> Floats:
+    """The headings with which the body may stand at a goal, of those that are tried.
+
+    Args:
+        problem: Where.
+        goal: The place.
+        sectors: How many are tried where any is allowed.
+    """
+    headings = np.array(goal.headings or np.arange(sectors) * (2.0 * math.pi / sectors))
     return headings[[problem.search_window.has_room(goal.x, goal.y, each) for each in headings]]
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import POSE_S
+from viaspline.planning.problem.work_budget import POSE_S, WorkBudget
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     HEADING_SECTORS,
     SEARCH_EFFORTS,
@@ -38,6 +38,8 @@ from viaspline.world.world import World
 MAX_ARRIVALS = 6  # that are followed on from every place, of different headings
 SHARE_AFTER_FIRST = 1.0  # of states, that is looked at after the first arrival; see ``SearchTree``
 DOUBT_STATES = 1000  # after which it is looked at whether the goal can be come to at all
+PROOF_SECTORS = 72  # headings that nothing may come with, for a place to be out of reach
+THINNED = 3  # of these, where a body stands with none of the usual ones, one in so many is tried
 SAME_HEADING_RAD = math.pi / HEADING_SECTORS  # nearer to each other than this, two are one
 
 
@@ -61,8 +63,9 @@ def find_row(
     requirements: Requirements,
     rho: float,
     ramp: float,
-    start: Pose,
+    starts: Sequence[Pose],
     goals: Sequence[Goal],
+    budget: WorkBudget,
     efforts: Sequence[Effort] = SEARCH_EFFORTS,
     barriers: Sequence[Floats] = (),
 ) -> tuple[Chain, ...] | NotFound:
@@ -73,8 +76,9 @@ def find_row(
         requirements: The body and what it keeps.
         rho: The least radius [m].
         ramp: Length on which the curvature rises from 0 to 1 / rho [m].
-        start: Where the first begins.
+        starts: Where the first may begin: poses at one place.
         goals: Where they end.
+        budget: What may be spent on poses; once it is, the search gives up.
         efforts: How finely and how long is looked, one after the other.
         barriers: For the way to each goal, segments that it must not cross [m], each (b, 4); none
             at all if it is empty.
@@ -84,13 +88,14 @@ def find_row(
         there are none. From every place only the shortest arrivals with different headings are
         followed on; that there is no way is said only where those were all.
     """
-    places = np.array([[start.x, start.y], *([goal.x, goal.y] for goal in goals)])
+    ends = [(goal.x, goal.y) for goal in goals]
+    places = np.array([(starts[0].x, starts[0].y), *ends])
     failed = NotFound(Reason.BUDGET)
     expanded = 0
     for effort in efforts:
         for problem in pose_problems(world, requirements, rho, ramp, places, effort):
             closed = [problem.closed_by(each) for each in barriers] or [problem] * len(goals)
-            found, is_cut = _through(closed, start, goals)
+            found, is_cut = _through(closed, starts, goals, budget)
             if not isinstance(found, NotFound):
                 return found
             expanded += found.expanded
@@ -101,21 +106,30 @@ def find_row(
 
 
 def _through(
-    problems: Sequence[PoseProblem], start: Pose, goals: Sequence[Goal]
+    problems: Sequence[PoseProblem],
+    starts: Sequence[Pose],
+    goals: Sequence[Goal],
+    budget: WorkBudget,
 ) -> tuple[tuple[Chain, ...] | NotFound, bool]:
     """The chains in one window, or why there are none and whether a greater one may have some."""
-    if not problems[0].search_window.has_room(start.x, start.y, start.heading):
+    has_room = problems[0].search_window.has_room
+    roomy = [pose for pose in starts if has_room(pose.x, pose.y, pose.heading)]
+    if not roomy:
         return NotFound(Reason.START_TAKEN), False
-    begin = np.array([start.x, start.y, start.heading, 0.0])
-    layers = [[_Arrival(begin, -1, np.empty((0, 3)))]]
+    if _is_shut_in(problems[-1], roomy[0], goals[-1], budget):
+        return NotFound(Reason.GOAL_SHUT_IN, len(goals) - 1), False
+    begins = [np.array([pose.x, pose.y, pose.heading, 0.0]) for pose in roomy]
+    layers = [[_Arrival(begin, -1, np.empty((0, 3))) for begin in begins]]
     expanded, has_followed_all = 0, True
     for number, (problem, goal) in enumerate(zip(problems, goals, strict=True)):
         headings = headings_at(problem, goal)
         if not len(headings):
+            headings = headings_at(problem, goal, PROOF_SECTORS)[::THINNED]
+        if not len(headings):
             return NotFound(Reason.GOAL_TAKEN, number, expanded), False
         to = headings if goal.headings else np.append(headings, math.nan)
         tree = problem.forwards(np.array([a.pose for a in layers[-1]]), goal, to, SHARE_AFTER_FIRST)
-        is_shut_in, seen = _grown(problem, tree, layers[-1][0].pose, goal, headings)
+        is_shut_in, seen = _grown(problem, tree, layers[-1][0].pose, goal, budget)
         expanded += seen
         if is_shut_in:
             return NotFound(Reason.GOAL_SHUT_IN, number, expanded), False
@@ -135,25 +149,43 @@ def _through(
         layers.append(distinct[:MAX_ARRIVALS])
         has_seen_all = tree.state == EMPTY and not is_cut
         has_followed_all &= has_seen_all and len(distinct) <= MAX_ARRIVALS
-    return _chains(problems, start, goals, layers, expanded), False
+    return _chains(problems, roomy, goals, layers, expanded), False
+
+
+def _is_shut_in(problem: PoseProblem, start: Pose, goal: Goal, budget: WorkBudget) -> bool:
+    """Whether a place with given headings is seen at once to be out of reach from anywhere."""
+    headings = headings_at(problem, goal)
+    if not goal.headings or not len(headings) or not problem.search_window.area.is_whole:
+        return False
+    back = problem.backwards(start, goal, headings)
+    if not budget.affords(POSE_S * back.quota):
+        return False
+    problem.spend(POSE_S * back.quota)
+    back.go_on()
+    return back.state == EMPTY
 
 
 def _grown(
-    problem: PoseProblem, tree: SearchTree, start: Floats, goal: Goal, headings: Floats
+    problem: PoseProblem, tree: SearchTree, start: Floats, goal: Goal, budget: WorkBudget
 ) -> tuple[bool, int]:
     """Let a search grow to its end, and in doubt another one from its goal.
+
+    It ends earlier when the budget is spent.
 
     Returns:
         Whether the goal can't be come to from anywhere, and how many states were looked at.
     """
     back: SearchTree | None = None
-    while not tree.is_over:
+    while not tree.is_over and budget.affords(POSE_S * tree.quota):
         problem.spend(POSE_S * tree.quota)
         tree.go_on()
         if tree.has_arrived or tree.expanded < DOUBT_STATES:
             continue
         if back is None:
-            back = problem.backwards(Pose(*start[:3].tolist()), goal, headings)
+            from_all = headings_at(problem, goal, PROOF_SECTORS)
+            back = problem.backwards(Pose(*start[:3].tolist()), goal, from_all)
+        if not budget.affords(POSE_S * back.quota):
+            break
         problem.spend(POSE_S * back.quota)
         back.go_on()
         if back.state == EMPTY and problem.search_window.area.is_whole:
@@ -173,7 +205,7 @@ def _distinct(arrivals: Sequence[_Arrival]) -> list[_Arrival]:
 
 def _chains(
     problems: Sequence[PoseProblem],
-    start: Pose,
+    starts: Sequence[Pose],
     goals: Sequence[Goal],
     layers: Sequence[list[_Arrival]],
     expanded: int,
@@ -182,6 +214,7 @@ def _chains(
     row = [layers[-1][0]]
     for layer in layers[-2:0:-1]:
         row.insert(0, layer[row[0].before])
+    start = starts[row[0].before]
     chains: list[Chain] = []
     for number, (arrival, goal) in enumerate(zip(row, goals, strict=True)):
         free = number == len(goals) - 1 and not goal.headings

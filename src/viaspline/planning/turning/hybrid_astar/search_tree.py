@@ -223,7 +223,7 @@ def _empty(
     table = 1 << math.ceil(math.log2(4 * nodes))
     return PoseSearch(
         window=np.array(search_window.area.box),
-        ends_at=np.concatenate((goal[None], starts[:, :2])),
+        ends_at=np.concatenate((goal[None], np.unique(starts[:, :2], axis=0))),
         care=np.array(search_window.care),
         scales=np.column_stack((CELL_SHARE * steps, around, search_window.rooms(steps))),
         nodes=np.zeros((nodes, 5)),
