@@ -48,7 +48,7 @@ def test_a_path_that_does_not_drive_well_says_why_and_shows_where(
     assert page.plan["drivability"]["verdict"] == "rough"
     page.page.locator(".drives summary").click()
     first = page.page.locator(".drives li button").first
-    assert "nearly a cusp" in first.inner_text()
+    assert first.inner_text().startswith("Nearly a cusp: it turns by ")
     first.click()
     reason = page.plan["drivability"]["reasons"][0]
     assert near([page.js("studio.camera.x"), page.js("studio.camera.y")], reason["at"][:2], 0.01)
