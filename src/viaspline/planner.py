@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 
 from viaspline.advice import with_advice
 from viaspline.curve.certificate import Certificate
@@ -11,9 +12,11 @@ from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.handed_in import check_kind
 from viaspline.machine.allowance import TRACKING_REMEDY, allowance, allowance_on_bends
+from viaspline.machine.drivability import Drivability
 from viaspline.machine.machine_limits import limits_of
-from viaspline.machine.robot_model import drive_model_of, is_driven
-from viaspline.machine.turns_on_spot import with_turns
+from viaspline.machine.measure_drivability import drivability_of
+from viaspline.machine.robot_model import is_driven
+from viaspline.machine.turns_on_spot import SpotTurning, with_turns
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.planning.alternatives.record import Account
@@ -63,6 +66,11 @@ class Plan:
     def ledger(self) -> tuple[LedgerEntry, ...]:
         """Every group met and every side tried."""
         return () if self.account is None else self.account.ledger
+
+    @cached_property
+    def drivability(self) -> Drivability:
+        """How the path drives: its sharpest place, accelerations across it, turns on the spot."""
+        return drivability_of(self.path, self.trajectory, self.mission.robot, self.world)
 
 
 def plan(mission: Mission) -> Plan:
@@ -165,10 +173,10 @@ def _with_error(mission: Mission, world: World, error: float) -> Plan:
 
 
 def stations(path: Path, robot: RobotSpec) -> tuple[Station, ...]:
-    """The stops of a path: its via points that have a dwell, and a machine's turns on the spot."""
+    """The stops of a path: its via points that have a dwell, and turns on the spot."""
     stops = [
         Station(float(distance), via.dwell, via.name)
         for via, distance in zip(path.vias, path.via_distances, strict=True)
         if via.dwell > 0
     ]
-    return tuple(with_turns(path, drive_model_of(robot), stops) if is_driven(robot) else stops)
+    return tuple(with_turns(path, SpotTurning.of(robot), stops))

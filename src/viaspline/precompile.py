@@ -29,12 +29,16 @@ MAX_LOCK_AGE_S = 300.0  # a lock that is older than this was left behind [s]
 def compile_curves() -> None:
     """Call every kernel of curves and of the time law once, as a run does."""
     from viaspline.curve.path import Path
+    from viaspline.machine.measure_drivability import drivability_of
+    from viaspline.mission.robot_parts import RobotSpec
     from viaspline.trajectory.limits import Limits, Station
     from viaspline.trajectory.retime import retime
+    from viaspline.world.world import World
 
     path = Path([[[0, 0], [1, 0], [2, 1], [3, 1]], [[3, 1], [4, 1], [5, 0], [6, 2]]], vias=[])
     limits = Limits(max_speed=2.0, max_accel=1.0, max_lateral_accel=0.5)
-    retime(path, limits, [Station(2.0, 1.0)])
+    trajectory = retime(path, limits, [Station(2.0, 1.0)])
+    drivability_of(path, trajectory, RobotSpec(radius_m=9.0), World([]))
     u, _, _ = path.sample(1.0)
     path.heading(u)
     path.curvature(u)

@@ -18,7 +18,8 @@ def test_a_robot_that_follows_exactly_has_its_own_limits() -> None:
 
 
 def test_a_driven_robot_has_an_end_of_what_it_stands_across(robot_of: Any) -> None:
-    assert limits_of(robot_of("point", max_lateral_accel_mps2=None)).max_lateral_accel == 5.0
+    unlimited = robot_of("point", max_lateral_accel_mps2="unlimited")
+    assert limits_of(unlimited).max_lateral_accel == 5.0
     assert limits_of(robot_of("point", max_lateral_accel_mps2=0.4)).max_lateral_accel == 0.4
 
 

@@ -12,15 +12,14 @@ from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.machine.machine_limits import limits_of
-from viaspline.machine.robot_model import drive_model_of
 from viaspline.machine.trial_drive import Track, follow
-from viaspline.machine.turns_on_spot import with_turns
+from viaspline.machine.turns_on_spot import SpotTurning, with_turns
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.retime import retime
 
 
 def driven(path: PiecewiseCubic, robot: RobotSpec, **more: Any) -> Track:
-    trajectory = retime(path, limits_of(robot), with_turns(path, drive_model_of(robot), []))
+    trajectory = retime(path, limits_of(robot), with_turns(path, SpotTurning.of(robot), []))
     return follow(path, trajectory, robot, **more)
 
 

@@ -40,6 +40,17 @@ def test_plan_json_has_the_keys_that_the_design_fixes(planned: Plan) -> None:
     assert [c["side"] for c in entry["candidates"] if c["chosen"]] == [entry["chosen"]]
 
 
+def test_plan_json_says_how_the_path_drives(planned: Plan) -> None:
+    drive = json.loads(plan_json(planned, "yard", spacing=0.1))["drivability"]
+    fixed = {"sharpest_radius_m", "sharpest_at", "max_lateral_accel_mps2", "curvature_jumps"}
+    assert fixed | {"turns_on_spot", "verdict", "reasons", "near_cusps"} <= set(drive)
+    peak, u = planned.path.max_curvature()
+    assert drive["sharpest_radius_m"] == pytest.approx(1 / peak, rel=1e-6)
+    assert drive["sharpest_at"] == pytest.approx(planned.path.evaluate(u).tolist(), abs=1e-4)
+    assert 0.4 < drive["max_lateral_accel_mps2"] <= 0.5
+    assert (drive["verdict"], drive["reasons"]) == ("good", [])
+
+
 def test_plan_json_says_what_a_reader_needs_later(planned: Plan) -> None:
     mission = json.loads(plan_json(planned, "yard", spacing=0.1))["mission"]
     assert mission["name"] == "yard"

@@ -36,6 +36,28 @@ def test_a_drive_is_played_to_the_goal_with_its_events(visit: Visit, patrol: Pat
     page.until("studio.drive.run === null")
 
 
+def test_a_path_that_does_not_drive_well_says_why_and_shows_where(
+    visit: Visit, tmp_path: Path
+) -> None:
+    mission = tmp_path / "corner.yaml"
+    mission.write_text(
+        "robot: {radius_m: 0.5}\nroute: {start: [0, 0], via: [[40, 0]], goal: [0, 3]}\n"
+        "spline: {knots: uniform, tension: 0.6}\n"
+    )
+    page = visit(mission)
+    assert page.plan["drivability"]["verdict"] == "rough"
+    page.page.locator(".drives summary").click()
+    first = page.page.locator(".drives li button").first
+    assert first.inner_text().startswith("Nearly a cusp: it turns by ")
+    first.click()
+    reason = page.plan["drivability"]["reasons"][0]
+    assert near([page.js("studio.camera.x"), page.js("studio.camera.y")], reason["at"][:2], 0.01)
+    assert page.js("studio.store.cursor") == reason["distance_m"]
+    page.js("studio.store.edit({...studio.store.doc, route: {start: [0, 0], goal: [40, 0]}})")
+    page.settle()
+    assert page.page.locator(".drives.is-good").inner_text() == "drives well"
+
+
 def test_everything_can_be_done_without_a_mouse(visit: Visit, patrol: Path) -> None:
     page = visit(patrol)
     page.page.focus("#map")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -66,3 +67,13 @@ def test_what_is_never_reached_on_the_tightest_turn_is_said() -> None:
     assert Limits(max_speed=10, max_accel=1).conflicts(0.1) == ()
     with pytest.raises(GeometryError, match="turning_radius"):
         limits.conflicts(0.0)
+
+
+def test_across_the_path_a_robot_does_what_it_does_along_it_unless_it_says_otherwise() -> None:
+    def across(**keys: Any) -> float | None:
+        return Limits.of(RobotSpec.model_validate(keys)).max_lateral_accel
+
+    assert across() == 1.0
+    assert across(max_accel_mps2=0.4, max_brake_mps2=2.0) == 0.4
+    assert across(max_accel_mps2=0.4, max_lateral_accel_mps2=2.5) == 2.5
+    assert across(max_lateral_accel_mps2="unlimited") is None

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.curve import cusps as kernels
 from viaspline.kernels.tracking.drive_model import DriveModel
+from viaspline.machine.robot_model import drive_model_of, is_driven
+from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.limits import Station
 
 CORNER_RAD = 0.02
@@ -23,7 +27,7 @@ SAME_DISTANCE_M = 1e-6
 
 
 def corners(path: PiecewiseCubic) -> tuple[Floats, Floats]:
-    """Where the heading of a path jumps, and by how much.
+    """Where the heading of a path jumps, and by how much: between spans, and at cusps in them.
 
     Args:
         path: Of its curves in space, the ground track counts.
@@ -43,9 +47,13 @@ def corners(path: PiecewiseCubic) -> tuple[Floats, Floats]:
     first, last = _direction(flat[index]), _direction(flat[index, ::-1]) + np.pi
     jumps = np.remainder(first[1:] - last[:-1] + np.pi, 2.0 * np.pi) - np.pi
     found = np.flatnonzero(np.abs(jumps) > CORNER_RAD)
-    if not found.size:
+    back = kernels.cusps(np.ascontiguousarray(flat))
+    if not found.size and not back.size:
         return np.empty(0), np.empty(0)
-    return np.atleast_1d(np.asarray(path.distance(index[found + 1].astype(float)))), jumps[found]
+    u = np.concatenate((index[found + 1].astype(float), back))
+    angles = np.concatenate((jumps[found], np.full(back.size, np.pi)))
+    order = np.argsort(u, kind="stable")
+    return np.atleast_1d(np.asarray(path.distance(u[order]))), angles[order]
 
 
 def _direction(spans: Floats) -> Floats:
@@ -58,34 +66,60 @@ def _direction(spans: Floats) -> Floats:
     return angles
 
 
-def turn_time(model: DriveModel, angle: float) -> float:
-    """How long a drive takes for a turn on the spot [s], angle [rad]; 0 if it can't.
+class SpotTurning(NamedTuple):
+    """How a robot turns where it stands.
 
-    One whose body keeps its heading only has to come to rest.
+    Attributes:
+        rate: [rad/s]; inf where turning takes no time, or nothing turns.
+        settling: Until it goes on [s].
     """
-    if model.actuators.wheelbase > 0.0:
-        return 0.0
-    if not math.isnan(model.actuators.held_heading):
-        return SETTLING_TIMES * model.lag
-    return abs(angle) / model.spot_rate + SETTLING_TIMES / model.heading_gain + model.lag
+
+    rate: float = math.inf
+    settling: float = 0.0
+
+    @classmethod
+    def of(cls, robot: RobotSpec) -> SpotTurning:
+        """That of a mission's robot; one without a drive keeps its yaw rate, if it has one.
+
+        >>> round(SpotTurning.of(RobotSpec(max_yaw_rate_degps=90)).time(math.pi), 6)
+        2.0
+        """
+        if is_driven(robot):
+            return cls.of_model(drive_model_of(robot))
+        return cls(math.radians(robot.max_yaw_rate_degps or math.inf))
+
+    @classmethod
+    def of_model(cls, model: DriveModel) -> SpotTurning:
+        """That of a drive. Steered wheels make no turns; a held heading only comes to rest."""
+        if model.actuators.wheelbase > 0.0:
+            return cls()
+        if not math.isnan(model.actuators.held_heading):
+            return cls(settling=SETTLING_TIMES * model.lag)
+        return cls(model.spot_rate, SETTLING_TIMES / model.heading_gain + model.lag)
+
+    def time(self, angle: float) -> float:
+        """How long a turn takes [s], angle [rad]."""
+        return abs(angle) / self.rate + self.settling
 
 
 def with_turns(
-    path: PiecewiseCubic, model: DriveModel, stations: Sequence[Station], start: float = 0.0
+    path: PiecewiseCubic, turning: SpotTurning, stations: Sequence[Station], start: float = 0.0
 ) -> list[Station]:
     """Stations with one for every corner ahead, at which the robot stays until it has turned.
 
     Args:
         path: What is driven.
-        model: The drive of the robot.
+        turning: How the robot turns on the spot.
         stations: Stops that there are anyway; they are kept.
         start: Corners up to this distance along the path are left out [m].
     """
     stops = list(stations)
+    if turning == SpotTurning():
+        return stops
     for at, angle in zip(*corners(path), strict=True):
         if at <= start + SAME_DISTANCE_M:
             continue
-        needed = turn_time(model, float(angle))
+        needed = turning.time(float(angle))
         stays = sum(
             stop.dwell for stop in stops if math.isclose(stop.distance, at, abs_tol=SAME_DISTANCE_M)
         )

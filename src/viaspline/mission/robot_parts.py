@@ -13,6 +13,7 @@ from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, mod
 from viaspline.mission.annotations import Expects
 from viaspline.mission.drives.drive import Drive
 from viaspline.mission.fields import (
+    ACCELERATIONS_MPS2,
     DEGREES,
     Acceleration,
     AngularAcceleration,
@@ -68,7 +69,7 @@ class RobotSpec(
         max_accel_mps2: The greatest acceleration along the path [m/s²].
         max_brake_mps2: The greatest deceleration along the path [m/s²]. None: as the acceleration.
         max_lateral_accel_mps2: The greatest acceleration across the path, v² times curvature
-            [m/s²]. None: no limit.
+            [m/s²], or ``unlimited``. None: as the acceleration along the path.
         max_yaw_rate_degps: The greatest yaw rate [deg/s]. None: no limit.
         max_yaw_accel_degps2: The greatest change of the yaw rate [deg/s²]. None: no limit.
         max_jerk_mps3: The greatest change of the acceleration along the path [m/s³]. None: no
@@ -95,7 +96,16 @@ class RobotSpec(
     max_speed_mps: Speed = 2.0
     max_accel_mps2: Acceleration = 1.0
     max_brake_mps2: Acceleration | None = None
-    max_lateral_accel_mps2: Acceleration | None = None
+    max_lateral_accel_mps2: (
+        Annotated[
+            Acceleration | Literal["unlimited"],
+            Expects(
+                f"a number from {ACCELERATIONS_MPS2[0]:g} to {ACCELERATIONS_MPS2[1]:.0f} in m/s², "
+                "or unlimited"
+            ),
+        ]
+        | None
+    ) = None
     max_yaw_rate_degps: AngularSpeed | None = None
     max_yaw_accel_degps2: AngularAcceleration | None = None
     max_jerk_mps3: Jerk | None = None
@@ -139,6 +149,19 @@ class RobotSpec(
         if self.footprint is None:
             return self.radius_m
         return max(math.hypot(x, y) for x, y in self.footprint)
+
+    @property
+    def lateral_accel(self) -> float | None:
+        """The greatest acceleration across the path [m/s²]; None if it has no limit.
+
+        >>> RobotSpec(max_accel_mps2=0.7).lateral_accel
+        0.7
+        >>> RobotSpec(max_lateral_accel_mps2="unlimited").lateral_accel is None
+        True
+        """
+        if self.max_lateral_accel_mps2 == "unlimited":
+            return None
+        return self.max_lateral_accel_mps2 or self.max_accel_mps2
 
     @property
     def turn_radius(self) -> float | None:

@@ -17,10 +17,11 @@ from matplotlib.patheffects import Normal, Stroke
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import GUIDE, PathVia
 from viaspline.kernels.arrays import Floats
+from viaspline.machine.drivability import Drivability
 from viaspline.mission.model import Mission
 from viaspline.report import style
 from viaspline.report.labels import Labels
-from viaspline.report.units import down
+from viaspline.report.units import down, metres
 
 MIN_NUMBERED_SPACING_PX = 24.0  # pixels between via points, below which they lose their numbers
 ARROW_SPACING_PX = 105.0  # pixels from one arrow to the next
@@ -175,6 +176,31 @@ def draw_tightest(axes: Axes, labels: Labels, certificate: Certificate) -> list[
         f"{down(certificate.clearance)} clear", (x, y), rank=1, colour=style.TIGHTEST, gap=14
     )
     return [ring]
+
+
+def draw_sharpest(axes: Axes, labels: Labels, drive: Drivability) -> list[Artist]:
+    """A square around the sharpest place, with its radius; turns on the spot with their angles.
+
+    Returns:
+        What belongs in a legend.
+    """
+    handles: list[Artist] = []
+    look = {"markerfacecolor": "none", "markeredgecolor": style.SHARPEST, "linestyle": "none"}
+    if drive.sharpest is not None:
+        x, y = drive.sharpest.at[:2]
+        handles += axes.plot(
+            x, y, marker="s", markersize=12, markeredgewidth=1.5, zorder=14,
+            label="sharpest place", **look,  # type: ignore[arg-type]
+        )  # fmt: skip
+        text = f"radius {metres(drive.sharpest_radius, 2 if drive.sharpest_radius > 0.1 else 3)}"
+        labels.add(text, (x, y), rank=2, colour=style.SHARPEST, gap=14)
+    if drive.turns_on_spot:
+        places = np.array([turn.place.at[:2] for turn in drive.turns_on_spot])
+        handles += axes.plot(
+            *places.T, marker="D", markersize=13, markeredgewidth=1.2, zorder=13,
+            label="turn on the spot", **look,  # type: ignore[arg-type]
+        )  # fmt: skip
+    return handles
 
 
 def draw_echoes(axes: Axes, points: Floats, size: float = 2.2) -> list[Artist]:

@@ -10,6 +10,7 @@ from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.report.drivability_json import drivability_data
 from viaspline.report.json_text import dumps
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.report.summary import tension
@@ -28,6 +29,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
             "mission": mission_summary(plan.mission, name),
             "path": path_data(plan.path) | _turning(plan) | {"csv_spacing_m": spacing},
             "certificate": certificate_data(plan.certificate),
+            "drivability": drivability_data(plan.drivability),
             **({"tracking_error_m": plan.tracking_error} if plan.tracking_error else {}),
             **({"note": FOLLOWED_EXACTLY} if keeps_nothing(plan.mission.robot) else {}),
             "ledger": [_entry(entry) for entry in plan.ledger],
@@ -61,7 +63,7 @@ def mission_summary(mission: Mission, name: str) -> dict[str, Any]:
         "required_clearance_m": robot.clearance_m,
         "max_speed_mps": robot.max_speed_mps,
         "max_accel_mps2": robot.max_accel_mps2,
-        "max_lateral_accel_mps2": robot.max_lateral_accel_mps2,
+        "max_lateral_accel_mps2": robot.lateral_accel,
         "tension": tension(mission),
         "knots": spline.knots,
         "tangents": mission.tangents,

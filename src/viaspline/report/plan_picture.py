@@ -5,12 +5,15 @@ Tested through ``report/test_pictures``.
 
 from __future__ import annotations
 
+import textwrap
+
 import numpy as np
 from matplotlib.artist import Artist
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
+from viaspline.machine.drivability import Drivability
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.planning.problem.requirements import Requirements
@@ -19,7 +22,13 @@ from viaspline.report.body_marks import draw_swept, draw_zones
 from viaspline.report.canvas import any_name, png, polyline
 from viaspline.report.close_up import close_up
 from viaspline.report.labels import Labels
-from viaspline.report.path_marks import draw_arrows, draw_path, draw_tightest, draw_vias
+from viaspline.report.path_marks import (
+    draw_arrows,
+    draw_path,
+    draw_sharpest,
+    draw_tightest,
+    draw_vias,
+)
 from viaspline.report.profile_strips import draw_curvature_limit, fill_strips, strip_names
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Sheet, new_sheet, view_of
@@ -27,6 +36,8 @@ from viaspline.report.side_column import SideColumn
 from viaspline.report.summary import body_words, spline_words
 from viaspline.report.units import asked_words, down, metres, seconds
 
+MAX_REASONS = 3  # why a path drives roughly, before the rest is only counted
+NOTE_WIDTH = 44  # letters of a line of the column at the right
 MAX_GROUPS_MEASURED = 6  # groups; the lengths of their ways are on the picture if they are no more
 
 
@@ -60,10 +71,12 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     vias, places = draw_vias(sheet.map, labels, plan.path.vias, plan.mission)
     draw_arrows(sheet.map, points, style.PATH, avoid=places)
     handles += vias + draw_tightest(sheet.map, labels, plan.certificate)
+    handles += draw_sharpest(sheet.map, labels, plan.drivability)
     labels.place(np.vstack([points, *losers]), places)
     _fill_strips(sheet, plan)
     column = SideColumn(sheet)
     column.legend(handles)
+    column.notes(*drive_notes(plan.drivability))
     close_up(column, scene, plan.path, plan.certificate, plan.mission.robot)
     return png(sheet.figure)
 
@@ -82,6 +95,19 @@ def proof(certificate: Certificate, tracking_error: float = 0.0) -> str:
         f"proven: nowhere closer than {down(certificate.clearance)} to anything "
         f"({asked_words(certificate.required, tracking_error)} asked)"
     )
+
+
+def drive_notes(drive: Drivability) -> tuple[str, list[str]]:
+    """The verdict of how a path drives, and why, in short lines."""
+    across = f"at most {drive.max_lateral_accel:.2g} m/s² across the path"
+    if not drive.reasons:
+        return "Drives well", [across]
+    shown = [why.text for why in drive.reasons[:MAX_REASONS]]
+    if len(drive.reasons) > MAX_REASONS:
+        shown.append(f"and {len(drive.reasons) - MAX_REASONS} more in plan.json")
+    whole = [text.replace(" m ", "\u00a0m ") for text in shown]  # a number keeps its unit
+    lines = [line for text in whole for line in textwrap.wrap(text, NOTE_WIDTH)]
+    return "Drives roughly", [*lines, across]
 
 
 def via_ticks(path: Path, mission: Mission) -> list[tuple[float, str]]:

@@ -9,6 +9,7 @@ from rich.table import Table
 
 from viaspline.advice import TensionAdvice
 from viaspline.curve.path import GUIDE
+from viaspline.machine.drivability import Drivability
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
 from viaspline.report.style import without_folder
@@ -17,6 +18,7 @@ from viaspline.report.terminal_lines import writing_output
 from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
 from viaspline.robot.run import MODES, Run
 
+MAX_REASONS = 4  # why a path drives roughly, before the rest is only counted
 MAX_LIST_LINES = 12  # of a long list, before the rest is only counted
 
 
@@ -56,12 +58,25 @@ def plan_tables(plan: Plan, name: str) -> RenderableType:
             f"beside {certificate.obstacle}",
         )
     facts.add_row("largest curvature", curvature(path.max_curvature()[0]))
+    for name, words in drivability_rows(plan.drivability):
+        facts.add_row(name, words)
     stations = [s for s in plan.trajectory.stations if s.dwell > 0]
     if stations:
         facts.add_row(
             "stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:MAX_LIST_LINES])
         )
     return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
+
+
+def drivability_rows(drive: Drivability) -> list[tuple[str, str]]:
+    """How a path drives, and every reason why that isn't well."""
+    rows = [("across the path", f"at most {drive.max_lateral_accel:.3g} m/s²")]
+    if not drive.reasons:
+        return [*rows, ("drives", "good")]
+    shown = [why.text for why in drive.reasons[:MAX_REASONS]]
+    if len(drive.reasons) > MAX_REASONS:
+        shown.append(f"… and {len(drive.reasons) - MAX_REASONS} more in plan.json")
+    return [*rows, ("drives", f"rough: {shown[0]}"), *(("", words) for words in shown[1:])]
 
 
 def ledger_table(ledger: tuple[LedgerEntry, ...]) -> RenderableType:
@@ -132,6 +147,8 @@ def run_tables(run: Run, name: str) -> RenderableType:
     facts.add_row("driven", f"{metres(run.path.length, 1)} in {seconds(run.duration)}")
     planned = f"{metres(run.plan.path.length, 1)} in {seconds(run.plan.trajectory.duration)}"
     facts.add_row("planned before", planned)
+    if run.plan.drivability.reasons:
+        facts.add_row("  drives", f"rough: {run.plan.drivability.reasons[0].text}")
     asked = asked_words(run.certificate.required)
     facts.add_row("clearance, proven", f"{down(run.certificate.clearance)} (asked {asked})")
     if run.certificate.obstacle is not None:

@@ -14,6 +14,8 @@ from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate
+from viaspline.report.drivability_json import drivability_data
+from viaspline.report.json_text import plain
 from viaspline.studio.map_cache import grid_name
 from viaspline.studio.plan_document import PlanFault, PlannedDocument
 
@@ -64,6 +66,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
             "times": rounded(trajectory.times),
         },
         "duration": trajectory.duration,
+        "drivability": plain(drivability_data(plan.drivability)),
         "order": _order(plan),
         "corridor": [[rounded(point, 3) for point in ring] for ring in plan.world.corridor],
     }

@@ -193,7 +193,7 @@ class Limits:
         return cls(
             max_speed=top,
             max_accel=robot.max_accel_mps2,
-            max_lateral_accel=robot.max_lateral_accel_mps2,
+            max_lateral_accel=robot.lateral_accel,
             max_brake=robot.max_brake_mps2,
             max_yaw_rate=_radians(robot.max_yaw_rate_degps),
             max_yaw_accel=_radians(robot.max_yaw_accel_degps2),

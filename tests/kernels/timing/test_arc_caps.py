@@ -68,6 +68,13 @@ def test_a_corner_and_a_cusp_are_places_to_rest() -> None:
     assert np.all(caps > 0)
 
 
+def test_where_a_straight_span_turns_back_is_a_place_to_rest() -> None:
+    back = np.array([[[0.0, 0.0], [10.0, 5.0], [-5.0, -2.5], [5.0, 2.5]]])
+    _, _, rests = bend_caps(back, np.array([0.0, 10.6]), 0.5, np.inf, 1.0, 4.0, 1.1)
+    places = np.flatnonzero(rests)
+    assert np.count_nonzero(np.diff(places) > 2) == 1, "two turns, each at a very short arc"
+
+
 def test_many_arcs_outgrow_the_first_room_that_is_made_for_them() -> None:
     rng = np.random.default_rng(1)
     points = np.cumsum(rng.normal(0, 5, (4, 2)), axis=0)

@@ -43,7 +43,8 @@ def test_a_robot_stops_by_its_brake_and_leaves_after_its_reaction(context: Repla
     here, speed = context.progress.distance, context.speed
     assert speed == pytest.approx(2.0)
     assert context.stop == pytest.approx(here + speed**2 / (2.0 * TASK.limits.brake))
-    assert context.leaves == (pytest.approx(here + 0.1 * speed),)
+    reaction = 0.1 * speed  # it leaves then, or where it may be slow enough for a sharper bend
+    assert context.leaves == pytest.approx((here + reaction, context.stop + reaction))
     assert context.here == pytest.approx(context.schedule.place(here))
     assert [via.name for via, _ in context.vias_ahead] == ["via 1", "goal"]
 

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -64,7 +63,7 @@ def test_a_dead_end_defeats_the_reflex_and_is_left_by_turning_back(mission_of: M
     back = modes.index("from_rest")  # stopped, and turned round where it stood
     turned = run.replans[back]
     stands = np.flatnonzero(np.hypot(*(run.positions - turned.at).T) < 1e-3)
-    assert run.speeds[stands].min() == pytest.approx(0.0, abs=1e-6)
+    assert run.speeds[stands].min() <= 0.5 * STEP  # at 1 m/s², half a step beside the rest
 
 
 def test_a_door_that_closes_under_way_is_braked_for_and_another_way_is_found(

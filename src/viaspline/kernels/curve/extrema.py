@@ -218,7 +218,7 @@ def nearest_parameter(
 
 
 @inner
-def _curvature_slope(spans: Floats, k: int, scale: float, out: Floats) -> None:
+def curvature_slope(spans: Floats, k: int, scale: float, out: Floats) -> None:
     """Bernstein coefficients of Y' q - 3 Y q', whose sign is that of the slope of curvature.
 
     With Y = |P' x P''|^2 and q = |P'|^2 curvature squared is Y / q^3. With the differences d of
@@ -273,7 +273,7 @@ def sharpest(spans: Floats) -> tuple[float, int, float]:
         found[0] = 0.0
         scale = speed_bound(spans, k)
         if scale > 0.0 and spans.shape[2] > 1:
-            _curvature_slope(spans, k, scale, slope)
+            curvature_slope(spans, k, scale, slope)
             candidates = 1 + roots(slope, stack, found[1:55])
             found[candidates] = 1.0
             candidates += 1

@@ -109,6 +109,18 @@ def _arc_length(q: Floats, a: float, b: float) -> float:
 
 
 @inner
+def _runs_on(q: Floats) -> bool:
+    """Whether no two control vectors of a derivative point apart: a straight span doesn't turn."""
+    for k in range(3):
+        along = 0.0
+        for j in range(q.shape[1]):
+            along += q[k, j] * q[(k + 1) % 3, j]
+        if along < 0.0:
+            return False
+    return True
+
+
+@inner
 def _end_tangent(span: Floats, at_end: bool, tangent: Floats) -> float:
     """Unit tangent at one end of a span; returns the length of the handle it was taken from."""
     length = 0.0
@@ -250,7 +262,7 @@ def bend_caps(
         rests[count] |= count > 0 and _turns(before, after, noise / handle)
         _end_tangent(spans[i], True, before)
         bend = max(_wedge(q[0], q[1]), _wedge(q[0], q[2]), _wedge(q[1], q[2]))
-        is_straight = bend <= noise * _largest(q)
+        is_straight = bend <= noise * _largest(q) and _runs_on(q)
         first, summed = count, 0.0
         stack[0, 0], stack[0, 1] = 0.0, 1.0
         depth = 1

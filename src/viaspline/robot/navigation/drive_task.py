@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from viaspline.kernels.tracking.drive_model import DriveModel
+from viaspline.machine.turns_on_spot import SpotTurning
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.robot.perception.belief import MIN_SURFACE_DISTANCE_M
@@ -31,6 +32,13 @@ class DriveTask:
     limits: Limits
     reaction: float
     model: DriveModel | None = None
+
+    @property
+    def spot_turning(self) -> SpotTurning:
+        """How the robot turns where it stands."""
+        if self.model is None:
+            return SpotTurning.of(self.mission.robot)
+        return SpotTurning.of_model(self.model)
 
 
 def requirements_under_way(mission: Mission, tracking_error: float) -> Requirements:

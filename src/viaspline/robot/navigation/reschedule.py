@@ -222,8 +222,7 @@ def trajectory_within_sight(
         speed = 0.0
     if end < path.length:
         stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
-    if task.model is not None:
-        stops = with_turns(path, task.model, stops, distance)
+    stops = with_turns(path, task.spot_turning, stops, distance)
     trajectory = _timed(task, schedule, path, stops, (distance, end), (speed, accel), time)
     if time == progress.time:
         return trajectory

@@ -34,7 +34,7 @@ export function clock(value) {
 export function bend(value) {
   if (value === null || Math.abs(value) < 1e-9) return "straight";
   const radius = 1 / Math.abs(value);
-  return radius > 10000 ? "nearly straight" : `r ${radius.toFixed(radius < 10 ? 2 : 1)} m`;
+  return radius > 10000 ? "nearly straight" : radius < 0.1 ? `r ${Number(radius.toPrecision(2))} m` : `r ${radius.toFixed(radius < 10 ? 2 : 1)} m`;
 }
 
 /** A length without the noise of sums [m]. @param {number} value */

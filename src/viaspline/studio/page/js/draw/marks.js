@@ -28,6 +28,19 @@ export function drawTightest(pen, certificate, known) {
   pen.stroke(colours.paper, 1.5);
 }
 
+/** Where the path doesn't drive well: squares. @param {Pen} pen @param {any[]} reasons */
+export function drawRough(pen, reasons) {
+  const { ctx, camera, colours } = pen;
+  for (const { at } of reasons) {
+    if (!at) continue;
+    const [x, y] = camera.toScreen(at[0], at[1]);
+    ctx.beginPath();
+    ctx.rect(x - 8, y - 8, 16, 16);
+    pen.stroke(colours.paper, 4);
+    pen.stroke(colours.zone, 2);
+  }
+}
+
 /** Where there is no way. @param {Pen} pen @param {number[]} where */
 export function drawProblem(pen, where) {
   const { ctx, camera, colours } = pen;

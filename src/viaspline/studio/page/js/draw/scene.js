@@ -8,7 +8,7 @@ import { drawBody, drawSwept } from "./body.js";
 import { drawFollowed, drawRobot, drawSight, drawTrail } from "./drive_marks.js";
 import { drawGrid, drawLimits, drawOutside, MapPictures } from "./ground.js";
 import { drawLabels } from "./labels.js";
-import { drawCross, drawCursor, drawDraft, drawProblem, drawScale, drawTightest } from "./marks.js";
+import { drawCross, drawCursor, drawDraft, drawProblem, drawRough, drawScale, drawTightest } from "./marks.js";
 import { drawHalos, drawHovered, drawKnown, drawPierced, drawUnseen, screenBox } from "./obstacles.js";
 import { drawArrows, drawComb, drawLeg, drawLosers, drawPath } from "./path.js";
 import { Pen } from "./pen.js";
@@ -161,7 +161,10 @@ export class Scene {
     const points = pointsOf(doc);
     drawPoints(pen, points, { selection: store.selection, hover: store.hover });
     drawHandles(pen, doc, store.selection);
-    if (!isDriving && store.plan?.ok && !store.isLate) drawTightest(pen, store.plan.certificate, known);
+    if (!isDriving && store.plan?.ok && !store.isLate) {
+      drawTightest(pen, store.plan.certificate, known);
+      drawRough(pen, store.plan.drivability.reasons);
+    }
     for (const problem of store.plan?.ok === false ? store.plan.problems : []) {
       const where = problem.where ?? this.placeOfProblem(problem);
       if (where) drawProblem(pen, where);

@@ -24,7 +24,7 @@ export function robotFields(doc, drives, set) {
       field("Top speed", "max_speed_mps", "m/s", { min: 0.001, placeholder: "2" }),
       field("Acceleration", "max_accel_mps2", "m/s²", { min: 0.001, placeholder: "1" })),
     h("div", { class: "pair" },
-      field("Across the path", "max_lateral_accel_mps2", "m/s²", { min: 0.001, placeholder: "no limit" }),
+      field("Across the path", "max_lateral_accel_mps2", "m/s²", { min: 0.001, placeholder: robot.max_lateral_accel_mps2 ?? "as along it" }),
       sensor(robot, set)),
     ...drive(robot, drives, set),
   ];

@@ -13,6 +13,7 @@ export class Summary {
     this.status = /** @type {HTMLElement} */ (document.querySelector("#status"));
     this.busy = "";
     this.wasOk = true;
+    this.isOpen = false; // the reasons why a path doesn't drive well
     const render = lazily(() => this.render(), 80);
     app.store.on("plan ledger status", render);
     app.store.on("plan", () => this.announce());
@@ -53,11 +54,33 @@ export class Summary {
         h("span", { class: "proof-figure" }, down(proof.clearance)),
         h("span", { class: "proof-words" }, proof.clearance === null ? "nothing to keep clear of" : `proven clear of everything (${metres(proof.required)} asked)`,
           proof.nearest ? h("button", { type: "button", class: "link", onclick: () => this.app.lookAtPlace(proof.at, proof.distance) }, `tightest at ${proof.nearest}`) : null)),
+      this.drives(plan.drivability),
       h("dl", { class: "figures" },
         ...row("Length", metres(plan.length, 1)), ...row("Duration", seconds(plan.duration)),
         ...row("Sharpest", bend(plan.curvature)), ...row("Planned in", plan.ms < 1000 ? `${plan.ms.toFixed(1)} ms` : seconds(plan.ms / 1000))),
       ...this.groups(),
     ];
+  }
+
+  /** How the path drives: a chip, which opens into the reasons where it doesn't drive well. @param {any} drive */
+  drives(drive) {
+    const { app } = this;
+    const link = (/** @type {string} */ text, /** @type {number[]|null} */ at, /** @type {number|null} */ distance) =>
+      at ? h("button", { type: "button", class: "link", onclick: () => app.lookAtPlace(at, distance) }, text) : h("span", {}, text);
+    const across = `at most ${number(drive.max_lateral_accel_mps2)} m/s² across the path`;
+    if (drive.verdict === "good") {
+      return h("div", { class: "drives is-good", title: across }, icon("check", 14), h("span", {}, "drives well"),
+        drive.sharpest_at ? link("sharpest place", drive.sharpest_at, drive.sharpest_distance_m) : null);
+    }
+    const { reasons } = drive;
+    const count = reasons.length > 1 ? ` · ${reasons.length} reasons` : "";
+    return h("details", {
+      class: "drives is-rough", open: this.isOpen, title: reasons.slice(0, 6).map((/** @type {any} */ r) => r.text).join("\n"),
+      ontoggle: (/** @type {Event} */ event) => { this.isOpen = /** @type {HTMLDetailsElement} */ (event.target).open; },
+    },
+    h("summary", {}, icon("warn", 14), h("span", {}, `drives roughly${count}`)),
+    h("ul", {}, ...reasons.slice(0, 12).map((/** @type {any} */ r) => h("li", {}, link(sentence(r.text), r.at, r.distance_m)))),
+    reasons.length > 12 ? h("p", { class: "hint" }, `and ${reasons.length - 12} more in plan.json`) : null);
   }
 
   groups() {

@@ -1,0 +1,229 @@
+"""Measuring how a path drives, from its exact curve and its time law.
+
+Tested through ``machine/test_drivability``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from viaspline.curve.path import GUIDE, Path
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.curve import curvature_profile as profile_kernels
+from viaspline.kernels.timing import across
+from viaspline.machine.drivability import (
+    BENT_1PM,
+    NEAR_CUSP_RAD,
+    Drivability,
+    NearCusp,
+    PathPlace,
+    SpotTurn,
+)
+from viaspline.machine.drivability_verdict import place_slip, reasons_against
+from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.turns_on_spot import SAME_DISTANCE_M, corners
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.world import NOTHING, World
+
+
+def drivability_of(
+    path: Path, trajectory: Trajectory, robot: RobotSpec, world: World
+) -> Drivability:
+    """How a path drives.
+
+    Args:
+        path: What is driven.
+        trajectory: Its time law, of all of it.
+        robot: Its body, its drive and its limits.
+        world: What stands beside the path; it gives places their names.
+
+    Example:
+        >>> from viaspline.trajectory.limits import Limits
+        >>> from viaspline.trajectory.retime import retime
+        >>> bend = Path([[(0, 0), (0, 2.2), (1.8, 4), (4, 4)]], vias=[])
+        >>> law = retime(bend, Limits(max_speed=2, max_accel=1, max_lateral_accel=0.5))
+        >>> found = drivability_of(bend, law, RobotSpec(max_lateral_accel_mps2=0.5), World([]))
+        >>> found.verdict, round(found.sharpest_radius, 2), round(found.max_lateral_accel, 2)
+        ('good', 3.91, 0.5)
+    """
+    drive = _Drive(path, trajectory, robot, world)
+    sharpest, radius = drive.sharpest
+    lateral, lateral_at = drive.largest(1.0)
+    jumps, largest_jump, jump_at = drive.jumps
+    limits = limits_of(robot)
+    yaw_rate: tuple[float, PathPlace | None] = (0.0, None)
+    if limits.max_yaw_rate is not None and path.dimension == 2:
+        yaw_rate = drive.largest(0.5)
+    turns, cusps = drive.turns, drive.near_cusps
+    return Drivability(
+        sharpest_radius=radius,
+        sharpest=sharpest,
+        least_radius=least_radius(robot),
+        max_lateral_accel=lateral,
+        max_lateral_at=lateral_at,
+        curvature_jumps=jumps,
+        largest_jump=largest_jump,
+        largest_jump_at=jump_at,
+        sign_changes=drive.sign_changes,
+        near_cusps=cusps,
+        turns_on_spot=turns,
+        reasons=reasons_against(
+            (radius, sharpest, least_radius(robot)), cusps, turns,
+            limits, trajectory, (lateral, lateral_at), yaw_rate,
+        ),
+    )  # fmt: skip
+
+
+def least_radius(robot: RobotSpec) -> float:
+    """The least radius that is round enough for a robot [m]: its turning circle, else its body's.
+
+    >>> least_radius(RobotSpec(radius_m=0.4)), least_radius(RobotSpec(min_turn_radius_m=2))
+    (0.4, 2.0)
+    """
+    return robot.outer_radius if robot.turn_radius is None else robot.turn_radius
+
+
+@dataclass(frozen=True)
+class _Drive:
+    """A path with its time law, and what is measured of them."""
+
+    path: Path
+    trajectory: Trajectory
+    robot: RobotSpec
+    world: World
+
+    @cached_property
+    def nodes(self) -> Floats:
+        """Rows of u, curvature and span, between which it only rises or falls, shape (n, 3)."""
+        return profile_kernels.curvature_profile(self.path.spans)
+
+    @property
+    def sharpest(self) -> tuple[PathPlace | None, float]:
+        """Where the path is sharpest, and its radius there [m]."""
+        u, curvature, _ = self.nodes[int(np.argmax(np.abs(self.nodes[:, 1])))].tolist()
+        if curvature == 0.0:
+            return None, math.inf
+        return self.place(u), 1.0 / abs(curvature)
+
+    @property
+    def sign_changes(self) -> int:
+        """How often it bends to one side and then to the other."""
+        bends = self.nodes[:, 1][np.abs(self.nodes[:, 1]) > BENT_1PM]
+        return int(np.count_nonzero(np.diff(np.sign(bends))))
+
+    @property
+    def jumps(self) -> tuple[int, float, PathPlace | None]:
+        """How often the curvature jumps while driving, the largest jump [1/m], and where."""
+        jumps = self.path.curvature_jumps()
+        joints = np.arange(1.0, len(self.path.spans))
+        stands = self.trajectory.speed_at(np.asarray(self.path.distance(joints))) == 0.0
+        jumps = np.where(stands, 0.0, jumps)
+        count = int(np.count_nonzero(jumps > BENT_1PM))
+        if not count:
+            return 0, 0.0, None
+        at = int(np.argmax(jumps))
+        return count, float(jumps[at]), self.place(float(joints[at]))
+
+    @property
+    def near_cusps(self) -> tuple[NearCusp, ...]:
+        """Stretches that are sharper than the robot's own circle and turn far."""
+        radius = least_radius(self.robot)
+        if radius <= 0.0 or self.sharpest[1] >= radius:
+            return ()
+        spans, nodes = self.path.spans, self.nodes
+        rows = profile_kernels.sharp_stretches(spans, nodes, 1.0 / radius)
+        found = []
+        for first, last, peak, turn in rows[rows[:, profile_kernels.TURN] >= NEAR_CUSP_RAD]:
+            length = float(self.path.distance(last) - self.path.distance(first))
+            inside = (nodes[:, 0] >= first) & (nodes[:, 0] <= last) & (nodes[:, 1] == peak)
+            u = float(nodes[inside][0, 0]) if inside.any() else float(first)
+            found.append(NearCusp(float(turn), length, 1.0 / abs(float(peak)), self.place(u)))
+        return tuple(found)
+
+    @property
+    def turns(self) -> tuple[SpotTurn, ...]:
+        """Corners and cusps."""
+        law = self.trajectory
+        found = []
+        for distance, angle in zip(*corners(self.path), strict=True):
+            near = [s.dwell for s in law.stations if abs(s.distance - distance) <= SAME_DISTANCE_M]
+            found.append(
+                SpotTurn(
+                    turn=float(angle),
+                    time=sum(near),
+                    speed=self._slowest(float(distance)),
+                    asked=self._is_asked(float(distance)),
+                    place=self.place(self.path.parameter(distance)),
+                )
+            )
+        return tuple(found)
+
+    def _slowest(self, distance: float) -> float:
+        """The least speed about a corner [m/s]: a cusp lies on a very short arc."""
+        around = distance + SAME_DISTANCE_M * np.array([-1.0, 0.0, 1.0])
+        least = float(self.trajectory.speed_at(around).min())
+        points = self.trajectory.distances
+        rests = points[self.trajectory.speeds == 0.0]
+        return 0.0 if np.any(np.abs(rests - distance) <= SAME_DISTANCE_M) else least
+
+    def _is_asked(self, distance: float) -> bool:
+        where = self.robot.turns_on_spot
+        return any(
+            abs(at - distance) <= SAME_DISTANCE_M
+            and (where == "vias" or (where == "stations" and via.dwell > 0.0))
+            for via, at in self.path.stops
+        )
+
+    def largest(self, power: float) -> tuple[float, PathPlace | None]:
+        """The largest curvature times v^(2 power), and where."""
+        law = self.trajectory
+        none = np.zeros(len(law.accelerations))
+        pieces = np.column_stack((
+            law.speeds[:-1], law.accelerations,
+            none if law.changes is None else law.changes, none if law.jerks is None else law.jerks,
+            np.diff(law.distances),
+        ))  # fmt: skip
+        bends = np.zeros(len(self.path.spans))
+        np.maximum.at(bends, self.nodes[:, 2].astype(int), np.abs(self.nodes[:, 1]))
+        slip = 2.0 * place_slip(self.path.length) * float(np.abs(law.accelerations).max())
+        value, u = across.largest_across(self.path.spans, bends, pieces, self._cells, power, slip)
+        return float(value), None if value == 0.0 else self.place(float(u))
+
+    @cached_property
+    def _cells(self) -> Floats:
+        """Parts of the path that lie on one span and on one piece of the law, shape (n, 5)."""
+        path, distances = self.path, self.trajectory.distances
+        joints = np.arange(len(path.spans) + 1.0)
+        at_joints = np.asarray(path.distance(joints))
+        s = np.concatenate((distances, at_joints))
+        u = np.concatenate((path.parameter(np.clip(distances, 0.0, path.length)), joints))
+        order = np.argsort(u, kind="stable")
+        s, u = s[order], u[order]
+        wide = np.flatnonzero((np.diff(u) > 0.0) & (np.diff(s) > 0.0))
+        piece = np.searchsorted(distances, 0.5 * (s[wide] + s[wide + 1]), side="right") - 1
+        piece = np.clip(piece, 0, len(distances) - 2)
+        begin = distances[piece]
+        return np.column_stack((piece, u[wide], u[wide + 1], s[wide] - begin, s[wide + 1] - begin))
+
+    def place(self, u: float) -> PathPlace:
+        """A place by its parameter."""
+        at = tuple(self.path.evaluate(u).tolist())
+        return PathPlace(float(self.path.distance(u)), at, self._near(at))
+
+    def _near(self, at: tuple[float, ...]) -> str:
+        vias = [via for via in self.path.vias if via.name != GUIDE]
+        apart = [math.dist(via.at[:2], at[:2]) for via in vias]
+        gaps, index = self.world.nearest([at[:2]])
+        obstacle = "" if int(index[0]) == NOTHING else self.world.name(int(index[0]))
+        if not vias:
+            return obstacle
+        nearest = int(np.argmin(apart))
+        if vias[nearest].kind == "user" and (not obstacle or apart[nearest] <= gaps[0]):
+            return vias[nearest].name
+        detour = vias[nearest].kind == "detour" and apart[nearest] <= gaps[0]
+        return f"a detour point beside {obstacle}" if detour else obstacle
