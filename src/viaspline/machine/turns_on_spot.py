@@ -58,6 +58,11 @@ def _direction(spans: Floats) -> Floats:
     return angles
 
 
+def turns_where_it_stands(model: DriveModel) -> bool:
+    """Whether a drive turns on the spot to look along its path."""
+    return model.actuators.wheelbase <= 0.0 and math.isnan(model.actuators.held_heading)
+
+
 def turn_time(model: DriveModel, angle: float) -> float:
     """How long a drive takes for a turn on the spot [s], angle [rad]; 0 if it can't.
 
