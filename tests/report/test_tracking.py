@@ -13,6 +13,7 @@ from viaspline.report.csv_tables import run_csv
 from viaspline.report.plan_json import plan_json
 from viaspline.report.run_json import run_json
 from viaspline.report.run_picture import run_picture
+from viaspline.report.terminal_tables import console, run_tables
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 
@@ -37,9 +38,31 @@ def test_the_files_say_what_the_robot_was_off(run: Run) -> None:
     assert planned["tracking_error_m"] == tracking["allowed_m"]
 
 
-def test_without_a_drive_they_are_as_they_were() -> None:
+def test_they_say_when_it_was_farther_beside_its_path_than_was_kept(run: Run) -> None:
+    tracking = json.loads(run_json(run, "x"))["tracking"]
+    assert tracking["kept_to"]
+    assert tracking["beyond_allowed"] == []
+    stated = driven(
+        drive={"differential": {"track_m": 0.5}, "delay_s": 0.1, "speed_noise_mps": 0.1},
+        localization={"position_noise_m": 0.05}, tracking_error_m=1e-4,
+    )  # fmt: skip
+    tracking = json.loads(run_json(stated, "x"))["tracking"]
+    assert not tracking["kept_to"]
+    worst = max(tracking["beyond_allowed"], key=lambda one: one["off_m"])
+    assert worst["off_m"] == pytest.approx(tracking["cross_track_max_m"], abs=1e-6)
+    assert worst["beyond_m"] == pytest.approx(worst["off_m"] - 1e-4, abs=1e-6)
+    assert worst["since_s"] <= worst["worst_time_s"] <= worst["until_s"]
+    screen = console()
+    with screen.capture() as said:
+        screen.print(run_tables(stated, "x"))
+    assert "BEYOND WHAT IS KEPT" in said.get()
+
+
+def test_without_a_drive_they_say_that_nothing_is_kept() -> None:
     run = driven()
-    assert "tracking" not in json.loads(run_json(run, "x"))
+    data = json.loads(run_json(run, "x"))
+    assert "tracking" not in data
+    assert data["note"].startswith("the robot has no drive")
     assert run_csv(run).splitlines()[0].endswith("speed_mps,curvature_1pm")
     planned = json.loads(plan_json(plan(run.plan.mission), "x", spacing=0.1))
     assert "tracking_error_m" not in planned

@@ -10,6 +10,9 @@ from viaspline.mission.drives.drive_limits import DriveLimits
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.limits import REACTION_S, Limits
 
+TURN_RADPS = 3.0
+"""Yaw rate of a body that turns, for robots without a limit of it [rad/s]."""
+
 TYRE_ACCEL_MPS2 = 5.0
 """Acceleration across the path that tyres stand [m/s²], for robots without a limit of it."""
 
@@ -37,18 +40,25 @@ def limits_of(robot: RobotSpec, reaction: float = REACTION_S) -> Limits:
         return Limits.of(robot, reaction)
     drive = robot.drive
     if drive is None:
-        return _with_tyres(Limits.of(robot, reaction))
+        return _with_turns(_with_tyres(Limits.of(robot, reaction)))
     limits = _with_tyres(Limits.of(robot, reaction + drive.delay_s + drive.lag_s))
     kind = drive.kind
     limits = _with_drive(limits, kind.limits(limits.max_speed, limits.max_accel))
-    if kind.held_heading is None:
+    if kind.turn_radius is not None:
         return limits
+    if kind.held_heading is None:
+        return _with_turns(limits)
     return replace(limits, max_yaw_rate=None, max_yaw_accel=None, axis_heading=kind.held_heading)
 
 
 def _with_tyres(limits: Limits) -> Limits:
     """With an end of what can be asked across the path: so corners are places to stop at."""
     return replace(limits, max_lateral_accel=limits.max_lateral_accel or TYRE_ACCEL_MPS2)
+
+
+def _with_turns(limits: Limits) -> Limits:
+    """With an end of what can be asked of its turns: in a cusp any speed would ask for more."""
+    return replace(limits, max_yaw_rate=limits.max_yaw_rate or TURN_RADPS)
 
 
 def _with_drive(limits: Limits, asked: DriveLimits) -> Limits:

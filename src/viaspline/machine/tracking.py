@@ -73,8 +73,8 @@ class Tracking:
         """Of the error along the path, while it was on its way [m]."""
         return self._percentiles(self.along_track)
 
-    def body_deviation(self, reach: float) -> float:
-        """How far any point of the body was from where it would have been on the path [m].
+    def body_deviations(self, reach: float) -> Floats:
+        """How far any point of the body was from where it would have been on the path [m], (n,).
 
         A point that lies R from the reference point is off by the offset to the side and, through
         the heading error h, by 2 R sin(h/2) at most. A disc is not turned by anything.
@@ -83,8 +83,12 @@ class Tracking:
             reach: R of the farthest corner; 0 for a disc [m].
         """
         turned = np.where(self.moving, np.abs(self.heading_error), 0.0)
-        off = np.abs(self.cross_track) + 2.0 * reach * np.sin(0.5 * turned)
-        return float(off.max()) if off.size else 0.0
+        off: Floats = np.abs(self.cross_track) + 2.0 * reach * np.sin(0.5 * turned)
+        return off
+
+    def body_deviation(self, reach: float) -> float:
+        """The greatest of these in all of the drive [m]; see ``body_deviations``."""
+        return float(self.body_deviations(reach).max(initial=0.0))
 
     def _percentiles(self, errors: Floats) -> Percentiles:
         sizes = np.abs(errors[self.moving])

@@ -11,8 +11,10 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.closed_loop import drive
+from viaspline.kernels.tracking.control_law import LAST_TURN, LATE, MEMORY
 from viaspline.kernels.tracking.drive_model import DriveModel
 from viaspline.kernels.tracking.drive_motion import (
+    COMMAND,
     HEADING,
     ROW,
     ROW_HEADING,
@@ -22,6 +24,7 @@ from viaspline.kernels.tracking.drive_motion import (
     ROW_YAW_RATE,
     STATE,
     SUBSTEP_S,
+    TURN,
     X,
     Y,
 )
@@ -106,9 +109,11 @@ def follow(
     substeps = max(math.ceil(period / SUBSTEP_S - 1e-9), 1)
     count = math.ceil((MAX_DURATIONS * trajectory.duration + MAX_OVERTIME_S + model.delay) / period)
     faults = DriveNoise(robot, seed)
+    memory = np.zeros(MEMORY)
+    memory[LATE], memory[LAST_TURN] = model.delay, state[TURN]
     rows, notes, ticks = drive(
-        model, reference, profile, state.copy(), period, substeps,
-        faults.measured(count), faults.driven(count * substeps),
+        model, reference, profile, state.copy(), memory, np.empty((0, COMMAND)), 0.0, math.inf,
+        period, substeps, faults.measured(count), faults.driven(count * substeps),
     )  # fmt: skip
     finished = ticks >= 0
     if finished:

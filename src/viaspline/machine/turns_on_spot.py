@@ -66,6 +66,11 @@ def _direction(spans: Floats) -> Floats:
     return angles
 
 
+def turns_where_it_stands(model: DriveModel) -> bool:
+    """Whether a drive turns on the spot to look along its path."""
+    return model.actuators.wheelbase <= 0.0 and math.isnan(model.actuators.held_heading)
+
+
 class SpotTurning(NamedTuple):
     """How a robot turns where it stands.
 

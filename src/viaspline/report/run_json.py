@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 
 from viaspline.curve.path import Path
+from viaspline.machine.excess import Excess
 from viaspline.report.json_text import dumps
 from viaspline.report.plan_json import mission_summary, path_data
+from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.robot.run import Replan, Run
 
 
@@ -59,9 +61,10 @@ def run_json(run: Run, name: str, *, seed: int = 0) -> str:
 
 
 def _tracking(run: Run) -> dict[str, Any]:
-    """What a robot with a drive was off from its path; nothing of one that follows exactly."""
+    """What a robot with a drive was off from its path; that nothing is kept for one without."""
     if run.tracking is None:
-        return {}
+        nothing = keeps_nothing(run.plan.mission.robot)
+        return {"note": FOLLOWED_EXACTLY} if nothing else {}
     cross, heading, along = run.tracking.cross, run.tracking.heading, run.tracking.along
     errors = {
         f"{name}_{percentile}_{unit}": value
@@ -70,7 +73,21 @@ def _tracking(run: Run) -> dict[str, Any]:
         )
         for percentile, value in spread._asdict().items()
     }  # fmt: skip
-    return {"tracking": {"allowed_m": run.plan.tracking_error, **errors}}
+    beyond = [_excess(run, excess) for excess in run.excesses]
+    kept = {"allowed_m": run.plan.tracking_error, "kept_to": not beyond}
+    return {"tracking": {**kept, **errors, "beyond_allowed": beyond}}
+
+
+def _excess(run: Run, excess: Excess) -> dict[str, Any]:
+    return {
+        "since_s": excess.since,
+        "until_s": excess.until,
+        "worst_time_s": excess.worst_at,
+        "at": run.place_at(excess.worst_at),
+        "distance_m": excess.distance,
+        "off_m": excess.off,
+        "beyond_m": excess.off - excess.kept,
+    }
 
 
 def _replan(replan: Replan) -> dict[str, Any]:

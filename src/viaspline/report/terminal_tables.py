@@ -163,6 +163,8 @@ def run_tables(run: Run, name: str) -> RenderableType:
             f"{metres(cross.p99, 3)} in 99 % of the time, at most {metres(cross.max, 3)} "
             f"(allowed {metres(run.plan.tracking_error, 3)})",
         )
+        if run.excesses:
+            facts.add_row("BEYOND WHAT IS KEPT", _beyond(run))
     served = sum(visit.status == "served" for visit in run.visits)
     facts.add_row("points served", f"{served} of {len(run.visits)}")
     missed = [visit for visit in run.visits if visit.status != "served"]
@@ -184,6 +186,19 @@ def run_tables(run: Run, name: str) -> RenderableType:
     used = {replan.mode for replan in run.replans}
     modes = [f"{mode}: {words}" for mode, words in MODES.items() if mode in used]
     return Group(facts, table, *modes)
+
+
+def _beyond(run: Run) -> str:
+    """When, where and by how much a robot was farther beside its path than was kept."""
+    found = run.excesses
+    worst = max(found, key=lambda excess: excess.off)
+    lasted = sum(excess.until - excess.since for excess in found)
+    times = "once" if len(found) == 1 else f"{len(found)} times"
+    return (
+        f"{times}, {seconds(lasted)} in all, at most {metres(worst.off, 3)} where "
+        f"{metres(worst.kept, 3)} are kept, at {place(run.place_at(worst.worst_at))} after "
+        f"{seconds(worst.worst_at)}: there the clearance of its path says nothing of the robot"
+    )
 
 
 def _facts(title: str) -> Table:

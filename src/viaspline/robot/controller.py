@@ -1,7 +1,4 @@
-"""The controller of a robot with a drive: what it remembers from step to step.
-
-Tested through ``robot/simulation/test_machine_drive``.
-"""
+"""The controller of a robot with a drive: what it remembers from step to step."""
 
 from __future__ import annotations
 
@@ -21,11 +18,15 @@ from viaspline.kernels.tracking.drive_motion import (
     GIVEN_AT,
     HEADING,
     STATE,
+    TURN,
+    predict,
 )
 from viaspline.kernels.tracking.reference_path import ReferencePath
 from viaspline.kernels.tracking.reference_timing import SpeedProfile
+from viaspline.machine.drive_ahead import DriveState
+from viaspline.machine.pose_filter import PoseFilter
 from viaspline.machine.reference import reference_path_of
-from viaspline.machine.trial_drive import speed_profile_of
+from viaspline.machine.trial_drive import speed_profile_of, start_of
 from viaspline.robot.state import RobotState
 from viaspline.trajectory.trajectory import Trajectory
 
@@ -47,6 +48,9 @@ class Controller:
         given: The commands of the last steps, as far back as some are still on their way, shape
             (k, COMMAND).
         note: What was noted in the last step, shape (NOTES,).
+        pose_filter: How what is measured is weighed.
+        believed: Where the robot was taken to be at the last step, by what it was commanded and
+            what was measured, shape (STATE,); None before the first.
     """
 
     model: DriveModel
@@ -58,9 +62,18 @@ class Controller:
     memory: Floats
     given: Floats
     note: Floats
+    pose_filter: PoseFilter
+    believed: Floats | None = None
 
     @classmethod
-    def of(cls, model: DriveModel, period: float, path: Path, trajectory: Trajectory) -> Controller:
+    def of(
+        cls,
+        model: DriveModel,
+        period: float,
+        path: Path,
+        trajectory: Trajectory,
+        pose_filter: PoseFilter,
+    ) -> Controller:
         """A controller that has not given any command yet."""
         memory, note = np.zeros(control_law.MEMORY), np.zeros(control_law.NOTES)
         memory[control_law.LAST_TIME] = -math.inf
@@ -75,6 +88,7 @@ class Controller:
             memory,
             np.empty((0, COMMAND)),
             note,
+            pose_filter,
         )
 
     @property
@@ -104,11 +118,35 @@ class Controller:
         period = time - memory[control_law.LAST_TIME] if len(self.given) else self.period
         pose[: HEADING + 1] = (*state.position[:2], state.heading)
         pose[ALONG], pose[ACROSS] = state.speed, state.speed_across
+        believed = self._believed(pose, time)
         note = control_law.decide(
             self.model, self.reference, self.profile, memory, pose, time, max(period, 0.0),
             self.given.copy(),
         )  # fmt: skip
-        return replace(self, memory=memory, note=note)
+        believed[TURN] = memory[control_law.LAST_TURN]
+        return replace(self, memory=memory, note=note, believed=believed)
+
+    def _believed(self, measured: Floats, time: float) -> Floats:
+        """Where the robot is taken to be at a time [s], shape (STATE,)."""
+        if self.believed is None:
+            start = start_of(self.model, self.reference)
+            return self.pose_filter.first(start, measured)
+        last, pose = float(self.memory[control_law.LAST_TIME]), self.believed
+        predicted = predict(self.model, pose, last, time, self.given.copy())
+        return self.pose_filter.updated(predicted, measured)
+
+    @property
+    def state(self) -> DriveState:
+        """The drive as it is after a step, to be tried out on other paths.
+
+        Raises:
+            AssertionError: Before the first step.
+        """
+        assert self.believed is not None
+        memory = self.memory.copy()
+        memory[control_law.LATE] = 0.0
+        time = float(memory[control_law.LAST_TIME])
+        return DriveState(self.believed, memory, self.given, time, self.period)
 
     @property
     def late(self) -> float:
@@ -127,8 +165,9 @@ class Controller:
         """The controller when its command was given at a time [s]; its clock has waited."""
         memory = self.memory.copy()
         memory[control_law.LATE] = 0.0
-        on_their_way = self.given[:, GIVEN_AT] >= time - self.ahead - 2.0 * self.period
-        on_their_way[:-1] |= on_their_way[1:]  # the one before them acts until they do
-        given = np.vstack((self.given[on_their_way & (self.given[:, GIVEN_AT] < time)],
-                           (time, *self.command)))  # fmt: skip
+        before = self.given[self.given[:, GIVEN_AT] < time]
+        on_their_way = before[:, GIVEN_AT] >= time - self.ahead - 2.0 * self.period
+        on_their_way[-1:] = True  # it acts until this one does, however long that took to find
+        on_their_way[:-1] |= on_their_way[1:]  # and so does the one before the others
+        given = np.vstack((before[on_their_way], (time, *self.command)))
         return replace(self, memory=memory, given=given)

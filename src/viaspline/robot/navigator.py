@@ -12,6 +12,7 @@ from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind, number_from, numbers_from, time_from
 from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.pose_filter import PoseFilter
 from viaspline.machine.robot_model import PERIOD_S, drive_model_of, is_driven
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -81,7 +82,9 @@ class Navigator:
     A robot with a drive, or with a localisation that is not exact, is controlled in a closed loop:
     its commands bring it to where it should be when they take effect, after the delay of the drive.
     So time runs ahead by that delay in here, in the events and re-plans too. Where the robot is
-    too far behind, its time law waits for it.
+    too far behind, its time law waits for it. A path that is laid under way is driven ahead in the
+    same loop first: where the robot would get farther beside it than is kept for that, it goes
+    more slowly, and a path to which it can't stay so near at all is not taken.
 
     Args:
         mission: What to do.
@@ -313,7 +316,8 @@ def _at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     belief = Belief.at_start(world, robot) if has_lidar else None
     controller = None
     if task.model is not None:
-        controller = Controller.of(task.model, period, plan.path, plan.trajectory)
+        pose_filter = PoseFilter.of(robot, period)
+        controller = Controller.of(task.model, period, plan.path, plan.trajectory, pose_filter)
     progress = Progress(time=0.0, controller=controller)
     knowledge = Knowledge(world, frozenset(world.obstacles), belief)
     path, laps = first_round(task, plan.path)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
+from viaspline.machine.excess import Excess, excesses
 from viaspline.machine.tracking import Tracking
 from viaspline.planner import Plan
 from viaspline.world.world import World
@@ -156,3 +157,19 @@ class Run:
     compute_times: tuple[float, ...] = ()
     known: World | None = None
     tracking: Tracking | None = None
+
+    @property
+    def excesses(self) -> tuple[Excess, ...]:
+        """When the robot was farther beside its path than was kept for that, in order.
+
+        The premise of its paths' certificates didn't hold then; that of what was driven does.
+        """
+        if self.tracking is None:
+            return ()
+        robot = self.plan.mission.robot
+        reach = 0.0 if robot.footprint is None else robot.outer_radius
+        return excesses(self.tracking, self.plan.tracking_error, reach)
+
+    def place_at(self, time: float) -> tuple[float, ...]:
+        """Where the robot was at a time [s], shape (d,)."""
+        return tuple(float(np.interp(time, self.times, axis)) for axis in self.positions.T)

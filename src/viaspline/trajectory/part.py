@@ -11,6 +11,7 @@ from viaspline.curve.path import Path
 from viaspline.mission.world_spec import SpeedZone
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
+from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory
 
 
@@ -22,6 +23,7 @@ def retime_part(
     stations: Sequence[Station] = (),
     *,
     zones: Sequence[SpeedZone] = (),
+    slow: Sequence[Slow] = (),
     start_speed: float = 0.0,
     start_accel: float = 0.0,
     start_time: float = 0.0,
@@ -36,6 +38,7 @@ def retime_part(
         limits: As for ``retime``.
         stations: Stops, as distances along the path; those beyond the part are left out.
         zones: Areas with a lower speed.
+        slow: Stretches with a lower speed, as distances along the path.
         start_speed: [m/s].
         start_accel: [m/s²].
         start_time: [s].
@@ -60,9 +63,10 @@ def retime_part(
         for stop in stations
         if stop.distance <= end
     ]
+    there = [Slow(p.start - start, p.end - start, p.speed) for p in slow]
     law = retime(
-        part, limits, ahead, zones=zones, start_speed=start_speed, start_accel=start_accel,
-        start_time=start_time, replaces=replaces,
+        part, limits, ahead, zones=zones, slow=there, start_speed=start_speed,
+        start_accel=start_accel, start_time=start_time, replaces=replaces,
     )  # fmt: skip
     moved = law.moved(start)
     return replace(moved, distances=np.minimum(moved.distances, end))

@@ -18,6 +18,7 @@ from viaspline.trajectory.jerk_limited_lap import smooth_lap
 from viaspline.trajectory.limited_path import LimitedCubicPath, crawl, limited_path_of
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.seam import checked_lap, lap_profile, once_a_lap
+from viaspline.trajectory.slow_zones import Slow, slow_between
 from viaspline.trajectory.trajectory import Trajectory
 
 Curve = Cubic | Evaluable
@@ -29,6 +30,7 @@ def retime(
     stations: Sequence[Station] = (),
     *,
     zones: Sequence[SpeedZone] = (),
+    slow: Sequence[Slow] = (),
     start: float = 0.0,
     start_speed: float = 0.0,
     start_accel: float = 0.0,
@@ -65,6 +67,7 @@ def retime(
         stations: Stops, each with its dwell; those before ``start`` are left out.
         zones: Areas in which the reference point of the robot drives no faster than they say. A
             station inside of one is a stop like any other.
+        slow: Stretches of the path with a lower speed.
         start: Distance along the path at which the time law begins [m].
         start_speed: Speed there [m/s]. If the limits allow less, the robot brakes as hard as it
             can, and ``over_limit_until`` of the result says how far.
@@ -120,7 +123,7 @@ def retime(
         last=last,
         top=limits.max_speed if speed_cap is None else min(limits.max_speed, float(speed_cap)),
         stops=tuple(stop.distance for stop in stops),
-        slow=limited_path.slow(zones, start),
+        slow=(*limited_path.slow(zones, start), *slow_between(slow, start, length)),
     )
     if isinstance(limited_path, LimitedCubicPath) and isinstance(end_speed, Seam):
         profile, seam_speed = lap_profile(limited_path, stage)

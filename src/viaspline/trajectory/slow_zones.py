@@ -27,6 +27,17 @@ class Slow(NamedTuple):
     speed: float
 
 
+def slow_between(parts: Sequence[Slow], start: float, end: float) -> tuple[Slow, ...]:
+    """What of some stretches lies between two distances along a path [m].
+
+    Example:
+        >>> slow_between([Slow(0, 2, 0.5), Slow(2, 3, 0.7)], 1.0, 2.0)
+        (Slow(start=1.0, end=2, speed=0.5),)
+    """
+    inside = (Slow(max(p.start, start), min(p.end, end), p.speed) for p in parts)
+    return tuple(part for part in inside if part.start < part.end)
+
+
 def slow_parts(spans: Floats, zones: Sequence[SpeedZone]) -> list[tuple[float, float, float]]:
     """The parts of a curve that may lie in zones.
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -10,9 +12,11 @@ import numpy as np
 import pytest
 
 from viaspline.mission.model import Mission
+from viaspline.robot.navigation.reschedule import braking_at_once
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.perception.range_sensor import RangeSensor
+from viaspline.robot.state import RobotState
 
 Make = Callable[..., Mission]
 Shape = Callable[..., dict[str, Any]]
@@ -82,3 +86,35 @@ def test_with_a_lidar_a_law_that_will_do_is_kept_for_a_while(mission_of: Make) -
     assert navs[-1].reached
     changed = sum(a.trajectory is not b.trajectory for a, b in pairwise(navs))
     assert changed <= len(navs) * STEP / 0.5 + 5
+
+
+def test_a_robot_that_stands_turns_before_it_leaves_though_its_law_is_found_anew(
+    mission_of: Make,
+) -> None:
+    """A law that was found anew at a corner had forgotten that the robot was to turn there."""
+    lidar = {"range_m": 3, "fov_deg": 360, "beams": 90}
+    mission = mission_of(
+        {"at": [0, 0], "heading_deg": 150}, [4, 0], sensor={"lidar": lidar}, radius_m=0.2,
+        drive={"differential": {"track_m": 0.4}},
+    )  # fmt: skip
+    nav, sensor = Navigator(mission), LidarSensor((), mission.robot.sensor.lidar)
+    for tick in range(5):
+        turned = 1.2 + 0.05 * tick
+        state = RobotState((0.0, 0.0), turned, 0.0)
+        _, nav = nav.step(state, sensor.scan((0.0, 0.0), turned, tick), STEP * tick)
+        angle = abs(math.remainder(math.radians(150) - turned, math.tau))
+        assert float(nav.trajectory.time_at(1e-3)) > STEP * tick + angle / 1.0
+
+
+def test_one_that_brakes_at_once_is_where_its_old_law_has_it_as_long_as_it_is_committed(
+    mission_of: Make,
+) -> None:
+    """It had the speed of now and the place of then, and stopped behind where it should."""
+    nav = Navigator(mission_of([0, 0], [40, 0], max_speed_mps=2, max_accel_mps2=1))
+    task, state = nav._task, nav._state
+    now = replace(state.progress, time=3.0, distance=float(nav.trajectory.distance_at(3.0)))
+    committed = replace(state.schedule, committed_until=4.0)
+    for speed in (0.5, 2.0):
+        law = braking_at_once(task, now, committed, speed)
+        place, then, _ = nav.trajectory.state_at(4.0)
+        assert float(law.distances[-1]) == pytest.approx(float(place + then**2 / 2.0))

@@ -13,10 +13,8 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.tracking.control_law import (
     HIGH,
-    LAST_TURN,
     LATE,
     LOW,
-    MEMORY,
     NOTED_ACROSS,
     NOTED_ALONG,
     NOTED_TURN,
@@ -42,7 +40,6 @@ from viaspline.kernels.tracking.drive_motion import (
     TO_ACROSS,
     TO_ALONG,
     TO_TURN,
-    TURN,
     move_into,
 )
 from viaspline.kernels.tracking.reference_path import (
@@ -61,18 +58,26 @@ def drive(
     reference: ReferencePath,
     profile: SpeedProfile,
     state: Floats,
+    memory: Floats,
+    given: Floats,
+    begin: float,
+    until: float,
     period: float,
     substeps: int,
     measured: Floats,
     noise: Floats,
 ) -> tuple[Floats, Floats, int]:
-    """A whole drive along a path: measure, decide, move, until the time law is over.
+    """A drive along a path: measure, decide, move, until the time law is over or a place is passed.
 
     Args:
         model: The drive, with its noise.
         reference: The path.
-        profile: The time law; it begins at time 0.
+        profile: The time law.
         state: At the start, shape (STATE,), changed in place.
+        memory: What the controller remembers, shape (MEMORY,), changed in place.
+        given: Commands that were given before, in order, shape (k, COMMAND).
+        begin: When it begins [s].
+        until: It ends where the robot should have come so far along the path [m].
         period: Of the controller [s].
         substeps: Of the motion in a period.
         measured: Errors of the measured x, y and heading in every period, shape (n, 3).
@@ -82,29 +87,30 @@ def drive(
         The track, as of ``move``, and what was noted in every period, both as long as the drive;
         the number of periods, -1 if it was not over after n.
     """
-    n = measured.shape[0]
+    n, before = measured.shape[0], given.shape[0]
     track, notes = np.empty((n * substeps, ROW)), np.zeros((n, NOTES))
-    commands = np.empty((n, COMMAND))
-    memory, pose, note = np.zeros(MEMORY), np.zeros(STATE), np.zeros(NOTES)
-    memory[LATE], memory[LAST_TURN] = model.delay, state[TURN]
+    commands = np.empty((before + n, COMMAND))
+    for k in range(before):
+        for i in range(COMMAND):
+            commands[k, i] = given[k, i]
+    pose, note = np.zeros(STATE), np.zeros(NOTES)
     end = profile.time[profile.time.shape[0] - 1]
+    note[PLACE] = -math.inf
     for tick in range(n):
-        time = tick * period
-        if time - memory[LATE] >= end:
+        time, count = begin + tick * period, before + tick
+        if time - memory[LATE] >= end or note[PLACE] >= until:
             return track, notes, tick
         for k in range(3):
             pose[k] = state[k] + measured[tick, k]
         pose[ALONG], pose[ACROSS] = state[ALONG], state[ACROSS]
-        decide_into(
-            model, reference, profile, memory, pose, time, period, commands, tick, note
-        )  # fmt: skip
+        decide_into(model, reference, profile, memory, pose, time, period, commands, count, note)
         for k in range(NOTES):
             notes[tick, k] = note[k]
-        commands[tick, GIVEN_AT], commands[tick, TO_ALONG] = time, note[NOTED_ALONG]
-        commands[tick, TO_ACROSS], commands[tick, TO_TURN] = note[NOTED_ACROSS], note[NOTED_TURN]
+        commands[count, GIVEN_AT], commands[count, TO_ALONG] = time, note[NOTED_ALONG]
+        commands[count, TO_ACROSS], commands[count, TO_TURN] = note[NOTED_ACROSS], note[NOTED_TURN]
         move_into(
             model, state, time, period / substeps, tick * substeps, (tick + 1) * substeps, commands,
-            tick + 1, noise, track,
+            count + 1, noise, track,
         )  # fmt: skip
     return track, notes, -1
 
@@ -125,7 +131,7 @@ def deviations(model: DriveModel, reference: ReferencePath, notes: Floats, track
     """
     out = np.zeros((track.shape[0], 5))
     k = -1
-    s = low = notes[0, LOW]
+    s, low = notes[0, PLACE], notes[0, LOW]
     for i in range(track.shape[0]):
         time, x, y = track[i, ROW_TIME], track[i, ROW_X], track[i, ROW_Y]
         while k + 1 < notes.shape[0] and notes[k + 1, TIME] <= time + 1e-9:

@@ -77,6 +77,25 @@ def carried(
         pose[ALONG], pose[ACROSS], pose[TURN] = along, across, turn
 
 
+@kernel
+def predict(model: DriveModel, pose: Floats, begin: float, end: float, commands: Floats) -> Floats:
+    """Where a drive will be by the commands that it was given, as its controller knows it.
+
+    Args:
+        model: Without its noise.
+        pose: X, Y, HEADING, ALONG, TURN and ACROSS at ``begin``, shape (STATE,).
+        begin: [s].
+        end: [s].
+        commands: In the order in which they were given, shape (n, COMMAND).
+
+    Returns:
+        The same at ``end``, shape (STATE,).
+    """
+    later = pose.copy()
+    carried(model, later, begin, end, commands, commands.shape[0])
+    return later
+
+
 @inner
 def move_into(
     model: DriveModel,

@@ -35,9 +35,11 @@ TREE_S, POSE_S = 2e-3, 4e-5
 CHAIN_SEGMENT_S = 1e-4
 """Of the shortcuts of what such a search has found, for each segment [s]."""
 
-
 TIME_LAW_S, JERK_LAW_S = 1e-3, 5e-2
 """Of a time law, and of one with a limit of the jerk [s]."""
+
+DRIVE_AHEAD_S, DRIVE_AHEAD_SECOND_S = 5e-4, 1e-4
+"""Of a drive ahead along a new path: to begin one, and for each second that it takes [s]."""
 
 
 class SpentBudgetError(GaveUpError):

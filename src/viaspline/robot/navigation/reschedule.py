@@ -11,7 +11,9 @@ from dataclasses import replace
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.machine.turns_on_spot import with_turns
+from viaspline.kernels.tracking.drive_model import DriveModel
+from viaspline.kernels.tracking.drive_motion import HEADING
+from viaspline.machine.turns_on_spot import SpotTurning, turns_where_it_stands, with_turns
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
@@ -31,6 +33,12 @@ LEAST_PART_M = 0.01
 
 RENEWAL_S = 0.5
 """and is found anew so much before it has to brake for its end [s]."""
+
+STANDING_MPS = 1e-3
+"""A robot that is slower stands [m/s]."""
+
+MAX_LEAVING_RAD = 0.05
+"""A robot that stands leaves when it looks along its path so far [rad]."""
 
 DRIVEN_RATIO = 0.5
 """On a round without such a limit one is found anew when so much of it is driven."""
@@ -125,12 +133,13 @@ def braking_at_once(
         task: What is asked of the drive.
         progress: Where the robot is on the path, and when.
         schedule: What it means to do up to now, and how long it is committed to that.
-        speed: Of the robot where it begins to brake [m/s].
+        speed: Of the robot now [m/s]; where it is committed to its old trajectory, that says it.
     """
     old, until = schedule.trajectory, schedule.committed_until
     if until <= progress.time:
         return braking(progress.distance, speed, task.limits.brake, progress.time)
-    distance = max(float(old.state_at(until)[0]), progress.distance)
+    distance, speed, _ = (float(x) for x in old.state_at(until))
+    distance = max(distance, progress.distance)
     return old.followed_by(braking(distance, speed, task.limits.brake, until), progress.time)
 
 
@@ -223,10 +232,30 @@ def trajectory_within_sight(
     if end < path.length:
         stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
     stops = with_turns(path, task.spot_turning, stops, distance)
+    turn = None
+    if task.model is not None:
+        turn = _turn_before_leaving(task.model, progress, path, distance)
+    if turn is not None and speed < STANDING_MPS and distance < end:
+        stops, speed = [turn, *stops], 0.0
     trajectory = _timed(task, schedule, path, stops, (distance, end), (speed, accel), time)
     if time == progress.time:
         return trajectory
     return schedule.trajectory.followed_by(trajectory, progress.time)
+
+
+def _turn_before_leaving(
+    model: DriveModel, progress: Progress, path: Path, distance: float
+) -> Station | None:
+    """The stay of a robot that stands, if it looks another way than its path leads on."""
+    controller = progress.controller
+    if controller is None or controller.believed is None or not turns_where_it_stands(model):
+        return None
+    ahead = min(distance + 2.0 * SAME_PLACE_M, path.length)  # beyond a corner at which it stands
+    way = float(path.heading(float(path.parameter(ahead))))
+    angle = math.remainder(way - float(controller.believed[HEADING]), math.tau)
+    if abs(angle) <= MAX_LEAVING_RAD:
+        return None
+    return Station(distance, SpotTurning.of_model(model).time(angle), "turn")
 
 
 def _timed(
@@ -259,16 +288,17 @@ def _timed(
                 raise GeometryError(f"the robot can't stop within {end - distance:g} m")
             return braking(distance, 0.0, task.limits.brake, time)
         return retime_part(
-            path, distance, end, task.limits, stops, zones=zones, start_speed=speed,
-            start_accel=accel, start_time=time, replaces=schedule.trajectory,
+            path, distance, end, task.limits, stops, zones=zones, slow=schedule.slow,
+            start_speed=speed, start_accel=accel, start_time=time, replaces=schedule.trajectory,
         )  # fmt: skip
     timed = path
     if schedule.is_round and end < path.length:
         timed = Path(path.section(0.0, float(path.parameter(end))).spans, [])
         stops = [stop for stop in stops if stop.distance < timed.length]
     trajectory = retime(
-        timed, task.limits, stops, zones=zones, start=min(distance, timed.length),
-        start_speed=speed, start_accel=accel, start_time=time, replaces=schedule.trajectory,
+        timed, task.limits, stops, zones=zones, slow=schedule.slow,
+        start=min(distance, timed.length), start_speed=speed, start_accel=accel, start_time=time,
+        replaces=schedule.trajectory,
     )  # fmt: skip
     return trajectory if timed is not path or end >= path.length else trajectory.until(end)
 

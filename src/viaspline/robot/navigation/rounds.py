@@ -20,6 +20,7 @@ from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.laps_ahead import LapsAhead
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
+from viaspline.trajectory.slow_zones import Slow, slow_between
 
 UNSEEN_RATIO = 3.0 / 8.0
 """Part of a round at its end that isn't looked at yet."""
@@ -109,20 +110,26 @@ def next_part(progress: Progress, schedule: Schedule) -> tuple[Progress, Schedul
         spans = np.concatenate((rest, behind.spans))
         ahead = Path(spans, [*vias, *again, _seam(spans)])
         turns = [turn + path.length - driven for turn in schedule.turns if turn < driven]
+        slow = _moved(slow_between(schedule.slow, 0.0, driven), path.length - driven)
         to_come = replace(laps, unseen=UNSEEN_RATIO * ahead.length)
     else:
         spans = np.concatenate((rest, behind.spans))[: round(ends.u)]
         ahead = Path(spans, [*vias, *(via for via in again if via.u <= ends.u)])
-        turns, to_come = [], replace(laps, unseen=0.0)
+        turns, slow, to_come = [], (), replace(laps, unseen=0.0)
     moved = replace(
         schedule,
         path=ahead,
         trajectory=schedule.trajectory.moved(-driven),
         turns=(*(turn - driven for turn in schedule.turns if turn >= driven), *turns),
+        slow=(*_moved(slow_between(schedule.slow, driven, path.length), -driven), *slow),
         driven=schedule.driven + driven,
         laps=to_come,
     )
     return replace(progress, distance=max(progress.distance - driven, 0.0)), moved, behind
+
+
+def _moved(parts: tuple[Slow, ...], by: float) -> tuple[Slow, ...]:
+    return tuple(Slow(part.start + by, part.end + by, part.speed) for part in parts)
 
 
 def _lap_later(via: PathVia, first: int, points: int) -> PathVia:

@@ -10,6 +10,7 @@ import numpy as np
 
 from viaspline.curve.path import Path, PathVia
 from viaspline.robot.navigation.laps_ahead import LapsAhead
+from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
@@ -73,6 +74,8 @@ class Schedule:
         laid_in: What was known when the path was laid.
         laid_at: When it was laid under way [s]; -inf before the first re-plan.
         turns: Distances along the path where it has a corner to turn on the spot [m].
+        slow: Stretches of the path on which the robot has to be slower, so that it gets no farther
+            beside the path than is kept.
         reduced: Where the path keeps less clearance than it should, if it does.
         timed_at: When the trajectory was found [s]; -inf: before the robot set off.
         sighted_until: Up to this distance along the path the robot has seen where its body will
@@ -95,6 +98,7 @@ class Schedule:
     laid_in: World
     laid_at: float = -math.inf
     turns: tuple[float, ...] = ()
+    slow: tuple[Slow, ...] = ()
     reduced: ReducedClearance | None = None
     timed_at: float = -math.inf
     sighted_until: float = 0.0

@@ -17,8 +17,8 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.sides_ahead import spans_on_wrong_side
 from viaspline.robot.navigation.schedule import ReducedClearance
+from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
-from viaspline.robot.replanning.replan_search import PathCandidate, timed
 from viaspline.world.world import World
 
 ESCAPE_DIRECTIONS = 48

@@ -5,25 +5,24 @@ Tested through ``robot/test_navigator`` and ``robot/replanning/test_decide``.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 import numpy as np
 
-from viaspline.errors import GeometryError, PlanningError
+from viaspline.errors import GaveUpError, PlanningError
+from viaspline.machine.allowance import TRACKING_REMEDY
 from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.problem.work_budget import JERK_LAW_S, TIME_LAW_S, SpentBudgetError
+from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.robot.navigation.progress import SAME_PLACE_M
-from viaspline.robot.navigation.reschedule import trajectory_within_sight
-from viaspline.robot.navigation.schedule import ReducedClearance
+from viaspline.robot.replanning.hold_to_path import CREEP_MPS
 from viaspline.robot.replanning.passing_sides import changed_side, is_better
+from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.run import Mode
-from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
 MODES: tuple[Mode, ...] = ("reflex", "planned")
@@ -43,25 +42,6 @@ FIRST_STAGE: Stage = (0, 0)
 
 MAX_SHARE_BEFORE = 0.2
 """A part of a search that was stopped had a step for itself if no more was spent before."""
-
-
-@dataclass(frozen=True)
-class PathCandidate:
-    """A new path that the robot could go over to.
-
-    Attributes:
-        mode: How it was found; see ``Replan``.
-        solution: The path, and from where on it is new.
-        turns: Distances along it where the robot turns on the spot [m].
-        trajectory: The time law along it, from here and now on.
-        reduced: Where it keeps less clearance than it should, if it does.
-    """
-
-    mode: Mode
-    solution: Solution
-    turns: tuple[float, ...]
-    trajectory: Trajectory
-    reduced: ReducedClearance | None
 
 
 @dataclass(frozen=True)
@@ -187,7 +167,8 @@ def first_candidate(
                 raise
             continue  # a robot that leaves later, or that stands, may find a way
         if mode == "from_rest":
-            assert candidate is not None  # a robot that stands can go any way on
+            if candidate is None:
+                raise _not_followed(context)
             return candidate
         if solution.rejoins_at is None and solution.changed_from <= leave + SAME_PLACE_M:
             laid_anew.add(leave)
@@ -241,44 +222,15 @@ def _next(stage: Stage, before: float, context: ReplanContext) -> Stage:
     return (stage[0], stage[1] + 1) if had_most and stage[0] < len(ORDER) - 1 else stage
 
 
-def timed(
-    context: ReplanContext, mode: Mode, solution: Solution, turns: tuple[float, ...] = ()
-) -> PathCandidate | None:
-    """A path with its trajectory; None if the robot is too fast to go over to it.
-
-    Args:
-        context: The robot under way.
-        mode: How the path was found; from rest the robot turns where it stops.
-        solution: The path.
-        turns: More distances along it where the robot turns, from rest [m].
-
-    Raises:
-        SpentBudgetError: When there is no time left for that.
-    """
-    has_jerk = context.task.limits.max_jerk is not None
-    context.requirements.spend(JERK_LAW_S if has_jerk else TIME_LAW_S)
-    schedule, leave = replace(context.schedule, held_at=math.inf), solution.changed_from
-    corners = tuple(turn for turn in schedule.turns if turn <= leave + SAME_PLACE_M)
-    stands = mode == "from_rest"
-    if stands:
-        corners = (*corners, context.stop, *turns)
-    try:
-        trajectory = trajectory_within_sight(
-            context.task,
-            context.progress,
-            context.knowledge,
-            schedule,
-            context.speed,
-            path=solution.path,
-            turns=corners,
-            shared=leave,
-            at_least=context.stop if stands else 0.0,
-        )
-    except GeometryError:
-        return None  # it could not stop within what it has seen of it
-    if trajectory.over_limit_until is not None and not stands:
-        return None
-    return PathCandidate(mode, solution, corners, trajectory, schedule.reduced)
+def _not_followed(context: ReplanContext) -> GaveUpError:
+    """Why a robot that stands doesn't go on, though a path would lead on."""
+    kept = context.task.requirements.tracking_error
+    return GaveUpError(
+        f"the robot would get farther beside its path than the {kept:.3f} m that are kept for that",
+        where=context.here,
+        remedy=f"give it {TRACKING_REMEDY}, or more room by tracking_error_m",
+        tried=(f"as slowly as {CREEP_MPS:g} m/s where it has to be",),
+    )
 
 
 def _turns_back(context: ReplanContext, solution: Solution) -> bool:

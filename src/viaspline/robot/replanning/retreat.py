@@ -18,9 +18,10 @@ from viaspline.planning import replan
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.robot.navigation.progress import SAME_PLACE_M
+from viaspline.robot.replanning.path_candidate import timed
 from viaspline.robot.replanning.recovery import by_way_of, with_less_until
 from viaspline.robot.replanning.replan_context import ReplanContext
-from viaspline.robot.replanning.replan_search import ReplanResult, timed
+from viaspline.robot.replanning.replan_search import ReplanResult
 
 SPACING_RATIO = 0.1
 """From place to place at which the room is looked at, of the distance that is required."""

@@ -17,8 +17,9 @@ from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.reschedule import braking_at_once, rescheduled
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.replanning.deadline import gone_on, last_place, must_brake
+from viaspline.robot.replanning.path_candidate import PathCandidate
 from viaspline.robot.replanning.replan_context import ReplanContext
-from viaspline.robot.replanning.replan_search import PathCandidate, ReplanResult
+from viaspline.robot.replanning.replan_search import ReplanResult
 from viaspline.robot.run import Event, Replan
 
 SAME_U = 1e-9
@@ -43,6 +44,7 @@ def take_over(
             laid_at=progress.time,
             timed_at=progress.time,
             turns=candidate.turns,
+            slow=candidate.slow,
             reduced=candidate.reduced,
             sighted_until=min(old.sighted_until, candidate.solution.changed_from),
             probed_until=0.0,
