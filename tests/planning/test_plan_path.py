@@ -11,7 +11,7 @@ from viaspline.planning.methods.at_radii import AtRadii
 from viaspline.planning.methods.hybrid_astar_search import HybridAStar
 from viaspline.planning.methods.joint_headings import JointHeadings
 from viaspline.planning.methods.next_homotopy_classes import NextHomotopyClasses
-from viaspline.planning.methods.ordered import PATH_METHODS
+from viaspline.planning.methods.ordered import BODY_METHODS
 from viaspline.planning.methods.other_sides import OtherSides
 from viaspline.planning.methods.spline_as_is import SplineAsItIs
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
@@ -54,7 +54,7 @@ def test_without_a_method_that_can_it_is_given_up_and_all_that_was_tried_is_told
 def test_a_method_that_can_is_asked_when_the_others_gave_up() -> None:
     found = lay((SplineAsItIs(), AtRadii((JointHeadings(),))), *LOOP)
     assert found.length > 45
-    assert lay(PATH_METHODS, *LOOP).length == found.length
+    assert lay(BODY_METHODS, *LOOP).length == found.length
 
 
 def test_headings_whose_rows_run_out_prove_nothing() -> None:
@@ -67,9 +67,9 @@ def test_headings_whose_rows_run_out_prove_nothing() -> None:
 def test_a_proof_of_the_last_method_is_a_refusal() -> None:
     dead_end = ({"at": [20, 0], "heading_deg": 0}, [-30, 0])
     with pytest.raises(vs.NoPathError, match="far from the start"):
-        lay(PATH_METHODS, *dead_end, known=ROOM)
+        lay(BODY_METHODS, *dead_end, known=ROOM)
     with pytest.raises(vs.GaveUpError):
-        lay(PATH_METHODS[:1], *dead_end, known=ROOM)
+        lay(BODY_METHODS[:1], *dead_end, known=ROOM)
 
 
 def test_the_other_sides_are_asked_for_what_is_shorter_and_never_lose() -> None:

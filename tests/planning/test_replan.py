@@ -27,6 +27,7 @@ def start(*stops: Any, **more: Any) -> tuple[Path, vs.World, Requirements]:
     route = {"start": stops[0], "via": list(stops[1:-1]), "goal": stops[-1]}
     if more.pop("closed", False):
         route = {"start": stops[0], "via": list(stops[1:]), "closed": True}
+    more.setdefault("spline", {"tangents": "cardinal"})  # a span from via point to via point
     mission = vs.Mission.model_validate({"route": route, **more})
     plan = vs.plan(mission)
     return plan.path, plan.world, Requirements.of(mission)

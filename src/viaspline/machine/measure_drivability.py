@@ -224,6 +224,6 @@ class _Drive:
             return obstacle
         nearest = int(np.argmin(apart))
         if vias[nearest].kind == "user" and (not obstacle or apart[nearest] <= gaps[0]):
-            return vias[nearest].name
+            return str(vias[nearest].name)
         detour = vias[nearest].kind == "detour" and apart[nearest] <= gaps[0]
         return f"a detour point beside {obstacle}" if detour else obstacle

@@ -14,8 +14,8 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.alternatives.homotopy_classes import (
     Attempt,
     TautRow,
+    cheapest_laid,
     gap_across,
-    shortest_laid,
 )
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.taut_path import TautPath
@@ -35,6 +35,17 @@ def row(length: float) -> TautRow:
     return TautRow.of([TautPath(corners, np.empty((0, 6)), length)])
 
 
+class Length:
+    """Little of length."""
+
+    def of(self, laid: Laid, /) -> float:
+        return laid.length
+
+    def least(self, row: TautRow, /) -> float:
+        return row.length
+
+
+LENGTH = Length()
 lengths = st.lists(st.floats(1, 100).map(lambda x: round(x, 2)), min_size=1, max_size=8)
 
 
@@ -44,11 +55,11 @@ def test_the_shortest_of_all_that_can_be_laid_is_found(ways: list[float], more: 
     needed = {way: way * extra for way, extra in zip(ways, more, strict=False)}
     tried: list[float] = []
 
-    def attempt(one: TautRow) -> Attempt[Laid]:
+    def attempt(one: TautRow, bound: float) -> Attempt[Laid]:
         tried.append(one.length)
         return Attempt(Laid(needed[one.length]))
 
-    found = shortest_laid([row(way) for way in ways], attempt)
+    found = cheapest_laid([row(way) for way in ways], attempt, LENGTH)
     assert found is not None
     assert found.length <= min(needed.values()) * (1 + 2e-6)
     assert tried == sorted(tried)
@@ -58,14 +69,14 @@ def test_the_shortest_of_all_that_can_be_laid_is_found(ways: list[float], more: 
 def test_rows_after_a_stuck_one_are_tried_in_their_turn() -> None:
     after = {5.0: (9.0, 7.0), 7.0: (8.0,)}
 
-    def attempt(one: TautRow) -> Attempt[Laid]:
+    def attempt(one: TautRow, bound: float) -> Attempt[Laid]:
         if one.length in after:
             return Attempt(None, map(row, after[one.length]))
         return Attempt(Laid(one.length + 0.5))
 
-    assert shortest_laid([row(5.0)], attempt) == Laid(8.5)
-    assert shortest_laid([row(5.0)], attempt, max_rows=2) is None
-    assert shortest_laid([row(5.0)], attempt, best=Laid(8.0)) == Laid(8.0)
+    assert cheapest_laid([row(5.0)], attempt, LENGTH) == Laid(8.5)
+    assert cheapest_laid([row(5.0)], attempt, LENGTH, max_rows=2) is None
+    assert cheapest_laid([row(5.0)], attempt, LENGTH, best=Laid(8.0)) == Laid(8.0)
 
 
 def test_rows_of_one_length_are_one_and_are_found_only_when_they_are_needed() -> None:
@@ -75,11 +86,11 @@ def test_rows_of_one_length_are_one_and_are_found_only_when_they_are_needed() ->
         asked.append(0.0)
         yield row(6.0)
 
-    def attempt(one: TautRow) -> Attempt[Laid]:
+    def attempt(one: TautRow, bound: float) -> Attempt[Laid]:
         asked.append(one.length)
         return Attempt(Laid(20.0), others()) if len(asked) == 1 else Attempt(Laid(30.0), others())
 
-    assert shortest_laid([row(5.0), row(5.0 + 1e-9)], attempt) == Laid(20.0)
+    assert cheapest_laid([row(5.0), row(5.0 + 1e-9)], attempt, LENGTH) == Laid(20.0)
     assert asked == [5.0, 0.0, 6.0]
 
 

@@ -126,7 +126,7 @@ def test_the_path_of_a_slimmer_robot_is_no_longer(
             vs.Mission.model_validate({
                 "world": {"known": bracket(right, thickness), "bounds": [0, 0, 100, 100]},
                 "robot": {"radius_m": kept, "clearance_m": 0},
-                "route": {"start": [10, 15], "goal": [10, 85]},
+                "route": {"start": [10, 15], "goal": [10, 85], "optimise": "length"},
             })
         ).path.length
         for kept in (share * radius, radius)

@@ -66,10 +66,10 @@ def test_where_nobody_is_asked_nothing_is_proven() -> None:
 def test_there_is_no_refusal_without_a_proof_and_no_way_is_lost(answers: list[Outcome[str]]):
     outcome, count, _ = asked(*answers)
     heard = answers[:count]
-    found = [answer.length for answer in heard if isinstance(answer, Found)]
+    found = [answer.cost for answer in heard if isinstance(answer, Found)]
     if found:
         assert isinstance(outcome, Found)
-        assert outcome.length == min(found)
+        assert outcome.cost == min(found)
     elif any(isinstance(answer, Refusal) for answer in heard):
         assert isinstance(outcome, Refusal)
     else:

@@ -38,7 +38,7 @@ def test_a_row_of_discs_is_passed_as_the_tangents_say() -> None:
     assert isinstance(found, Found)
     leaves = np.arccos(2.5 / np.hypot(10, 0.1))  # between the foot of a tangent and the start
     low = 2 * 10.0 * np.sin(leaves) + 40.0
-    assert low < found.length < low + 2 * 2.5 * 0.5
+    assert low < found.cost < low + 2 * 2.5 * 0.5
 
 
 def test_more_obstacles_than_allowed_prove_nothing() -> None:
@@ -58,7 +58,7 @@ def test_maps_have_no_tangents() -> None:
 
 def test_what_gains_too_little_is_left() -> None:
     asked = problem(ROW, (0, 0), (60, 0))
-    length = ExactRoute().lay(asked).length
+    length = ExactRoute().lay(asked).cost
     assert isinstance(ExactRoute(least_gain=0.01).lay(asked, 1.009 * length), GaveUp)
     assert isinstance(ExactRoute(least_gain=0.01).lay(asked, 1.011 * length), Found)
 
@@ -77,7 +77,7 @@ def test_the_router_takes_the_better_of_both_searches(seed: int) -> None:
         method.lay(problem(world, *ends))
         for method in (LatticeRoute(), ExactRoute(max_met=MAX_EXACT_AGAIN))
     ]
-    known = [one.length for one in lengths if isinstance(one, Found)]
+    known = [one.cost for one in lengths if isinstance(one, Found)]
     if known:
         assert isinstance(found, Found)
-        assert found.length <= min(known) * (1.0 + 1e-3)
+        assert found.cost <= min(known) * (1.0 + 1e-3)

@@ -81,7 +81,7 @@ def test_what_is_not_shorter_than_asked_for_is_left() -> None:
     assert LatticeRoute().lay(problem(world), 29.0).value is None
     found = LatticeRoute().lay(problem(world), 31.0)
     assert isinstance(found, Found)
-    assert found.length == pytest.approx(30.0)
+    assert found.cost == pytest.approx(30.0)
 
 
 def test_what_a_route_goes_round_is_marked_as_met() -> None:

@@ -21,17 +21,17 @@ class JointHeadings:
     """Lays turns between the best row of headings: legs as they are, else pushed clear.
 
     Attributes:
-        headings: That are tried at each via point, evenly round it.
         max_rows: Rows of headings that are tried with legs as they are.
         max_pushed_rows: The same with legs that are pushed clear.
         max_pushed_pairs: Pairs of headings of a leg for which it is pushed, until one of them can
             be cleared.
+        headings: That are tried at each via point, evenly round it.
     """
 
-    headings: int = HEADING_COUNT
     max_rows: int = 300
     max_pushed_rows: int = 40
     max_pushed_pairs: int = 16
+    headings: int = HEADING_COUNT
 
     def lay(self, problem: TurnProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
         """See ``Method``."""

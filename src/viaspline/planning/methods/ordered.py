@@ -23,11 +23,13 @@ PathMethod = Method[DrivenProblem, SplinePath]
 CARDINAL_METHODS: tuple[PathMethod, ...] = (SplineLedRound(),)
 """For the paper's curve."""
 
+FEW_HEADINGS = JointHeadings(max_rows=100, max_pushed_rows=10, max_pushed_pairs=6, headings=10)
+
 DISC_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
     OtherSides((
         TurnsOnShortest(),
-        AtRadii((JointHeadings(10, max_rows=100, max_pushed_rows=10, max_pushed_pairs=6),)),
+        AtRadii((FEW_HEADINGS,)),
         SplineLedRound(),
     )),
 )  # fmt: skip

@@ -26,7 +26,7 @@ class Pace:
         speed: [m/s].
         accel: Along the path, speeding up [m/s²].
         brake: Along the path, slowing down [m/s²].
-        lateral: Across the path [m/s²].
+        lateral: Across the path [m/s²]; infinite where there is no limit.
         yaw_rate: [rad/s]; infinite where there is no limit.
     """
 
@@ -39,13 +39,13 @@ class Pace:
     @classmethod
     def of(cls, robot: RobotSpec) -> Pace:
         """The pace of a robot."""
-        lateral, rate = robot.max_lateral_accel_mps2, robot.max_yaw_rate_degps
+        lateral, rate = robot.lateral_accel, robot.max_yaw_rate_degps
         brake = robot.max_brake_mps2
         return cls(
             speed=robot.max_speed_mps,
             accel=robot.max_accel_mps2,
             brake=robot.max_accel_mps2 if brake is None else brake,
-            lateral=robot.max_accel_mps2 if lateral is None else lateral,
+            lateral=math.inf if lateral is None else lateral,
             yaw_rate=math.inf if rate is None else math.radians(rate),
         )
 
@@ -70,6 +70,8 @@ class Pace:
         Returns:
             [m], (n,), no less than what is kept.
         """
+        if self.widest_radius <= 0.0:
+            return kept.copy()
         theta, least = np.abs(turns)[:, None], kept[:, None]
         widest = np.maximum(least, self.widest_radius)
         lowest = np.maximum(least, 1e-3 * widest)
