@@ -221,6 +221,7 @@ class DrivenProblem(PathProblem):
         sequence = self.sequence
         ends = [*sequence.vias, sequence.vias[0]] if sequence.closed else sequence.vias
         spans = with_heights(spans, joints, np.array([via.at[2:] for via in ends]))
+        spans[1:, 0] = spans[:-1, 3]  # they meet but for rounding
         for u, via in zip(joints, ends, strict=True):
             if u < len(spans):
                 spans[u, 0] = via.at

@@ -25,6 +25,7 @@ from viaspline.planning.turning.turn_path import (
     TurnPath,
     settled_turns,
     turn_path_on_sides,
+    with_sides,
 )
 from viaspline.world.world import World
 
@@ -48,7 +49,18 @@ class WideTurns:
     roomy: float
 
     def lay(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
-        """The turn path with the widest turns that fit; None where not even the least are clear."""
+        """The turn path with the widest turns that fit; None where not even the least are clear.
+
+        Where a heading is given at an end, it is left to the side that makes the path shorter.
+        """
+        found = [self._narrowed(tried, world, requirements) for tried in with_sides(bends)]
+        clear = [turn_path for turn_path in found if turn_path is not None]
+        if not clear:
+            return clear_turn_path(bends.turning(self.least), world, requirements)
+        return min(clear, key=lambda turn_path: turn_path.length)
+
+    def _narrowed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
+        """The widest turns to the sides that are set, narrowed until they are clear."""
         radii = self._wished(bends)
         if radii is None:
             return None
@@ -73,7 +85,7 @@ class WideTurns:
             if np.array_equal(narrowed, radii):
                 break
             radii = narrowed
-        return clear_turn_path(bends.turning(radii), world, requirements)
+        return None
 
     def ideal(self, bends: Bends, requirements: Requirements) -> TurnPath | None:
         """The turn path with the widest turns, clear or not; None where they overlap."""
