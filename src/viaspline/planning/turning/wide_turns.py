@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
-from viaspline.planning.problem.pace import Pace
+from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
 from viaspline.planning.turning.bend_row import KEPT, Bends
