@@ -36,7 +36,7 @@ CHAIN_SEGMENT_S = 1e-4
 """Of the shortcuts of what such a search has found, for each segment [s]."""
 
 
-TIME_LAW_S, JERK_LAW_S = 1e-3, 5e-2
+TIME_LAW_S, JERK_LAW_S = 1e-3, 1.5e-2
 """Of a time law, and of one with a limit of the jerk [s]."""
 
 
