@@ -97,8 +97,8 @@ class LegSearch:
         """
         barriers = self.sides.closed_among(active)
         while True:
-            self.requirements.spend(ROUTE_S)
-            outcome = self.router.find(*self.ends, np.vstack((closed, barriers)), active)
+            outcome, met = self._route(np.vstack((closed, barriers)), active)
+            active |= met
             if outcome.value is not None:
                 corners = outcome.value.corners[:, X : Y + 1]
                 active[self.sides.gone_round(corners)] = True
@@ -106,6 +106,19 @@ class LegSearch:
             if len(needed) == len(barriers):
                 return outcome, barriers
             barriers = needed
+
+    def _route(self, closed: Floats, active: Flags) -> tuple[Outcome[TautPath], Flags]:
+        """The shortest taut path past segments, and the obstacles that were met, (n,)."""
+        start, goal = self.ends
+
+        def found() -> tuple[Outcome[TautPath], Flags]:
+            self.requirements.spend(ROUTE_S)
+            met = active.copy()
+            return self.router.find(start, goal, closed, met), met
+
+        ends = (start.tobytes(), goal.tobytes())
+        asked = ("route", self.world, ends, closed.tobytes(), active.tobytes())
+        return self.requirements.once(asked, found)
 
     def curve(self, taut_path: TautPath | None, active: Flags) -> Spline | None:
         """The spline along a taut path, or None where no slack makes it clear.

@@ -7,7 +7,9 @@ would cost more than is left isn't begun.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
 
 from viaspline.errors import GaveUpError
 
@@ -40,6 +42,9 @@ TIME_LAW_S, JERK_LAW_S = 1e-3, 1.5e-2
 """Of a time law, and of one with a limit of the jerk [s]."""
 
 
+Value = TypeVar("Value")
+
+
 class SpentBudgetError(GaveUpError):
     """A search was stopped because what it might spend was spent."""
 
@@ -53,6 +58,9 @@ class WorkBudget:
     Attributes:
         limit: [s of the reference machine].
         spent: [s of the reference machine].
+        finished: What parts of the search came to that are over, by what they were asked: a robot
+            that stands goes on with them in its next step.
+        has_gained: Whether one of them is new.
 
     Example:
         >>> budget = WorkBudget(0.01)
@@ -63,6 +71,21 @@ class WorkBudget:
 
     limit: float
     spent: float = 0.0
+    finished: dict[Hashable, Any] = field(default_factory=dict)
+    has_gained: bool = False
+
+    def once(self, asked: Hashable, part: Callable[[], Value]) -> Value:
+        """What a part of the search comes to, or came to when it was asked before.
+
+        Args:
+            asked: All that the part depends on.
+            part: Does it.
+        """
+        if asked not in self.finished:
+            self.finished[asked] = part()
+            self.has_gained = True
+        found: Value = self.finished[asked]
+        return found
 
     def spend(self, cost: float) -> None:
         """Take off what the next step costs [s].

@@ -20,7 +20,7 @@ from viaspline.planning.routing.side_refusals import (
     sides_in_words,
 )
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.headings import Poses, legs_of, posed
+from viaspline.planning.turning.headings import Poses, costs_between, legs_of, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_path import OVERSHOOT
 
@@ -134,7 +134,8 @@ def _poses(problem: DrivenProblem, rho: float) -> Poses | None:
     lay = partial(problem.leg_on_sides, rho=rho, lay=turn_path_if_clear)
     legs = legs_of(problem.bends, problem.spots)
     closed = problem.sequence.closed
-    return posed(legs, rho, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS)
+    costs = costs_between(legs, rho, problem.requirements)
+    return posed(legs, costs, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS)
 
 
 def _has_room(problem: DrivenProblem, part: float) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,6 +31,23 @@ class Wait:
 
 
 @dataclass(frozen=True)
+class StandingSearch:
+    """What a search of a robot that stands has come to.
+
+    Attributes:
+        limit: What its next step may spend [s of the reference machine].
+        spent: What it has spent in all [s of the reference machine].
+        world: What it is to keep clear of.
+        finished: What the parts of the search came to that are over; see ``WorkBudget``.
+    """
+
+    limit: float
+    spent: float
+    world: World
+    finished: Mapping[Hashable, object]
+
+
+@dataclass(frozen=True)
 class PendingSearch:
     """A search for a new path that is not over yet.
 
@@ -38,15 +56,14 @@ class PendingSearch:
         obstacles: What is in the way.
         names: Of those that are new.
         begin_with: The stage with which it goes on.
-        standing_limit: What its next step may spend if the robot stands [s of the reference
-            machine]; None: what every first step may.
+        standing: What a robot that stands takes on to its next step, if it does.
     """
 
     since: float
     obstacles: World
     names: tuple[str, ...]
     begin_with: tuple[int, int]
-    standing_limit: float | None = None
+    standing: StandingSearch | None = None
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ Tested through ``robot/replanning/test_decide``.
 
 from __future__ import annotations
 
-from viaspline.robot.navigation.schedule import PendingSearch
-from viaspline.robot.replanning.replan_context import ReplanContext
+from viaspline.robot.navigation.schedule import PendingSearch, StandingSearch
+from viaspline.robot.replanning.replan_context import NOTHING, ReplanContext
 
 STEP_WORK_S = 0.1
 """What one step of a robot under way spends on a search, at most [s of the reference machine]."""
@@ -20,9 +20,9 @@ ROOM_RATIO = 2.0
 SPARE_RATIO = 0.5
 """and so much of one the place is known to."""
 
-MAX_STANDING_WORK_S = 3.2
-"""What one step of a robot that stands spends, at most; a step spends twice what the one before it
-has spent in vain."""
+MAX_STANDING_WORK_S = 6.4
+"""What a robot that stands spends on a search in all. A step in which not even a part of it was
+over is followed by one that may spend twice as much."""
 
 
 def with_time_to_search(context: ReplanContext) -> ReplanContext:
@@ -36,8 +36,10 @@ def with_time_to_search(context: ReplanContext) -> ReplanContext:
     """
     pending = context.schedule.pending
     if context.speed == 0.0:
-        limit = STEP_WORK_S if pending is None else pending.standing_limit or STEP_WORK_S
-        standing = context.searching(limit)
+        before = None if pending is None else pending.standing
+        limit = STEP_WORK_S if before is None else before.limit
+        is_known = before is not None and before.world is context.knowledge.world
+        standing = context.searching(limit, before.finished if before and is_known else NOTHING)
         if standing.speed == 0.0:
             return standing
     longest = min(STEP_WORK_S, _left(context))
@@ -62,12 +64,16 @@ def gone_on(context: ReplanContext, begin_with: tuple[int, int]) -> PendingSearc
     since = context.progress.time if before is None else before.since
     if context.speed > 0.0:
         return PendingSearch(since, obstacles, names, begin_with)
-    budget = context.requirements.budget
+    budget, world = context.requirements.budget, context.knowledge.world
     assert budget is not None
-    if budget.limit >= MAX_STANDING_WORK_S:
+    standing = None if before is None else before.standing
+    spent = budget.spent + (0.0 if standing is None else standing.spent)
+    is_further = budget.has_gained and (standing is None or standing.world is world)
+    limit = budget.limit if is_further else 2.0 * budget.limit
+    if spent + limit > MAX_STANDING_WORK_S:
         return None
-    limit = min(2.0 * budget.limit, MAX_STANDING_WORK_S)
-    return PendingSearch(since, obstacles, names, begin_with, limit)
+    goes_on = StandingSearch(limit, spent, world, budget.finished)
+    return PendingSearch(since, obstacles, names, begin_with, goes_on)
 
 
 def must_brake(context: ReplanContext) -> bool:

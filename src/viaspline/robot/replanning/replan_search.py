@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -136,7 +137,10 @@ def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandida
         return candidate
     try:
         modes = MODES if candidate.mode == "reflex" else ("planned",)
-        kept = first_candidate(context, world.with_side(now, side), skip, modes)
+        sided = context.requirements.once(
+            ("side", world, now, side), partial(world.with_side, now, side)
+        )
+        kept = first_candidate(context, sided, skip, modes)
     except PlanningError:
         return candidate
     here = context.progress.distance
