@@ -14,6 +14,9 @@ from viaspline.robot.navigation.laps_ahead import LapsAhead
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
+FIRST_STAGE, NO_STAGE = (0, 0), (3, 0)
+"""With which stage a search begins, and what comes after the last one."""
+
 
 @dataclass(frozen=True)
 class Wait:
@@ -56,6 +59,8 @@ class PendingSearch:
         obstacles: What is in the way.
         names: Of those that are new.
         begin_with: The stage with which it goes on.
+        again: Under way it waits until then: it has tried all that it has time for [s].
+        free_until: Up to this distance along the path it was certainly clear then [m].
         standing: What a robot that stands takes on to its next step, if it does.
     """
 
@@ -63,6 +68,8 @@ class PendingSearch:
     obstacles: World
     names: tuple[str, ...]
     begin_with: tuple[int, int]
+    again: float = -math.inf
+    free_until: float = math.inf
     standing: StandingSearch | None = None
 
 

@@ -20,7 +20,7 @@ from viaspline.planning.problem.work_budget import JERK_LAW_S, TIME_LAW_S, Spent
 from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.navigation.reschedule import trajectory_within_sight
-from viaspline.robot.navigation.schedule import ReducedClearance
+from viaspline.robot.navigation.schedule import FIRST_STAGE, NO_STAGE, ReducedClearance
 from viaspline.robot.replanning.passing_sides import changed_side, is_better
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.run import Mode
@@ -38,9 +38,6 @@ Stage: TypeAlias = tuple[int, int]
 
 ORDER: tuple[Mode, ...] = (*MODES, "from_rest")
 """The modes, from the least change to the greatest."""
-
-FIRST_STAGE: Stage = (0, 0)
-"""With which a search begins."""
 
 MAX_SHARE_BEFORE = 0.2
 """A part of a search that was stopped had a step for itself if no more was spent before."""
@@ -232,7 +229,7 @@ def _laid(
 def _next(stage: Stage, before: float, context: ReplanContext) -> Stage:
     """With which stage a search goes on that was stopped at one.
 
-    One that had a step for itself isn't tried again, unless it is the last.
+    One that had a step for itself isn't tried again, unless it is the last and the robot stands.
 
     Args:
         stage: At which it was stopped.
@@ -242,7 +239,11 @@ def _next(stage: Stage, before: float, context: ReplanContext) -> Stage:
     budget = context.requirements.budget
     assert budget is not None  # it has been spent
     had_most = before <= MAX_SHARE_BEFORE * budget.limit and budget.limit > 0.0
-    return (stage[0], stage[1] + 1) if had_most and stage[0] < len(ORDER) - 1 else stage
+    if not had_most:
+        return stage
+    if stage[0] < len(ORDER) - 1:
+        return (stage[0], stage[1] + 1)
+    return NO_STAGE if context.speed > 0.0 else stage
 
 
 def timed(
