@@ -86,7 +86,7 @@ def gone_on(
     standing = None if before is None else before.standing
     spent = budget.spent + (0.0 if standing is None else standing.spent)
     is_further = budget.has_gained and (standing is None or standing.world is world)
-    limit = budget.limit if is_further else 2.0 * budget.limit
+    limit = max(budget.limit if is_further else 2.0 * budget.limit, STEP_WORK_S)
     if spent + limit > MAX_STANDING_WORK_S:
         return None
     goes_on = StandingSearch(limit, spent, world, budget.finished)
