@@ -24,8 +24,8 @@ export class Settings {
   render() {
     if (this.isSliding) return;
     const { doc } = this.app.store;
-    const { closed, order, laps, corridor } = doc.route ?? {};
-    const shown = [doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, pointsOf(doc).length];
+    const { closed, order, laps, corridor, optimise } = doc.route ?? {};
+    const shown = [doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, optimise, pointsOf(doc).length];
     if (shown.every((value, i) => value === this.shown[i])) return;
     this.shown = shown;
     fill(
@@ -38,6 +38,7 @@ export class Settings {
         choice({ label: "Knots", value: doc.spline?.knots ?? "chordal", options: [["chordal", "chordal"], ["centripetal", "centripetal"], ["uniform", "uniform"]], set: (value) => this.set(["spline", "knots"], value) }),
         choice({ label: "Tangents", value: doc.spline?.tangents ?? "", options: [["", "as the robot needs"], ["cardinal", "cardinal"], ["continuous", "continuous curvature"]], set: (value) => this.set(["spline", "tangents"], value || undefined) })),
       h("h3", {}, "Route"),
+      choice({ label: "Sides and shapes with the least", value: optimise ?? "time", options: [["time", "driven time"], ["length", "length"]], set: (value) => this.set(["route", "optimise"], value === "time" ? undefined : value) }),
       checkbox({ label: "Closed: back to the start", value: !!doc.route?.closed, set: (value) => this.app.store.edit(setClosed(this.app.store.doc, value)) }),
       checkbox({ label: "Via points in the shortest order", value: doc.route?.order === "shortest", set: (value) => this.set(["route", "order"], value ? "shortest" : undefined) }),
       closed ? numberField({ label: "Laps", value: laps ?? null, step: 1, min: 1, max: 1000, placeholder: "1", set: (value) => this.set(["route", "laps"], value === null ? undefined : Math.round(value)) }) : null,
