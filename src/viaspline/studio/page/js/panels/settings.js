@@ -2,8 +2,10 @@
 
 import { replaced, setClosed, setTension } from "../core/edits.js";
 import { pointsOf, tensionsOf } from "../core/mission.js";
-import { checkbox, choice, fill, h, lazily, numberField } from "./dom.js";
+import { checkbox, choice, fill, h, lazily, numberField, slider } from "./dom.js";
 import { robotFields } from "./robot.js";
+
+const MOST_PREFERRED_M = 3; // at the end of the slider
 
 export class Settings {
   /** @param {any} app */
@@ -11,6 +13,15 @@ export class Settings {
     this.app = app;
     this.panel = /** @type {HTMLElement} */ (document.querySelector("#settings"));
     this.isSliding = false;
+    /** What a slider does to the panel: it isn't drawn anew while it is dragged. */
+    this.sliding = {
+      grab: () => { this.isSliding = true; },
+      drop: () => {
+        this.isSliding = false;
+        this.shown = [0];
+        this.render();
+      },
+    };
     /** @type {unknown[]} */ this.shown = [0];
     app.store.on("document", lazily(() => this.render(), 120));
   }
@@ -31,7 +42,7 @@ export class Settings {
     fill(
       this.panel,
       h("h3", {}, "Robot"),
-      ...robotFields(doc, this.app.drives ?? [], (path, value) => this.set(path, value)),
+      ...robotFields(doc, this.app.drives ?? [], (path, value) => this.set(path, value), this.preferred()),
       h("h3", {}, "Curve"),
       this.tension(),
       h("div", { class: "pair" },
@@ -65,21 +76,25 @@ export class Settings {
     const { store } = this.app;
     const list = tensionsOf(store.doc);
     const isOwn = new Set(list).size > 1;
-    const output = h("output", { class: "slider-value" }, store.doc.spline?.tension === "auto" ? "auto" : isOwn ? "differs by span" : (list[0] ?? 0).toFixed(2));
-    const slider = h("input", {
-      type: "range", min: -1, max: 1, step: 0.05, value: String(list[0] ?? 0), "aria-label": "Tension of all spans",
-      onpointerdown: () => { this.isSliding = true; },
-      oninput: () => {
-        output.textContent = Number(slider.value).toFixed(2);
-        store.edit(setTension(store.doc, null, Number(slider.value)), { merge: "tension:all" });
-      },
-      onchange: () => {
-        this.isSliding = false;
-        this.shown = [0];
-        this.render();
-      },
+    return slider({
+      label: "Tension", value: list[0] ?? 0, min: -1, max: 1, step: 0.05, ends: ["loose", "straight"],
+      words: (value) => value.toFixed(2),
+      shown: store.doc.spline?.tension === "auto" ? "auto" : isOwn ? "differs by span" : undefined,
+      set: (value) => store.edit(setTension(store.doc, null, value), { merge: "tension:all" }),
+      ...this.sliding,
     });
-    return h("label", { class: "field" }, h("span", { class: "field-name" }, "Tension", output), slider, h("span", { class: "scale-ends" }, h("span", {}, "loose"), h("span", {}, "straight")));
+  }
+
+  /** More clearance than is asked for, where it costs little time. */
+  preferred() {
+    const { store } = this.app;
+    const value = Number(store.doc.robot?.prefer_clearance_m ?? 0) || 0;
+    return slider({
+      label: "Clearance liked beyond that", value, min: 0, max: Math.max(MOST_PREFERRED_M, Math.ceil(value)), step: 0.05,
+      words: (more) => `${more.toFixed(2)} m`, ends: ["none", "where it costs little time"],
+      set: (more) => this.set(["robot", "prefer_clearance_m"], more || undefined),
+      ...this.sliding,
+    });
   }
 
   bounds() {
