@@ -22,6 +22,7 @@ from viaspline.mission.robot_parts import RobotSpec
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.plan_drive import find_drive
 from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.visit_order import ordered
 from viaspline.trajectory.limits import Station
@@ -66,6 +67,11 @@ class Plan:
     def ledger(self) -> tuple[LedgerEntry, ...]:
         """Every group met and every side tried."""
         return () if self.account is None else self.account.ledger
+
+    @property
+    def preferred_clearance(self) -> PreferredClearance | None:
+        """What more clearance than required was weighed; None where none is asked for."""
+        return None if self.account is None else self.account.preferred
 
     @cached_property
     def drivability(self) -> Drivability:

@@ -7,7 +7,8 @@ import json
 import numpy as np
 import pytest
 
-from viaspline.planner import Plan
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan, plan
 from viaspline.report.csv_tables import path_csv, run_csv, spacing
 from viaspline.report.plan_json import plan_json
 from viaspline.report.run_json import changed_spans, run_json, timing_json
@@ -35,7 +36,8 @@ def test_plan_json_has_the_keys_that_the_design_fixes(planned: Plan) -> None:
     assert data["trajectory"]["stations"][0]["name"] == "pump"
     (entry,) = data["ledger"]
     assert entry["members"] == ["tank $1"]
-    keys = {"side", "vias", "length_m", "clearance_m", "max_curvature_1pm", "impossible", "chosen"}
+    keys = {"side", "vias", "length_m", "duration_s", "clearance_m", "max_curvature_1pm"}
+    keys |= {"impossible", "chosen"}
     assert all(set(candidate) == keys for candidate in entry["candidates"])
     assert [c["side"] for c in entry["candidates"] if c["chosen"]] == [entry["chosen"]]
 
@@ -47,8 +49,27 @@ def test_plan_json_says_how_the_path_drives(planned: Plan) -> None:
     peak, u = planned.path.max_curvature()
     assert drive["sharpest_radius_m"] == pytest.approx(1 / peak, rel=1e-6)
     assert drive["sharpest_at"] == pytest.approx(planned.path.evaluate(u).tolist(), abs=1e-4)
-    assert 0.4 < drive["max_lateral_accel_mps2"] <= 0.5
+    s = np.linspace(0.0, planned.path.length, 5001)
+    bends = np.abs(planned.path.curvature(planned.path.parameter(s)))
+    across = np.interp(s, planned.trajectory.distances, planned.trajectory.speeds) ** 2 * bends
+    assert drive["max_lateral_accel_mps2"] == pytest.approx(across.max(), rel=0.01)
+    assert 0.1 < drive["max_lateral_accel_mps2"] <= 0.5
     assert (drive["verdict"], drive["reasons"]) == ("good", [])
+
+
+def test_plan_json_has_what_more_clearance_would_cost(mission: Mission, planned: Plan) -> None:
+    assert "preferred_clearance" not in json.loads(plan_json(planned, "yard", spacing=0.1))
+    robot = mission.robot.model_copy(update={"prefer_clearance_m": 0.4})
+    roomy = plan(mission.model_copy(update={"robot": robot}))
+    data = json.loads(plan_json(roomy, "yard", spacing=0.1))
+    weighed = data["preferred_clearance"]
+    assert (weighed["asked_m"], weighed["taken_m"]) == (0.4, 0.4)
+    (tried,) = weighed["tried"]
+    assert (tried["clearance_m"], tried["taken"]) == (0.4, True)
+    moving = planned.trajectory.duration - 5.0  # without its stay at the pump
+    assert weighed["required_duration_s"] == pytest.approx(moving, rel=0.01)
+    assert tried["duration_s"] <= weighed["most_duration_s"]
+    assert data["certificate"]["required_clearance_m"] == 0.5
 
 
 def test_plan_json_says_what_a_reader_needs_later(planned: Plan) -> None:

@@ -108,11 +108,32 @@ def test_a_plan_names_its_map_in_full_and_the_ledger_without_the_folder() -> Non
     assert "map 'depot.yaml'" in text
 
 
+def test_clearance_that_is_preferred_is_told_with_its_price() -> None:
+    mission = Mission.model_validate(
+        {
+            "world": {"known": [{"circle": {"center": [50, 1], "radius": 6}}]},
+            "robot": {"prefer_clearance_m": 40},
+            "route": {"start": [0, 0], "goal": [100, 0]},
+        }
+    )
+    planned = plan(mission)
+    assert planned.preferred_clearance is not None
+    (line,) = [x for x in _text(plan_tables(planned, "x")).splitlines() if "preferred" in x]
+    first = planned.preferred_clearance.tried[0]
+    assert first.duration is not None
+    later = first.duration - planned.preferred_clearance.duration
+    assert f"40.00 m more: +{later:.1f} s" in line
+    assert "taken" not in line
+
+
 def test_a_long_ledger_is_cut_with_a_count() -> None:
     nothing = np.zeros((0, 2))
-    taken = Candidate("left", nothing, np.zeros((0, 4, 2)), 9.0, 0.5, 0.1, True)
+    taken = Candidate(
+        "left", nothing, np.zeros((0, 4, 2)), length=9.0, duration=6.5, clearance=0.5,
+        max_curvature=0.1, chosen=True,
+    )  # fmt: skip
     entry = LedgerEntry(("a", "b", "c", "d", "e"), ("start", "goal"), (taken,))
     text = _text(ledger_table((entry,) * 49))
-    assert text.count("taken") == 12
+    assert text.count("taken") == text.count("6.5 s") == 12
     assert "… and 37 more in plan.json" in text
     assert "a, b, c and 2 more" in text

@@ -154,3 +154,46 @@ def test_while_a_slow_plan_is_made_the_old_path_is_shown_as_such_and_the_newest_
     assert not page.js("studio.store.isLate")
     assert page.plan["vias"][1][1:3] == [91, 330]
     assert "proven clear" in page.page.locator("#status").inner_text()
+
+
+def test_more_clearance_is_preferred_by_a_slider_that_plans_while_it_is_dragged(
+    visit: Visit, patrol: Path
+) -> None:
+    page = visit(patrol)
+    before = page.plan["certificate"]
+    slider = page.page.get_by_role("slider", name="Clearance liked beyond that")
+    slider.fill("0.4")
+    page.settle()
+    assert page.doc["robot"]["prefer_clearance_m"] == 0.4
+    after = page.plan["certificate"]
+    assert after["required"] == before["required"]
+    assert after["clearance"] > before["clearance"] + 0.1
+    slider.fill("0")
+    page.settle()
+    assert "prefer_clearance_m" not in page.doc["robot"]
+    assert page.plan["certificate"] == before
+
+
+def test_what_sides_are_chosen_by_is_asked_for_in_the_form(visit: Visit, patrol: Path) -> None:
+    page = visit(patrol)
+    choice = page.page.get_by_label("Sides and shapes with the least")
+    assert choice.input_value() == "length"
+    choice.select_option("time")
+    page.settle()
+    assert "optimise" not in page.doc["route"]
+    choice.select_option("length")
+    page.settle()
+    assert page.doc["route"]["optimise"] == "length"
+
+
+def test_each_side_is_listed_with_its_length_and_its_time(visit: Visit, patrol: Path) -> None:
+    page = visit(patrol)
+    (entry,) = page.js("studio.store.ledger")
+    for candidate in entry["candidates"]:
+        words = page.page.locator(f".side:has-text('{candidate['side']}')").inner_text()
+        assert f"{candidate['length']:.1f} m" in words
+        minutes, seconds = divmod(round(candidate["duration"]), 60)
+        short = f"{candidate['duration']:.1f} s"
+        assert (
+            f"{minutes} min {seconds:02d} s" if candidate["duration"] >= 100 else short
+        ) in words

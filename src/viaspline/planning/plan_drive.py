@@ -10,9 +10,9 @@ from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.mission.strip import has_line
 from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.plan_path import find_path
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
+from viaspline.planning.roomy_path import find_roomy_path
 from viaspline.world.world import World
 
 
@@ -29,7 +29,7 @@ def find_drive(mission: Mission, world: World, requirements: Requirements) -> So
 
         found = find_line(mission, world, requirements)
     else:
-        found = find_path(via_sequence_of(mission), world, requirements)
+        found = find_roomy_path(via_sequence_of(mission), world, requirements)
     return replace(found, path=repeated(found.path, mission.route.laps))
 
 
@@ -46,6 +46,7 @@ def repeated(path: Path, laps: int) -> Path:
     Example:
         >>> from viaspline.planning.problem.via_sequence import via_sequence_of
         >>> from viaspline.mission.model import Mission
+        >>> from viaspline.planning.plan_path import find_path
         >>> mission = Mission.model_validate({
         ...     "route": {"start": [0, 0], "via": [[9, 0], [9, 9]], "closed": True},
         ... })

@@ -10,6 +10,7 @@ from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.report.drivability_json import drivability_data
 from viaspline.report.json_text import dumps
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
@@ -33,6 +34,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
             **({"tracking_error_m": plan.tracking_error} if plan.tracking_error else {}),
             **({"note": FOLLOWED_EXACTLY} if keeps_nothing(plan.mission.robot) else {}),
             "ledger": [_entry(entry) for entry in plan.ledger],
+            **_preferred(plan.preferred_clearance),
             "trajectory": {
                 "duration_s": plan.trajectory.duration,
                 "stations": [
@@ -64,6 +66,7 @@ def mission_summary(mission: Mission, name: str) -> dict[str, Any]:
         "max_speed_mps": robot.max_speed_mps,
         "max_accel_mps2": robot.max_accel_mps2,
         "max_lateral_accel_mps2": robot.lateral_accel,
+        "optimise": mission.route.optimise,
         "tension": tension(mission),
         "knots": spline.knots,
         "tangents": mission.tangents,
@@ -103,6 +106,24 @@ def certificate_data(certificate: Certificate) -> dict[str, Any]:
     }
 
 
+def _preferred(weighed: PreferredClearance | None) -> dict[str, Any]:
+    """What more clearance than required would cost, where the mission asks for it."""
+    if weighed is None:
+        return {}
+    return {
+        "preferred_clearance": {
+            "asked_m": weighed.asked,
+            "taken_m": weighed.taken,
+            "required_duration_s": weighed.duration,
+            "most_duration_s": weighed.most_duration,
+            "tried": [
+                {"clearance_m": one.clearance, "duration_s": one.duration, "taken": one.taken}
+                for one in weighed.tried
+            ],
+        }
+    }
+
+
 def _entry(entry: LedgerEntry) -> dict[str, Any]:
     return {
         "members": entry.members,
@@ -115,6 +136,7 @@ def _entry(entry: LedgerEntry) -> dict[str, Any]:
                 "chosen": candidate.chosen,
                 "vias": candidate.vias,
                 "length_m": candidate.length,
+                "duration_s": candidate.duration,
                 "clearance_m": candidate.clearance,
                 "max_curvature_1pm": candidate.max_curvature,
                 "impossible": candidate.impossible,

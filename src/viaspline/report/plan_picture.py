@@ -156,7 +156,10 @@ def draw_losers(sheet: Sheet, labels: Labels, plan: Plan) -> list[Artist]:
         for candidate in losers:
             assert candidate.length is not None
             more = round(candidate.length - taken.length, 1) + 0.0  # no minus nought
-            text = f"{candidate.side}: {metres(candidate.length, 1)} ({more:+.1f} m)"
+            later = round((candidate.duration or 0.0) - (taken.duration or 0.0), 1) + 0.0
+            text = (
+                f"{candidate.side}: {metres(candidate.length, 1)} ({more:+.1f} m, {later:+.1f} s)"
+            )
             at = _far_from(candidate.spans, taken.spans)
             labels.add(text, at, rank=4, colour=style.LOSER)
         if losers and entry.leg not in legs:

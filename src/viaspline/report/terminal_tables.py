@@ -12,6 +12,7 @@ from viaspline.curve.path import GUIDE
 from viaspline.machine.drivability import Drivability
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate, LedgerEntry
+from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.report.style import without_folder
 from viaspline.report.summary import map_words
 from viaspline.report.terminal_lines import writing_output
@@ -51,6 +52,8 @@ def plan_tables(plan: Plan, name: str) -> RenderableType:
     facts.add_row("points of the route", f"{len(users)}, and {detours} of detours")
     asked = asked_words(certificate.required, plan.tracking_error)
     facts.add_row("clearance, proven", f"{down(certificate.clearance)} (asked {asked})")
+    if plan.preferred_clearance is not None:
+        facts.add_row("clearance, preferred", preferred_words(plan.preferred_clearance))
     if certificate.obstacle is not None:
         facts.add_row(
             "tightest place",
@@ -68,6 +71,18 @@ def plan_tables(plan: Plan, name: str) -> RenderableType:
     return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
 
 
+def preferred_words(weighed: PreferredClearance) -> str:
+    """How much more than required is kept, and what the rest would have cost."""
+    words = []
+    for one in weighed.tried:
+        if one.duration is None:
+            cost = "no path found"
+        else:
+            cost = f"{one.duration - weighed.duration:+.1f} s{', taken' if one.taken else ''}"
+        words.append(f"{one.clearance:.2f} m more: {cost}")
+    return "; ".join(words)
+
+
 def drivability_rows(drive: Drivability) -> list[tuple[str, str]]:
     """How a path drives, and every reason why that isn't well."""
     rows = [("across the path", f"at most {drive.max_lateral_accel:.3g} m/s²")]
@@ -82,7 +97,7 @@ def drivability_rows(drive: Drivability) -> list[tuple[str, str]]:
 def ledger_table(ledger: tuple[LedgerEntry, ...]) -> RenderableType:
     """Every group met and every side tried."""
     table = Table(title="Detours", title_justify="left", box=box.SIMPLE_HEAD)
-    for column in ("leg", "past", "side", "length", "clearance", "curvature", ""):
+    for column in ("leg", "past", "side", "time", "length", "clearance", "curvature", ""):
         table.add_column(column, justify="right" if column in _COMPARED_FIGURES else "left")
     for entry in ledger[:MAX_LIST_LINES]:
         leg, past = " → ".join(entry.leg), _members(entry.members)
@@ -94,7 +109,7 @@ def ledger_table(ledger: tuple[LedgerEntry, ...]) -> RenderableType:
     return table
 
 
-_COMPARED_FIGURES = ("length", "clearance", "curvature")
+_COMPARED_FIGURES = ("time", "length", "clearance", "curvature")
 
 
 def _members(members: tuple[str, ...]) -> str:
@@ -106,12 +121,13 @@ def _short(name: str) -> str:
     return without_folder(name).removeprefix("what is ")
 
 
-def _candidate(candidate: Candidate) -> tuple[str, str, str, str]:
+def _candidate(candidate: Candidate) -> tuple[str, str, str, str, str]:
     if candidate.impossible is not None:
-        return "–", "–", "–", f"impossible: {candidate.impossible}"
+        return "–", "–", "–", "–", f"impossible: {candidate.impossible}"
     clearance = "–" if candidate.clearance is None else down(candidate.clearance)
     bend = "–" if candidate.max_curvature is None else f"{candidate.max_curvature:.3g} 1/m"
-    return metres(candidate.length, 1), clearance, bend, "taken" if candidate.chosen else ""
+    time, length = seconds(candidate.duration), metres(candidate.length, 1)
+    return time, length, clearance, bend, "taken" if candidate.chosen else ""
 
 
 def advice_tables(advice: TensionAdvice, name: str) -> RenderableType:

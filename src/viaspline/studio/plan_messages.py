@@ -105,6 +105,7 @@ def _candidate(candidate: Candidate) -> dict[str, Any]:
         "chosen": candidate.chosen,
         "spans": [] if candidate.chosen else flat(candidate.spans),
         "length": candidate.length,
+        "duration": candidate.duration,
         "clearance": finite(candidate.clearance),
         "impossible": candidate.impossible,
     }

@@ -6,16 +6,19 @@ Tested through ``planning/problem/test_ledger_as_laid``.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
+from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.alternatives.comparison import Comparison
 from viaspline.planning.alternatives.leg_search import Curve
 from viaspline.planning.alternatives.passed_leg import PassedLeg
+from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.checking.cost import measure
-from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.planning.problem.ledger import Candidate, LedgerEntry
+from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.world.world import World
@@ -35,6 +38,8 @@ class Account:
         passed: The legs that were led round something.
         driven: Turns a comparison of splines into one of the curves that a robot with a body or a
             turning circle drives, beside what was laid; None for others.
+        measured_in: The world as it is, where the path was laid among grown obstacles.
+        preferred: What more clearance was weighed; None where none is asked for.
     """
 
     spline_path: SplinePath
@@ -42,6 +47,8 @@ class Account:
     requirements: Requirements
     passed: Mapping[int, PassedLeg] = field(default_factory=dict)
     driven: Callable[[Comparison, SplinePath], Comparison] | None = None
+    measured_in: World | None = None
+    preferred: PreferredClearance | None = None
 
     @cached_property
     def ledger(self) -> tuple[LedgerEntry, ...]:
@@ -51,7 +58,23 @@ class Account:
         between them; what was not chosen stays as it was weighed.
         """
         compared = (self._as_laid(leg) for leg in sorted(self.passed))
-        return tuple(entry for comparison in compared for entry in comparison.entries)
+        entries = (entry for comparison in compared for entry in comparison.entries)
+        if self.measured_in is None:
+            return tuple(entries)
+        return tuple(
+            replace(
+                entry,
+                candidates=tuple(self._measured(one, self.measured_in) for one in entry.candidates),
+            )
+            for entry in entries
+        )
+
+    def _measured(self, candidate: Candidate, world: World) -> Candidate:
+        """A candidate with its clearance in the world as it is."""
+        if candidate.impossible is not None:
+            return candidate
+        clearance = proven(PiecewiseCubic(candidate.spans), world, self.requirements).clearance
+        return replace(candidate, clearance=clearance)
 
     def _as_laid(self, leg: int) -> Comparison:
         comparison = self.passed[leg].comparison

@@ -33,7 +33,7 @@ DISC_METHODS: tuple[PathMethod, ...] = (
         SplineLedRound(),
     )),
 )  # fmt: skip
-"""For a disc that can follow any curve."""
+"""For a disc that can follow any curve; none of them takes long."""
 
 BODY_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
@@ -54,3 +54,8 @@ def methods_for(requirements: Requirements, dimension: int) -> tuple[PathMethod,
     if requirements.is_cardinal or (requirements.is_free_disc and dimension > 2):
         return SPLINE_METHODS
     return DISC_METHODS if requirements.is_free_disc else BODY_METHODS
+
+
+def roomy_methods_for(requirements: Requirements) -> tuple[PathMethod, ...]:
+    """The methods that lay paths that keep more than they must: where it is easily done."""
+    return CARDINAL_METHODS if requirements.is_cardinal else DISC_METHODS

@@ -25,6 +25,7 @@ class Requirements:
     Attributes:
         radius: The robot's body [m].
         clearance: Free space kept between the body and every obstacle [m].
+        preferred: Free space beyond that, kept where it costs little time [m].
         spline: Tension and knots.
         tangents: Which ones.
         goal_heading_deg: Heading with which the path arrives at the goal [deg]; None if it is free.
@@ -40,6 +41,7 @@ class Requirements:
 
     radius: float
     clearance: float
+    preferred: float = 0.0
     spline: SplineSpec = field(default_factory=SplineSpec)
     tangents: Tangents = "cardinal"
     goal_heading_deg: float | None = None
@@ -112,6 +114,7 @@ class Requirements:
         return cls(
             radius=robot.inner_radius,
             clearance=robot.clearance_m,
+            preferred=robot.prefer_clearance_m,
             spline=mission.spline,
             tangents=mission.tangents,
             goal_heading_deg=None if goal is None else goal.heading_deg,

@@ -16,8 +16,9 @@ SURVEY: dict[str, Any] = {
         "start": [50, 250],
         "via": [[80 + 30 * i, 150 if i % 2 else 350] for i in range(9)],
         "goal": [350, 250],
+        "optimise": "length",
     },
-    "spline": {"slack": 0.5, "knots": "uniform"},
+    "spline": {"slack": 0.5, "knots": "uniform", "tangents": "cardinal"},
 }  # fmt: skip
 
 OBSTACLES: dict[str, Any] = {
@@ -31,7 +32,8 @@ OBSTACLES: dict[str, Any] = {
         ],
     },
     "robot": {"radius_m": 1.0, "clearance_m": 1.0, "max_speed_mps": 2, "max_accel_mps2": 1},
-    "route": {"start": [50, 250], "goal": [450, 260]},
+    "route": {"start": [50, 250], "goal": [450, 260], "optimise": "length"},
+    "spline": {"tangents": "cardinal"},
 }
 
 PATROL: dict[str, Any] = {
@@ -62,6 +64,7 @@ PATROL: dict[str, Any] = {
             [400, 380],
         ],
         "goal": {"at": [430, 180], "name": "charger"},
+        "optimise": "length",
     },
-    "spline": {"tension": 0.1},
+    "spline": {"tension": 0.1, "tangents": "cardinal"},
 }  # fmt: skip

@@ -2,7 +2,7 @@
 
 import { areasOf, bodyOf, obstaclesOf, outlined, pointsOf, requiredOf } from "../core/mission.js";
 import { polygon } from "../shapes/polygon.js";
-import { metres, down } from "../units.js";
+import { down, metres, seconds } from "../units.js";
 import { drawCorridor, drawZones, wordsOf } from "./areas.js";
 import { drawBody, drawSwept } from "./body.js";
 import { drawFollowed, drawRobot, drawSight, drawTrail } from "./drive_marks.js";
@@ -266,8 +266,11 @@ export class Scene {
           if (loser.chosen || !loser.spans.length || !taken?.length || !loser.length) continue;
           const k = Math.floor(loser.spans.length / 16);
           const [x, y] = camera.toScreen(loser.spans[8 * k], loser.spans[8 * k + 1]);
-          const more = loser.length - taken.length;
-          labels.push({ text: `${loser.side} ${more >= 0 ? "+" : "−"}${metres(Math.abs(more), 1)}`, x, y, away: 9, colour: colours.loser, rank: 3 });
+          const more = (/** @type {number} */ value, /** @type {string} */ words) => `${value >= 0 ? "+" : "−"}${words}`;
+          const longer = loser.length - taken.length;
+          const later = loser.duration - taken.duration;
+          const text = `${loser.side} ${more(longer, metres(Math.abs(longer), 1))}, ${more(later, seconds(Math.abs(later)))}`;
+          labels.push({ text, x, y, away: 9, colour: colours.loser, rank: 3 });
         }
       }
     }

@@ -113,6 +113,26 @@ export function textField({ label, value, placeholder, most = 80, set }) {
   return h("label", { class: "field" }, h("span", { class: "field-name" }, label), h("span", { class: "field-box" }, input));
 }
 
+/**
+ * A number between two others, heard of while it is dragged.
+ * @param {{label: string, value: number, min: number, max: number, step: number, words: (value: number) => string, shown?: string,
+ *   ends?: [string, string], grab: () => void, set: (value: number) => void, drop: () => void}} options `shown` stands for a value that no number says
+ */
+export function slider({ label, value, min, max, step, words, shown, ends, grab, set, drop }) {
+  const output = h("output", { class: "slider-value" }, shown ?? words(value));
+  const input = h("input", {
+    type: "range", min, max, step, value: String(value), "aria-label": label,
+    onpointerdown: grab,
+    oninput: () => {
+      output.textContent = words(Number(input.value));
+      set(Number(input.value));
+    },
+    onchange: drop,
+  });
+  return h("label", { class: "field" }, h("span", { class: "field-name" }, label, output), input,
+    ends ? h("span", { class: "scale-ends" }, h("span", {}, ends[0]), h("span", {}, ends[1])) : null);
+}
+
 /** @param {{label: string, value: string, options: [string, string][], set: (value: string) => void}} options */
 export function choice({ label, value, options, set }) {
   const select = h("select", { "aria-label": label, onchange: () => set(select.value) }, ...options.map(([key, text]) => h("option", { value: key, selected: key === value }, text)));

@@ -4,7 +4,7 @@ import { forceSide, moveTo, reshaped, setKey, setOnPoint, setTension } from "../
 import { anchorOf, areasOf, isArea, isPoint, obstaclesOf, pointsOf, refOf, tensionsOf, whole } from "../core/mission.js";
 import { erase } from "../input/keyboard.js";
 import { metres } from "../units.js";
-import { checkbox, choice, fill, h, icon, lazily, numberField, textField } from "./dom.js";
+import { checkbox, choice, fill, h, icon, lazily, numberField, slider, textField } from "./dom.js";
 
 export class Inspector {
   /** @param {any} app */
@@ -141,20 +141,14 @@ export class Inspector {
 
   /** @param {string} label @param {number} value @param {(value: number) => void} set */
   tension(label, value, set) {
-    const output = h("output", { class: "slider-value" }, value.toFixed(2));
-    const slider = h("input", {
-      type: "range", min: Math.min(-1, Math.floor(value)), max: 1, step: 0.05, value: String(value), "aria-label": label,
-      onpointerdown: () => { this.isSliding = true; },
-      oninput: () => {
-        output.textContent = Number(slider.value).toFixed(2);
-        set(Number(slider.value));
-      },
-      onchange: () => {
+    return slider({
+      label, value, min: Math.min(-1, Math.floor(value)), max: 1, step: 0.05, words: (next) => next.toFixed(2), set,
+      grab: () => { this.isSliding = true; },
+      drop: () => {
         this.isSliding = false;
         this.render();
       },
     });
-    return h("label", { class: "field" }, h("span", { class: "field-name" }, label, output), slider);
   }
 
   /** @param {string} name @param {string} kind */

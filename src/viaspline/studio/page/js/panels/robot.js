@@ -10,8 +10,8 @@ import { choice, h, numberField, textField } from "./dom.js";
  * @typedef {{key: string, label: string, example: any, cannot: string, fields: {key: string, label: string, unit: string, step: number, min?: number, max?: number, placeholder?: string}[]}} DriveForm
  */
 
-/** @param {any} doc @param {DriveForm[]} drives @param {Set} set */
-export function robotFields(doc, drives, set) {
+/** @param {any} doc @param {DriveForm[]} drives @param {Set} set @param {Node} preferred the slider below the clearance */
+export function robotFields(doc, drives, set, preferred) {
   const robot = doc.robot ?? {};
   const field = (/** @type {string} */ label, /** @type {string} */ key, /** @type {string} */ unit, /** @type {any} */ more = {}) =>
     numberField({ label, unit, value: typeof robot[key] === "number" ? robot[key] : null, set: (value) => set(["robot", key], value), ...more });
@@ -20,6 +20,7 @@ export function robotFields(doc, drives, set) {
     h("div", { class: "pair" },
       field("Clearance", "clearance_m", "m", { min: 0, placeholder: "0.5", step: 0.05 }),
       field("Turning radius", "min_turn_radius_m", "m", { min: 0.001, placeholder: "no limit" })),
+    preferred,
     h("div", { class: "pair" },
       field("Top speed", "max_speed_mps", "m/s", { min: 0.001, placeholder: "2" }),
       field("Acceleration", "max_accel_mps2", "m/s²", { min: 0.001, placeholder: "1" })),

@@ -2,8 +2,10 @@
 
 import { replaced, setClosed, setTension } from "../core/edits.js";
 import { pointsOf, tensionsOf } from "../core/mission.js";
-import { checkbox, choice, fill, h, lazily, numberField } from "./dom.js";
+import { checkbox, choice, fill, h, lazily, numberField, slider } from "./dom.js";
 import { robotFields } from "./robot.js";
+
+const MOST_PREFERRED_M = 3; // at the end of the slider
 
 export class Settings {
   /** @param {any} app */
@@ -11,6 +13,15 @@ export class Settings {
     this.app = app;
     this.panel = /** @type {HTMLElement} */ (document.querySelector("#settings"));
     this.isSliding = false;
+    /** What a slider does to the panel: it isn't drawn anew while it is dragged. */
+    this.sliding = {
+      grab: () => { this.isSliding = true; },
+      drop: () => {
+        this.isSliding = false;
+        this.shown = [0];
+        this.render();
+      },
+    };
     /** @type {unknown[]} */ this.shown = [0];
     app.store.on("document", lazily(() => this.render(), 120));
   }
@@ -24,20 +35,21 @@ export class Settings {
   render() {
     if (this.isSliding) return;
     const { doc } = this.app.store;
-    const { closed, order, laps, corridor } = doc.route ?? {};
-    const shown = [doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, pointsOf(doc).length];
+    const { closed, order, laps, corridor, optimise } = doc.route ?? {};
+    const shown = [doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, optimise, pointsOf(doc).length];
     if (shown.every((value, i) => value === this.shown[i])) return;
     this.shown = shown;
     fill(
       this.panel,
       h("h3", {}, "Robot"),
-      ...robotFields(doc, this.app.drives ?? [], (path, value) => this.set(path, value)),
+      ...robotFields(doc, this.app.drives ?? [], (path, value) => this.set(path, value), this.preferred()),
       h("h3", {}, "Curve"),
       this.tension(),
       h("div", { class: "pair" },
         choice({ label: "Knots", value: doc.spline?.knots ?? "chordal", options: [["chordal", "chordal"], ["centripetal", "centripetal"], ["uniform", "uniform"]], set: (value) => this.set(["spline", "knots"], value) }),
         choice({ label: "Tangents", value: doc.spline?.tangents ?? "", options: [["", "as the robot needs"], ["cardinal", "cardinal"], ["continuous", "continuous curvature"]], set: (value) => this.set(["spline", "tangents"], value || undefined) })),
       h("h3", {}, "Route"),
+      choice({ label: "Sides and shapes with the least", value: optimise ?? "time", options: [["time", "driven time"], ["length", "length"]], set: (value) => this.set(["route", "optimise"], value === "time" ? undefined : value) }),
       checkbox({ label: "Closed: back to the start", value: !!doc.route?.closed, set: (value) => this.app.store.edit(setClosed(this.app.store.doc, value)) }),
       checkbox({ label: "Via points in the shortest order", value: doc.route?.order === "shortest", set: (value) => this.set(["route", "order"], value ? "shortest" : undefined) }),
       closed ? numberField({ label: "Laps", value: laps ?? null, step: 1, min: 1, max: 1000, placeholder: "1", set: (value) => this.set(["route", "laps"], value === null ? undefined : Math.round(value)) }) : null,
@@ -64,21 +76,25 @@ export class Settings {
     const { store } = this.app;
     const list = tensionsOf(store.doc);
     const isOwn = new Set(list).size > 1;
-    const output = h("output", { class: "slider-value" }, store.doc.spline?.tension === "auto" ? "auto" : isOwn ? "differs by span" : (list[0] ?? 0).toFixed(2));
-    const slider = h("input", {
-      type: "range", min: -1, max: 1, step: 0.05, value: String(list[0] ?? 0), "aria-label": "Tension of all spans",
-      onpointerdown: () => { this.isSliding = true; },
-      oninput: () => {
-        output.textContent = Number(slider.value).toFixed(2);
-        store.edit(setTension(store.doc, null, Number(slider.value)), { merge: "tension:all" });
-      },
-      onchange: () => {
-        this.isSliding = false;
-        this.shown = [0];
-        this.render();
-      },
+    return slider({
+      label: "Tension", value: list[0] ?? 0, min: -1, max: 1, step: 0.05, ends: ["loose", "straight"],
+      words: (value) => value.toFixed(2),
+      shown: store.doc.spline?.tension === "auto" ? "auto" : isOwn ? "differs by span" : undefined,
+      set: (value) => store.edit(setTension(store.doc, null, value), { merge: "tension:all" }),
+      ...this.sliding,
     });
-    return h("label", { class: "field" }, h("span", { class: "field-name" }, "Tension", output), slider, h("span", { class: "scale-ends" }, h("span", {}, "loose"), h("span", {}, "straight")));
+  }
+
+  /** More clearance than is asked for, where it costs little time. */
+  preferred() {
+    const { store } = this.app;
+    const value = Number(store.doc.robot?.prefer_clearance_m ?? 0) || 0;
+    return slider({
+      label: "Clearance liked beyond that", value, min: 0, max: Math.max(MOST_PREFERRED_M, Math.ceil(value)), step: 0.05,
+      words: (more) => `${more.toFixed(2)} m`, ends: ["none", "where it costs little time"],
+      set: (more) => this.set(["robot", "prefer_clearance_m"], more || undefined),
+      ...this.sliding,
+    });
   }
 
   bounds() {

@@ -102,7 +102,7 @@ export class Summary {
     const { forced } = entry; // of the plan that is shown: what is being edited may ask for another
     const side = (/** @type {"left"|"right"} */ which) => {
       const candidate = entry.candidates.find((/** @type {any} */ c) => c.side === which);
-      const text = candidate?.length ? metres(candidate.length, 1) : forced && forced !== which ? "forbidden" : candidate?.impossible ? "blocked" : "–";
+      const text = candidate?.length ? `${metres(candidate.length, 1)}, ${seconds(candidate.duration)}` : forced && forced !== which ? "forbidden" : candidate?.impossible ? "blocked" : "–";
       return h("button", {
         type: "button", class: "side", "aria-pressed": String(!!candidate?.chosen), disabled: !entry.forceable,
         "aria-label": `pass ${name} on the ${which}, ${text}`, title: candidate?.impossible ?? `pass on the ${which}`,

@@ -1,0 +1,56 @@
+"""``optimise: length`` keeps the length near to that of the shortest path there is."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import dijkstra
+
+import viaspline as vs
+
+REQUIRED, REACH = 2.0, 1.0005
+CHORDS = 32  # of a quarter of a circle: what is inflated is a little too small
+
+
+def _world(seed: int) -> list[tuple[float, float, float]]:
+    """Discs, none near another or the ends of the route: x, y, radius [m]."""
+    random, found = np.random.default_rng(seed), [(60.0, 0.7, 9.0)]
+    while len(found) < 5:
+        x, y, radius = random.uniform((15, -35, 4), (105, 35, 12))
+        if min(x, 120 - x) - radius < 4 and abs(y) - radius < 4:
+            continue
+        if all(np.hypot(x - a, y - b) > radius + c + 6 for a, b, c in found):
+            found.append((float(x), float(y), float(radius)))
+    return found
+
+
+def _shortest(discs: list[tuple[float, float, float]]) -> float:
+    """The shortest path among inflated discs as polygons, by what sees what [m]."""
+    grown = [shapely.Point(x, y).buffer(r + REQUIRED, CHORDS) for x, y, r in discs]
+    inner = shapely.union_all([one.buffer(-1e-6) for one in grown])
+    rings = [shapely.get_coordinates(one.exterior)[:-1] for one in grown]
+    places = np.vstack([[[0.0, 0.0], [120.0, 0.0]], *rings])
+    a, b = np.triu_indices(len(places), 1)
+    lines = shapely.linestrings(np.stack((places[a], places[b]), axis=1))
+    shapely.prepare(inner)
+    seen = ~shapely.intersects(inner, lines)
+    lengths = np.hypot(*(places[a] - places[b]).T)[seen]
+    graph = csr_matrix((lengths, (a[seen], b[seen])), shape=(len(places),) * 2)
+    return float(dijkstra(graph, directed=False, indices=0)[1])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_length_is_within_a_two_thousandth_of_the_shortest(seed: int) -> None:
+    discs = _world(seed)
+    mission = vs.Mission.model_validate(
+        {
+            "world": {"known": [{"circle": {"center": [x, y], "radius": r}} for x, y, r in discs]},
+            "robot": {"radius_m": 1.5, "clearance_m": 0.5},
+            "route": {"start": [0, 0], "goal": [120, 0], "optimise": "length"},
+        }
+    )
+    plan = vs.plan(mission)
+    assert plan.ledger
+    assert 0.9995 * _shortest(discs) <= plan.path.length <= REACH * _shortest(discs)
