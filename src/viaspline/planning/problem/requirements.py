@@ -11,7 +11,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec, TurnOnSpot
 from viaspline.mission.spline_spec import SplineSpec, Tangents
 from viaspline.planning.problem.objective import Objective
-from viaspline.planning.problem.pace import Pace
+from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.work_budget import WorkBudget
 
 LEAST_KEPT_M = 1e-5  # even by a point without clearance, so that touching is not crossing
