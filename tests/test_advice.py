@@ -117,7 +117,7 @@ def test_advice_is_never_worse_than_what_is_tried_by_hand_or_stands(asked: vs.Mi
     assert not any(is_worse(auto, other) for other in by_hand)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
 @given(missions())
 def test_what_is_advised_keeps_clear_and_to_the_turning_circle(asked: vs.Mission) -> None:
     try:
@@ -219,6 +219,15 @@ def test_auto_plans_with_what_is_suggested(closed: bool) -> None:
 def test_auto_states_a_tension() -> None:
     tank = {"circle": {"center": [38, 16], "radius": 3}}
     assert vs.plan(mission(known=[tank])).mission.spline.tension is not None
+
+
+def test_that_no_tension_at_all_is_faster_is_said() -> None:
+    tank = {"circle": {"center": [38, 16], "radius": 3}}
+    advice = vs.advise_tension(mission(known=[tank]))
+    assert advice.unstated.cost == outcome(mission(None, known=[tank]))
+    gained = advice.chosen.cost[0] - advice.unstated.cost[0]
+    assert ("With none stated" in advice_words(advice)) == (gained >= 0.05)
+    assert advice.suggested is not None
 
 
 def test_spans_have_tensions_of_their_own_where_that_is_faster() -> None:

@@ -86,6 +86,8 @@ class TensionAdvice:
     Attributes:
         trials: What was planned, one tension for all spans first.
         stands: What stands in the mission; None if that is ``auto``.
+        unstated: What comes of none stated, so that lines and turns compete with the spline; it is
+            suggested only where that is what stands in the mission.
         chosen: The one that is suggested.
         spans: The via points before and after each span, m of them.
         tensions: Eq. (7)'s t that were looked at, shape (n,).
@@ -94,6 +96,7 @@ class TensionAdvice:
 
     trials: tuple[TensionTrial, ...]
     stands: TensionTrial | None
+    unstated: TensionTrial
     chosen: TensionTrial
     spans: tuple[tuple[str, str], ...]
     tensions: Floats
@@ -172,7 +175,7 @@ def advise_tension(
     basis = [] if stands is None else [stands]
     if has_line(mission.route):  # whose line has no tension
         basis = basis or [_trial(mission, world, 0.0)]
-        return _advice(mission, basis, stands, _best(basis, basis), tried, None)
+        return _advice(mission, basis, (stands, basis[0]), _best(basis, basis), tried, None)
     by_hand = [t for t in REFERENCES if stands is None or t != stands.tension]
     basis += [_trial(mission, world, t) for t in by_hand]
     best = _best(basis, basis)
@@ -182,20 +185,22 @@ def advise_tension(
     alike = [trial for trial in trials if not math.isnan(trial.level)]
     fastest = min(alike, key=lambda trial: trial.cost, default=best)
     trials += _refined(mission, world, effects, fastest)
-    return _advice(mission, trials, stands, _best(trials, basis), tried, effects)
+    is_bare = stands is not None and stands.tension is None
+    unstated = stands if is_bare and stands else _trial(mission, world, None)
+    return _advice(mission, trials, (stands, unstated), _best(trials, basis), tried, effects)
 
 
 def _advice(
     mission: Mission,
     trials: Sequence[TensionTrial],
-    stands: TensionTrial | None,
+    beside: tuple[TensionTrial | None, TensionTrial],
     chosen: TensionTrial,
     tried: Floats,
     effects: SpanTensions | None,
 ) -> TensionAdvice:
     names = [via.name for via in via_sequence_of(_with(mission, 0.0)).vias]
     names += names[:1] if mission.route.closed else []
-    return TensionAdvice(tuple(trials), stands, chosen, tuple(pairwise(names)), tried, effects)
+    return TensionAdvice(tuple(trials), *beside, chosen, tuple(pairwise(names)), tried, effects)
 
 
 def _checked(tensions: Sequence[float]) -> Floats:
@@ -254,7 +259,7 @@ def _effects(mission: Mission, world: World, tried: Floats, error: float) -> Spa
 def _explored(
     mission: Mission, world: World, effects: SpanTensions, known: Iterable[TensionTrial]
 ) -> list[TensionTrial]:
-    """Plans with one tension for all spans, where the spline itself can be driven.
+    """Plans with one tension for all spans, where the spline itself can be driven on one of them.
 
     Elsewhere lines and turns are laid, which have no tension; but for the paper's own curve.
     """
@@ -262,17 +267,22 @@ def _explored(
     return [
         _trial(mission, world, t)
         for t in effects.tensions.tolist()
-        if t not in there and (effects.fits(t) or effects.requirements.is_cardinal)
+        if t not in there and (effects.fits_any(t) or effects.requirements.is_cardinal)
     ]
 
 
 def _refined(
     mission: Mission, world: World, effects: SpanTensions, common: TensionTrial
 ) -> list[TensionTrial]:
-    """A tension for each span, the fastest and a gentler one, begun at the best common one."""
+    """A tension for each span, fast or gentler, begun at the fastest common one.
+
+    Spans that are blocked with that one get another, with which they aren't, or stay as they are:
+    the lines and turns that are laid there may be faster.
+    """
     begin = int(effects.nearest(np.nan_to_num(common.level)))
     rows = {
-        tuple(effects.tensions[effects.gentle(begin, spare)].tolist())
+        tuple(effects.tensions[effects.gentle(begin, spare, changed)].tolist())
+        for changed in (np.asarray(effects.allowed.any(axis=1)), effects.allowed[:, begin])
         for spare in (0.0, 0.5 * SPARE_SHARE)
     }
     return [_trial(mission, world, row) for row in sorted(rows) if len(set(row)) > 1]

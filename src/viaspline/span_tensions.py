@@ -92,6 +92,10 @@ class SpanTensions:
         taken = np.broadcast_to(self.nearest(tension), (len(self.allowed),))
         return bool(self.allowed[np.arange(len(taken)), taken].all())
 
+    def fits_any(self, tension: float) -> bool:
+        """Whether any span can be driven with a tension."""
+        return bool(self.allowed[:, int(self.nearest(tension))].any())
+
     def times(self, taken: Ints, span: int) -> Floats:
         """The time over a span and its neighbours, with each tension of that span [s], shape (n,).
 
@@ -122,16 +126,17 @@ class SpanTensions:
         times = np.array([self.times(taken, k) for k in range(len(taken))])
         return np.asarray(times - times.min(axis=1, keepdims=True))
 
-    def gentle(self, common: int, spare: float) -> Ints:
+    def gentle(self, common: int, spare: float, changed: Flags) -> Ints:
         """Which tension each span has, the gentlest of those that are nearly the fastest, (m,).
 
         Args:
-            common: The tension that all spans begin with, and keep where none is allowed.
+            common: The tension that all spans begin with.
             spare: Part of a span's time that may be spent on a gentler one.
+            changed: Which spans get another, of those that are allowed, shape (m,).
         """
         taken = np.full(len(self.allowed), common)
         for _ in range(SWEEPS):
-            for k in np.flatnonzero(self.allowed.any(axis=1)).tolist():
+            for k in np.flatnonzero(changed).tolist():
                 times = np.where(self.allowed[k], self.times(taken, k), np.inf)
                 fast = times <= (1.0 + spare / WINDOW_SPANS) * times.min()
                 peaks = np.where(fast, np.round(self.curvatures[k], 9), np.inf)

@@ -155,7 +155,7 @@ def _lines(
             effects.tensions, np.where(effects.allowed[k], row, np.nan), color=colour,
             linewidth=1.4, linestyle=dashes, label=label if k < MAX_SPANS_NAMED else more,
         )  # fmt: skip
-        if advice.matters and advice.keeps_spline:
+        if advice.matters and advice.suggested is not None and effects.allowed[k, taken[k]]:
             axes.plot(
                 effects.tensions[taken[k]], row[taken[k]], marker="o", markersize=5.5, zorder=5,
                 markerfacecolor=colour, markeredgecolor=style.INK, markeredgewidth=0.8,
