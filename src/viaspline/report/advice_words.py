@@ -36,7 +36,7 @@ def advice_words(advice: TensionAdvice) -> str:
     tension = advice.suggested
     take = "state no tension" if tension is None else f"tension {tension_words(tension)}"
     if advice.effects is not None and not advice.keeps_spline:
-        take += ", with lines and turns where the spline is too near or too sharp"
+        take += ", lines and turns where that is blocked or too sharp"
     drive = f"{seconds(time)}, at most {peak:.3g} 1/m"
     return f"Suggested: {take}: {drive}{_gain(advice)}.{_unstated(advice)}"
 

@@ -5,6 +5,8 @@ Tested through ``test_advice``.
 
 from __future__ import annotations
 
+from textwrap import fill
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,13 +18,14 @@ from viaspline.report.advice_words import advice_words, tension_words
 from viaspline.report.canvas import any_name, new_figure, png, tidy
 from viaspline.span_tensions import SpanTensions
 
+WORDS_WIDTH = 110  # characters in a line below the title
 MAX_SPANS_NAMED = 10  # spans in the legend
 SPAN_COLOURS = (
     "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8c6d31", "#6f7985",
 )  # fmt: skip
 SPAN_DASHES = ("-", (0, (5, 2)), (0, (1, 1.5)))
 FAINT_ALPHA = 0.25
-WIDTH, HEIGHT, COLUMN = 8.4, 6.9, 2.5  # [inch]
+WIDTH, HEIGHT, COLUMN = 8.4, 7.05, 2.5  # [inch]
 LOG_FROM = 20.0  # times the median from which a panel has a logarithmic scale
 FLAT_SHARE = 1e-6  # of what is shown, below which a panel's range is opened up
 
@@ -41,8 +44,9 @@ def tension_picture(advice: TensionAdvice, name: str) -> bytes:
         across, 1 - 0.28 / HEIGHT, f"{style.short(name, 48)}: what tension does",
         size=style.TITLE_PT, weight="bold", color=style.INK, va="center", parse_math=False,
     )  # fmt: skip
-    figure.text(across, 1 - 0.56 / HEIGHT, advice_words(advice), size=style.TEXT_PT,
-                color=style.MUTED, va="center", parse_math=False)  # fmt: skip
+    words = fill(advice_words(advice), WORDS_WIDTH)
+    figure.text(across, 1 - 0.48 / HEIGHT, words, size=style.TEXT_PT,
+                color=style.MUTED, va="top", parse_math=False)  # fmt: skip
     _drives(figure, advice)
     if advice.effects is not None:
         _spans(figure, advice, advice.effects)
