@@ -1,199 +1,306 @@
-"""What each span's tension does to length, clearance, curvature and time, and which to take."""
+"""Which tension to take: whole plans with many of them, compared in time, then peak curvature."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
-from viaspline.curve.certificate import PROOF_SLACK_M
-from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import GeometryError
+from viaspline.errors import GeometryError, PlanningError
 from viaspline.handed_in import check_kind, numbers_from
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.clearance.disc import STILL, tightest
-from viaspline.kernels.curve.measure import length_and_curvature
-from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.measure_drivability import least_radius
 from viaspline.mission.model import Mission
+from viaspline.mission.spline_spec import LOOSEST_TENSION, POLYLINE_TENSION, SplineSpec
+from viaspline.mission.strip import has_line
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.via_sequence import Leg, ViaSequence, lay, via_sequence_of
-from viaspline.trajectory.limits import Limits, Station
-from viaspline.trajectory.retime import retime
+from viaspline.planning.problem.via_sequence import via_sequence_of
+from viaspline.span_tensions import SpanTensions
+from viaspline.whole_plan import Plan, in_order, whole_plan
 from viaspline.world.world import World
 
 TRIED_TENSIONS = (-0.5, -0.3, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)
-MAX_TIME_SHARE = 0.02  # part of a span's time that may be spent on a rounder curve
-CLEARANCE_TOLERANCE_M = 1e-3  # of a clearance [m]
+REFERENCES = (0.0, -0.5, 0.5)
+"""Tensions that anybody would try by hand: advice is never worse than any of them."""
+SPARE_SHARE = 1e-3
+"""Part of the time that may be spent on a gentler path."""
+SAME_SHARE = 1e-6
+"""Part of a time or a curvature by which two plans that are the same may differ."""
+
+Tension = float | tuple[float, ...] | None
+"""One for all spans, one for each, or none stated."""
+
+
+@dataclass(frozen=True, eq=False)
+class TensionTrial:
+    """A tension, and the whole plan with it.
+
+    Attributes:
+        tension: One for all spans, one for each; None where none is stated, and turns compete.
+        plan: The plan; None if there is none.
+        error: Why there is none.
+    """
+
+    tension: Tension
+    plan: Plan | None
+    error: PlanningError | GeometryError | None = None
+
+    @property
+    def level(self) -> float:
+        """The tension that all spans have; not a number where they differ or none is stated."""
+        return self.tension if isinstance(self.tension, float) else math.nan
+
+    @cached_property
+    def cost(self) -> tuple[float, float]:
+        """The time of the drive [s], and the peak curvature [1/m]; infinite without a plan."""
+        if self.plan is None:
+            return np.inf, np.inf
+        return self.plan.trajectory.duration, self.plan.path.max_curvature()[0]
+
+    @property
+    def drives_well(self) -> bool:
+        """Whether there is a plan, whose path drives well."""
+        return self.plan is not None and self.plan.drivability.verdict == "good"
+
+    def is_same_as(self, other: TensionTrial) -> bool:
+        """Whether it makes no difference which of the two is driven."""
+        if self.plan is None or other.plan is None:
+            return self.plan is other.plan
+        return bool(np.allclose(self.cost, other.cost, rtol=SAME_SHARE, atol=SAME_SHARE))
 
 
 @dataclass(frozen=True, eq=False)
 class TensionAdvice:
-    """What tensions do, before any detour, and which are suggested.
+    """Which tension is suggested, and what it is compared with.
 
-    A span's tension changes that span alone: the curve and its tangents' directions elsewhere
-    stay. Only the time depends on its neighbours; it is that of the whole drive, from rest to rest
-    with its stations, when this one span is changed and all others have the best common tension.
-
-    Suggested is, span by span, of all tensions whose clearance holds and whose bends are no
-    sharper than the turning circle, the one with the gentlest peak curvature among those that cost
-    no more than 2 % of the span's time over the fastest; the shorter one of equals. Where no
-    tension has the clearance a detour is needed, and the clearance is left out; where none keeps
-    the turning circle, the roundest is taken. If all suggestions together are slower than the best
-    common tension by more than that, the common one is suggested throughout.
+    Compared are whole plans, as ``plan`` makes them: round what stands in the way, proven, timed.
+    What can't be planned isn't suggested. The suggested plan is no slower than any with the
+    tension -0.5, 0 or 0.5 for all spans, nor than what stands in the mission; and no sharper than
+    one of them that is as fast. Another tension than these is taken only if its path drives well,
+    and the gentlest of those that cost no more than a thousandth of the time over the fastest.
 
     Attributes:
+        trials: What was planned, one tension for all spans first.
+        stands: What stands in the mission; None if that is ``auto``.
+        unstated: What comes of none stated, so that lines and turns compete with the spline; it is
+            suggested only where that is what stands in the mission.
+        chosen: The one that is suggested.
         spans: The via points before and after each span, m of them.
-        tensions: Eq. (7)'s t, shape (n,).
-        lengths: [m], shape (m, n).
-        clearances: Proven distance between the body and everything known [m], shape (m, n);
-            infinite when there is nothing.
-        curvatures: Proven peak [1/m], shape (m, n).
-        durations: Of the whole drive [s], shape (m, n).
-        common: The same for all spans at once: lengths, clearances, curvatures and durations,
-            shape (4, n).
-        best: The best tension for all spans at once.
-        suggested: A tension for each span, shape (m,).
-        duration: Of the drive with what is suggested [s].
-        required: Clearance that was asked for [m].
-        turn_radius: Of the tightest circle that the robot can drive [m]; None: no limit.
+        tensions: Eq. (7)'s t that were looked at, shape (n,).
+        effects: What they do to each span of the spline itself; None along a corridor's line.
     """
 
+    trials: tuple[TensionTrial, ...]
+    stands: TensionTrial | None
+    unstated: TensionTrial
+    chosen: TensionTrial
     spans: tuple[tuple[str, str], ...]
     tensions: Floats
-    lengths: Floats
-    clearances: Floats
-    curvatures: Floats
-    durations: Floats
-    common: Floats
-    best: float
-    suggested: Floats
-    duration: float
-    required: float
-    turn_radius: float | None
+    effects: SpanTensions | None
+
+    @property
+    def plan(self) -> Plan:
+        """The plan with what is suggested."""
+        assert self.chosen.plan is not None  # else it wouldn't be suggested
+        return self.chosen.plan
+
+    @property
+    def suggested(self) -> Tension:
+        """One for all spans, one for each, or None: state none."""
+        return self.chosen.tension
+
+    @property
+    def matters(self) -> bool:
+        """Whether it makes any difference what tension is taken."""
+        return not all(trial.is_same_as(self.chosen) for trial in self.trials)
+
+    @property
+    def common(self) -> tuple[TensionTrial, ...]:
+        """The trials with one tension for all spans, in order."""
+        alike = [trial for trial in self.trials if not math.isnan(trial.level)]
+        return tuple(sorted(alike, key=lambda trial: trial.level))
+
+    @property
+    def keeps_spline(self) -> bool:
+        """Whether the spline itself can be driven with what is suggested, so that no turns are."""
+        if self.effects is None or self.suggested is None:
+            return False
+        return self.effects.fits(self.by_span)
+
+    @property
+    def by_span(self) -> Floats:
+        """The tension of each span as suggested, shape (m,); not a number if none is stated."""
+        value = np.nan if self.suggested is None else self.suggested
+        return np.broadcast_to(np.asarray(value, np.float64), (len(self.spans),))
 
 
 def advise_tension(
     mission: Mission, tensions: Sequence[float] = TRIED_TENSIONS, *, world: World | None = None
 ) -> TensionAdvice:
-    """Try tensions on a mission, all spans at once and span by span.
+    """Plan a mission with one tension after the other, and say which to take.
 
     Args:
-        mission: Whatever its own tension is.
-        tensions: At most 1, in order.
-        world: What the mission has on its map, if it is there already.
+        mission: What stands in it is compared as well.
+        tensions: At most 1, at least -199, in order: looked at beside -0.5, 0 and 0.5.
+        world: What the mission has on its map, if it is there already; its via points are in the
+            order in which they are served then.
+
+    Raises:
+        NoPathError: When there is no path.
+        GaveUpError: When none was found with any of -0.5, 0, 0.5 and what stands in the mission.
+        GeometryError: When the tensions are no such numbers, or the robot can't follow.
 
     Example:
         >>> mission = Mission.model_validate({
-        ...     "robot": {"max_lateral_accel_mps2": 0.5},
         ...     "route": {"start": [0, 0], "via": [[30, 0], [30, 30]], "goal": [0, 30]},
+        ...     "spline": {"tension": -0.5},
         ... })
         >>> advice = advise_tension(mission)
-        >>> advice.suggested.shape, bool((advice.curvatures[:, 0] < advice.curvatures[:, -1]).all())
-        ((3,), True)
+        >>> advice.matters, advice.chosen.cost[0] <= advice.stands.cost[0]
+        (True, True)
+        >>> straight = Mission.model_validate({"route": {"start": [0, 0], "goal": [30, 0]}})
+        >>> advise_tension(straight).matters
+        False
     """
     check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
-    plain = mission.spline.model_copy(update={"tension": 0.0, "slack": None})
-    mission = mission.model_copy(update={"spline": plain})
-    if world is not None:
-        check_kind("world", world, World, "give World(obstacles)")
-    world = World.known(mission) if world is None else world
-    sequence, requirements = via_sequence_of(mission), Requirements.of(mission)
-    limits = limits_of(mission.robot)
+    tried = _checked(tensions)
+    if world is None:
+        mission, world = in_order(mission)
+    check_kind("world", world, World, "give World(obstacles)")
+    stands = None if mission.spline.tension == "auto" else _as_it_stands(mission, world)
+    basis = [] if stands is None else [stands]
+    if has_line(mission.route):  # whose line has no tension
+        basis = basis or [_trial(mission, world, 0.0)]
+        return _advice(mission, basis, (stands, basis[0]), _best(basis, basis), tried, None)
+    by_hand = [t for t in REFERENCES if stands is None or t != stands.tension]
+    basis += [_trial(mission, world, t) for t in by_hand]
+    best = _best(basis, basis)
+    assert best.plan is not None
+    effects = _effects(mission, world, tried, best.plan.tracking_error)
+    trials = [*basis, *_explored(mission, world, effects, basis)]
+    alike = [trial for trial in trials if not math.isnan(trial.level)]
+    fastest = min(alike, key=lambda trial: trial.cost, default=best)
+    trials += _refined(mission, world, effects, fastest)
+    is_bare = stands is not None and stands.tension is None
+    unstated = stands if is_bare and stands else _trial(mission, world, None)
+    return _advice(mission, trials, (stands, unstated), _best(trials, basis), tried, effects)
+
+
+def _advice(
+    mission: Mission,
+    trials: Sequence[TensionTrial],
+    beside: tuple[TensionTrial | None, TensionTrial],
+    chosen: TensionTrial,
+    tried: Floats,
+    effects: SpanTensions | None,
+) -> TensionAdvice:
+    names = [via.name for via in via_sequence_of(_with(mission, 0.0)).vias]
+    names += names[:1] if mission.route.closed else []
+    return TensionAdvice(tuple(trials), *beside, chosen, tuple(pairwise(names)), tried, effects)
+
+
+def _checked(tensions: Sequence[float]) -> Floats:
     tried = np.array(numbers_from("tensions", tensions))
-    if tried.ndim != 1 or not tried.size or not np.isfinite(tried).all():
-        raise GeometryError(f"tensions have shape {tried.shape}; give a list of finite numbers")
-    curves = np.array([_laid(sequence, np.full(len(sequence.legs), t)) for t in tried])
-    grouped = curves.reshape(len(tried), len(sequence.legs), sequence.pieces, *curves.shape[2:])
-    table = np.array([[_measured(span, world, requirements) for span in row] for row in grouped])
-    lengths, clearances, curvatures = table.transpose(2, 1, 0)
-    times = np.array([_duration(sequence, row, limits) for row in grouped])
-    common = np.vstack((lengths.sum(0), clearances.min(0), curvatures.max(0), times))
-    best = _choice(common, MAX_TIME_SHARE * times.min(), requirements)
-    durations = np.empty_like(lengths)
-    for k in range(len(lengths)):
-        for j in range(len(tried)):
-            changed = grouped[best].copy()
-            changed[k] = grouped[j, k]
-            durations[k, j] = times[best] if j == best else _duration(sequence, changed, limits)
-    shares = lengths[:, best] / lengths[:, best].sum()
-    chosen = np.array([
-        _choice(
-            np.vstack((lengths[k], clearances[k], curvatures[k], durations[k])),
-            MAX_TIME_SHARE * share * times[best], requirements,
+    is_list = tried.ndim == 1 and tried.size > 0
+    if not is_list or not ((tried >= LOOSEST_TENSION) & (tried <= POLYLINE_TENSION)).all():
+        raise GeometryError(
+            f"tensions have shape {tried.shape}; give a list of numbers from "
+            f"{LOOSEST_TENSION:g} to {POLYLINE_TENSION:g}"
         )
-        for k, share in enumerate(shares)
-    ])  # fmt: skip
-    together = _duration(sequence, grouped[chosen, np.arange(len(chosen))], limits)
-    if together > (1.0 + MAX_TIME_SHARE) * times[best]:
-        chosen, together = np.full(len(chosen), best), float(times[best])
-    return TensionAdvice(
-        spans=tuple((a.name, b.name) for a, b in map(sequence.ends, range(len(sequence.legs)))),
-        tensions=tried, lengths=lengths, clearances=clearances, curvatures=curvatures,
-        durations=durations, common=common, best=float(tried[best]), suggested=tried[chosen],
-        duration=together, required=requirements.kept, turn_radius=requirements.turn_radius,
-    )  # fmt: skip
+    return np.unique(tried)
 
 
-def with_advice(mission: Mission, world: World) -> Mission:
-    """The mission with numbers where its tension is ``auto``.
-
-    Args:
-        mission: What is asked for.
-        world: What it has on its map.
-    """
-    if mission.spline.tension != "auto":
-        return mission
-    corridor = mission.route.corridor
-    if corridor is not None and corridor.line is not None:
-        tension: float | tuple[float, ...] = 0.0  # the corridor's line has no tension
-    else:
-        tension = tuple(advise_tension(mission, world=world).suggested.tolist())
-    spline = mission.spline.model_copy(update={"tension": tension})
+def _with(mission: Mission, tension: Tension) -> Mission:
+    spline = mission.spline.model_copy(update={"tension": tension, "slack": None})
     return mission.model_copy(update={"spline": spline})
 
 
-def _laid(sequence: ViaSequence, tensions: Floats) -> Floats:
-    legs = tuple(
-        Leg(leg.points, np.full_like(leg.slack, (1.0 - t) / 2.0))
-        for leg, t in zip(sequence.legs, tensions.tolist(), strict=True)
-    )
-    return lay(replace(sequence, legs=legs))
+def _trial(mission: Mission, world: World, tension: Tension) -> TensionTrial:
+    return _planned(_with(mission, tension), world, tension)
 
 
-def _measured(span: Floats, world: World, requirements: Requirements) -> tuple[float, float, float]:
-    """Length, proven clearance of the body and peak curvature of a span's cubics."""
-    span = np.ascontiguousarray(span)
-    lower, upper = tightest(world.packed, span, STILL, CLEARANCE_TOLERANCE_M)[:2]
-    length, peak = length_and_curvature(span)
-    gap = lower if np.isfinite(lower) else upper
-    return float(length), float(gap) - requirements.radius, float(peak)
+def _as_it_stands(mission: Mission, world: World) -> TensionTrial:
+    return _planned(mission, world, stated(mission.spline))
 
 
-def _duration(sequence: ViaSequence, spans: Floats, limits: Limits) -> float:
-    """Of the whole drive over the cubics of all spans, (m, pieces, 4, d), with its stations [s]."""
-    curve = PiecewiseCubic(spans.reshape(-1, *spans.shape[2:]))
-    ends = sequence.pieces * np.arange(len(spans) + 1)
-    vias = [*sequence.vias, sequence.vias[0]] if sequence.closed else sequence.vias
-    stops = [
-        Station(float(curve.distance(float(u))), via.dwell, via.name)
-        for via, u in zip(vias, ends, strict=True)
-        if via.dwell > 0.0
+def _planned(mission: Mission, world: World, tension: Tension) -> TensionTrial:
+    try:
+        return TensionTrial(tension, whole_plan(mission, world))
+    except (PlanningError, GeometryError) as error:
+        return TensionTrial(tension, None, error)
+
+
+def stated(spline: SplineSpec) -> Tension:
+    """The tension that stands in a mission, by either of its names.
+
+    >>> stated(SplineSpec(slack=0.25)), stated(SplineSpec(tension=(0.0, 0.5))), stated(SplineSpec())
+    (0.5, (0.0, 0.5), None)
+    """
+    assert spline.tension != "auto", "what is to be advised doesn't stand there"
+    if spline.slack is None:
+        return float(spline.tension) if isinstance(spline.tension, int) else spline.tension
+    if isinstance(spline.slack, tuple):
+        return tuple(1.0 - 2.0 * slack for slack in spline.slack)
+    return 1.0 - 2.0 * spline.slack
+
+
+def _effects(mission: Mission, world: World, tried: Floats, error: float) -> SpanTensions:
+    """What tensions do to the spline, which keeps as much as its plan did."""
+    plain = _with(mission, 0.0)
+    requirements = Requirements.of(plain, error)
+    radius = least_radius(mission.robot)
+    return SpanTensions.of(via_sequence_of(plain), world, requirements, radius, tried)
+
+
+def _explored(
+    mission: Mission, world: World, effects: SpanTensions, known: Iterable[TensionTrial]
+) -> list[TensionTrial]:
+    """Plans with one tension for all spans, where the spline itself can be driven on one of them.
+
+    Elsewhere lines and turns are laid, which have no tension; but for the paper's own curve.
+    """
+    there = {trial.tension for trial in known}
+    return [
+        _trial(mission, world, t)
+        for t in effects.tensions.tolist()
+        if t not in there and (effects.fits_any(t) or effects.requirements.is_cardinal)
     ]
-    return retime(curve, limits, stops).duration
 
 
-def _choice(rows: Floats, spare: float, requirements: Requirements) -> int:
-    """Which tension is suggested: see ``TensionAdvice``."""
-    length, clearance, curvature, duration = rows
-    allowed = clearance >= requirements.kept - PROOF_SLACK_M
-    if not allowed.any():
-        allowed = np.ones(length.size, np.bool_)
-    if requirements.turn_radius is not None:
-        round_enough = allowed & (curvature <= 1.0 / requirements.turn_radius)
-        if not round_enough.any():
-            return int(np.where(allowed, curvature, np.inf).argmin())
-        allowed = round_enough
-    fast = allowed & (duration <= duration[allowed].min() + spare)
-    order = np.lexsort((length, np.round(curvature, 9), ~fast))
-    return int(order[0])
+def _refined(
+    mission: Mission, world: World, effects: SpanTensions, common: TensionTrial
+) -> list[TensionTrial]:
+    """A tension for each span, fast or gentler, begun at the fastest common one.
+
+    Spans that are blocked with that one get another, with which they aren't, or stay as they are:
+    the lines and turns that are laid there may be faster.
+    """
+    begin = int(effects.nearest(np.nan_to_num(common.level)))
+    rows = {
+        tuple(effects.tensions[effects.gentle(begin, spare, changed)].tolist())
+        for changed in (np.asarray(effects.allowed.any(axis=1)), effects.allowed[:, begin])
+        for spare in (0.0, 0.5 * SPARE_SHARE)
+    }
+    return [_trial(mission, world, row) for row in sorted(rows) if len(set(row)) > 1]
+
+
+def _best(trials: Sequence[TensionTrial], basis: Sequence[TensionTrial]) -> TensionTrial:
+    """The one that is suggested: see ``TensionAdvice``.
+
+    Args:
+        trials: What was planned; of equals, the first.
+        basis: Those among them than which it must not be worse.
+    """
+    bar = min(trial.cost[0] for trial in basis)
+    if not np.isfinite(bar) and basis[0].error is not None:
+        raise basis[0].error
+    fair = [trial for trial in trials if trial in basis or trial.drives_well]
+    fastest = min(trial.cost[0] for trial in fair)
+    limit = min(bar * (1.0 + SAME_SHARE), fastest * (1.0 + SPARE_SHARE))
+    near = [trial for trial in fair if trial.cost[0] <= limit]
+    peak = min(trial.cost[1] for trial in near)
+    return next(trial for trial in near if trial.cost[1] <= peak * (1.0 + SAME_SHARE) + SAME_SHARE)

@@ -203,9 +203,12 @@ def plan(mission: Path, out: Path | None, quiet: bool) -> None:
 @OUT
 @QUIET
 def tension(mission: Path, out: Path | None, quiet: bool) -> None:
-    r"""Advise a tension for each span: what it does to length, clearance, curvature and time.
+    r"""Advise a tension: plan with many of them, and say what each does and which to take.
 
-    Writes tension.png. In a mission, spline: {tension: auto} takes what is suggested.
+    Compared are whole plans, in time first, then in peak curvature. What is suggested is no worse
+    than -0.5, 0 or 0.5 for all spans, nor than what stands in the mission; where tension makes no
+    difference, that is what it says. Writes tension.png. In a mission, spline: {tension: auto}
+    takes what is suggested.
 
     \b
     Example:
@@ -218,7 +221,7 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
     ):
         with watch.stage("advise", "trying tensions"):
             from viaspline.advice import advise_tension
-            from viaspline.planner import in_order
+            from viaspline.whole_plan import in_order
 
             served, world = in_order(asked)
             advice = advise_tension(served, world=world)
@@ -227,7 +230,8 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
 
             file = folder.write("tension.png", tension_picture(advice, mission.stem))
     if not quiet:
-        from viaspline.report.terminal_tables import advice_tables, show
+        from viaspline.report.advice_tables import advice_tables
+        from viaspline.report.terminal_tables import show
 
         show(advice_tables(advice, mission.stem))
         _say_written([file])

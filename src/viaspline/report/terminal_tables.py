@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
 from rich import box
 from rich.console import Console, Group, RenderableType
 from rich.table import Table
 
-from viaspline.advice import TensionAdvice
 from viaspline.curve.path import GUIDE
 from viaspline.machine.drivability import Drivability
 from viaspline.planner import Plan
@@ -128,32 +126,6 @@ def _candidate(candidate: Candidate) -> tuple[str, str, str, str, str]:
     bend = "–" if candidate.max_curvature is None else f"{candidate.max_curvature:.3g} 1/m"
     time, length = seconds(candidate.duration), metres(candidate.length, 1)
     return time, length, clearance, bend, "taken" if candidate.chosen else ""
-
-
-def advice_tables(advice: TensionAdvice, name: str) -> RenderableType:
-    """What is suggested for each span, and one tension for all spans at once."""
-    spans = Table(title=f"Tension · {name}", title_justify="left", box=box.SIMPLE_HEAD)
-    for column in ("span", "suggested", "length", "clearance", "peak curvature", "drive"):
-        spans.add_column(column, justify="left" if column == "span" else "right")
-    for k, names in enumerate(advice.spans[:MAX_LIST_LINES]):
-        j = int(np.abs(advice.tensions - advice.suggested[k]).argmin())
-        rows = (advice.lengths, advice.clearances, advice.curvatures, advice.durations)
-        figures = _advised(*(float(row[k, j]) for row in rows))
-        spans.add_row(" → ".join(names), f"{advice.suggested[k]:g}", *figures)
-    if len(advice.spans) > MAX_LIST_LINES:
-        spans.add_row(f"… and {len(advice.spans) - MAX_LIST_LINES} more spans")
-    common = Table(title="All spans at once", title_justify="left", box=box.SIMPLE_HEAD)
-    for column in ("tension", "length", "clearance", "peak curvature", "drive", ""):
-        common.add_column(column, justify="right" if column else "left")
-    for t, row in zip(advice.tensions.tolist(), advice.common.T.tolist(), strict=True):
-        common.add_row(f"{t:g}", *_advised(*row), "best" if t == advice.best else "")
-    together = f"suggested together: {seconds(advice.duration)}; before any detour"
-    return Group(spans, common, together)
-
-
-def _advised(length: float, clearance: float, peak: float, time: float) -> tuple[str, ...]:
-    gap = down(clearance) if np.isfinite(clearance) else "–"
-    return metres(length, 1), gap, f"{peak:.3g} 1/m", seconds(time)
 
 
 def run_tables(run: Run, name: str) -> RenderableType:

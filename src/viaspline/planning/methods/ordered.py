@@ -56,6 +56,7 @@ def methods_for(requirements: Requirements, dimension: int) -> tuple[PathMethod,
     return DISC_METHODS if requirements.is_free_disc else BODY_METHODS
 
 
-def roomy_methods_for(requirements: Requirements) -> tuple[PathMethod, ...]:
+def roomy_methods_for(requirements: Requirements, dimension: int) -> tuple[PathMethod, ...]:
     """The methods that lay paths that keep more than they must: where it is easily done."""
-    return CARDINAL_METHODS if requirements.is_cardinal else DISC_METHODS
+    is_spline = methods_for(requirements, dimension) is SPLINE_METHODS
+    return SPLINE_METHODS if is_spline else DISC_METHODS
