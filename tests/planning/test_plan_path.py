@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 import viaspline as vs
+from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.methods.at_radii import AtRadii
 from viaspline.planning.methods.hybrid_astar_search import HybridAStar
 from viaspline.planning.methods.joint_headings import JointHeadings
@@ -37,6 +39,16 @@ def lay(methods: Any, *route: Any, radius: float | None = 3.0, known: Any = ()) 
 
 def test_a_robot_that_can_follow_any_curve_takes_the_spline() -> None:
     assert lay((SplineAsItIs(),), *LOOP, radius=None).length < 47
+
+
+def test_a_spline_sharper_than_the_robot_remains_where_nothing_rounder_is_found() -> None:
+    spline = lay((SplineAsItIs(),), *LOOP, radius=None)
+    gives_up = AtRadii((NextHomotopyClasses(max_rows=0),))
+    assert np.abs(PiecewiseCubic(spline.spans).curvature(np.linspace(0, 12, 5000))).max() > 2.0
+    assert lay((SplineAsItIs(), gives_up), *LOOP, radius=None).length == spline.length
+    rounder = lay((SplineAsItIs(), gives_up, AtRadii((JointHeadings(),))), *LOOP, radius=None)
+    u = np.linspace(0, len(rounder.spans), 5000)
+    assert np.abs(PiecewiseCubic(rounder.spans).curvature(u)).max() * 0.5 <= 1.0
 
 
 def test_without_a_method_that_can_it_is_given_up_and_all_that_was_tried_is_told() -> None:

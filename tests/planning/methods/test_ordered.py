@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
@@ -81,6 +82,7 @@ def swept_gap(path: vs.Path, footprint: Any, world: vs.World) -> float:
 
 @SEEDS
 @given(st.integers(0, 10_000))
+@example(145)  # a single leg, laid between headings of its ends
 def test_a_path_keeps_turning_circle_clearance_and_via_points(seed: int) -> None:
     asked = random_mission(seed)
     if asked is None:
@@ -153,6 +155,23 @@ def test_a_round_enough_spline_stays_the_spline() -> None:
     places = [[0, 0], [40, 10], [80, 0]]
     free = mission(*places, radius=None, spline={"tangents": "continuous"})
     assert vs.plan(mission(*places)).path.spans.tolist() == vs.plan(free).path.spans.tolist()
+
+
+@settings(deadline=None, derandomize=True)
+@given(
+    st.lists(st.tuples(st.floats(0, 36), st.floats(0, 36)), min_size=3, max_size=5),
+    st.booleans(),
+    st.sampled_from([{"radius_m": 0.4}, {"footprint": [[-0.4, -0.3], [0.5, 0.0], [-0.4, 0.3]]}]),
+)
+@example([(0, 0), (20, 0), (0, 1)], False, {"radius_m": 0.4})
+def test_where_there_is_room_no_turn_is_sharper_than_the_robot(
+    places: list[tuple[float, float]], closed: bool, body: dict[str, Any]
+) -> None:
+    """A spline that hardly turns at all but nearly in place was the faster one for a point."""
+    assume(min(math.dist(a, b) for a, b in combinations(places, 2)) > 7)
+    path = vs.plan(mission(*places, radius=None, closed=closed, robot=body)).path
+    u = np.linspace(*path.domain, int(path.length / 0.002))
+    assert np.abs(path.curvature(u)).max() * 0.4 <= 1.0
 
 
 def test_heights_are_kept_by_lines_and_turns() -> None:

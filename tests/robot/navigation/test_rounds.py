@@ -39,7 +39,7 @@ def disc(x: float, y: float, radius: float, name: str) -> dict[str, Any]:
     return {"name": name, "circle": {"center": [x, y], "radius": radius}}
 
 
-BESIDE = (np.asarray(plan(patrol(1)).path.evaluate(0.6)) + np.array([0.0, 0.2])).tolist()
+BESIDE = (np.asarray(plan(patrol(1)).path.at_distance(36.0)) + np.array([0.0, 0.2])).tolist()
 
 
 def statuses(run: Run) -> list[str]:
@@ -241,7 +241,7 @@ def test_a_search_that_has_no_time_on_a_round_keeps_the_side_that_is_asked_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     for side, sense in (("left", 1.0), ("right", -1.0)):
-        for y in (-sense, 0.0, sense * 1.8):  # the last is only passed on the wrong side
+        for y in (-0.5 * sense, 0.0, sense * 1.8):  # the last is only passed on the wrong side
             rock = {**disc(30, y, 1.0, "rock"), "pass_on": side}
             straight = patrol(4, [rock]).model_copy(update={"spline": SplineSpec(tension=0.95)})
             for limit in (1e-3, 0.1):

@@ -17,7 +17,9 @@ from viaspline.planning.turning.driven_problem import DrivenProblem
 class SplineAsItIs:
     """Takes the spline, if it was not led round anything and the robot can drive it.
 
-    Where the mission doesn't say how taut it is to be, turns may be faster.
+    Where the mission doesn't say how taut it is to be, turns may be faster. A bend that is sharper
+    than the robot itself never is, whatever a time law for points says: it is what remains where
+    nothing else is found.
     """
 
     def lay(self, problem: DrivenProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
@@ -25,5 +27,7 @@ class SplineAsItIs:
         spline_path, needs = problem.cleared.spline_path, problem.requirements
         if problem.cleared.passed or not problem.is_drivable(spline_path.spans):
             return GaveUp(("the spline as it is",))
-        is_asked_for = needs.has_own_tension or not needs.objective.is_time
-        return Found(spline_path, problem.cost(spline_path), is_settled=is_asked_for)
+        if needs.has_own_tension or not needs.objective.is_time:
+            return Found(spline_path, problem.cost(spline_path))
+        cost = problem.cost(spline_path) if problem.is_round(spline_path.spans) else math.inf
+        return Found(spline_path, cost, is_settled=False)

@@ -5,6 +5,7 @@ Tested through ``planning/test_plan_drive``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field, replace
 
@@ -76,6 +77,11 @@ class Requirements:
     def is_free_disc(self) -> bool:
         """Whether a disc drives that can follow any curve."""
         return self.turn_radius is None and self.footprint is None
+
+    @property
+    def outer_radius(self) -> float:
+        """Distance of the body's farthest point from its reference point [m]."""
+        return max((math.hypot(*corner) for corner in self.footprint or ()), default=self.radius)
 
     @property
     def is_cardinal(self) -> bool:

@@ -126,13 +126,20 @@ class DrivenProblem(PathProblem):
     def is_drivable(self, spans: Floats) -> bool:
         """Whether the body keeps clear, and no turn is sharper than the turning circle."""
         limit = self.requirements.turn_radius
-        if limit is not None:
-            flat = np.ascontiguousarray(spans[:, :, :2])
-            is_round = self.sequence.closed and np.array_equal(flat[0, 0], flat[-1, 3])
-            ground = PiecewiseCubic(flat, closed=is_round)  # with the seam: no turn there either
-            if not curvature_bound(ground)[0] * limit <= 1.0:
-                return False
+        if limit is not None and not self._curvature_bound(spans) * limit <= 1.0:
+            return False
         return self.is_clear(spans)
+
+    def is_round(self, spans: Floats) -> bool:
+        """Whether no turn is sharper than the circle round the body, about the reference point."""
+        return self._curvature_bound(spans) * self.requirements.outer_radius <= 1.0
+
+    def _curvature_bound(self, spans: Floats) -> float:
+        """What the curvature is nowhere above [1/m]."""
+        flat = np.ascontiguousarray(spans[:, :, :2])
+        is_closed = self.sequence.closed and np.array_equal(flat[0, 0], flat[-1, 3])
+        ground = PiecewiseCubic(flat, closed=is_closed)  # with the seam: no turn there either
+        return curvature_bound(ground)[0]
 
     def cost(self, spline_path: SplinePath) -> float:
         """What a path is chosen by [s or m]."""

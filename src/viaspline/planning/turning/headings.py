@@ -51,11 +51,13 @@ class HeadingLeg:
         return found
 
     def between(self, start: float, goal: float) -> Bends:
-        """Its bends with headings at both ends [rad]."""
+        """Its bends with headings at both ends [rad]; these are via points 0 and 1 of its own."""
         rows = self.rows.copy()
         rows[[0, -1], HEADING] = start, goal
         rows[[0, -1], SIDE] = 0.0
-        return Bends(rows, np.full(len(rows), DETOUR))
+        vias = np.full(len(rows), DETOUR)
+        vias[[0, -1]] = 0, 1
+        return Bends(rows, vias)
 
 
 @dataclass(frozen=True)
