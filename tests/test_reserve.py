@@ -48,7 +48,7 @@ def test_where_the_error_at_full_lock_would_not_fit_the_turns_are_wider() -> Non
 
 
 def test_where_there_is_room_for_it_the_circle_stays_what_the_steering_allows() -> None:
-    plan = vs.plan(through_a_gate(1.3))
+    plan = vs.plan(through_a_gate(1.6))
     assert plan.mission.robot.min_turn_radius_m is None
     assert plan.tracking_error > 0.5
 

@@ -263,3 +263,9 @@ def test_a_sensor_limits_the_speed_and_one_inside_the_body_is_refused() -> None:
     blind = RobotSpec.model_validate({"sensor": {"range_m": 0.5}})
     with pytest.raises(GeometryError, match="not past the robot's own body"):
         Limits.of(blind)
+
+
+@pytest.mark.parametrize("speed", [0.0, 5e-324, 2.6e-26, 1e-9])
+def test_who_stops_within_the_rounding_of_its_place_stands_already(speed: float) -> None:
+    law = braking(4.267, speed, max_accel=1.0, start_time=12.0)
+    assert law.state_at(12.0)[1] == law.state_at(13.0)[1] == 0.0

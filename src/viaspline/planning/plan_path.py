@@ -11,7 +11,7 @@ from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.methods.clear_spline import ClearSpline
-from viaspline.planning.methods.ordered import PathMethod, methods_for
+from viaspline.planning.methods.ordered import SPLINE_METHODS, PathMethod, methods_for
 from viaspline.planning.problem.method import Found, first_settled
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
@@ -51,7 +51,9 @@ def lay_path(
         sequence = replace(sequence, tangents="continuous")
     requirements.spend(LAY_S)
     asked = PathProblem.of(sequence, world, requirements)
-    asked_methods = methods_for(requirements) if methods is None else methods
+    asked_methods = (
+        methods_for(requirements, len(sequence.vias[0].at)) if methods is None else methods
+    )
     while True:
         spline_path, account = _laid(asked, asked_methods)
         near = [
@@ -73,7 +75,8 @@ def _laid(asked: PathProblem, methods: Sequence[PathMethod]) -> tuple[SplinePath
     outcome = first_settled(methods, problem)
     if not isinstance(outcome, Found):
         raise unlaid(problem, outcome)
-    driven = None if requirements.is_cardinal else partial(as_driven, problem)
+    is_spline = methods is SPLINE_METHODS
+    driven = None if is_spline else partial(as_driven, problem)
     return outcome.value, Account(outcome.value, world, requirements, cleared.passed, driven)
 
 

@@ -8,7 +8,8 @@ Tested through ``test_side_promises``.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -66,9 +67,12 @@ def spans_on_wrong_side(
     ends = [via for via in leg_ends(path) if via.u > u + SAME_U] if indices.size else []
     found: dict[int, str] = {}
     starts = (u, *(via.u for via in ends[:-1]))
+    groups = _groups_of(world, requirements)
     for leg, start, goal in zip(whole_legs(path, u, ends), starts, ends, strict=False):
         ahead = path.section(start, goal.u).spans
-        sides = _sides(WholeLeg(leg.start, leg.goal), indices, world, requirements)
+        sides = AskedSides.of(
+            WholeLeg(leg.start, leg.goal), indices, world, requirements.required, groups
+        )
         for k in np.flatnonzero(sides.crossed(ahead)).tolist():
             found[int(start) + k] = world.name(int(sides.wrong(ahead[k : k + 1])[0]))
     return found
@@ -85,7 +89,9 @@ def refuse_wrong_side(
         world: What is known.
         requirements: What the path keeps.
     """
-    wrong = _sides(leg, sided(world), world, requirements).wrong(piece)
+    groups = _groups_of(world, requirements)
+    sides = AskedSides.of(leg, sided(world), world, requirements.required, groups)
+    wrong = sides.wrong(piece)
     if wrong.size:
         names = tuple(world.name(int(i)) for i in wrong)
         raise GaveUpError(
@@ -97,11 +103,12 @@ def refuse_wrong_side(
         )
 
 
-def _sides(leg: WholeLeg, indices: Ints, world: World, requirements: Requirements) -> AskedSides:
-    required = requirements.required
+def _groups_of(world: World, requirements: Requirements) -> Callable[[], Ints]:
+    """Gives the label of every obstacle's group, (n,); found once, when it is first asked for."""
 
+    @cache
     def groups() -> Ints:
-        labels: Ints = group_labels(world.packed, 2 * required)
+        labels: Ints = group_labels(world.packed, 2 * requirements.required)
         return labels
 
-    return AskedSides.of(leg, indices, world, required, groups)
+    return groups

@@ -1,4 +1,4 @@
-"""The problem of the fastest v² with a limit of the jerk, and Newton's method for it.
+"""The problem of the fastest v² with a limit of the jerk, as Newton's method takes it.
 
 All is in terms of the middle Bernstein coefficients of w = v² on the stretches: a stretch knows its
 own, the one before it and the one after it.
@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.timing.speed_barrier import BarrierTerms, barrier_least, barrier_value
 
 DUALITY_GAP = 2e-4
 """What the barrier keeps of the time, at most, as a part of it."""
@@ -85,7 +86,8 @@ class SpeedProblem:
         limits: Their right-hand sides, shape (n, k); inf where a row is empty.
         change: da/ds, shape (n, 3).
         gauss: w at two places of every stretch, shape (n, 2, 3).
-        rests: Stretches beside a rest: the one that moves next to it, its end there, its width.
+        rests: Stretches beside a rest: the one that moves next to it, and the weight of its
+            coefficient in the time, shape (r, 2).
         order: Place of every coefficient in the banded matrix, shape (n,).
         places: Where the products of what a stretch knows go in its bands, shape (n, 3, 3).
         bands: How many there are.
@@ -100,7 +102,7 @@ class SpeedProblem:
     limits: Floats
     change: Floats
     gauss: Floats
-    rests: tuple[tuple[int, int, float], ...]
+    rests: Floats
     order: Ints
     places: Ints
     bands: int
@@ -122,11 +124,11 @@ class SpeedProblem:
         more, bound = _outer_rows(widths, rows, jerk, ends, start, end)
         x = np.array(_GAUSS)[:, None, None]
         at = (1 - x) ** 2 * ends[:, 2] + 2 * x * (1 - x) * ends[:, 3] + x * x * ends[:, 4]
-        rests: list[tuple[int, int, float]] = []
+        rests = []
         if isinstance(start, Rest):
-            rests.append((0, 2, float(widths[0])))
+            rests.append((0.0, 3.0 * widths[0] / np.sqrt(ends[0, 2, 1])))
         if isinstance(end, Rest):
-            rests.append((n - 1, 4, float(widths[-1])))
+            rests.append((n - 1.0, 3.0 * widths[-1] / np.sqrt(ends[-1, 4, 1])))
         order = np.arange(n)
         if isinstance(start, Seam):  # both ends of the line beside each other, and so on
             order = np.where(2 * order < n, 2 * order, 2 * (n - 1 - order) + 1)
@@ -135,7 +137,8 @@ class SpeedProblem:
         return cls(
             h, near, float(before), np.full(n, jerk), ends, np.concatenate((inside, more), axis=1),
             np.concatenate((rows.limits[inner], bound), axis=1),
-            (ends[:, 1] - ends[:, 0]) / h[:, None], np.moveaxis(at, 0, 1), tuple(rests), order,
+            (ends[:, 1] - ends[:, 0]) / h[:, None], np.ascontiguousarray(np.moveaxis(at, 0, 1)),
+            np.array(rests).reshape(-1, 2), order,
             places, bands,
         )  # fmt: skip
 
@@ -158,9 +161,8 @@ class SpeedProblem:
         """How long it takes [s], but for what lies before a start at a speed."""
         w = np.einsum("nkc,nc->nk", self.gauss, self.known(m))
         total = 0.5 * (self.widths[:, None] / np.sqrt(w)).sum()
-        for i, end, width in self.rests:
-            total += 3.0 * width / np.sqrt(self.ends[i, end, 1] * m[i])
-        return float(total)
+        at, weights = self.rests.T
+        return float(total + (weights / np.sqrt(m[at.astype(np.intp)])).sum())
 
     def crawl(self) -> Floats:
         """So slow that every limit is kept strictly; for motions that don't begin at a speed."""
@@ -223,65 +225,21 @@ class SpeedProblem:
             sharpness *= BARRIER_GROWTH
 
     def value(self, m: Floats, sharpness: float) -> float:
-        """What the barrier makes least."""
-        if not np.all(m > 0.0):
-            return np.inf
-        linear, jerk, _ = self.slacks(m)
-        if not (np.all(linear > 0.0) and np.all(jerk > 0.0)):
-            return np.inf
-        finite = linear[np.isfinite(linear)]
-        return float(sharpness * self.time(m) - np.log(finite).sum() - np.log(jerk).sum())
+        """What the barrier makes least; inf where a limit isn't kept strictly."""
+        return float(barrier_value(self.terms, m, sharpness))
 
     def centred(self, m: Floats, sharpness: float, rounds: int = MAX_NEWTON_STEPS) -> Floats:
         """The least of the barrier function from m on, by Newton's method."""
-        from scipy.linalg import solveh_banded  # 0.2 s to import, and few plans ask for the jerk
+        return np.asarray(barrier_least(self.terms, m, sharpness, rounds))
 
-        value, back = self.value(m, sharpness), np.argsort(self.order)
-        for _ in range(rounds):
-            gradient, matrix = self._newton(m, sharpness)
-            step = -solveh_banded(matrix, gradient[back], lower=True)[self.order]
-            drop = float(gradient @ step)
-            if drop > -1e-6 * (1.0 + abs(value)) * 1e-2:
-                break
-            part = 1.0
-            while part > 1e-8:
-                new = self.value(m + part * step, sharpness)
-                if new <= value + 0.1 * part * drop:
-                    break
-                part *= 0.5
-            else:
-                break
-            m, value = m + part * step, new
-        return m
-
-    def _newton(self, m: Floats, sharpness: float) -> tuple[Floats, Floats]:
-        """Gradient (n,) and lower bands of a positive definite matrix (bands, n)."""
-        linear, jerk, w = self.slacks(m)
-        known = self.known(m)
-        k = np.einsum("nc,nc->n", self.change, known)
-        root = np.sqrt(w)
-        tilt = root[:, :, None] * self.change[:, None] + (
-            0.5 * k[:, None, None] / root[:, :, None] * self.ends[:, 2:]
-        )
-        at = np.einsum("nkc,nc->nk", self.gauss, known)
-        rows = np.concatenate((self.rows, tilt, -tilt, self.gauss), axis=1)
-        push = sharpness * 0.25 * self.widths[:, None] * at**-1.5
-        first = np.concatenate((1.0 / linear, 1.0 / jerk, -push), axis=1)
-        second = np.concatenate((linear**-2.0, jerk**-2.0, 1.5 * push / at), axis=1)
-        slope = np.einsum("nkc,nk->nc", rows, first)
-        local = np.einsum("nkc,nk,nkd->ncd", rows, second, rows, optimize=True)
-        for i, end, width in self.rests:
-            rest = 3.0 * sharpness * width / np.sqrt(self.ends[i, end, 1])
-            slope[i, 1] -= 0.5 * rest * m[i] ** -1.5
-            local[i, 1, 1] += 0.75 * rest * m[i] ** -2.5
-        n = m.size
-        gradient = np.zeros(n + 2)
-        np.add.at(gradient, self.near, slope)
-        filled = np.zeros(self.bands * n + 1)
-        np.add.at(filled, self.places, local)
-        bands = filled[:-1].reshape(self.bands, n)
-        bands[0] += 1e-14 * bands[0].max()
-        return gradient[:n], bands
+    @property
+    def terms(self) -> BarrierTerms:
+        """As the kernels take it."""
+        return BarrierTerms(
+            self.widths, self.near, self.before, self.jerk, np.ascontiguousarray(self.ends[:, 2:]),
+            np.ascontiguousarray(self.change[:, None]), self.rows, self.limits, self.gauss,
+            self.rests, self.places, self.order, self.bands,
+        )  # fmt: skip
 
 
 def _sizes(limits: Floats) -> Floats:

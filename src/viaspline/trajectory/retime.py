@@ -154,6 +154,8 @@ def retime(
 def braking(distance: float, speed: float, max_accel: float, start_time: float) -> Trajectory:
     """The time law of a robot that brakes as hard as it can until it stands.
 
+    One that stops within the rounding of its place stands already.
+
     Args:
         distance: Where it begins along the path [m].
         speed: [m/s].
@@ -164,8 +166,10 @@ def braking(distance: float, speed: float, max_accel: float, start_time: float) 
         >>> braking(5.0, speed=2.0, max_accel=1.0, start_time=0.0).distances
         array([5., 7.])
     """
-    points = np.array([distance, distance + speed * speed / (2.0 * max_accel)])
-    squares = np.array([speed * speed, 0.0])
+    rest = distance + speed * speed / (2.0 * max_accel)
+    points, squares = np.array([distance, rest]), np.array([speed * speed, 0.0])
+    if rest == distance:
+        squares[0] = 0.0
     return Trajectory.through(points, squares, max_accel=max_accel, start_time=start_time)
 
 

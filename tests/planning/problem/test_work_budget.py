@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from viaspline.errors import GaveUpError
@@ -75,3 +76,43 @@ def test_what_was_found_before_the_budget_was_spent_is_kept() -> None:
         assert found.value == "long"
     with pytest.raises(SpentBudgetError):
         first_settled([Long()], WorkBudget(0.1))
+
+
+@pytest.mark.parametrize("part", [0.5, 0.2, 0.05])
+def test_a_search_that_goes_on_finds_what_it_would_have_found_at_once(part: float) -> None:
+    mission = cramped()
+    world, requirements = World.known(mission), Requirements.of(mission)
+    whole = WorkBudget(float("inf"))
+    at_once = find_drive(mission, world, replace(requirements, budget=whole)).path
+    limit, finished, steps = part * whole.spent, {}, 0
+    while True:
+        budget, steps = WorkBudget(limit, finished=finished), steps + 1
+        try:
+            found = find_drive(mission, world, replace(requirements, budget=budget)).path
+        except SpentBudgetError:
+            limit, finished = limit * (1.0 if budget.has_gained else 2.0), budget.finished
+            continue
+        break
+    np.testing.assert_array_equal(found.spans, at_once.spans)
+    assert steps > 1
+    assert budget.spent < whole.spent
+
+
+def test_a_part_that_is_over_is_not_done_again_and_one_that_was_stopped_is() -> None:
+    budget, done = WorkBudget(1.0), []
+
+    def part(cost: float) -> str:
+        budget.spend(cost)
+        done.append(cost)
+        return f"{cost}"
+
+    assert [budget.once("a", lambda: part(0.5)) for _ in range(3)] == ["0.5"] * 3
+    with pytest.raises(SpentBudgetError):
+        budget.once("b", lambda: part(0.75))
+    assert done == [0.5]
+    budget = WorkBudget(1.0, finished=dict(budget.finished))
+    assert budget.once("a", lambda: part(0.5)) == "0.5"
+    assert not budget.has_gained
+    assert budget.once("b", lambda: part(0.75)) == "0.75"
+    assert budget.has_gained
+    assert done == [0.5, 0.75]

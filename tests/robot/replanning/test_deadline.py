@@ -114,3 +114,14 @@ def test_the_world_goes_on_while_a_robot_thinks(mission_of: Make, disc_at: Shape
     assert first.certificate.holds
     assert [replan.work for replan in first.replans] == [replan.work for replan in second.replans]
     assert first.positions.tobytes() == second.positions.tobytes()
+
+
+def test_who_has_tried_all_that_he_has_time_for_goes_on_for_a_while_before_he_tries_again(
+    mission_of: Make, disc_at: Shape, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(deadline, "STEP_WORK_S", 1e-4)
+    rock = disc_at(60, 0.3, 2, "rock")
+    navs = steps_of(mission_of([0, 0], [90, 0], unseen=[rock], sensor={"range_m": 40}))
+    far = [bool(nav.compute_times) for nav in navs if nav.searches and nav.distance < 45.0]
+    assert 0 < far.count(True) < 0.3 * len(far)
+    assert navs[-1].reached

@@ -289,3 +289,26 @@ def continuous_spans(
             points[k], points[(k + 1) % count], v0, v1, a0, a1, polygons[3 * k : 3 * k + 3]
         )  # fmt: skip
     return polygons
+
+
+@kernel
+def flattened(span: Floats, at_start: bool, at_end: bool) -> Floats:
+    """A span of three cubics that begins or ends straight: without second derivative there.
+
+    Args:
+        span: (3, 4, d), as ``three_cubics`` lays them.
+        at_start: Whether it begins straight.
+        at_end: Whether it ends straight.
+
+    Returns:
+        (3, 4, d), with the same places and first derivatives at both ends.
+    """
+    first, last = span[0], span[2]
+    a0 = 54.0 * (first[2] - 2.0 * first[1] + first[0])
+    a1 = 54.0 * (last[3] - 2.0 * last[2] + last[1])
+    v0, v1 = 9.0 * (first[1] - first[0]), 9.0 * (last[3] - last[2])
+    found = np.empty_like(span)
+    three_cubics(
+        first[0], last[3], v0, v1, 0.0 * a0 if at_start else a0, 0.0 * a1 if at_end else a1, found
+    )
+    return found

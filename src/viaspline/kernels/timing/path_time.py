@@ -2,6 +2,8 @@
 
 An estimate, for comparing curves: what its places miss between them is a part in a thousand. What
 is driven is timed by the exact law.
+
+Tested through ``planning/checking/test_driving_time``.
 """
 
 from __future__ import annotations

@@ -14,6 +14,7 @@ from viaspline.planning.checking.cost import CandidateCost, measure
 from viaspline.planning.problem.method import Outcome, Refusal
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence
+from viaspline.planning.problem.work_budget import ROUTE_S
 from viaspline.planning.routing.asked_sides import AskedSides
 from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import NO_BARRIERS
@@ -95,9 +96,20 @@ class LegSearch:
         Returns:
             What came of it, and the barriers that forbid sides, (f, 4).
         """
-        return route_on_sides(
-            self.router, self.ends, self.sides, active, closed, self.requirements.spend
-        )
+        return route_on_sides(self._route, self.sides, active, closed)
+
+    def _route(self, closed: Floats, active: Flags) -> tuple[Outcome[TautPath], Flags]:
+        """The shortest taut path past segments, and the obstacles that were met, (n,)."""
+        start, goal = self.ends
+
+        def found() -> tuple[Outcome[TautPath], Flags]:
+            self.requirements.spend(ROUTE_S)
+            met = active.copy()
+            return self.router.find(start, goal, closed, met), met
+
+        ends = (start.tobytes(), goal.tobytes())
+        asked = ("route", self.world, ends, closed.tobytes(), active.tobytes())
+        return self.requirements.once(asked, found)
 
     def curve(self, taut_path: TautPath | None, active: Flags) -> Spline | None:
         """The spline along a taut path, or None where no slack makes it clear.

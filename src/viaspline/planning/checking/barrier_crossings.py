@@ -39,6 +39,8 @@ def crossings(spans: Floats, barriers: Floats) -> NDArray[np.bool_]:
     share = (away * along[None, :, None]).sum(axis=3) / size  # along the barrier, 0 to 1
     across = along[None, :, None, 0] * away[..., 1] - along[None, :, None, 1] * away[..., 0]
     open_ = np.argwhere(~_is_beside(share, across))
+    if not len(open_):
+        return met
     share, across = share[open_[:, 0], open_[:, 1]], across[open_[:, 0], open_[:, 1]]
     for _ in range(MAX_HALVINGS):
         sure = _is_across(share, across)

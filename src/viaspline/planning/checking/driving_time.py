@@ -1,7 +1,4 @@
-"""How long a path takes to be driven, as far as its shape tells.
-
-Tested through ``planning/checking/test_driving_time``.
-"""
+"""How long a path takes to be driven, as far as its shape tells."""
 
 from __future__ import annotations
 
@@ -9,7 +6,7 @@ import math
 
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.timing.path_time import path_time
-from viaspline.planning.problem.pace import Pace
+from viaspline.planning.problem.path_pace import Pace
 
 
 def driving_time(spans: Floats, pace: Pace, rests: Flags) -> float:

@@ -12,7 +12,7 @@ from functools import partial
 from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import TurnProblem
-from viaspline.planning.turning.headings import HEADING_COUNT, legs_of, lengths_cost, posed
+from viaspline.planning.turning.headings import HEADING_COUNT, costs_between, legs_of, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 
 
@@ -37,19 +37,16 @@ class JointHeadings:
         """See ``Method``."""
         path = problem.path
         bound = path.requirements.objective.metres(bound)
-        legs, closed = (
-            legs_of(path.bends.turning(problem.rho), path.spots, self.headings),
-            path.bends.closed,
-        )
-        path.requirements.spend(lengths_cost(legs))
+        legs = legs_of(path.bends.turning(problem.rho), path.spots, self.headings)
+        closed = path.bends.closed
+        costs = costs_between(legs, path.requirements)
         as_it_is, pushed = (
             partial(path.leg_on_sides, lay=lay) for lay in (turn_path_if_clear, clear_turn_path)
         )
-        poses = posed(legs, closed, as_it_is, self.max_rows, self.max_rows, bound)
+        poses = posed(legs, costs, closed, as_it_is, self.max_rows, self.max_rows, bound)
         if poses is None:
-            path.requirements.spend(lengths_cost(legs))
             rows, pairs = self.max_pushed_rows, self.max_pushed_pairs
-            poses = posed(legs, closed, pushed, rows, pairs, bound)
+            poses = posed(legs, costs, closed, pushed, rows, pairs, bound)
         if poses is None:
             return GaveUp((f"{self.max_rows} rows of headings at the via points",))
         spline_path = path.through_turns(poses.turn_paths)

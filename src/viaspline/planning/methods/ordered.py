@@ -20,8 +20,8 @@ from viaspline.planning.turning.driven_problem import DrivenProblem
 
 PathMethod = Method[DrivenProblem, SplinePath]
 
-CARDINAL_METHODS: tuple[PathMethod, ...] = (SplineLedRound(),)
-"""For the paper's curve."""
+SPLINE_METHODS: tuple[PathMethod, ...] = (SplineLedRound(),)
+"""For the paper's curve, and for one that climbs: turns are flat."""
 
 FEW_HEADINGS = JointHeadings(max_rows=100, max_pushed_rows=10, max_pushed_pairs=6, headings=10)
 
@@ -49,13 +49,14 @@ BODY_METHODS: tuple[PathMethod, ...] = (
 """For a robot with a turning circle or a long body."""
 
 
-def methods_for(requirements: Requirements) -> tuple[PathMethod, ...]:
-    """The methods that lay paths for a robot."""
-    if requirements.is_cardinal:
-        return CARDINAL_METHODS
+def methods_for(requirements: Requirements, dimension: int) -> tuple[PathMethod, ...]:
+    """The methods that lay paths for a robot, in the plane or in space."""
+    if requirements.is_cardinal or (requirements.is_free_disc and dimension > 2):
+        return SPLINE_METHODS
     return DISC_METHODS if requirements.is_free_disc else BODY_METHODS
 
 
-def roomy_methods_for(requirements: Requirements) -> tuple[PathMethod, ...]:
+def roomy_methods_for(requirements: Requirements, dimension: int) -> tuple[PathMethod, ...]:
     """The methods that lay paths that keep more than they must: where it is easily done."""
-    return CARDINAL_METHODS if requirements.is_cardinal else DISC_METHODS
+    methods = methods_for(requirements, dimension)
+    return DISC_METHODS if methods is BODY_METHODS else methods

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from viaspline.mission.route_spec import Optimise
-from viaspline.planning.problem.pace import Pace
+from viaspline.planning.problem.path_pace import Pace
 
 
 @dataclass(frozen=True)

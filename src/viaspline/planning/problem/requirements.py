@@ -5,14 +5,15 @@ Tested through ``planning/test_plan_drive``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field, replace
 
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec, TurnOnSpot
 from viaspline.mission.spline_spec import SplineSpec, Tangents
 from viaspline.planning.problem.objective import Objective
-from viaspline.planning.problem.pace import Pace
-from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.planning.problem.path_pace import Pace
+from viaspline.planning.problem.work_budget import Value, WorkBudget
 
 LEAST_KEPT_M = 1e-5  # even by a point without clearance, so that touching is not crossing
 
@@ -59,6 +60,17 @@ class Requirements:
         """
         if self.budget is not None:
             self.budget.spend(cost)
+
+    def once(self, asked: Hashable, part: Callable[[], Value]) -> Value:
+        """What a part of a search comes to, which later steps of the search find done.
+
+        Args:
+            asked: All that it depends on besides these requirements.
+            part: Does it.
+        """
+        if self.budget is None:
+            return part()
+        return self.budget.once((replace(self, budget=None), asked), part)
 
     @property
     def is_free_disc(self) -> bool:

@@ -7,7 +7,9 @@ would cost more than is left isn't begun.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
 
 from viaspline.errors import GaveUpError
 
@@ -35,11 +37,15 @@ TREE_S, POSE_S = 2e-3, 4e-5
 CHAIN_SEGMENT_S = 1e-4
 """Of the shortcuts of what such a search has found, for each segment [s]."""
 
-TIME_LAW_S, JERK_LAW_S = 1e-3, 5e-2
+
+TIME_LAW_S, JERK_LAW_S = 1e-3, 1.5e-2
 """Of a time law, and of one with a limit of the jerk [s]."""
 
 DRIVE_AHEAD_S, DRIVE_AHEAD_SECOND_S = 5e-4, 1e-4
 """Of a drive ahead along a new path: to begin one, and for each second that it takes [s]."""
+
+
+Value = TypeVar("Value")
 
 
 class SpentBudgetError(GaveUpError):
@@ -55,6 +61,9 @@ class WorkBudget:
     Attributes:
         limit: [s of the reference machine].
         spent: [s of the reference machine].
+        finished: What parts of the search came to that are over, by what they were asked: a robot
+            that stands goes on with them in its next step.
+        has_gained: Whether one of them is new.
 
     Example:
         >>> budget = WorkBudget(0.01)
@@ -65,6 +74,21 @@ class WorkBudget:
 
     limit: float
     spent: float = 0.0
+    finished: dict[Hashable, Any] = field(default_factory=dict)
+    has_gained: bool = False
+
+    def once(self, asked: Hashable, part: Callable[[], Value]) -> Value:
+        """What a part of the search comes to, or came to when it was asked before.
+
+        Args:
+            asked: All that the part depends on.
+            part: Does it.
+        """
+        if asked not in self.finished:
+            self.finished[asked] = part()
+            self.has_gained = True
+        found: Value = self.finished[asked]
+        return found
 
     def spend(self, cost: float) -> None:
         """Take off what the next step costs [s].

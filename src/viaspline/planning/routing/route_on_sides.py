@@ -12,19 +12,15 @@ import numpy as np
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.planning.problem.method import Outcome
-from viaspline.planning.problem.work_budget import ROUTE_S
 from viaspline.planning.routing.asked_sides import AskedSides
-from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.taut_path import TautPath
 
 
 def route_on_sides(
-    router: Router,
-    ends: tuple[Floats, Floats],
+    find: Callable[[Floats, Flags], tuple[Outcome[TautPath], Flags]],
     sides: AskedSides,
     active: Flags,
     closed: Floats,
-    spend: Callable[[float], None],
 ) -> tuple[Outcome[TautPath], Floats]:
     """The shortest taut path that passes what it meets on the sides that the mission allows.
 
@@ -33,20 +29,19 @@ def route_on_sides(
     so there are no more rounds than obstacles.
 
     Args:
-        router: Of the world and of what is required.
-        ends: From where to where [m], each at least (2,).
+        find: The shortest taut path past segments, (b, 4), where some obstacles are met already,
+            (n,), and all that are met then, (n,).
         sides: Those that are asked for, as the leg sees them.
         active: (n,): obstacles to begin with; those met are added in place.
         closed: Further segments not to cross, (b, 4).
-        spend: Takes off what a search costs; see ``Requirements``.
 
     Returns:
         What came of it, and the barriers that forbid sides, (f, 4).
     """
     barriers = sides.closed_among(active)
     while True:
-        spend(ROUTE_S)
-        outcome = router.find(*ends, np.vstack((closed, barriers)), active)
+        outcome, met = find(np.vstack((closed, barriers)), active)
+        active |= met
         if outcome.value is not None:
             corners = outcome.value.corners[:, X : Y + 1]
             active[sides.gone_round(corners)] = True

@@ -10,21 +10,24 @@ stands between nor the sides that are asked for count there.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from itertools import combinations, permutations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.routing.tour import shortened_tour
 from viaspline.kernels.world.clusters import group_labels
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import ViaPoint
+from viaspline.planning.problem.method import Outcome
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import WholeLeg
 from viaspline.planning.routing.asked_sides import AskedSides, sided
 from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.router import Router
+from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
 MAX_VIAS_ALL_ORDERS = 9  # up to which all orders are compared
@@ -99,11 +102,17 @@ def lengths_between(mission: Mission, world: World) -> Floats:
             WholeLeg(at[i], at[j]), indices, world, requirements.required, lambda: labels
         )
         active = on_the_line(world, at[i], at[j], requirements.required)
-        found, _ = route_on_sides(
-            router, (at[i], at[j]), sides, active, NO_BARRIERS, requirements.spend
-        )
+        found, _ = route_on_sides(partial(_found, router, at[i], at[j]), sides, active, NO_BARRIERS)
         lengths[i, j] = np.inf if found.value is None else found.value.length
     return lengths
+
+
+def _found(
+    router: Router, start: Floats, goal: Floats, closed: Floats, active: Flags
+) -> tuple[Outcome[TautPath], Flags]:
+    """The shortest taut path past segments, and the obstacles that were met, (n,)."""
+    met = active.copy()
+    return router.find(start, goal, closed, met), met
 
 
 def _among_near(places: Floats, count: int) -> tuple[int, ...]:

@@ -38,6 +38,11 @@ class Bends:
     vias: NDArray[np.int64]
     closed: bool = False
 
+    @property
+    def key(self) -> tuple[bytes, bytes, bool]:
+        """What tells these bends from others."""
+        return self.rows.tobytes(), self.vias.tobytes(), self.closed
+
     def with_bend(self, k: int, row: Floats) -> Bends:
         """These bends with a detour bend before bend k."""
         return Bends(

@@ -53,14 +53,16 @@ def as_driven(
 
 
 def _driven(problem: DrivenProblem, leg: int, spline: Curve) -> Curve | None:
-    """The spline if it can be driven, else the leg laid along its taut path."""
-    if problem.is_drivable(spline.spans[:, :, :2]):
-        stands = problem.legs[leg].stands
-        cost = measure_body(spline.spans, problem.world, problem.requirements, stands)
-        return replace(spline, measured=cost)
+    """The leg laid along its taut path, else the spline if it can be driven."""
     row = problem.shortest_row.with_leg(leg, spline.taut_path)
     spline_path = problem.turns_along(row.taut_paths)
-    return None if spline_path is None else _curve(problem, leg, spline_path)
+    if spline_path is not None:
+        return _curve(problem, leg, spline_path)
+    if not problem.is_drivable(spline.spans[:, :, :2]):
+        return None
+    stands = problem.legs[leg].stands
+    cost = measure_body(spline.spans, problem.world, problem.requirements, stands)
+    return replace(spline, measured=cost)
 
 
 def _curve(problem: DrivenProblem, leg: int, spline_path: SplinePath) -> Curve:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -27,6 +27,7 @@ from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import DETOUR, Bends, bends_along
+from viaspline.planning.turning.blocked_runs import turns_on_runs
 from viaspline.planning.turning.repair import clear_turn_path
 from viaspline.planning.turning.turn_path import OVERSHOOT, TurnPath
 from viaspline.planning.turning.wide_turns import WideTurns
@@ -142,7 +143,15 @@ class DrivenProblem(PathProblem):
         return driving_time(spline_path.spans, objective.pace, rests)
 
     def turns_along(self, taut_paths: Sequence[TautPath]) -> SplinePath | None:
-        """Lines and turns along a row of taut paths, with the widest turns that keep clear."""
+        """Lines and turns along a row of taut paths, with the widest turns that keep clear.
+
+        Where the mission says how taut its spline is to be, on the blocked legs alone if that
+        keeps clear.
+        """
+        if self.requirements.has_own_tension:
+            spline_path = self._turns_on_blocked(taut_paths)
+            if spline_path is not None:
+                return spline_path
         bends = bends_along(self.sequence, taut_paths)
         for rho in self.least_radii:
             turn_path = self._turns_round(bends, rho)
@@ -150,6 +159,23 @@ class DrivenProblem(PathProblem):
                 continue
             spline_path = self.through_turns([turn_path])
             if self.keeps_sides(spline_path):
+                return spline_path
+        return None
+
+    def _turns_on_blocked(self, taut_paths: Sequence[TautPath]) -> SplinePath | None:
+        """The spline with turns on its blocked legs, if some are free and it can be driven."""
+        bent = {k for k, taut_path in enumerate(taut_paths) if not taut_path.is_direct}
+        blocked = bent | set(self.cleared.passed)
+        if len(blocked) == len(self.sequence.legs):
+            return None
+        for rho in self.least_radii:
+            lay_row = partial(self._turns_round, rho=rho)
+            found = turns_on_runs(self.sequence, taut_paths, blocked, lay_row)
+            if found is None:
+                continue
+            spans, joints, detours = found
+            spline_path = self.through(spans, np.array(joints), detours)
+            if self.is_drivable(spline_path.spans) and self.keeps_sides(spline_path):
                 return spline_path
         return None
 
@@ -221,6 +247,7 @@ class DrivenProblem(PathProblem):
         sequence = self.sequence
         ends = [*sequence.vias, sequence.vias[0]] if sequence.closed else sequence.vias
         spans = with_heights(spans, joints, np.array([via.at[2:] for via in ends]))
+        spans[1:, 0] = spans[:-1, 3]  # they meet but for rounding
         for u, via in zip(joints, ends, strict=True):
             if u < len(spans):
                 spans[u, 0] = via.at

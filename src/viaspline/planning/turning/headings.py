@@ -13,13 +13,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.heading_costs import cheapest, leg_lengths
+from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import HEADING_PAIR_BEND_S
 from viaspline.planning.turning.bend_row import DETOUR, HEADING, SIDE, Bends
 from viaspline.planning.turning.turn_path import RAMP, TurnPath
@@ -108,14 +109,37 @@ def _headings(bends: Bends, via: int, vias: int, spots: Collection[int], count: 
     return np.arange(count, dtype=np.float64) * (math.tau / count)
 
 
-def lengths_cost(legs: Sequence[HeadingLeg]) -> float:
-    """What the lengths of all legs between all headings cost [s of the reference machine]."""
-    sizes = (len(leg.starts) * len(leg.goals) * len(leg.rows) for leg in legs)
-    return HEADING_PAIR_BEND_S * sum(sizes)
+def costs_between(legs: Sequence[HeadingLeg], requirements: Requirements) -> Floats:
+    """What every leg costs from each heading at its start to each at its goal.
+
+    Args:
+        legs: The legs.
+        requirements: With what may be spent.
+
+    Returns:
+        [m], (legs, k, k); inf where there is nothing, or no such heading.
+    """
+    most = max(len(ends) for leg in legs for ends in (leg.starts, leg.goals))
+    costs = np.full((len(legs), most, most), np.inf)
+    for k, leg in enumerate(legs):
+        lengths = requirements.once(
+            ("lengths", leg.rows.tobytes(), leg.starts.tobytes(), leg.goals.tobytes()),
+            partial(_paid_lengths, leg, requirements),
+        )
+        costs[k, : len(leg.starts), : len(leg.goals)] = lengths.min(axis=(2, 3))
+    return costs
+
+
+def _paid_lengths(leg: HeadingLeg, requirements: Requirements) -> Floats:
+    """The lengths of a leg, when what they cost has been taken off."""
+    pairs = len(leg.starts) * len(leg.goals)
+    requirements.spend(HEADING_PAIR_BEND_S * pairs * len(leg.rows))
+    return leg.lengths()
 
 
 def posed(
     legs: Sequence[HeadingLeg],
+    costs: Floats,
     closed: bool,
     lay: Lay,
     max_rows: int,
@@ -126,6 +150,7 @@ def posed(
 
     Args:
         legs: The legs.
+        costs: What they cost between their headings, see ``costs_between``.
         closed: Whether the last heading is the first.
         lay: Lays a clear turn path round the bends of a leg, if it can.
         max_rows: Rows of headings that are tried.
@@ -133,9 +158,7 @@ def posed(
         bound: Only shorter rows are of use [m].
     """
     counts = np.array([*(len(leg.starts) for leg in legs), len(legs[-1].goals)])
-    costs = np.full((len(legs), counts.max(), counts.max()), np.inf)
-    for k, leg in enumerate(legs):
-        costs[k, : counts[k], : counts[k + 1]] = leg.lengths().min(axis=(2, 3))
+    costs = costs.copy()
     spline_path: dict[tuple[int, int, int], TurnPath] = {}
     failed, is_hopeful = np.zeros(len(legs), np.int64), np.zeros(len(legs), np.bool_)
     for _ in range(max_rows):

@@ -6,6 +6,7 @@ Tested through ``planning/methods/test_ordered``.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -64,14 +65,26 @@ def clear_turn_path_or_why(
     bends: Bends, world: World, requirements: Requirements
 ) -> TurnPath | Stuck:
     """The shortest clear turn path, or where it got stuck; see ``clear_turn_path``."""
-    found = [_pushed_clear(tried, world, requirements) for tried in with_sides(bends)]
+    found = [
+        requirements.once(
+            ("pushed clear", tried.key, world), partial(_pushed_clear, tried, world, requirements)
+        )
+        for tried in with_sides(bends)
+    ]
     clear = [turn_path for turn_path in found if isinstance(turn_path, TurnPath)]
     return min(clear, key=lambda turn_path: turn_path.length) if clear else found[0]
 
 
 def turn_path_if_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
     """The shortest turn path to any sides of given headings, if it is clear as it is."""
-    requirements.spend(_turn_path_cost(bends))
+    return requirements.once(
+        ("as it is", bends.key, world), partial(_if_clear, bends, world, requirements)
+    )
+
+
+def _if_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
+    """See ``turn_path_if_clear``."""
+    requirements.spend(_turn_path_cost(bends) * sum(1 for _ in with_sides(bends)))
     turn_path = turn_path_round(bends)
     if isinstance(turn_path, NoTurnPath) or not is_clear(world, turn_path.spans, requirements):
         return None
@@ -81,25 +94,33 @@ def turn_path_if_clear(bends: Bends, world: World, requirements: Requirements) -
 def _pushed_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPath | Stuck:
     """The turn path to the sides that are set, pushed clear, or where it got stuck."""
     ramp = RAMP
-    turn_path = turn_path_on_sides(bends, ramp)
+    turn_path = _laid(bends, ramp, requirements)
     for _ in range(MAX_PUSH_ROUNDS):
-        requirements.spend(_turn_path_cost(bends))
         if isinstance(turn_path, NoTurnPath):
             return _stuck_between(turn_path)
         close = body_conflicts(world, turn_path.spans, requirements)
         if (close == CLEAR).all():
             return turn_path
-        pushed = turn_path_on_sides(_pushed(turn_path, close, world, requirements), ramp)
+        wider = _pushed(turn_path, close, world, requirements)
+        pushed = _laid(wider, ramp, requirements)
         rows = turn_path.bends.rows
         if isinstance(pushed, TurnPath) and np.array_equal(pushed.bends.rows, rows):
             ramp *= RAMP_SHORTENING  # the lines are far enough off, the ramps cut the corner
-            pushed = turn_path_on_sides(turn_path.bends, ramp)
+            pushed = _laid(turn_path.bends, ramp, requirements)
         if isinstance(pushed, NoTurnPath) or ramp < LEAST_RAMP:
             return _stuck_at(turn_path, close, world, requirements)
         turn_path = pushed
     assert isinstance(turn_path, TurnPath)
     close = body_conflicts(world, turn_path.spans, requirements)
     return turn_path if (close == CLEAR).all() else _stuck_at(turn_path, close, world, requirements)
+
+
+def _laid(bends: Bends, ramp: float, requirements: Requirements) -> TurnPath | NoTurnPath:
+    """The turn path to the sides that are set; it is laid once more for each bend it leaves out."""
+    requirements.spend(_turn_path_cost(bends))
+    found = turn_path_on_sides(bends, ramp)
+    requirements.spend((len(bends.rows) - len(found.bends.rows)) * _turn_path_cost(bends))
+    return found
 
 
 def _turn_path_cost(bends: Bends) -> float:

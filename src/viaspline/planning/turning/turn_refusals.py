@@ -14,14 +14,13 @@ import numpy as np
 from viaspline.errors import GaveUpError, NoPathError, PlanningError
 from viaspline.planning.problem.method import GaveUp, Refusal
 from viaspline.planning.problem.via_sequence import RouteVia
-from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.side_refusals import (
     changes_freeing,
     freeing_in_words,
     sides_in_words,
 )
 from viaspline.planning.turning.driven_problem import DrivenProblem
-from viaspline.planning.turning.headings import Poses, legs_of, lengths_cost, posed
+from viaspline.planning.turning.headings import Poses, costs_between, legs_of, posed
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_path import OVERSHOOT
 
@@ -34,23 +33,28 @@ SHOWN_DIGITS = 3
 def unlaid(problem: DrivenProblem, outcome: Refusal | GaveUp) -> PlanningError:
     """The error of a path that no method has laid.
 
+    What would allow one takes as long to find as a path: who has a budget has no time for that.
+
     Args:
         problem: What was asked for.
         outcome: What the methods came to.
     """
     via = problem.sequence.vias[outcome.via or 0]
-    sided = _sides_in_the_way(problem)
+    is_hurried = problem.requirements.budget is not None
+    sided = [] if is_hurried else _sides_in_the_way(problem)
     if sided:
         return _no_path_on_sides(problem, outcome, via, sided)
     if problem.requirements.turn_radius is None:
         verb = "can't be" if isinstance(outcome, Refusal) else "wasn't"
         what = f"the body {verb} led to via point {via.name!r}: {outcome.reason}"
-        remedy = _body_remedy(via.name, partial(_has_room, problem))
+        parts = () if is_hurried else CLEARANCE_PARTS
+        remedy = _body_remedy(via.name, _first(partial(_has_room, problem), parts))
     else:
         verb = "can't be served" if isinstance(outcome, Refusal) else "wasn't reached"
         circle = f"with a turning circle of {problem.turn_radius:.4g} m"
         what = f"{circle} via point {via.name!r} {verb}: {outcome.reason}"
-        remedy = _circle_remedy(via.name, problem.turn_radius, partial(_serves, problem))
+        radii = [] if is_hurried else [part * problem.turn_radius for part in RADIUS_PARTS]
+        remedy = _circle_remedy(via.name, _first(partial(_serves, problem), radii))
     if isinstance(outcome, Refusal):
         return NoPathError(what, where=via.at, remedy=remedy, via=via.name)
     helps = [remedy, *([outcome.would_help] if outcome.would_help else [])]
@@ -81,54 +85,43 @@ def _no_path_on_sides(
 
 
 def _sides_in_the_way(problem: DrivenProblem) -> list[int]:
-    """The obstacles that a path passes on the wrong side which there would be without sides.
-
-    None as well where there is no time to look for such a path.
-    """
+    """The obstacles that a path passes on the wrong side which there would be without sides."""
     if not any(sides.binding.any() for sides in problem.sides):
         return []
     cleared = replace(problem.cleared, sides=tuple(sides.freed for sides in problem.sides))
     free = replace(problem, cleared=cleared)
-    try:
-        spline_path = free.turns_along(free.shortest_row.taut_paths)
-        if spline_path is None:
-            poses = _poses(free, free.least_radii[-1])
-            spline_path = None if poses is None else free.through_turns(poses.turn_paths)
-    except SpentBudgetError:
-        return []
+    spline_path = free.turns_along(free.shortest_row.taut_paths)
+    if spline_path is None:
+        poses = _poses(free, free.least_radii[-1])
+        spline_path = None if poses is None else free.through_turns(poses.turn_paths)
     if spline_path is None:
         return []
     wrong = [sides.wrong(spline_path.leg(k)) for k, sides in enumerate(problem.sides)]
     return sorted({int(i) for row in wrong for i in row})
 
 
-def _circle_remedy(via: str, radius: float, serves: Callable[[float], bool]) -> str:
+def _circle_remedy(via: str, smaller: float | None) -> str:
     """What would allow a path, where there may be one with a smaller radius [m]."""
-    smaller = _first(lambda part: serves(part * radius), RADIUS_PARTS)
     if smaller is None:
         return f"move {via!r} to where there is room to turn, or leave it out"
-    shown = np.floor(smaller * radius * 10**SHOWN_DIGITS) / 10**SHOWN_DIGITS
+    shown = np.floor(smaller * 10**SHOWN_DIGITS) / 10**SHOWN_DIGITS
     return (
         f"a radius of {shown:g} m would do (robot.min_turn_radius_m); or move {via!r} to "
         "where there is room to turn"
     )
 
 
-def _body_remedy(via: str, has_room: Callable[[float], bool]) -> str:
+def _body_remedy(via: str, less: float | None) -> str:
     """What would allow a path, where there may be one with a part of the clearance."""
-    less = _first(has_room, CLEARANCE_PARTS)
     moves = [f"move {via!r} to where there is room for the body"]
     if less is not None:
         moves.insert(0, f"{less:g} of the clearance would do (robot.clearance_m)")
     return ", or ".join(moves)
 
 
-def _first(serves: Callable[[float], bool], parts: Sequence[float]) -> float | None:
-    """The first of some parts that serves; None as well where there is no time to look for one."""
-    try:
-        return next((part for part in parts if serves(part)), None)
-    except SpentBudgetError:
-        return None
+def _first(serves: Callable[[float], bool], tried: Sequence[float]) -> float | None:
+    """The first of what is tried that serves, if any does."""
+    return next((value for value in tried if serves(value)), None)
 
 
 def _serves(problem: DrivenProblem, radius: float) -> bool:
@@ -141,8 +134,8 @@ def _poses(problem: DrivenProblem, rho: float) -> Poses | None:
     lay = partial(problem.leg_on_sides, lay=turn_path_if_clear)
     legs = legs_of(problem.bends.turning(rho), problem.spots)
     closed = problem.sequence.closed
-    problem.requirements.spend(lengths_cost(legs))
-    return posed(legs, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS)
+    costs = costs_between(legs, problem.requirements)
+    return posed(legs, costs, closed, lay, MAX_HEADING_ROWS, MAX_HEADING_ROWS)
 
 
 def _has_room(problem: DrivenProblem, part: float) -> bool:

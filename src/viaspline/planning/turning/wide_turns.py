@@ -8,6 +8,7 @@ Tested through ``planning/methods/test_ordered``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
-from viaspline.planning.problem.pace import Pace
+from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
 from viaspline.planning.turning.bend_row import KEPT, Bends
@@ -25,12 +26,15 @@ from viaspline.planning.turning.turn_path import (
     TurnPath,
     settled_turns,
     turn_path_on_sides,
+    with_sides,
 )
 from viaspline.world.world import World
 
 NARROWER = 0.7  # a radius that doesn't fit, over the next one that is tried
 MOST_NARROWED = 0.5  # of the widest swing of those between which it is too tight: narrowed as well
 MAX_NARROWINGS = 40
+GENTLE_SHARE = 1e-3  # of the length, that may be spent on gentle bends
+GENTLE_ROOM = 0.9  # of a ramp's share of a line
 
 
 @dataclass(frozen=True)
@@ -48,7 +52,18 @@ class WideTurns:
     roomy: float
 
     def lay(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
-        """The turn path with the widest turns that fit; None where not even the least are clear."""
+        """The turn path with the widest turns that fit; None where not even the least are clear.
+
+        Where a heading is given at an end, it is left to the side that makes the path shorter.
+        """
+        found = [self._narrowed(tried, world, requirements) for tried in with_sides(bends)]
+        clear = [turn_path for turn_path in found if turn_path is not None]
+        if not clear:
+            return clear_turn_path(bends.turning(self.least), world, requirements)
+        return min(clear, key=lambda turn_path: turn_path.length)
+
+    def _narrowed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
+        """The widest turns to the sides that are set, narrowed until they are clear."""
         radii = self._wished(bends)
         if radii is None:
             return None
@@ -73,7 +88,7 @@ class WideTurns:
             if np.array_equal(narrowed, radii):
                 break
             radii = narrowed
-        return clear_turn_path(bends.turning(radii), world, requirements)
+        return None
 
     def ideal(self, bends: Bends, requirements: Requirements) -> TurnPath | None:
         """The turn path with the widest turns, clear or not; None where they overlap."""
@@ -87,11 +102,30 @@ class WideTurns:
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None
-        rows = narrowest.left
+        rows, angles = narrowest.left, np.abs(narrowest.turns)
         radii = np.full(len(bends.rows), max(self.roomy, self.least))
-        fast = self.pace.corner_radii(narrowest.turns, bends.rows[rows, KEPT])
-        radii[rows] = np.maximum(radii[rows], fast)
+        fast = self.pace.corner_radii(angles, bends.rows[rows, KEPT]) * np.minimum(angles, 1.0)
+        radii[rows] = np.maximum(radii[rows], np.maximum(fast, _gentle(bends.rows[rows], angles)))
         return radii
+
+
+def _gentle(rows: Floats, angles: Floats) -> Floats:
+    """Radii with which a path bends as little as it can for a small part of its length [m], (n,).
+
+    A ramp up to a bend and down from it, of the length l together, bends by 4 t² / 3 l where it
+    turns by t, and is longer than the corner by t² l / 40. So the same l is best for all of them:
+    40 times what may be spent, over the sum of t². No more than half of a line is taken by a ramp.
+    """
+    lines = np.hypot(*np.diff(rows[:, :2], axis=0).T)
+    square = float((angles**2).sum())
+    if square == 0.0 or not lines.size:
+        return np.zeros(len(rows))
+    ramp = 20.0 * GENTLE_SHARE * float(lines.sum()) / square
+    room = np.full(len(rows), math.inf)
+    taken = np.where(angles > 0.0, 0.5, 0.0)  # where it doesn't turn no ramp begins
+    whole = lines / np.maximum(taken[1:] + taken[:-1], 0.5)
+    room[1:], room[:-1] = whole * 0.5, np.minimum(room[:-1], whole * 0.5)
+    return np.minimum(ramp, GENTLE_ROOM * room)
 
 
 def _swings(turn_path: TurnPath) -> Floats:

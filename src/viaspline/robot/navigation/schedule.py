@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,9 @@ from viaspline.robot.navigation.laps_ahead import LapsAhead
 from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
+
+FIRST_STAGE, NO_STAGE = (0, 0), (3, 0)
+"""With which stage a search begins, and what comes after the last one."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +35,23 @@ class Wait:
 
 
 @dataclass(frozen=True)
+class StandingSearch:
+    """What a search of a robot that stands has come to.
+
+    Attributes:
+        limit: What its next step may spend [s of the reference machine].
+        spent: What it has spent in all [s of the reference machine].
+        world: What it is to keep clear of.
+        finished: What the parts of the search came to that are over; see ``WorkBudget``.
+    """
+
+    limit: float
+    spent: float
+    world: World
+    finished: Mapping[Hashable, object]
+
+
+@dataclass(frozen=True)
 class PendingSearch:
     """A search for a new path that is not over yet.
 
@@ -39,15 +60,18 @@ class PendingSearch:
         obstacles: What is in the way.
         names: Of those that are new.
         begin_with: The stage with which it goes on.
-        standing_limit: What its next step may spend if the robot stands [s of the reference
-            machine]; None: what every first step may.
+        again: Under way it waits until then: it has tried all that it has time for [s].
+        free_until: Up to this distance along the path it was certainly clear then [m].
+        standing: What a robot that stands takes on to its next step, if it does.
     """
 
     since: float
     obstacles: World
     names: tuple[str, ...]
     begin_with: tuple[int, int]
-    standing_limit: float | None = None
+    again: float = -math.inf
+    free_until: float = math.inf
+    standing: StandingSearch | None = None
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,10 @@ Tested through ``robot/replanning/test_decide``.
 
 from __future__ import annotations
 
-from viaspline.robot.navigation.schedule import PendingSearch
-from viaspline.robot.replanning.replan_context import ReplanContext
+import math
+
+from viaspline.robot.navigation.schedule import FIRST_STAGE, NO_STAGE, PendingSearch, StandingSearch
+from viaspline.robot.replanning.replan_context import NOTHING, ReplanContext
 
 STEP_WORK_S = 0.1
 """What one step of a robot under way spends on a search, at most [s of the reference machine]."""
@@ -20,9 +22,15 @@ ROOM_RATIO = 2.0
 SPARE_RATIO = 0.5
 """and so much of one the place is known to."""
 
-MAX_STANDING_WORK_S = 3.2
-"""What one step of a robot that stands spends, at most; a step spends twice what the one before it
-has spent in vain."""
+RETRY_INTERVAL_S = 0.5
+"""Who has tried all that it has time for under way tries again so much later [s],"""
+
+PAUSE_RATIO = 0.25
+"""or after so much of the time until it is where it has to stop, if that is longer."""
+
+MAX_STANDING_WORK_S = 6.4
+"""What a robot that stands spends on a search in all. A step in which not even a part of it was
+over is followed by one that may spend twice as much."""
 
 
 def with_time_to_search(context: ReplanContext) -> ReplanContext:
@@ -36,8 +44,10 @@ def with_time_to_search(context: ReplanContext) -> ReplanContext:
     """
     pending = context.schedule.pending
     if context.speed == 0.0:
-        limit = STEP_WORK_S if pending is None else pending.standing_limit or STEP_WORK_S
-        standing = context.searching(limit)
+        before = None if pending is None else pending.standing
+        limit = STEP_WORK_S if before is None else before.limit
+        is_known = before is not None and before.world is context.knowledge.world
+        standing = context.searching(limit, before.finished if before and is_known else NOTHING)
         if standing.speed == 0.0:
             return standing
     longest = min(STEP_WORK_S, _left(context))
@@ -50,24 +60,50 @@ def with_time_to_search(context: ReplanContext) -> ReplanContext:
     return context.searching(SHARES[-1] * STEP_WORK_S if is_late else 0.0)
 
 
-def gone_on(context: ReplanContext, begin_with: tuple[int, int]) -> PendingSearch | None:
+def gone_on(
+    context: ReplanContext, begin_with: tuple[int, int], held_at: float
+) -> PendingSearch | None:
     """How a search that was stopped goes on; None if it has spent all that it may, at rest.
 
     Args:
         context: The robot that has searched.
-        begin_with: The stage that comes next.
+        held_at: Where it stops meanwhile, along the path [m].
+        begin_with: The stage that comes next, or ``NO_STAGE``.
     """
     before, obstacles = context.schedule.pending, context.obstruction.world
     names = context.obstruction.names
     since = context.progress.time if before is None else before.since
     if context.speed > 0.0:
-        return PendingSearch(since, obstacles, names, begin_with)
-    budget = context.requirements.budget
+        again = -math.inf
+        if begin_with == NO_STAGE:
+            left = (held_at - context.progress.distance) / context.speed
+            pause = max(RETRY_INTERVAL_S, PAUSE_RATIO * left)
+            begin_with, again = FIRST_STAGE, context.progress.time + pause
+        free = context.obstruction.free_until
+        return PendingSearch(since, obstacles, names, begin_with, again, free)
+    budget, world = context.requirements.budget, context.knowledge.world
     assert budget is not None
-    if budget.limit >= MAX_STANDING_WORK_S:
+    standing = None if before is None else before.standing
+    spent = budget.spent + (0.0 if standing is None else standing.spent)
+    is_further = budget.has_gained and (standing is None or standing.world is world)
+    limit = max(budget.limit if is_further else 2.0 * budget.limit, STEP_WORK_S)
+    if spent + limit > MAX_STANDING_WORK_S:
         return None
-    limit = min(2.0 * budget.limit, MAX_STANDING_WORK_S)
-    return PendingSearch(since, obstacles, names, begin_with, limit)
+    goes_on = StandingSearch(limit, spent, world, budget.finished)
+    return PendingSearch(since, obstacles, names, begin_with, standing=goes_on)
+
+
+def is_paused(context: ReplanContext, free: float) -> bool:
+    """Whether a robot under way goes on as it is before it searches again.
+
+    Args:
+        context: The robot, with something in its way.
+        free: Up to this distance along the path it is clear [m].
+    """
+    pending = context.schedule.pending
+    if pending is None or context.speed == 0.0:
+        return False
+    return context.progress.time < pending.again and free >= pending.free_until
 
 
 def must_brake(context: ReplanContext) -> bool:

@@ -8,13 +8,13 @@ from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
-from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.navigation.schedule import FIRST_STAGE, Schedule
 from viaspline.robot.perception.belief import News
 from viaspline.robot.perception.perceive import Sighting
-from viaspline.robot.replanning.deadline import with_time_to_search
+from viaspline.robot.replanning.deadline import is_paused, with_time_to_search
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
 from viaspline.robot.replanning.replan_from_scan import replan_from_scan
-from viaspline.robot.replanning.replan_search import FIRST_STAGE, search
+from viaspline.robot.replanning.replan_search import search
 from viaspline.robot.replanning.transitions import (
     keep_searching,
     let_go,
@@ -88,6 +88,8 @@ def _round_obstacles(context: ReplanContext, new: World) -> Decision:
         free = context.on_side_until(met)
     if free is None:
         return Decision(let_go(context), _detected(context, new))
+    if not len(new) and is_paused(context, free):
+        return Decision(context.schedule)
     if pending is not None and len(new):  # what has just been seen may bar what was tried
         begun = replace(pending, obstacles=met, begin_with=FIRST_STAGE)
         context = replace(context, schedule=replace(context.schedule, pending=begun))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -23,6 +24,10 @@ from viaspline.world.world import World
 
 PATH_END_U = 1e-9
 """A via point whose parameter is nearer than this to the path's end is the goal."""
+
+
+NOTHING: Mapping[Hashable, object] = MappingProxyType({})
+"""What has come before a search that begins."""
 
 
 @dataclass(frozen=True)
@@ -167,13 +172,16 @@ class ReplanContext:
         """What a path keeps: to look at the one that there is, there is always time."""
         return replace(self.requirements, budget=None)
 
-    def searching(self, limit: float) -> ReplanContext:
+    def searching(
+        self, limit: float, finished: Mapping[Hashable, object] = NOTHING
+    ) -> ReplanContext:
         """The robot with what its search may spend, on its way for as long as that takes.
 
         Args:
             limit: [s of the reference machine], which are taken for seconds.
+            finished: What parts of it have come to before; see ``WorkBudget``.
         """
-        budget, trajectory = WorkBudget(limit), self.schedule.trajectory
+        budget, trajectory = WorkBudget(limit, finished=dict(finished)), self.schedule.trajectory
         until = trajectory.cut_after(self.progress.time + limit)
         task = replace(self.task, requirements=replace(self.task.requirements, budget=budget))
         schedule = replace(self.schedule, committed_until=until)

@@ -18,12 +18,12 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.robot.navigation.decision import Decision
-from viaspline.robot.navigation.schedule import ReducedClearance, Wait
+from viaspline.robot.navigation.schedule import FIRST_STAGE, ReducedClearance, Wait
 from viaspline.robot.replanning.better_path import better_path, with_spare
-from viaspline.robot.replanning.deadline import with_time_to_search
+from viaspline.robot.replanning.deadline import RETRY_INTERVAL_S, is_paused, with_time_to_search
 from viaspline.robot.replanning.recovery import restore_clearance, way_out
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
-from viaspline.robot.replanning.replan_search import FIRST_STAGE, ReplanResult, search
+from viaspline.robot.replanning.replan_search import ReplanResult, search
 from viaspline.robot.replanning.retreat import retreat
 from viaspline.robot.replanning.sight_limit import within_sight
 from viaspline.robot.replanning.transitions import braked, keep_searching, stop_for_good, take_over
@@ -31,9 +31,6 @@ from viaspline.world.world import World
 
 MIN_REPLAN_INTERVAL_S = 0.25
 """A path that is blocked far ahead is laid anew no more often than this [s]."""
-
-RETRY_INTERVAL_S = 0.5
-"""After it has found no way, a robot tries again so much later [s]."""
 
 MAX_STAND_S = 5.0
 """A robot gives up if it has stood so long without a way [s]."""
@@ -74,7 +71,7 @@ def replan_from_scan(context: ReplanContext, *, opened: bool) -> Decision:
 
 def _round_obstruction(context: ReplanContext, free: float) -> Decision:
     """Round what the path comes too close to, ``free`` metres along it at the soonest."""
-    if _may_wait(context, free):
+    if _may_wait(context, free) or is_paused(context, free):
         return Decision(context.schedule)
     world = context.knowledge.world
     indices = _obstructing(context, world)

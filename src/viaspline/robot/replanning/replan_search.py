@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -18,6 +19,7 @@ from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError
 from viaspline.robot.navigation.progress import SAME_PLACE_M
+from viaspline.robot.navigation.schedule import FIRST_STAGE, NO_STAGE
 from viaspline.robot.replanning.hold_to_path import CREEP_MPS
 from viaspline.robot.replanning.passing_sides import changed_side, is_better
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
@@ -36,9 +38,6 @@ Stage: TypeAlias = tuple[int, int]
 
 ORDER: tuple[Mode, ...] = (*MODES, "from_rest")
 """The modes, from the least change to the greatest."""
-
-FIRST_STAGE: Stage = (0, 0)
-"""With which a search begins."""
 
 MAX_SHARE_BEFORE = 0.2
 """A part of a search that was stopped had a step for itself if no more was spent before."""
@@ -116,7 +115,10 @@ def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandida
         return candidate
     try:
         modes = MODES if candidate.mode == "reflex" else ("planned",)
-        kept = first_candidate(context, world.with_side(now, side), skip, modes)
+        sided = context.requirements.once(
+            ("side", world, now, side), partial(world.with_side, now, side)
+        )
+        kept = first_candidate(context, sided, skip, modes)
     except PlanningError:
         return candidate
     here = context.progress.distance
@@ -209,7 +211,7 @@ def _laid(
 def _next(stage: Stage, before: float, context: ReplanContext) -> Stage:
     """With which stage a search goes on that was stopped at one.
 
-    One that had a step for itself isn't tried again, unless it is the last.
+    One that had a step for itself isn't tried again, unless it is the last and the robot stands.
 
     Args:
         stage: At which it was stopped.
@@ -219,7 +221,11 @@ def _next(stage: Stage, before: float, context: ReplanContext) -> Stage:
     budget = context.requirements.budget
     assert budget is not None  # it has been spent
     had_most = before <= MAX_SHARE_BEFORE * budget.limit and budget.limit > 0.0
-    return (stage[0], stage[1] + 1) if had_most and stage[0] < len(ORDER) - 1 else stage
+    if not had_most:
+        return stage
+    if stage[0] < len(ORDER) - 1:
+        return (stage[0], stage[1] + 1)
+    return NO_STAGE if context.speed > 0.0 else stage
 
 
 def _not_followed(context: ReplanContext) -> GaveUpError:

@@ -72,11 +72,11 @@ def keep_searching(context: ReplanContext, result: ReplanResult) -> Decision:
     Under way the robot brakes for that as late as it can, or as soon as its time to search is up.
     """
     assert result.begin_with is not None
-    pending = gone_on(context, result.begin_with)
-    if pending is None:
-        return stop_for_good(context, str(result.refusal))
     before, schedule = context.schedule, context.schedule
     held_at = context.stop if must_brake(context) else min(last_place(context), before.held_at)
+    pending = gone_on(context, result.begin_with, held_at)
+    if pending is None:
+        return stop_for_good(context, str(result.refusal))
     held = replace(schedule, pending=pending, held_at=held_at)
     held = rescheduled(context.task, context.progress, context.knowledge, held, context.speed)
     if before.pending is not None or context.speed == 0.0:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -93,9 +94,14 @@ def find_row(
     failed = NotFound(Reason.BUDGET)
     expanded = 0
     for effort in efforts:
-        for problem in pose_problems(world, requirements, rho, ramp, places, effort):
+        problems = pose_problems(world, requirements, rho, ramp, places, effort)
+        for window, problem in enumerate(problems):
             closed = [problem.closed_by(each) for each in barriers] or [problem] * len(goals)
-            found, is_cut = _through(closed, starts, goals, budget)
+            lines = tuple(each.tobytes() for each in barriers)
+            found, is_cut = requirements.once(
+                ("poses", world, rho, ramp, tuple(starts), tuple(goals), effort, window, lines),
+                partial(_through, closed, starts, goals, budget),
+            )
             if not isinstance(found, NotFound):
                 return found
             expanded += found.expanded

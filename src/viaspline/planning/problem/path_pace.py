@@ -1,6 +1,8 @@
 """How fast a robot may go, as far as the choice of a path hangs on it.
 
 The time law itself is laid later, with all limits of the drive; here paths are compared.
+
+Tested through ``planning/checking/test_driving_time``.
 """
 
 from __future__ import annotations
