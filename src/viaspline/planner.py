@@ -32,7 +32,7 @@ def plan(mission: Mission) -> Plan:
         ... })
         >>> result = plan(mission)
         >>> result.certificate.holds, round(result.path.length, 1), result.ledger[0].chosen.side
-        (True, 50.8, 'right')
+        (True, 50.9, 'right')
     """
     check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
     mission, world = in_order(mission)
