@@ -17,7 +17,8 @@ from viaspline.planning.turning.driven_problem import DrivenProblem
 class SplineAsItIs:
     """Takes the spline, if it was not led round anything and the robot can drive it.
 
-    Where the mission doesn't say how taut it is to be, turns may be faster.
+    Where the mission doesn't say how taut it is to be, turns may be faster; where it asks for lanes
+    to be kept, it is taken only if there is nothing else, for it swings out between via points.
     """
 
     def lay(self, problem: DrivenProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
@@ -25,5 +26,7 @@ class SplineAsItIs:
         spline_path, needs = problem.cleared.spline_path, problem.requirements
         if problem.cleared.passed or not problem.is_drivable(spline_path.spans):
             return GaveUp(("the spline as it is",))
+        if needs.detours == "local":
+            return Found(spline_path, math.inf, is_settled=False)
         is_asked_for = needs.has_own_tension or not needs.objective.is_time
         return Found(spline_path, problem.cost(spline_path), is_settled=is_asked_for)

@@ -54,7 +54,7 @@ class HeadingLeg:
         rows = self.rows.copy()
         rows[[0, -1], HEADING] = start, goal
         rows[[0, -1], SIDE] = 0.0
-        return Bends(rows, np.full(len(rows), DETOUR))
+        return Bends.free(rows, np.full(len(rows), DETOUR))
 
 
 @dataclass(frozen=True)
