@@ -54,7 +54,9 @@ class HeadingLeg:
         rows = self.rows.copy()
         rows[[0, -1], HEADING] = start, goal
         rows[[0, -1], SIDE] = 0.0
-        return Bends.free(rows, np.full(len(rows), DETOUR))
+        vias = np.full(len(rows), DETOUR)
+        vias[[0, -1]] = 0, 1
+        return Bends.free(rows, vias)
 
 
 @dataclass(frozen=True)

@@ -23,11 +23,12 @@ from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.routing.blocked_runs import blocked_runs
 from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
-from viaspline.planning.routing.side_barrier import barriers_at
+from viaspline.planning.routing.side_barrier import Barriers, barriers_at, barriers_of
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import KEPT, SIDE, LegBends, X, Y, bend, rows_along
 from viaspline.planning.turning.lane import Lane
 from viaspline.planning.turning.wide_turns import swing_share
+from viaspline.world.world import World
 
 LONG_LANE = 10.0  # a lane over what stands in it, from which on it is kept unless it is said
 LANE_REACHES = (1.0, 1.6)  # how long turns off and onto a lane are made, over what they need
@@ -139,11 +140,14 @@ def local_bends(leg: LegSearch, taut_path: TautPath, turns: LaneTurns) -> LegBen
 
     Returns:
         None where the leg takes the shortest way: that is asked for, its line is short beside what
-        stands in it, or too little of it is left between that.
+        stands in it, too little of it is left between that, or it begins or ends right beside that.
     """
     lane = Lane.of(leg.sequence.whole_leg(leg.index))
     stays = _stays(leg, lane, taut_path)
     needs = leg.requirements
+    room = leg.world.distance(np.array([end[:2] for end in leg.ends]))
+    if room.min() < (1.0 + CLEAR_OF_RUN) * needs.required and stays:
+        return None  # it begins or ends beside what it has to go round: no lane is left there
     if needs.detours is None:
         size = sum(max(stay.size - 2.0 * needs.required, 0.0) for stay in stays)
         if not stays or lane.length <= LONG_LANE * size:
@@ -187,11 +191,22 @@ def _blocked(leg: LegSearch, lane: Lane, taut_path: TautPath, places: Floats, ru
     within = places[(places[:, 0] > begin) & (places[:, 0] < end), 1]
     at_ends = np.interp([begin, end], places[:, 0], places[:, 1])
     aside = float(np.abs(np.append(within, at_ends)).max())
-    goal = lane.at(lane.length)
-    barriers = barriers_at(leg.world, lane.at(0.5 * (begin + end)), lane.start, goal)
+    barriers = _barriers(leg.world, lane, lane.at(0.5 * (begin + end)))
     passed = barriers.left if taut_path.crosses(barriers.left) else barriers.right
     closed = barriers.right if passed is barriers.left else barriers.left
     return Stay(begin, end, aside, max(end - begin, 2.0 * aside), closed)
+
+
+def _barriers(world: World, lane: Lane, place: Floats) -> Barriers:
+    """What closes either side of what blocks a lane at a place [m], (2,).
+
+    They begin inside of it: a path may pass between it and a lane that it blocks only just.
+    """
+    index = int(world.nearest(place)[1])
+    ends = lane.start, lane.at(lane.length)
+    if index >= 0 and world.obstacles[index].ring is not None:
+        return barriers_of(world, index, *ends)
+    return barriers_at(world, place, *ends)
 
 
 def _aside(leg: LegSearch, lane: Lane, stay: Stay, turns: LaneTurns) -> Aside | None:
