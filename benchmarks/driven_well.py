@@ -1,6 +1,6 @@
 """The path that a good driver would take: how far the planner's is from it, a table a question.
 
-    python benchmarks/driven_well.py TABLE [--seed 0] [--worlds N] [--maps FOLDER]
+    python benchmarks/driven_well.py TABLE [--seed 0] [--worlds N] [--maps FOLDER] [--detours HOW]
 
     turns            how often the path turns the other way, in the examples, and its taut route
     best-vector      time, length and bending over those of the best curve of the same kind, in
@@ -10,7 +10,9 @@
     street           what the street example loses to its corners
     straight         vector worlds at 5 m/s, 1 m/s²: time over that of the straight line; 40
     sharp            random missions of four via points: how many are sharp, or turn back; 1,000
-    lanes            share of lanes over a lake that the path stays within 1 m of; 20
+    lanes            share of lanes over a lake that the path stays within 1 m of, and of how many
+                     it is less than 1 - 4 x (island's width / lane); 20; with --detours local or
+                     short, if it isn't to be chosen
     times            of a plan: vector worlds, crops of the maps in FOLDER; 20
 
 Times are the least under the mission's limits of speed and acceleration (across the path as along
@@ -150,19 +152,39 @@ def sharp(asked: argparse.Namespace) -> None:
 
 
 def lanes(asked: argparse.Namespace) -> None:
-    print("lake  lanes  share kept  worst lane  taut routes'")
+    print("lake  lanes  share kept  worst lane  taut routes'  time s")
     kept: list[float] = []
+    times_s, beside, count = 0.0, 0, 0
     for seed in seeds(asked, 20):
-        driven = DrivenPlan.of(lake(seed))
+        mission = lake(seed)
+        if asked.detours is not None:
+            route = mission.route.model_copy(update={"detours": asked.detours})
+            mission = mission.model_copy(update={"route": route})
+        driven = DrivenPlan.of(mission)
         shares, weights = zip(*(near_lane(leg) for leg in driven.legs), strict=True)
         taut = [near_lane(leg)[0] for leg in driven.taut_legs]
         kept.append(float(np.average(shares, weights=weights)))
+        times_s += driven.driving_time
+        for leg, island, share in zip(driven.legs, mission.world.known, shares, strict=True):
+            beside += share < 1.0 - 4.0 * width(island, leg) / length(leg[[0, -1]])
+            count += 1
         print(
             f"{seed:4d} {len(shares):6d} {kept[-1]:11.3f} {min(shares):11.3f} "
-            f"{np.average(taut, weights=weights):13.3f}",
+            f"{np.average(taut, weights=weights):13.3f} {driven.driving_time:7.1f}",
             flush=True,
         )
-    print(f"median {np.median(kept):.3f}, least {min(kept):.3f}")
+    print(f"median {np.median(kept):.3f}, least {min(kept):.3f}; driven in {times_s:.0f} s")
+    print(f"{beside} of {count} lanes keep less than 1 - 4 x (island's width / lane)")
+
+
+def width(island: vs.Obstacle, leg: np.ndarray) -> float:
+    """Of an island, along the line between a leg's ends or across it, whichever is more [m]."""
+    if island.circle is not None:
+        return 2.0 * island.circle.radius
+    along = (leg[-1] - leg[0]) / length(leg[[0, -1]])
+    across = np.array((-along[1], along[0]))
+    ring = np.array(island.polygon)
+    return float(max(np.ptp(ring @ along), np.ptp(ring @ across)))
 
 
 def near_lane(leg: np.ndarray) -> tuple[float, float]:
@@ -218,6 +240,7 @@ def main() -> None:
     parser.add_argument("table", choices=TABLES)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--worlds", type=int)
+    parser.add_argument("--detours", choices=("local", "short"))
     parser.add_argument("--maps", type=Path, default=EXAMPLES / "maps")
     asked = parser.parse_args()
     TABLES[asked.table](asked)

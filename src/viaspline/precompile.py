@@ -84,7 +84,7 @@ def compile_driving() -> None:
         via_sequence_of(mission), world, requirements, circle, RAMP * circle, (), WorkBudget(1.0)
     )
     rows = [bend(0, 0), bend(6, 3, 1.0, 1.0), bend(12, 0)]
-    turn_path = turn_path_round(Bends(np.array(rows), np.array([0, -1, 1])).turning(circle))
+    turn_path = turn_path_round(Bends.free(np.array(rows), np.array([0, -1, 1])).turning(circle))
     assert isinstance(turn_path, TurnPath)
     curve = PiecewiseCubic(turn_path.spans)
     curvature_bound(curve)

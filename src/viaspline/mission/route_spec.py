@@ -16,6 +16,7 @@ from viaspline.mission.fields import Duration, Heading, Name, Point, plain
 from viaspline.mission.value import Value
 
 Optimise: TypeAlias = Literal["time", "length"]
+Detours: TypeAlias = Literal["local", "short"]
 
 MAX_LAPS: Final = 1000
 """How often a closed route can be driven at most."""
@@ -86,6 +87,10 @@ class Route(Value):
         corridor: A strip that the path stays inside of.
         optimise: What sides and shapes are chosen by: the ``time`` in which the path is driven
             within the robot's limits, or its ``length``, the paper's rule.
+        detours: ``local``: round what stands between two via points, the path leaves the straight
+            line between them late and is back on it early, so that a lane stays a lane; ``short``:
+            on the shortest way. None: local where the line is more than ten times as long as what
+            stands in it and ``optimise`` is ``time``.
     """
 
     start: End
@@ -96,6 +101,7 @@ class Route(Value):
     laps: Annotated[int, Field(strict=True, ge=1, le=MAX_LAPS)] = 1
     corridor: Corridor | None = None
     optimise: Optimise = "time"
+    detours: Detours | None = None
 
     def points(self) -> Iterator[tuple[str, ViaPoint]]:
         """Every point of the route in order, with its key in the mission file."""

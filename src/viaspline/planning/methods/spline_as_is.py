@@ -19,7 +19,7 @@ class SplineAsItIs:
 
     Where the mission doesn't say how taut it is to be, turns may be faster. A bend that is sharper
     than the robot itself never is, whatever a time law for points says: it is what remains where
-    nothing else is found.
+    nothing else is found. So it is where lanes are to be kept: it swings out between via points.
     """
 
     def lay(self, problem: DrivenProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
@@ -27,6 +27,8 @@ class SplineAsItIs:
         spline_path, needs = problem.cleared.spline_path, problem.requirements
         if problem.cleared.passed or not problem.is_drivable(spline_path.spans):
             return GaveUp(("the spline as it is",))
+        if needs.detours == "local":
+            return Found(spline_path, math.inf, is_settled=False)
         if needs.has_own_tension or not needs.objective.is_time:
             return Found(spline_path, problem.cost(spline_path))
         cost = problem.cost(spline_path) if problem.is_round(spline_path.spans) else math.inf

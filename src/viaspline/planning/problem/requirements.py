@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec, TurnOnSpot
+from viaspline.mission.route_spec import Detours
 from viaspline.mission.spline_spec import SplineSpec, Tangents
 from viaspline.planning.problem.objective import Objective
 from viaspline.planning.problem.path_pace import Pace
@@ -37,6 +38,8 @@ class Requirements:
             has no limit.
         turns_on_spot: Where it may stand and turn.
         objective: By what paths are chosen.
+        detours: Whether they keep to the line between via points; None: where that is long beside
+            what stands in it.
         budget: What may be spent on looking for a path; None: as much as it takes.
     """
 
@@ -51,6 +54,7 @@ class Requirements:
     turn_radius: float | None = None
     turns_on_spot: TurnOnSpot = "stations"
     objective: Objective = field(default_factory=lambda: Objective("time", Pace.of(RobotSpec())))
+    detours: Detours | None = None
     budget: WorkBudget | None = None
 
     def spend(self, cost: float) -> None:
@@ -87,6 +91,13 @@ class Requirements:
     def is_cardinal(self) -> bool:
         """Whether the paper's own curve is asked for, of a robot that can follow it."""
         return self.is_free_disc and self.tangents == "cardinal"
+
+    @property
+    def may_be_local(self) -> bool:
+        """Whether there may be legs that keep to the line between their via points."""
+        if self.detours is None:
+            return self.objective.is_time
+        return self.detours == "local"
 
     @property
     def has_own_tension(self) -> bool:
@@ -131,4 +142,5 @@ class Requirements:
             turn_radius=robot.turn_radius,
             turns_on_spot=robot.turns_on_spot,
             objective=Objective(mission.route.optimise, Pace.of(robot)),
+            detours=mission.route.detours,
         )

@@ -31,28 +31,39 @@ class Bends:
     Attributes:
         rows: See ``kernels.turning.turn_sequence``, shape (n, 6).
         vias: Index of each one's via point in the sequence, or ``DETOUR``, shape (n,).
+        swings: How far each one's turn may swing out beyond what is kept [m], (n,); infinite
+            where it may be as wide as is fast.
         closed: Whether the last one is followed by the first.
     """
 
     rows: Floats
     vias: NDArray[np.int64]
+    swings: Floats
     closed: bool = False
 
+    @classmethod
+    def free(cls, rows: Floats, vias: NDArray[np.int64]) -> Bends:
+        """Bends of an open row whose turns may be as wide as is fast."""
+        return cls(rows, vias, np.full(len(rows), math.inf))
+
     @property
-    def key(self) -> tuple[bytes, bytes, bool]:
+    def key(self) -> tuple[bytes, bytes, bytes, bool]:
         """What tells these bends from others."""
-        return self.rows.tobytes(), self.vias.tobytes(), self.closed
+        return self.rows.tobytes(), self.vias.tobytes(), self.swings.tobytes(), self.closed
 
     def with_bend(self, k: int, row: Floats) -> Bends:
         """These bends with a detour bend before bend k."""
         return Bends(
-            np.insert(self.rows, k, row, axis=0), np.insert(self.vias, k, DETOUR), self.closed
+            np.insert(self.rows, k, row, axis=0),
+            np.insert(self.vias, k, DETOUR),
+            np.insert(self.swings, k, math.inf),
+            self.closed,
         )
 
     def without(self, needless: NDArray[np.intp]) -> Bends:
         """These bends without some of them."""
-        rows = np.delete(self.rows, needless, axis=0)
-        return Bends(rows, np.delete(self.vias, needless), self.closed)
+        rows, swings = np.delete(self.rows, needless, axis=0), np.delete(self.swings, needless)
+        return Bends(rows, np.delete(self.vias, needless), swings, self.closed)
 
     def turning(self, radii: float | Floats) -> Bends:
         """These bends with other least radii of their turns: one [m], or one for each, (n,)."""
@@ -64,7 +75,7 @@ class Bends:
         """These bends with more room kept from what detour bend k goes round [m]."""
         rows = self.rows.copy()
         rows[k, KEPT] += by
-        return Bends(rows, self.vias, self.closed)
+        return replace(self, rows=rows)
 
     def leg_of(self, k: int) -> int:
         """The leg on which bend k lies; the last of the via points ends the last one."""
@@ -84,39 +95,75 @@ def bend(x: float, y: float, kept: float = 0.0, side: float = 0.0, radius: float
     return row
 
 
+@dataclass(frozen=True)
+class LegBends:
+    """The bends between two via points.
+
+    Attributes:
+        rows: As in ``Bends``, (k, 6).
+        swings: The same, (k,).
+        end_swing: The same of the via points before and after [m].
+    """
+
+    rows: Floats
+    swings: Floats
+    end_swing: float = math.inf
+
+    @classmethod
+    def along(cls, taut_path: TautPath) -> LegBends:
+        """What a taut path goes round."""
+        rows = rows_along(taut_path)
+        return cls(rows, np.full(len(rows), math.inf))
+
+
 def bends_along(sequence: ViaSequence, taut_paths: Sequence[TautPath]) -> Bends:
     """The bends of a via sequence whose legs go along taut paths."""
+    return bends_of_legs(sequence, [LegBends.along(taut_path) for taut_path in taut_paths])
+
+
+def bends_of_legs(sequence: ViaSequence, legs: Sequence[LegBends]) -> Bends:
+    """The bends of a via sequence with those of its legs between them."""
     rows: list[Floats] = []
     vias: list[int] = []
+    swings: list[float] = []
+    ends = [leg.end_swing for leg in legs]
+    before = [*(ends[-1:] if sequence.closed else [math.inf]), *ends]
+    after = [*ends, math.inf]
     for k, via in enumerate(sequence.vias):
         rows.append(bend(float(via.at[0]), float(via.at[1])))
         vias.append(k)
-        if k < len(taut_paths):
-            inner = _bends_of(taut_paths[k])
-            rows += inner
-            vias += [DETOUR] * len(inner)
+        swings.append(min(before[k], after[k]))
+        if k < len(legs):
+            rows += list(legs[k].rows)
+            vias += [DETOUR] * len(legs[k].rows)
+            swings += legs[k].swings.tolist()
     table = np.array(rows)
     if not sequence.closed:
         for k, tangent in ((0, sequence.start_tangent), (-1, sequence.end_tangent)):
             if tangent is not None:
                 table[k, HEADING] = math.atan2(tangent[1], tangent[0])
-    return Bends(table, np.array(vias), sequence.closed)
+    return Bends(table, np.array(vias), np.array(swings), sequence.closed)
 
 
-def _bends_of(taut_path: TautPath) -> list[Floats]:
-    """What a way goes round; where its arcs have no common tangents, its corners."""
+def rows_along(taut_path: TautPath) -> Floats:
+    """What a way goes round, (k, 6); where its arcs have no common tangents, its corners."""
     if len(taut_path.bends):
-        return [
+        found = [
             bend(row[BEND_X], row[BEND_Y], row[BEND_RADIUS], row[BEND_SIDE])
             for row in taut_path.bends[1:-1]
         ]
-    corners = taut_path.corners[:, [CORNER_X, CORNER_Y]]
-    steps = np.diff(corners, axis=0)
-    turns = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
-    return [
-        bend(x, y, 0.0, math.copysign(1.0, turn))
-        for (x, y), turn in zip(corners[1:-1].tolist(), turns.tolist(), strict=True)
-    ]
+    else:
+        corners = taut_path.corners[:, [CORNER_X, CORNER_Y]]
+        steps = np.diff(corners, axis=0)
+        turns = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
+        found = [
+            bend(x, y, 0.0, math.copysign(1.0, turn))
+            for (x, y), turn in zip(corners[1:-1].tolist(), turns.tolist(), strict=True)
+        ]
+    return np.array(found).reshape(-1, 6)
 
 
-__all__ = ["DETOUR", "HEADING", "KEPT", "RADIUS", "SIDE", "Bends", "X", "Y", "bend", "bends_along"]
+__all__ = [
+    "DETOUR", "HEADING", "KEPT", "RADIUS", "SIDE", "Bends", "LegBends", "X", "Y", "bend",
+    "bends_along", "bends_of_legs", "rows_along",
+]  # fmt: skip

@@ -5,8 +5,8 @@ Tested through ``planning/methods/test_ordered``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -26,8 +26,9 @@ from viaspline.planning.routing.asked_sides import AskedSides
 from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
-from viaspline.planning.turning.bend_row import DETOUR, Bends, bends_along
-from viaspline.planning.turning.blocked_runs import turns_on_runs
+from viaspline.planning.turning.bend_row import DETOUR, Bends, LegBends, bends_along, bends_of_legs
+from viaspline.planning.turning.local_detours import LANE_REACHES, LaneTurns, local_bends
+from viaspline.planning.turning.spline_and_turns import turns_on_runs
 from viaspline.planning.turning.repair import clear_turn_path
 from viaspline.planning.turning.turn_path import OVERSHOOT, TurnPath
 from viaspline.planning.turning.wide_turns import WideTurns
@@ -155,18 +156,18 @@ class DrivenProblem(PathProblem):
         Where the mission says how taut its spline is to be, on the blocked legs alone if that
         keeps clear.
         """
-        if self.requirements.has_own_tension:
+        if self.requirements.has_own_tension and self.requirements.detours != "local":
             spline_path = self._turns_on_blocked(taut_paths)
             if spline_path is not None:
                 return spline_path
-        bends = bends_along(self.sequence, taut_paths)
-        for rho in self.least_radii:
-            turn_path = self._turns_round(bends, rho)
-            if turn_path is None:
-                continue
-            spline_path = self.through_turns([turn_path])
-            if self.keeps_sides(spline_path):
-                return spline_path
+        for bends in self._rows_along(taut_paths):
+            for rho in self.least_radii:
+                turn_path = self._turns_round(bends, rho)
+                if turn_path is None:
+                    continue
+                spline_path = self.through_turns([turn_path])
+                if self.keeps_sides(spline_path):
+                    return spline_path
         return None
 
     def _turns_on_blocked(self, taut_paths: Sequence[TautPath]) -> SplinePath | None:
@@ -186,6 +187,48 @@ class DrivenProblem(PathProblem):
                 return spline_path
         return None
 
+    def _rows_along(self, taut_paths: Sequence[TautPath]) -> Iterator[Bends]:
+        """The bends along taut paths, those first that keep most to the lines between vias."""
+        short = tuple(LegBends.along(taut_path) for taut_path in taut_paths)
+        stretched = []
+        for reach in LANE_REACHES:
+            local = self._local_legs(taut_paths, reach)
+            if not any(local):
+                break
+            stretched.append(local)
+            legs = [mine or its for mine, its in zip(local, short, strict=True)]
+            yield bends_of_legs(self.sequence, legs)
+        if stretched and len(short) > 1:
+            choices = zip(*stretched, short, strict=True)
+            legs = [self._first_that_fits(k, legs) for k, legs in enumerate(choices)]
+            yield bends_of_legs(self.sequence, legs)
+        yield bends_of_legs(self.sequence, short)
+
+    def _first_that_fits(self, leg: int, choices: Sequence[LegBends | None]) -> LegBends:
+        """The first of some bends of a leg round which it can be laid by itself, else the last."""
+        ends = self.sequence.ends(leg)
+        alone = replace(self.sequence, vias=ends, legs=(self.sequence.legs[leg],), closed=False,
+                        start_tangent=None, end_tangent=None, parts_of=())  # fmt: skip
+        *local, short = [bends for bends in choices if bends is not None]
+        for bends in local:
+            row = bends_of_legs(alone, [bends])
+            if self._turns_round(row, self.least_radii[-1]) is not None:
+                return bends
+        return short
+
+    def _local_legs(
+        self, taut_paths: Sequence[TautPath], reach: float
+    ) -> tuple[LegBends | None, ...]:
+        """The bends of every leg that keeps to its line, None where it takes the shortest way."""
+        if not self.requirements.may_be_local:
+            return (None,) * len(taut_paths)
+        widest = max(self.requirements.objective.pace.widest_radius, self._roomy)
+        turns = LaneTurns(self.least_radii[-1], max(widest, self.least_radii[-1]), reach)
+        return tuple(
+            local_bends(leg, taut_path, turns)
+            for leg, taut_path in zip(self.legs, taut_paths, strict=True)
+        )
+
     def is_promising(self, taut_paths: Sequence[TautPath], bound: float) -> bool:
         """Whether turns along taut paths may cost less than a bound [m or s].
 
@@ -193,7 +236,7 @@ class DrivenProblem(PathProblem):
         """
         if not self.requirements.objective.is_time:
             return True
-        bends = bends_along(self.sequence, taut_paths)
+        bends = next(self._rows_along(taut_paths))
         ideal = self._wide_turns(self.least_radii[-1]).ideal(bends, self.requirements)
         if ideal is None:
             return True
@@ -203,8 +246,12 @@ class DrivenProblem(PathProblem):
         return driving_time(ideal.spans, self.requirements.objective.pace, rests) < bound
 
     def _wide_turns(self, rho: float) -> WideTurns:
-        roomy = ROOMY_TURN_RADIUS * self.requirements.required
-        return WideTurns(self.requirements.objective.pace, rho, roomy)
+        pace = self.requirements.objective.pace
+        return WideTurns(pace, rho, self.least_radii[-1], self._roomy)
+
+    @property
+    def _roomy(self) -> float:
+        return ROOMY_TURN_RADIUS * self.requirements.required
 
     def _turns_round(self, bends: Bends, rho: float) -> TurnPath | None:
         """Turns of at least a radius [m]: no wider ones where it is the length that counts."""

@@ -57,7 +57,7 @@ class HeadingLeg:
         rows[[0, -1], SIDE] = 0.0
         vias = np.full(len(rows), DETOUR)
         vias[[0, -1]] = 0, 1
-        return Bends(rows, vias)
+        return Bends.free(rows, vias)
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,7 @@ MOST_NARROWED = 0.5  # of the widest swing of those between which it is too tigh
 MAX_NARROWINGS = 40
 GENTLE_SHARE = 1e-3  # of the length, that may be spent on gentle bends
 GENTLE_ROOM = 0.9  # of a ramp's share of a line
+LEAST_SHARE = 1e-12  # of its radius that a turn swings out
 
 
 @dataclass(frozen=True)
@@ -43,12 +44,14 @@ class WideTurns:
 
     Attributes:
         pace: How fast the robot may go.
-        least: The least radius of all [m].
+        least: The least radius of turns that may swing out [m].
+        sharpest: The least radius of those that may not [m].
         roomy: What turns have where there is room, even if sharper ones were as fast [m].
     """
 
     pace: Pace
     least: float
+    sharpest: float
     roomy: float
 
     def lay(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
@@ -106,7 +109,24 @@ class WideTurns:
         radii = np.full(len(bends.rows), max(self.roomy, self.least))
         fast = self.pace.corner_radii(angles, bends.rows[rows, KEPT]) * np.minimum(angles, 1.0)
         radii[rows] = np.maximum(radii[rows], np.maximum(fast, _gentle(bends.rows[rows], angles)))
+        swung = bends.swings[rows] / np.maximum(swing_share(angles), LEAST_SHARE)
+        radii[rows] = np.minimum(radii[rows], bends.rows[rows, KEPT] + swung)
+        radii[rows] = np.maximum(radii[rows], self.sharpest)
         return radii
+
+
+def swing_share(turns: Floats) -> Floats:
+    """How far turns swing out from where their lines meet, over their radius, (n,).
+
+    With ramps as long as the radius, turns by less than 1 rad are ramps alone.
+
+    Args:
+        turns: By how much they turn [rad], (n,).
+    """
+    theta = np.abs(turns)
+    with_arc = 1.0 - np.cos(0.5 * theta) + 1.0 / 24.0
+    found: Floats = np.where(theta < 1.0, theta / 6.0, with_arc)
+    return found
 
 
 def _gentle(rows: Floats, angles: Floats) -> Floats:

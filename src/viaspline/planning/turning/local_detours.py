@@ -1,0 +1,309 @@
+r"""Detours that leave the line between two via points late and are back on it early.
+
+Where the line is blocked, the path leaves it and meets it again along circles that touch the line,
+beside what it goes round. A path that goes aside by w with turns and counter-turns of the radius R,
+whose curvature rises evenly, takes :math:`\sqrt{8 R w}` along the line. So near to what it goes
+round it leaves; with R so small that this is in proportion to what it goes round, and no larger
+than what the robot needs at full speed. Places on the line that are too near to each other to go
+back to it between them are gone round as one, and one too near to a via point from that point on.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.world.corner_fans import X as CORNER_X
+from viaspline.kernels.world.corner_fans import Y as CORNER_Y
+from viaspline.planning.alternatives.leg_search import LegSearch
+from viaspline.planning.problem.method import Outcome
+from viaspline.planning.problem.work_budget import ROUTE_S
+from viaspline.planning.routing.blocked_runs import blocked_runs
+from viaspline.planning.routing.route_on_sides import route_on_sides
+from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
+from viaspline.planning.routing.side_barrier import Barriers, barriers_at, barriers_of
+from viaspline.planning.routing.taut_path import TautPath
+from viaspline.planning.turning.bend_row import KEPT, SIDE, LegBends, X, Y, bend, rows_along
+from viaspline.planning.turning.lane import Lane
+from viaspline.planning.turning.wide_turns import swing_share
+from viaspline.world.world import World
+
+LONG_LANE = 10.0  # a lane over what stands in it, from which on it is kept unless it is said
+LANE_REACHES = (1.0, 1.6)  # how long turns off and onto a lane are made, over what they need
+LONGEST_S = 1.25  # of such a turn with its counter-turn, over what is gone round
+END_SWING = 0.35  # of a turn at an end of a lane, in required distances
+OFF_LANE = 0.05  # beside its line a leg begins off it, in required distances
+NEXT_TO = 1.001  # from an end of a leg, at which there is room just so for a turn, in radii
+CLEAR_OF_RUN = 0.25  # before a blocked place, at which the line is left at the latest; the same
+
+
+@dataclass(frozen=True)
+class LaneTurns:
+    """Turns off a lane and onto it.
+
+    Attributes:
+        least: The least radius of a turn [m].
+        widest: That of one at full speed [m].
+        reach: How far along the lane they are stretched, over what they need.
+    """
+
+    least: float
+    widest: float
+    reach: float
+
+    def radius(self, aside: float, size: float) -> float:
+        """With which a path goes aside [m] round something of a size [m]."""
+        fitting = (LONGEST_S * size) ** 2 / (8.0 * max(aside, 1e-9 * size))
+        return float(np.clip(fitting, self.least, self.widest))
+
+    def length(self, aside: float, radius: float) -> float:
+        """Along the lane, of a turn and a counter-turn that lead so far aside [m]."""
+        return self.reach * math.sqrt(8.0 * radius * min(aside, 2.0 * radius))
+
+
+@dataclass(frozen=True)
+class Stay:
+    """A piece of a lane on which the path can't stay on it.
+
+    Attributes:
+        begin: Where it begins, along the lane [m].
+        end: Where it ends [m].
+        aside: How far beside the lane the path gets there [m].
+        size: Of the largest thing that stands in the way there [m].
+        barriers: What closes the sides on which the path doesn't pass what stands there, (b, 4).
+    """
+
+    begin: float
+    end: float
+    aside: float
+    size: float
+    barriers: Floats
+
+
+@dataclass(frozen=True)
+class Aside:
+    """How a path goes round what stands on its lane.
+
+    Attributes:
+        leave: Where it leaves the lane, along it [m]; None where it does so at the leg's start.
+        meet: Where it is back on the lane; None where that is at the leg's goal.
+        rows: The bends between, as in ``Bends``, (k, 6).
+        places: Where it is at each of them, and at those ends of the leg that it includes and that
+            lie beside the lane: along it and to its left [m], (j, 2).
+        radius: Of the turns off the lane and onto it [m].
+    """
+
+    leave: float | None
+    meet: float | None
+    rows: Floats
+    places: Floats
+    radius: float
+
+    @property
+    def off(self) -> Floats:
+        """How far to the left of the lane those places are [m], (j,)."""
+        left: Floats = self.places[:, 1]
+        return left
+
+    def bends(self, lane: Lane) -> tuple[Floats, Floats]:
+        """With those at which it leaves the lane and meets it: rows (j, 6), swings (j,)."""
+        if not len(self.places):
+            return self.rows, np.empty(0)  # the lane itself
+        rows = list(self.rows)
+        kept = self.rows[:, KEPT]
+        share = swing_share(2.0 * turn_aside(np.abs(self.off), self.radius))
+        swings = (np.maximum(self.radius - kept, 0.0) * share.max()).tolist()
+        if self.leave is not None:
+            rows.insert(0, _touching(lane, self.leave, float(self.off[0]), self.radius))
+            swings.insert(0, 0.0)
+        if self.meet is not None:
+            rows.append(_touching(lane, self.meet, float(self.off[-1]), self.radius))
+            swings.append(0.0)
+        return np.array(rows).reshape(-1, 6), np.array(swings)
+
+
+def turn_aside(aside: Floats, radius: float) -> Floats:
+    """By how much a path turns with a radius, and back again, to get so far aside [rad], (n,)."""
+    turn: Floats = np.minimum(np.sqrt(aside / (2.0 * radius)), 0.5 * math.pi)
+    return turn
+
+
+def local_bends(leg: LegSearch, taut_path: TautPath, turns: LaneTurns) -> LegBends | None:
+    """The bends of a leg that keeps to its line as long as it can.
+
+    Args:
+        leg: The leg.
+        taut_path: The shortest path to the sides on which it is to pass what it meets.
+        turns: The turns off its line and onto it.
+
+    Returns:
+        None where the leg takes the shortest way: that is asked for, its line is short beside what
+        stands in it, too little of it is left between that, or it begins or ends right beside that.
+    """
+    lane = Lane.of(leg.sequence.whole_leg(leg.index))
+    stays = _stays(leg, lane, taut_path)
+    needs = leg.requirements
+    room = leg.world.distance(np.array([end[:2] for end in leg.ends]))
+    if room.min() < (1.0 + CLEAR_OF_RUN) * needs.required and stays:
+        return None  # it begins or ends beside what it has to go round: no lane is left there
+    if needs.detours is None:
+        size = sum(max(stay.size - 2.0 * needs.required, 0.0) for stay in stays)
+        if not stays or lane.length <= LONG_LANE * size:
+            return None
+    while True:
+        found = [_aside(leg, lane, stay, turns) for stay in stays]
+        asides = [aside for aside in found if aside is not None]
+        if len(asides) < len(stays):
+            return None
+        joined = _joined(stays, asides)
+        if len(joined) == len(stays):
+            break
+        stays = joined
+    rows, swings = [np.empty((0, 6))], [np.empty(0)]
+    for aside in asides:
+        bends = aside.bends(lane)
+        rows.append(bends[0])
+        swings.append(bends[1])
+    return LegBends(np.vstack(rows), np.concatenate(swings), END_SWING * needs.required)
+
+
+def _stays(leg: LegSearch, lane: Lane, taut_path: TautPath) -> list[Stay]:
+    """Where the path can't stay on its lane: beside it at a leg's ends, and where it is blocked.
+
+    A taut path says on which side what stands there is passed, and how far aside.
+    """
+    required = leg.requirements.required
+    (first, first_off), (last, last_off) = (lane.seen(end).tolist() for end in leg.ends)
+    runs = blocked_runs(leg.world, lane.at(first), lane.at(last), required)
+    places = lane.seen(taut_path.corners[:, [CORNER_X, CORNER_Y]])
+    stays = [_blocked(leg, lane, taut_path, places, first + run) for run in runs]
+    for at, off in ((first, first_off), (last, last_off)):
+        if abs(off) > OFF_LANE * required:
+            stays.append(Stay(at, at, abs(off), 0.0, NO_BARRIERS))
+    return sorted(stays, key=lambda stay: stay.begin)
+
+
+def _blocked(leg: LegSearch, lane: Lane, taut_path: TautPath, places: Floats, run: Floats) -> Stay:
+    """A blocked piece of a lane, as a taut path with corners at places (k, 2) [m] passes it."""
+    begin, end = run.tolist()
+    within = places[(places[:, 0] > begin) & (places[:, 0] < end), 1]
+    at_ends = np.interp([begin, end], places[:, 0], places[:, 1])
+    aside = float(np.abs(np.append(within, at_ends)).max())
+    barriers = _barriers(leg.world, lane, lane.at(0.5 * (begin + end)))
+    passed = barriers.left if taut_path.crosses(barriers.left) else barriers.right
+    closed = barriers.right if passed is barriers.left else barriers.left
+    return Stay(begin, end, aside, max(end - begin, 2.0 * aside), closed)
+
+
+def _barriers(world: World, lane: Lane, place: Floats) -> Barriers:
+    """What closes either side of what blocks a lane at a place [m], (2,).
+
+    They begin inside of it: a path may pass between it and a lane that it blocks only just.
+    """
+    index = int(world.nearest(place)[1])
+    ends = lane.start, lane.at(lane.length)
+    if index >= 0 and world.obstacles[index].ring is not None:
+        return barriers_of(world, index, *ends)
+    return barriers_at(world, place, *ends)
+
+
+def _aside(leg: LegSearch, lane: Lane, stay: Stay, turns: LaneTurns) -> Aside | None:
+    """How the path goes round what stands on a piece of a lane.
+
+    It is routed from where the lane may have to be left, and once more from where it has to be.
+
+    Returns:
+        None where no way was found, or nothing of the lane is left before and after it.
+    """
+    radius = turns.radius(stay.aside, stay.size) if stay.size > 0.0 else turns.widest
+    first, last = (float(lane.seen(end)[0]) for end in leg.ends)
+    clear = CLEAR_OF_RUN * leg.requirements.required
+    along = turns.length(stay.aside, radius)
+    leave = max(stay.begin - along, min(stay.begin - clear, first + NEXT_TO * radius))
+    meet = min(stay.end + along, max(stay.end + clear, last - NEXT_TO * radius))
+    found: Aside | None = None
+    for _ in range(2):
+        span = (
+            leave if leave > first + radius else None,
+            meet if meet < last - radius else None,
+        )
+        found = None if span == (None, None) else _routed(leg, lane, span, stay.barriers, radius)
+        if found is None or not len(found.places):
+            break
+        needed = np.array([turns.length(off, radius) for off in np.abs(found.off)])
+        before, after = found.off * found.off[0] > 0.0, found.off * found.off[-1] > 0.0
+        leave = min(float((found.places[:, 0] - needed)[before].min()), stay.begin - clear)
+        meet = max(float((found.places[:, 0] + needed)[after].max()), stay.end + clear)
+    if found is None:
+        return None
+    return replace(
+        found,
+        leave=None if found.leave is None else leave,
+        meet=None if found.meet is None else meet,
+    )
+
+
+def _routed(
+    leg: LegSearch, lane: Lane, span: tuple[float | None, float | None], barriers: Floats,
+    radius: float,
+) -> Aside | None:  # fmt: skip
+    """The shortest way from one place on a lane to another, None the ends of the leg."""
+    needs, (leave, meet) = leg.requirements, span
+    ends = (
+        leg.ends[0] if leave is None else lane.at(leave),
+        leg.ends[1] if meet is None else lane.at(meet),
+    )
+    active = on_the_line(leg.world, *ends, needs.required)
+
+
+    def find(closed: Floats, met: Flags) -> tuple[Outcome[TautPath], Flags]:
+        needs.spend(ROUTE_S)
+        known = met.copy()
+        return leg.router.find(*ends, closed, known), known
+
+    outcome, _ = route_on_sides(find, leg.sides, active, barriers)
+    if outcome.value is None:
+        return None
+    rows = rows_along(outcome.value)
+    apexes = lane.seen(rows[:, [X, Y]])
+    apexes[:, 1] -= rows[:, SIDE] * rows[:, KEPT]
+    seen = [lane.seen(end)[None] for end in ends]
+    start, goal = (end[np.abs(end[:, 1]) > OFF_LANE * needs.required] for end in seen)
+    return Aside(leave, meet, rows, np.vstack((start, apexes, goal)), radius)
+
+
+def _touching(lane: Lane, along: float, off: float, radius: float) -> Floats:
+    """The bend at which a path leaves or meets a lane whose next turn is so far to its left [m].
+
+    It is a circle that the lines of its turn touch, ramps included, where the lane is one of them.
+    """
+    turn = float(turn_aside(np.array([abs(off)]), radius)[0])
+    shift = radius * min(turn, 1.0) ** 2 / 24.0
+    side = math.copysign(1.0, off)
+    x, y = lane.at(along, side * (radius + shift)).tolist()
+    return bend(x, y, radius, side)
+
+
+def _joined(stays: Sequence[Stay], asides: Sequence[Aside]) -> list[Stay]:
+    """Pieces of a lane, those as one between which the path isn't back on it."""
+    found: list[Stay] = []
+    meets = -math.inf
+    for stay, aside in zip(stays, asides, strict=True):
+        leaves = -math.inf if aside.leave is None else aside.leave
+        if found and leaves < meets:
+            last = found[-1]
+            found[-1] = Stay(
+                last.begin,
+                stay.end,
+                max(last.aside, stay.aside),
+                max(last.size, stay.size),
+                np.vstack((last.barriers, stay.barriers)),
+            )
+        else:
+            found.append(stay)
+        meets = max(meets, math.inf if aside.meet is None else aside.meet)
+    return found
