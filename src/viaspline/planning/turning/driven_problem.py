@@ -27,8 +27,8 @@ from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import DETOUR, Bends, bends_along
-from viaspline.planning.turning.blocked_runs import turns_on_runs
 from viaspline.planning.turning.repair import clear_turn_path
+from viaspline.planning.turning.spline_and_turns import turns_on_runs
 from viaspline.planning.turning.turn_path import OVERSHOOT, TurnPath
 from viaspline.planning.turning.wide_turns import WideTurns
 from viaspline.world.world import World

@@ -4,7 +4,7 @@ Where a mission says how taut its spline is to be, that is what it gets wherever
 the way. Turns begin and end straight, in the direction of the spline at the via point; the leg
 beside them takes that over, with its other end as it was.
 
-Tested through ``planning/turning/test_blocked_runs``.
+Tested through ``planning/turning/test_spline_and_turns``.
 """
 
 from __future__ import annotations

@@ -1,0 +1,55 @@
+"""Turns on blocked legs, the spline on all others."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import viaspline as vs
+from viaspline.planning.turning.spline_and_turns import runs_of
+
+
+def legs_of(path: vs.Path) -> list[np.ndarray]:
+    ends = [round(via.u) for via in path.vias if via.kind == "user"]
+    return [path.spans[a:b] for a, b in pairwise(ends)]
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10_000), st.booleans())
+def test_only_a_blocked_leg_and_its_neighbours_change(seed: int, closed: bool) -> None:
+    rng = np.random.default_rng(seed)
+    angles = np.arange(8) * np.pi / 4
+    radii = rng.uniform(60, 80, 8)[:, None]
+    places = (np.c_[np.cos(angles), np.sin(angles)] * radii).tolist()
+    route = {"start": places[0], "via": places[1:], "closed": True}
+    if not closed:
+        route = {"start": places[0], "via": places[1:-1], "goal": places[-1]}
+    data = {"route": route, "spline": {"tension": float(rng.uniform(-0.3, 0.5))}}
+    free = vs.plan(vs.Mission.model_validate(data)).path
+    blocked = int(rng.integers(0, len(legs_of(free))))
+    ends = [via.u for via in free.vias if via.kind == "user"]
+    middle = free.evaluate((ends[blocked] + ends[blocked + 1]) / 2).tolist()
+    data["world"] = {"known": [{"circle": {"center": middle, "radius": 3.0}}]}
+    plan = vs.plan(vs.Mission.model_validate(data))
+    legs = zip(legs_of(plan.path), legs_of(free), strict=True)
+    changed = {k for k, (new, old) in enumerate(legs) if not np.array_equal(new, old)}
+    near = {blocked - 1, blocked, blocked + 1}
+    count = len(legs_of(free))
+    assert blocked in changed
+    assert changed <= ({k % count for k in near} if closed else near)
+    assert plan.path.curvature_jumps().max() < 1e-6
+    assert plan.certificate.holds
+
+
+@pytest.mark.parametrize("closed", [False, True])
+@given(st.sets(st.integers(0, 7), max_size=7))
+def test_runs_are_the_blocked_legs_in_order(closed: bool, blocked: set[int]) -> None:
+    runs = list(runs_of(blocked, 8, closed))
+    assert sorted(leg for run in runs for leg in run) == sorted(blocked)
+    for run in runs:
+        assert all((after - before) % 8 == 1 for before, after in pairwise(run))
+        assert (run[-1] + 1) % 8 not in blocked or not closed
