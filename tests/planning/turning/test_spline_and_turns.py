@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -13,7 +15,7 @@ from viaspline.planning.turning.spline_and_turns import runs_of
 
 def legs_of(path: vs.Path) -> list[np.ndarray]:
     ends = [round(via.u) for via in path.vias if via.kind == "user"]
-    return [path.spans[a:b] for a, b in zip(ends, ends[1:], strict=False)]
+    return [path.spans[a:b] for a, b in pairwise(ends)]
 
 
 @settings(max_examples=25, deadline=None)
@@ -49,5 +51,5 @@ def test_runs_are_the_blocked_legs_in_order(closed: bool, blocked: set[int]) -> 
     runs = list(runs_of(blocked, 8, closed))
     assert sorted(leg for run in runs for leg in run) == sorted(blocked)
     for run in runs:
-        assert all((after - before) % 8 == 1 for before, after in zip(run, run[1:], strict=False))
+        assert all((after - before) % 8 == 1 for before, after in pairwise(run))
         assert (run[-1] + 1) % 8 not in blocked or not closed

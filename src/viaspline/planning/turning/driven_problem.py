@@ -28,8 +28,8 @@ from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import DETOUR, Bends, LegBends, bends_along, bends_of_legs
 from viaspline.planning.turning.local_detours import LANE_REACHES, LaneTurns, local_bends
-from viaspline.planning.turning.spline_and_turns import turns_on_runs
 from viaspline.planning.turning.repair import clear_turn_path
+from viaspline.planning.turning.spline_and_turns import turns_on_runs
 from viaspline.planning.turning.turn_path import OVERSHOOT, TurnPath
 from viaspline.planning.turning.wide_turns import WideTurns
 from viaspline.world.world import World

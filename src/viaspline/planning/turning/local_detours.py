@@ -259,7 +259,6 @@ def _routed(
     )
     active = on_the_line(leg.world, *ends, needs.required)
 
-
     def find(closed: Floats, met: Flags) -> tuple[Outcome[TautPath], Flags]:
         needs.spend(ROUTE_S)
         known = met.copy()

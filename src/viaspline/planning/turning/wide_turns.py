@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,7 +60,13 @@ class WideTurns:
 
         Where a heading is given at an end, it is left to the side that makes the path shorter.
         """
-        found = [self._narrowed(tried, world, requirements) for tried in with_sides(bends)]
+        found = [
+            requirements.once(
+                ("wide", self, tried.key, world),
+                partial(self._narrowed, tried, world, requirements),
+            )
+            for tried in with_sides(bends)
+        ]
         clear = [turn_path for turn_path in found if turn_path is not None]
         if not clear:
             return clear_turn_path(bends.turning(self.least), world, requirements)

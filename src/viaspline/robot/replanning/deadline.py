@@ -22,10 +22,10 @@ ROOM_RATIO = 2.0
 SPARE_RATIO = 0.5
 """and so much of one the place is known to."""
 
-RETRY_INTERVAL_S = 0.5
+RETRY_INTERVAL_S = 0.3
 """Who has tried all that it has time for under way tries again so much later [s],"""
 
-PAUSE_RATIO = 0.25
+PAUSE_RATIO = 0.05
 """or after so much of the time until it is where it has to stop, if that is longer."""
 
 MAX_STANDING_WORK_S = 6.4
