@@ -117,8 +117,9 @@ def test_a_robot_gets_out_of_a_cup_unless_it_is_shut(
 
 @pytest.mark.parametrize("kind", DRIVES)
 def test_each_drive_gets_out_of_a_spiral_and_of_the_pockets_of_a_comb(kind: str) -> None:
+    keys = {**DRIVES[kind], "tracking_error_m": 0.1}  # braking beside a wall it is that far off
     for walls in (spiral(2, 1.4), comb(2, 2.0, 1.4)):
-        assert_it_goes_where_the_flood_goes(walls, drive(walls, DRIVES[kind], 0.01))
+        assert_it_goes_where_the_flood_goes(walls, drive(walls, keys, 0.01))
 
 
 @pytest.mark.parametrize(("work", "seed"), [(1e-2, 10), (1e-3, 7)])
