@@ -123,5 +123,5 @@ def test_who_has_tried_all_that_he_has_time_for_goes_on_for_a_while_before_he_tr
     rock = disc_at(60, 0.3, 2, "rock")
     navs = steps_of(mission_of([0, 0], [90, 0], unseen=[rock], sensor={"range_m": 40}))
     far = [bool(nav.compute_times) for nav in navs if nav.searches and nav.distance < 45.0]
-    assert 0 < far.count(True) < 0.3 * len(far)
+    assert 0 < far.count(True) < 0.4 * len(far)
     assert navs[-1].reached
