@@ -32,7 +32,6 @@ from viaspline.planning.turning.lane import Lane
 from viaspline.planning.turning.wide_turns import swing_share
 from viaspline.world.world import World
 
-LONG_LANE = 10.0  # a lane over what stands in it, from which on it is kept unless it is said
 LANE_REACHES = (1.0, 1.6)  # how long turns off and onto a lane are made, over what they need
 LONGEST_S = 1.25  # of such a turn with its counter-turn, over what is gone round
 END_SWING = 0.35  # of a turn at an end of a lane, in required distances
@@ -150,10 +149,6 @@ def local_bends(leg: LegSearch, taut_path: TautPath, turns: LaneTurns) -> LegBen
     room = leg.world.distance(np.array([end[:2] for end in leg.ends]))
     if room.min() < (1.0 + CLEAR_OF_RUN) * needs.required and stays:
         return None  # it begins or ends beside what it has to go round: no lane is left there
-    if needs.detours is None:
-        size = sum(max(stay.size - 2.0 * needs.required, 0.0) for stay in stays)
-        if not stays or lane.length <= LONG_LANE * size:
-            return None
     while True:
         found = [_aside(leg, lane, stay, turns) for stay in stays]
         asides = [aside for aside in found if aside is not None]
