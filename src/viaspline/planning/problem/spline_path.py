@@ -63,9 +63,7 @@ class SplinePath:
 
     def rests(self, sequence: ViaSequence) -> Flags:
         """Where a robot that drives it stands still, of the joints of its spans, (m + 1,)."""
-        found = np.zeros(len(self.spans) + 1, np.bool_)
-        found[self.joints] = [sequence.stands(k) for k in range(len(self.joints))]
-        return found
+        return sequence.rests(self.joints, len(self.spans))
 
     def vias_from(self, first: int) -> tuple[PathVia, ...]:
         """The via points if the curve begins with span ``first`` of another one."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from viaspline.curve.tangents import ALPHA, PIECES, RULES
 from viaspline.errors import GeometryError
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.mission.model import Mission
 from viaspline.mission.spline_spec import SplineSpec, Tangents
 
@@ -117,6 +117,17 @@ class ViaSequence:
         at = self.vias[via % len(self.vias)]
         is_end = via in (0, len(self.vias) - (not self.closed))
         return at.dwell > 0.0 or (is_end and at.index is not None)
+
+    def rests(self, joints: Ints, spans: int) -> Flags:
+        """Where the robot stands still on a curve through the via points, (spans + 1,).
+
+        Args:
+            joints: The span that begins at each via point, from the first on.
+            spans: How many there are.
+        """
+        found = np.zeros(spans + 1, np.bool_)
+        found[joints] = [self.stands(k) for k in range(len(joints))]
+        return found
 
     @property
     def pieces(self) -> int:

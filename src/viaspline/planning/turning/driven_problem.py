@@ -1,4 +1,4 @@
-"""The problem of a robot with a turning circle or a long body, and what its turns go along.
+"""The problem of a path that a robot is to drive, and what its turns go along.
 
 Tested through ``planning/methods/test_ordered``.
 """
@@ -240,9 +240,9 @@ class DrivenProblem(PathProblem):
         ideal = self._wide_turns(self.least_radii[-1]).ideal(bends, self.requirements)
         if ideal is None:
             return True
-        rests = np.zeros(len(ideal.spans) + 1, np.bool_)
-        stands = [via != DETOUR and self.sequence.stands(int(via)) for via in ideal.bends.vias]
-        rests[ideal.begins[: len(stands)][stands]] = True
+        at_vias = ideal.bends.vias != DETOUR
+        joints = ideal.begins[: len(at_vias)][at_vias]
+        rests = self.sequence.rests(joints, len(ideal.spans))
         return driving_time(ideal.spans, self.requirements.objective.pace, rests) < bound
 
     def _wide_turns(self, rho: float) -> WideTurns:

@@ -20,7 +20,7 @@ from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
-from viaspline.planning.turning.bend_row import KEPT, Bends
+from viaspline.planning.turning.bend_row import KEPT, RADIUS, Bends
 from viaspline.planning.turning.repair import clear_turn_path
 from viaspline.planning.turning.turn_path import (
     NoTurnPath,
@@ -158,7 +158,7 @@ def _gentle(rows: Floats, angles: Floats) -> Floats:
 def _swings(turn_path: TurnPath) -> Floats:
     """How far each turn moves the lines before and after it out, beyond what is kept [m], (n,)."""
     rows = turn_path.bends.rows
-    wider = np.maximum(rows[:, -1] - rows[:, KEPT], 0.0)
+    wider = np.maximum(rows[:, RADIUS] - rows[:, KEPT], 0.0)
     return np.asarray(wider * (1.0 - np.cos(0.5 * np.abs(turn_path.turns))))
 
 
