@@ -80,7 +80,7 @@ def test_a_mapping_has_the_keys_of_its_models(path: Path, some: set[str]) -> Non
         ("Fov-Deg", ("robot",), "'fov_deg' belongs under lidar"),
         ("map", ("world",), "'map' belongs under known"),
         ("clear", ("robot",), "did you mean 'clearance_m'?"),
-        ("zzz", ("robot", "sensor"), "the keys here are range_m, lidar"),
+        ("zzz", ("robot", "sensor"), "the keys here are range_m, lidar, velocity_noise_mps"),
     ],
 )
 def test_a_key_in_the_wrong_place_is_sent_to_where_it_belongs(

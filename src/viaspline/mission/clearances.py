@@ -34,7 +34,11 @@ def clearance_faults(partial: PartialMission, misshapen: Collection[Path]) -> li
     points = [(path, point) for path, point in partial.points if point is not None]
     # A robot that makes no sense itself: ask only whether points are inside of something.
     robot = partial.robot if partial.robot is not None else RobotSpec(radius_m=0, clearance_m=0)
-    known = [(path, obstacle) for path, obstacle in partial.known if path not in misshapen]
+    known = [
+        (path, obstacle)
+        for path, obstacle in partial.known
+        if path not in misshapen and obstacle.motion is None
+    ]
     fences = [(path, ring) for path, ring in partial.fences if path not in misshapen]
     bounds = partial.bounds
     if bounds is not None and (bounds[0] >= bounds[2] or bounds[1] >= bounds[3]):

@@ -1,7 +1,8 @@
-"""Maps read and put in the place of the items that ask for them.
+"""Maps and tracks read and put in the place of the items that ask for them.
 
 ``{map: depot.yaml}`` becomes an obstacle with a grid, ``{map: site.geojson}`` as many obstacles as
-there are polygons. What comes after sees obstacles only.
+there are polygons, ``{tracks: people.csv}`` as many moving discs as it has ids. What comes after
+sees obstacles only.
 """
 
 from __future__ import annotations
@@ -16,9 +17,11 @@ from pydantic import ValidationError
 from viaspline.errors import Fault, MissionError
 from viaspline.maps.grid import Grid
 from viaspline.maps.kinds import is_of_squares, read_areas, read_grid
+from viaspline.mission.load_tracks import moving_discs
 from viaspline.mission.map_edge import edge_of
 from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.tracks_spec import TracksSpec
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, children
 
 
@@ -63,7 +66,7 @@ def resolve_maps(data: Any, folder: FilePath) -> ResolvedFiles:
     top = children(data) or {}
     world = children(top.get("world")) or {}
     lists = {key: world[key] for key in ("known", "unseen") if _is_list(world.get(key))}
-    if not any(_is_map(item) or _grid_of(item) for items in lists.values() for item in items):
+    if not any(_is_file(item) or _grid_of(item) for items in lists.values() for item in items):
         return ResolvedFiles(data)
     taken = {_name_of(item) for items in lists.values() for item in items}
     faults: list[UnplacedFault] = []
@@ -84,8 +87,8 @@ def _is_list(value: Any) -> bool:
     return isinstance(value, list | tuple)
 
 
-def _is_map(item: Any) -> bool:
-    return isinstance(item, Mapping) and "map" in item
+def _is_file(item: Any) -> bool:
+    return isinstance(item, Mapping) and ("map" in item or "tracks" in item)
 
 
 def _grid_of(item: Any) -> Grid | None:
@@ -101,27 +104,31 @@ def _name_of(item: Any) -> Any:
 def _of_item(
     item: Any, path: Path, folder: FilePath, taken: set[Any]
 ) -> tuple[Sequence[Any], Sequence[UnplacedFault]]:
-    """The obstacles of an item that may be a map, or what is wrong with it."""
-    if not _is_map(item):
+    """The obstacles of an item that may be a map or tracks, or what is wrong with it."""
+    if not _is_file(item):
         return [item], ()
+    key = "map" if "map" in item else "tracks"
     try:
+        if key == "tracks":
+            tracks = TracksSpec.model_validate(dict(item))
+            return moving_discs(tracks, folder, lambda name: _free(name, taken)), ()
         return obstacles_of(MapSpec.model_validate(dict(item)), folder, taken), ()
     except ValidationError as error:
         from viaspline.mission.schema_errors import schema_faults
 
         return (), schema_faults(error, path)
     except MissionError as error:
-        return (), [_unplaced(path, fault) for fault in error.faults]
+        return (), [_unplaced(path, key, fault) for fault in error.faults]
 
 
-def _unplaced(path: Path, fault: Fault) -> UnplacedFault:
-    """A fault of a map as a fault of the key that asks for it."""
+def _unplaced(path: Path, asking: str, fault: Fault) -> UnplacedFault:
+    """A fault of a map or of tracks as a fault of the key that asks for it."""
     if fault.line is None and fault.key in ("unknown", "resolution_m"):
         return UnplacedFault((*path, fault.key), fault.problem, fault.remedy, at_key=True)
     place = fault.source if fault.line is None else f"{fault.source}:{fault.line}:{fault.column}"
     key = f"{fault.key}: " if fault.key else ""
     return UnplacedFault(
-        (*path, "map"), f"{place}: {key}{fault.problem}", fault.remedy, at_key=True
+        (*path, asking), f"{place}: {key}{fault.problem}", fault.remedy, at_key=True
     )
 
 

@@ -48,6 +48,22 @@ class Localization(
 TurnOnSpot = Literal["never", "stations", "vias"]
 
 
+class MovingThings(
+    Value,
+    expected="a mapping such as {max_speed_mps: 2, safety: passive}",
+):
+    """What the robot has to reckon with where it doesn't see.
+
+    Attributes:
+        max_speed_mps: The greatest speed of anything that may come [m/s].
+        safety: ``passive``: it is always able to stand before anything touches it; ``none``: it
+            relies on what it foresees.
+    """
+
+    max_speed_mps: Speed = 2.0
+    safety: Literal["passive", "none"] = "passive"
+
+
 class RobotSpec(
     Value,
     expected="a mapping such as {radius_m: 0.5, clearance_m: 0.5, max_speed_mps: 2}",
@@ -83,6 +99,7 @@ class RobotSpec(
         tracking_error_m: How far beside its path the robot may get [m]; the path keeps that much
             more. None: as far as it gets on a trial drive; nothing if it follows exactly.
         sensor: What finds the obstacles that are not on the map.
+        moving: What it has to reckon with where it doesn't see. None: nothing unseen moves.
         max_replan_s: How long it may look for a new path under way, from when it sees what is in
             its way [s]; then it brakes, and goes on looking. None: until it has to brake.
     """
@@ -118,6 +135,7 @@ class RobotSpec(
     localization: Localization | None = None
     tracking_error_m: Distance | None = None
     sensor: Sensor | None = None
+    moving: MovingThings | None = None
     max_replan_s: TimeLimit | None = None
 
     @model_validator(mode="after")

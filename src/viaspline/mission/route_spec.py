@@ -90,6 +90,8 @@ class Route(Value):
         detours: ``local``: round what stands between two via points, the path leaves the straight
             line between them late and is back on it early, so that a lane stays a lane; ``short``:
             on the shortest way.
+        depart_s: When the robot may set out [s]; what moves does so by the same clock.
+        hold_s: How long the goal has to stay free of what moves once the robot is there [s].
     """
 
     start: End
@@ -101,6 +103,8 @@ class Route(Value):
     corridor: Corridor | None = None
     optimise: Optimise = "time"
     detours: Detours = "short"
+    depart_s: Duration = 0.0
+    hold_s: Duration = 0.0
 
     def points(self) -> Iterator[tuple[str, ViaPoint]]:
         """Every point of the route in order, with its key in the mission file."""

@@ -31,11 +31,13 @@ def semantic_faults(partial: PartialMission) -> list[UnplacedFault]:
     """Everything that is wrong with the meaning of a mission."""
     from viaspline.mission.clearances import clearance_faults
     from viaspline.mission.corridors import corridor_faults
+    from viaspline.mission.motion_checks import motion_faults
     from viaspline.mission.shape_checks import shape_faults
 
     faults = _bounds(partial)
     misshapen = shape_faults(partial)
     faults += misshapen
+    faults += motion_faults(partial)
     faults += _sides(partial)
     faults += _names(partial)
     faults += _sensor(partial)

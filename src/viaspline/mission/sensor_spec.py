@@ -9,7 +9,7 @@ from typing import Annotated, Final
 
 from pydantic import Field
 
-from viaspline.mission.fields import DEGREES, Distance, Length, Number
+from viaspline.mission.fields import DEGREES, Distance, Length, Number, SpeedNoise
 from viaspline.mission.value import OneOf, Value
 
 MAX_BEAMS: Final = 100_000
@@ -42,6 +42,7 @@ class Sensor(
     OneOf,
     expected="{range_m: 40} or {lidar: {range_m: 5}}",
     exactly_one=("range_m", "lidar"),
+    needing=(("velocity_noise_mps", "range_m"),),
 ):
     """What finds the obstacles that are not on the map: a range sensor or a lidar.
 
@@ -49,6 +50,8 @@ class Sensor(
         range_m: It sees every obstacle of which a part is within this distance [m]. None for a
             lidar.
         lidar: It sees what its beams hit.
+        velocity_noise_mps: The standard deviation of each coordinate of a velocity that a range
+            sensor measures [m/s].
 
     >>> Sensor(range_m=40).reach, Sensor(lidar={"range_m": 5}).reach
     (40.0, 5.0)
@@ -56,6 +59,7 @@ class Sensor(
 
     range_m: Length | None = None
     lidar: Lidar | None = None
+    velocity_noise_mps: SpeedNoise = 0.0
 
     @property
     def reach(self) -> float:

@@ -60,7 +60,9 @@ class OneOf(Value):
     @model_validator(mode="after")
     def _is_one(self) -> Self:
         keys = self.key_rules["exactly_one"]
-        given = [key for key in keys if getattr(self, key) is not None]
+        fields = type(self).model_fields.items()
+        values = {field.alias or name: getattr(self, name) for name, field in fields}
+        given = [key for key in keys if values[key] is not None]
         if not given:
             raise PydanticCustomError("none_of", "give one of them", {"keys": keys})
         if len(given) > 1:

@@ -13,16 +13,17 @@ from viaspline.mission.annotations import Expects
 from viaspline.mission.fields import Coordinate, Name, Ring, Rings, Speed, plain
 from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.tracks_spec import TracksSpec
 from viaspline.mission.value import Value
 
 
 def _resolved(value: Any) -> Any:
-    """An obstacle as it is: maps have been read before, see ``resolve_files``."""
+    """An obstacle as it is: maps and tracks have been read before, see ``resolve_files``."""
     return value
 
 
 AnyObstacle: TypeAlias = Annotated[
-    Obstacle, BeforeValidator(_resolved, json_schema_input_type=Obstacle | MapSpec)
+    Obstacle, BeforeValidator(_resolved, json_schema_input_type=Obstacle | MapSpec | TracksSpec)
 ]
 Obstacles: TypeAlias = Annotated[
     tuple[AnyObstacle, ...],
@@ -77,3 +78,23 @@ class WorldSpec(Value):
     known: Obstacles = ()
     unseen: Obstacles = ()
     speed_zones: SpeedZones = ()
+
+    @property
+    def standing(self) -> tuple[Obstacle, ...]:
+        """What is on the map and doesn't move."""
+        return tuple(obstacle for obstacle in self.known if obstacle.motion is None)
+
+    @property
+    def moving(self) -> tuple[Obstacle, ...]:
+        """What moves as it is known to."""
+        return tuple(obstacle for obstacle in self.known if obstacle.motion is not None)
+
+    @property
+    def unseen_standing(self) -> tuple[Obstacle, ...]:
+        """What isn't on the map and doesn't move."""
+        return tuple(obstacle for obstacle in self.unseen if obstacle.motion is None)
+
+    @property
+    def unseen_moving(self) -> tuple[Obstacle, ...]:
+        """What moves, and nobody knows how."""
+        return tuple(obstacle for obstacle in self.unseen if obstacle.motion is not None)

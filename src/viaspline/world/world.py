@@ -71,15 +71,15 @@ class World:
 
     @classmethod
     def known(cls, mission: Mission) -> World:
-        """What the mission has on its map."""
+        """What the mission has on its map and doesn't move."""
         spec = mission.world
         corridor = corridor_rings(mission.route)
-        return cls(spec.known, bounds=spec.bounds, fences=spec.fences, corridor=corridor)
+        return cls(spec.standing, bounds=spec.bounds, fences=spec.fences, corridor=corridor)
 
     @classmethod
     def everything(cls, mission: Mission) -> World:
-        """What is there, on the map or not."""
-        return cls.known(mission).with_obstacles(mission.world.unseen)
+        """What is there and doesn't move, on the map or not."""
+        return cls.known(mission).with_obstacles(mission.world.unseen_standing)
 
     def with_obstacles(self, obstacles: Iterable[Obstacle]) -> World:
         """A world that has these obstacles too; they come after those that it has."""

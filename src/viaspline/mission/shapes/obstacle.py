@@ -1,4 +1,4 @@
-"""An obstacle of a mission: one shape, a name, and the side on which to pass it.
+"""An obstacle of a mission: one shape, a name, how it moves, and the side on which to pass it.
 
 Tested through ``mission/test_model``.
 """
@@ -15,6 +15,7 @@ from pydantic.json_schema import SkipJsonSchema
 from viaspline.maps.grid import Grid
 from viaspline.maps.reading import Reading
 from viaspline.mission.fields import Name, Ring, Rings
+from viaspline.mission.motion_spec import Motion
 from viaspline.mission.shapes.capsule import Capsule
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.polygon import Polygon
@@ -67,6 +68,7 @@ class Obstacle(
             the obstacle than twice the robot's radius and clearance, or whose straight line passes
             it on this side anyway; in a corridor with a line, wherever it stands inside.
         never_pass_on: The side that is forbidden; forbidding one is forcing the other.
+        motion: How it moves; its shape then stands in a frame of its own. None: it stands.
     """
 
     circle: Circle | None = None
@@ -77,6 +79,7 @@ class Obstacle(
     name: Name | None = None
     pass_on: Side | None = None
     never_pass_on: Side | None = None
+    motion: Motion | None = None
 
     def shapes(self) -> Iterator[tuple[str, Shape]]:
         """Its shape with the key that gives it; a sound obstacle has one at most, a grid none."""

@@ -32,8 +32,8 @@ def sensors_of(
 
 def _named_unseen(mission: Mission, world: World) -> tuple[Obstacle, ...]:
     """The unseen obstacles, each with the name that it has in the whole world."""
-    first = len(mission.world.known)
+    first = len(mission.world.standing)
     return tuple(
         obstacle.model_copy(update={"name": world.name(first + i)})
-        for i, obstacle in enumerate(mission.world.unseen)
+        for i, obstacle in enumerate(mission.world.unseen_standing)
     )

@@ -1,0 +1,1 @@
+"""Obstacles that move: where they are when, and how far from them a place is."""

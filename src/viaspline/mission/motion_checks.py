@@ -1,0 +1,81 @@
+"""Does every motion say all that it takes, and does time go forward in it?
+
+Tested through ``mission/test_motion``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from viaspline.mission.motion_spec import Motion
+from viaspline.mission.partial_mission import PartialMission
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
+
+MIN_PERIOD_S = 1e-3
+"""The shortest round of a motion that goes on and on."""
+
+
+def motion_faults(partial: PartialMission) -> list[UnplacedFault]:
+    """What is wrong with how obstacles move."""
+    return [
+        fault
+        for path, obstacle in partial.known + partial.unseen
+        if obstacle.motion is not None
+        for fault in (
+            *_of_shape(path, obstacle),
+            *_of_motion((*path, "motion"), obstacle.motion),
+        )
+    ]
+
+
+def _of_shape(path: Path, obstacle: Obstacle) -> Iterator[UnplacedFault]:
+    if obstacle.grid is not None:
+        yield UnplacedFault(
+            (*path, "motion"), "a map of squares can't move", "give it a polygon", at_key=True
+        )
+    if obstacle.holes:
+        problem = "a polygon that moves can't have holes"
+        yield UnplacedFault((*path, "holes"), problem, "leave them out", at_key=True)
+    for key in ("pass_on", "never_pass_on"):
+        if getattr(obstacle, key) is not None:
+            problem = "what moves has no side to be passed on"
+            yield UnplacedFault((*path, key), problem, "leave it out", at_key=True)
+
+
+def _of_motion(path: Path, motion: Motion) -> Iterator[UnplacedFault]:
+    if motion.keyframes is None:
+        if motion.velocity_mps is None:
+            remedy = "give velocity_mps: [vx, vy], or leave out motion if it stands"
+            yield UnplacedFault(path, "motion doesn't say how fast it goes", remedy)
+        return
+    if motion.after is None:
+        problem = "it isn't said what it does when the keyframes are over"
+        yield UnplacedFault(path, problem, "give after: loop, bounce, stay or vanish")
+    yield from _of_keyframes((*path, "keyframes"), motion)
+
+
+def _of_keyframes(path: Path, motion: Motion) -> Iterator[UnplacedFault]:
+    frames = motion.keyframes or ()
+    lengths = np.fromiter(map(len, frames), np.int64, len(frames))
+    odd = np.flatnonzero(lengths != lengths[0])
+    if odd.size:
+        i = int(odd[0])
+        problem = f"has {lengths[i]} numbers, but the first keyframe has {lengths[0]}"
+        yield UnplacedFault((*path, i), problem, "give a heading in all keyframes, or in none")
+        return
+    times = np.array([frame[0] for frame in frames])
+    steps = np.flatnonzero(np.diff(times) <= 0.0)
+    if steps.size:
+        i = int(steps[0]) + 1
+        problem = f"is at {number(times[i])} s, not after the one before"
+        yield UnplacedFault((*path, i), problem, "times of keyframes increase; leave one out")
+    elif motion.after in ("loop", "bounce") and times[-1] - times[0] < MIN_PERIOD_S:
+        problem = f"last {times[-1] - times[0]:g} s, too short a time to go on and on"
+        remedy = f"give keyframes over {MIN_PERIOD_S:g} s at least, or after: stay"
+        yield UnplacedFault(path, problem, remedy)
+    if motion.after in ("loop", "bounce") and motion.before is not None:
+        problem = f"what goes on and on (after: {motion.after}) has no before"
+        yield UnplacedFault((*path[:-1], "before"), problem, "leave it out", at_key=True)

@@ -1,0 +1,110 @@
+"""How an obstacle moves: along keyframes, or straight on.
+
+Tested through ``mission/test_motion``.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Final, Literal, TypeAlias
+
+from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field
+
+from viaspline.mission.annotations import Expects
+from viaspline.mission.fields import (
+    MAX_DURATION_S,
+    MAX_HEADING_DEG,
+    MAX_LENGTH_M,
+    METRES_PER_SECOND,
+    SPEEDS_MPS,
+    Distance,
+    Number,
+    Point2,
+    SpeedNoise,
+    plain,
+)
+from viaspline.mission.value import OneOf, Value
+
+After: TypeAlias = Literal["loop", "bounce", "stay", "vanish"]
+
+MAX_KEYFRAMES: Final = 1_000_000
+"""How many keyframes one obstacle can have at most."""
+KEYFRAME_WORDS: Final = "[t, x, y] or [t, x, y, heading_deg], in seconds, metres and degrees"
+
+
+def _in_range(frame: tuple[float, ...]) -> tuple[float, ...]:
+    """A keyframe whose numbers are those of a place and a time."""
+    limits = (MAX_DURATION_S, MAX_LENGTH_M, MAX_LENGTH_M, MAX_HEADING_DEG)
+    for value, limit, name in zip(frame, limits, ("t", "x", "y", "heading"), strict=False):
+        if not abs(value) <= limit:
+            raise ValueError(f"{name} is {value:g}, more than {limit:g}")
+    return frame
+
+
+Keyframe: TypeAlias = Annotated[
+    tuple[Number, ...],
+    Field(min_length=3, max_length=4),
+    AfterValidator(_in_range),
+    Expects(KEYFRAME_WORDS),
+]
+Keyframes: TypeAlias = Annotated[
+    tuple[Keyframe, ...],
+    Field(min_length=1, max_length=MAX_KEYFRAMES),
+    BeforeValidator(plain),
+    Expects(f"a list of keyframes, each {KEYFRAME_WORDS}"),
+]
+SignedSpeed: TypeAlias = Annotated[Number, Field(ge=-SPEEDS_MPS[1], le=SPEEDS_MPS[1])]
+Velocity: TypeAlias = Annotated[
+    tuple[SignedSpeed, SignedSpeed],
+    METRES_PER_SECOND,
+    BeforeValidator(plain),
+    Expects("[vx, vy] in metres per second"),
+]
+
+
+class MotionError(
+    Value,
+    expected="a mapping such as {position_m: 0.05, growth_mps: 0.1}",
+):
+    """How far from where it is said to be an obstacle may be.
+
+    Attributes:
+        position_m: At time 0 and before [m].
+        growth_mps: By how much that grows in a second from then on [m/s].
+    """
+
+    position_m: Distance = 0.0
+    growth_mps: SpeedNoise = 0.0
+
+
+class Motion(
+    OneOf,
+    expected="{keyframes: [[0, 1, 2], [4, 5, 2]], after: stay} or "
+    "{from: [10, 3], velocity_mps: [1, 0]}",
+    exactly_one=("keyframes", "from"),
+    needing=(("after", "keyframes"), ("before", "keyframes"), ("velocity_mps", "from")),
+):
+    """How an obstacle moves; its shape stands in a frame of its own, which is moved and turned.
+
+    Attributes:
+        keyframes: Where the frame's origin is when, ``[t, x, y]`` or ``[t, x, y, heading_deg]``
+            [s, m, deg anticlockwise from x]; it goes evenly from one to the next. Times increase.
+        after: What it does when the keyframes are over: begins again (``loop``), goes back the
+            way that it came (``bounce``), ``stay`` or ``vanish``.
+        before: What it does before the first keyframe: stands there (``stay``), or isn't there
+            (``absent``). None: ``absent`` if it vanishes after the last one, else ``stay``. What
+            goes on and on has no before.
+        from_: Where the frame's origin is at time 0 [m]; ``from`` in a file.
+        velocity_mps: How fast it goes from there, ``[vx, vy]`` [m/s], before and after.
+        error: How far from there it may be.
+    """
+
+    model_config = ConfigDict(
+        validate_by_alias=True, validate_by_name=True, serialize_by_alias=True
+    )
+
+    keyframes: Keyframes | None = None
+    after: After | None = None
+    before: Literal["stay", "absent"] | None = None
+    from_: Annotated[Point2 | None, Field(alias="from")] = None
+    velocity_mps: Velocity | None = None
+    error: MotionError = MotionError()

@@ -1,0 +1,120 @@
+"""Obstacles that move as it is known: where they are when, and how far from them a place is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viaspline.errors import GeometryError
+from viaspline.handed_in import all_of, numbers_from
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.motion import moving_distance as kernels
+from viaspline.kernels.motion.packed_motion import PackedMotion
+from viaspline.mission.model import Mission
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.world.pack_motion import pack_motion
+
+
+class MovingObstacles:
+    """Obstacles with a motion each, by one clock.
+
+    Two that look alike are two: an obstacle is known by its place among them.
+
+    Args:
+        obstacles: Each with a shape in its own frame and a motion.
+        since: When their places begin to get less certain [s]; see the motion's ``error``.
+
+    Raises:
+        GeometryError: One has no motion, or is a map of squares.
+
+    Example:
+        >>> cart = Obstacle(
+        ...     name="cart",
+        ...     circle={"center": (0, 0), "radius": 1},
+        ...     motion={"from": (0, 5), "velocity_mps": (1, 0)},
+        ... )
+        >>> moving = MovingObstacles([cart])
+        >>> moving.distance([(4, 0), (4, 0)], times=[4, 7])
+        array([4.        , 4.83095189])
+    """
+
+    def __init__(self, obstacles: Iterable[Obstacle] = (), *, since: float = 0.0) -> None:
+        self.obstacles: tuple[Obstacle, ...] = all_of(
+            "obstacles", obstacles, Obstacle, "give Obstacle(circle={...}, motion={...})"
+        )
+        for i, obstacle in enumerate(self.obstacles):
+            if obstacle.motion is None or obstacle.ring is None:
+                raise GeometryError(
+                    f"obstacle {i} doesn't move, or is a map of squares; give "
+                    "Obstacle(circle={...}, motion={...})"
+                )
+        self.since = float(since)
+
+    @classmethod
+    def known(cls, mission: Mission) -> MovingObstacles:
+        """What moves as the mission knows it to."""
+        return cls(mission.world.moving)
+
+    @cached_property
+    def packed(self) -> PackedMotion:
+        """What kernels take; built when it is first asked for."""
+        return pack_motion(self.obstacles, self.since)
+
+    def __len__(self) -> int:
+        return len(self.obstacles)
+
+    def __repr__(self) -> str:
+        return f"MovingObstacles({len(self)})"
+
+    def name(self, index: int) -> str:
+        """What an index of ``nearest`` is called."""
+        if index < 0:
+            return "nothing"
+        return self.obstacles[index].name or f"moving obstacle {index + 1}"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of all of them."""
+        return tuple(map(self.name, range(len(self))))
+
+    @property
+    def top_speed(self) -> float:
+        """The greatest speed of any point of any of them [m/s]; 0 if there is none."""
+        return float(self.packed.speeds.max(initial=0.0))
+
+    def nearest(self, points: ArrayLike, times: ArrayLike) -> tuple[Floats, Ints]:
+        """Signed distance at an instant [m] and what is nearest, less how far off it may be.
+
+        Args:
+            points: Shape (n, 2), or (2,); a third coordinate plays no part.
+            times: One for each point [s], or one for all.
+
+        Returns:
+            (distance (n,), index (n,)); infinite and -1 where nothing is there.
+
+        Raises:
+            GeometryError: For other shapes, and numbers that are not finite.
+        """
+        places = np.atleast_2d(numbers_from("points", points))
+        instants = numbers_from("times", times)
+        if places.ndim != 2 or places.shape[1] not in (2, 3):
+            raise GeometryError(f"points have shape {places.shape}; give (n, 2) or (2,)")
+        if instants.shape not in ((), (1,), (len(places),)):
+            raise GeometryError(
+                f"{instants.size} times don't go with {len(places)} points; give one for each"
+            )
+        if not (np.isfinite(places).all() and np.isfinite(instants).all()):
+            raise GeometryError("points or times contain NaN or infinity; give finite numbers")
+        each = np.ascontiguousarray(np.broadcast_to(instants, (len(places),)))
+        return kernels.moving_distances(self.packed, each, np.ascontiguousarray(places[:, :2]))
+
+    def distance(self, points: ArrayLike, times: ArrayLike) -> NDArray[np.float64]:
+        """Signed distance of points at instants [m], (n,); see ``nearest``."""
+        return self.nearest(points, times)[0]
+
+    def frames(self, time: float) -> Floats:
+        """Where their frames are: x, y [m] and heading [rad], (n, 3); nan for what isn't there."""
+        return kernels.frames_at(self.packed, float(time))

@@ -1,0 +1,103 @@
+"""From motions as people write them to the arrays that kernels take.
+
+Tested through ``world/test_moving_obstacles``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.motion import packed_motion as columns
+from viaspline.kernels.motion.packed_motion import COLUMNS, PackedMotion
+from viaspline.mission.motion_spec import Motion
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.world.pack import pack
+
+
+def pack_motion(obstacles: Sequence[Obstacle], since: float) -> PackedMotion:
+    """Pack obstacles that all have a motion.
+
+    Args:
+        obstacles: None of them a grid.
+        since: When places begin to get less certain [s].
+    """
+    rows, rounds, errors, reaches, speeds = [], [], [], [], []
+    for obstacle in obstacles:
+        motion, ring = obstacle.motion, obstacle.ring
+        assert motion is not None
+        assert ring is not None
+        pieces, period = _pieces(motion)
+        rows.append(pieces)
+        rounds.append((0.0 if period == 0.0 else pieces[0, columns.BEGINS], period))
+        errors.append((since, motion.error.position_m, motion.error.growth_mps))
+        reach = float(np.hypot(*ring.vertices.T).max()) + ring.radius
+        reaches.append(reach)
+        straight = np.hypot(pieces[:, columns.SPEED_X], pieces[:, columns.SPEED_Y])
+        turning = reach * np.abs(pieces[:, columns.TURNING])
+        speeds.append(float((straight + turning).max()))
+    counts = [len(pieces) for pieces in rows]
+    return PackedMotion(
+        pack(obstacles, None, ()),
+        np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).astype(np.int64),
+        np.concatenate(rows) if rows else np.empty((0, COLUMNS)),
+        np.array(rounds, np.float64).reshape(-1, 2),
+        np.array(errors, np.float64).reshape(-1, 3),
+        np.array(reaches, np.float64),
+        np.array(speeds, np.float64),
+    )
+
+
+def _pieces(motion: Motion) -> tuple[Floats, float]:
+    """The pieces of a motion (k, COLUMNS), and its period [s]; 0 if it has none."""
+    if motion.keyframes is None:
+        assert motion.from_ is not None
+        assert motion.velocity_mps is not None
+        whole = np.zeros((1, COLUMNS))
+        whole[0, columns.BEGINS] = -np.inf
+        whole[0, columns.X : columns.Y + 1] = motion.from_
+        whole[0, columns.SPEED_X : columns.SPEED_Y + 1] = motion.velocity_mps
+        whole[0, columns.PRESENT] = 1.0
+        return whole, 0.0
+    frames = _frames(motion.keyframes)
+    if motion.after == "bounce":
+        back = frames[-2::-1].copy()
+        back[:, 0] = 2.0 * frames[-1, 0] - back[:, 0]
+        frames = np.concatenate((frames, back))
+    if motion.after in ("loop", "bounce"):
+        return _between(frames), float(frames[-1, 0] - frames[0, 0])
+    vanishes = motion.after == "vanish"
+    absent = vanishes if motion.before is None else motion.before == "absent"
+    before = _standing(frames[:1], -np.inf, present=not absent)
+    after = _standing(frames[-1:], frames[-1, 0], present=not vanishes)
+    return np.concatenate((before, _between(frames), after)), 0.0
+
+
+def _frames(keyframes: Sequence[Sequence[float]]) -> Floats:
+    """Time, x, y [m] and heading [rad] of keyframes, (k, 4)."""
+    given = np.array(keyframes, np.float64)
+    frames = np.zeros((len(given), 4))
+    frames[:, : given.shape[1]] = given
+    frames[:, 3] = np.deg2rad(frames[:, 3])
+    return frames
+
+
+def _between(frames: Floats) -> Floats:
+    """A piece from each frame to the next."""
+    rates = np.diff(frames[:, 1:], axis=0) / np.diff(frames[:, 0])[:, None]
+    pieces = np.ones((len(rates), COLUMNS))
+    pieces[:, columns.BEGINS] = pieces[:, columns.KNOWN] = frames[:-1, 0]
+    pieces[:, columns.X : columns.HEADING + 1] = frames[:-1, 1:]
+    pieces[:, columns.SPEED_X : columns.TURNING + 1] = rates
+    return pieces
+
+
+def _standing(frame: Floats, begins: float, *, present: bool) -> Floats:
+    """A piece in which it stands at a frame (1, 4), or isn't there."""
+    piece = np.zeros((1, COLUMNS))
+    piece[0, columns.BEGINS] = begins
+    piece[0, columns.X : columns.HEADING + 1] = frame[0, 1:]
+    piece[0, columns.PRESENT] = float(present)
+    return piece
