@@ -5,7 +5,8 @@ Tested through ``mission/test_motion``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from viaspline.mission.unplaced_faults import Path, UnplacedFault, number
 
 MIN_PERIOD_S = 1e-3
 """The shortest round of a motion that goes on and on."""
+
+JUMP_M = 1e-3
+"""A loop whose end is so near to its beginning doesn't jump."""
 
 
 def motion_faults(partial: PartialMission) -> list[UnplacedFault]:
@@ -79,3 +83,28 @@ def _of_keyframes(path: Path, motion: Motion) -> Iterator[UnplacedFault]:
     if motion.after in ("loop", "bounce") and motion.before is not None:
         problem = f"what goes on and on (after: {motion.after}) has no before"
         yield UnplacedFault((*path[:-1], "before"), problem, "leave it out", at_key=True)
+
+
+def jumps_in_words(obstacles: Iterable[Obstacle]) -> str | None:
+    """What jumps where it begins again, in one sentence; None if nothing does.
+
+    >>> from viaspline.mission.shapes.obstacle import Obstacle
+    >>> there = {"keyframes": [(0, 1, 2), (4, 5, 2)], "after": "loop"}
+    >>> jumps_in_words([Obstacle(circle={"center": (0, 0), "radius": 1}, name="cart", motion=there)])
+    "'cart' jumps by 4 m where its loop begins again"
+    """
+    found = []
+    for i, obstacle in enumerate(obstacles):
+        motion = obstacle.motion
+        if motion is None or motion.after != "loop" or motion.keyframes is None:
+            continue
+        first, last = motion.keyframes[0], motion.keyframes[-1]
+        far = math.dist(first[1:3], last[1:3])
+        if far > JUMP_M:
+            found.append((far, obstacle.name or f"obstacle {i + 1}"))
+    if not found:
+        return None
+    far, name = max(found)
+    if len(found) == 1:
+        return f"'{name}' jumps by {number(far)} m where its loop begins again"
+    return f"{len(found)} loops jump where they begin again, '{name}' the farthest: {number(far)} m"

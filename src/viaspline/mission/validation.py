@@ -5,12 +5,13 @@ Tested through ``mission/test_model``.
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from pydantic import ModelWrapValidatorHandler, ValidationError
 
-from viaspline.errors import MissionError
+from viaspline.errors import MissionError, MissionWarning
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.resolve_files import resolve_maps
@@ -67,7 +68,20 @@ def sound_mission(
     faults += semantic_faults(partial)
     if faults or mission is None:
         raise MissionError(located(faults, data, origin)) from None
+    _warn_of_jumps(mission)
     return mission
+
+
+def _warn_of_jumps(mission: MissionParts) -> None:
+    """Say what moves in a way that nothing can."""
+    obstacles = (*mission.world.known, *mission.world.unseen)
+    if all(obstacle.motion is None for obstacle in obstacles):
+        return
+    from viaspline.mission.motion_checks import jumps_in_words
+
+    words = jumps_in_words(obstacles)
+    if words is not None:
+        warnings.warn(words, MissionWarning, 3)
 
 
 def _validated(data: Any, handler: ModelWrapValidatorHandler[Sound]) -> Sound:

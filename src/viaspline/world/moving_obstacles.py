@@ -58,6 +58,11 @@ class MovingObstacles:
         """What moves as the mission knows it to."""
         return cls(mission.world.moving)
 
+    @classmethod
+    def everything(cls, mission: Mission) -> MovingObstacles:
+        """What moves, known or not."""
+        return cls((*mission.world.moving, *mission.world.unseen_moving))
+
     @cached_property
     def packed(self) -> PackedMotion:
         """What kernels take; built when it is first asked for."""

@@ -1,0 +1,112 @@
+"""How obstacles move: what may be said of it, and what is wrong with what was said."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from viaspline.errors import MissionError, MissionWarning
+from viaspline.formats.mission_yaml import yaml_text
+from viaspline.formats.yaml_document import yaml_document
+from viaspline.mission.model import Mission
+from viaspline.mission.motion_checks import MIN_PERIOD_S
+
+ROUTE = {"start": [0, 0], "goal": [9, 0]}
+DISC = {"circle": {"center": [0, 0], "radius": 1}}
+
+
+def mission_with(motion: Any, **more: Any) -> Mission:
+    known = [{**DISC, **more, "motion": motion}]
+    return Mission.model_validate({"world": {"known": known}, "route": ROUTE})
+
+
+def fault_of(motion: Any, **more: Any) -> str:
+    with pytest.raises(MissionError) as caught:
+        mission_with(motion, **more)
+    [fault] = caught.value.faults
+    return str(fault)
+
+
+def test_an_obstacle_moves_along_keyframes_or_straight_on() -> None:
+    along = mission_with({"keyframes": [[0, 1, 2], [4, 5, 2]], "after": "stay"})
+    straight = mission_with({"from": [1, 2], "velocity_mps": [1, 0]})
+    assert [len(m.world.moving) for m in (along, straight)] == [1, 1]
+    assert along.world.standing == ()
+
+
+@pytest.mark.parametrize(
+    ("motion", "words"),
+    [
+        ({}, "has none of keyframes and from"),
+        ({"from": [0, 0], "velocity_mps": [1, 0], "keyframes": [[0, 0, 0]]}, "exclude"),
+        ({"from": [0, 0]}, "doesn't say how fast it goes"),
+        ({"keyframes": [[0, 1, 2], [1, 2, 2]]}, "when the keyframes are over"),
+        ({"keyframes": [[0, 1, 2], [0, 2, 2]], "after": "stay"}, "not after the one before"),
+        ({"keyframes": [[2, 1, 2], [1, 2, 2]], "after": "stay"}, "not after the one before"),
+        ({"keyframes": [[0, 1, 2], [1, 2, 2, 3]], "after": "stay"}, "has 4 numbers"),
+        ({"keyframes": [[0, 1, 2], [1e-9, 2, 2]], "after": "loop"}, "too short a time"),
+        ({"keyframes": [[0, 1, 2]], "after": "bounce"}, "too short a time"),
+        ({"keyframes": [[0, 1, math.nan]], "after": "stay"}, "NaN"),
+        ({"keyframes": [], "after": "stay"}, "an empty list"),
+        ({"keyframes": [[0, 1]], "after": "stay"}, "list of 2"),
+        ({"keyframes": [[0, 1, 2]], "after": "return"}, "loop, bounce, stay or vanish"),
+        (
+            {"keyframes": [[0, 1, 2], [1, 1, 2]], "after": "loop", "before": "absent"},
+            "goes on and on",
+        ),
+    ],
+)
+def test_what_makes_no_sense_is_named_with_a_remedy(motion: Any, words: str) -> None:
+    assert words in fault_of(motion)
+
+
+def test_what_moves_has_no_side_no_holes_and_is_no_map() -> None:
+    motion = {"from": [0, 0], "velocity_mps": [1, 0]}
+    assert "no side" in fault_of(motion, pass_on="left")
+    ring = [[0, 0], [9, 0], [9, 9], [0, 9]]
+    hole = [[2, 2], [3, 2], [3, 3]]
+    with pytest.raises(MissionError, match="can't have holes"):
+        Mission.model_validate(
+            {
+                "world": {"known": [{"polygon": ring, "holes": [hole], "motion": motion}]},
+                "route": ROUTE,
+            }
+        )
+
+
+def test_a_moving_obstacle_may_stand_on_a_via_point_for_a_while() -> None:
+    mission = mission_with({"from": [0, 0], "velocity_mps": [1, 0]})
+    assert mission.route.start.at == (0, 0)
+
+
+def test_a_loop_that_jumps_draws_a_warning_that_says_how_far() -> None:
+    with pytest.warns(MissionWarning, match="'cart' jumps by 4 m where its loop begins again"):
+        mission_with({"keyframes": [[0, 1, 2], [4, 5, 2]], "after": "loop"}, name="cart")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        mission_with({"keyframes": [[0, 1, 2], [2, 5, 2], [4, 1, 2]], "after": "loop"})
+        mission_with({"keyframes": [[0, 1, 2], [4, 5, 2]], "after": "bounce"})
+
+
+times = st.lists(st.floats(-100, 100), min_size=2, max_size=6, unique=True).map(sorted)
+
+
+@settings(max_examples=50, deadline=None)
+@given(times, st.sampled_from(["loop", "bounce", "stay", "vanish"]), st.booleans(), st.data())
+def test_a_motion_survives_being_written_and_read(
+    at: list[float], after: str, turns: bool, data: st.DataObject
+) -> None:
+    numbers = st.floats(-50, 50)
+    frames = [[t, *(data.draw(numbers) for _ in range(3 if turns else 2))] for t in at]
+    if at[-1] - at[0] < MIN_PERIOD_S:
+        return
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MissionWarning)
+        mission = mission_with({"keyframes": frames, "after": after})
+        again = Mission.model_validate(yaml_document(yaml_text(mission), "x.yaml").data)
+    assert again == mission
