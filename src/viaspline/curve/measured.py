@@ -46,6 +46,11 @@ class Measured:
         return at, along
 
     @property
+    def packed_length(self) -> tuple[Floats, Floats, Floats]:
+        """What kernels take that go along the curve: Taylor coefficients, and ``length_table``."""
+        return self._rows, *self._table
+
+    @property
     def length(self) -> float:
         """Length of the whole curve [m], to a relative 1e-9."""
         return float(self._table[1][-1])

@@ -177,7 +177,7 @@ def distances(rows: Floats, at: Floats, along: Floats, u: Floats, closed: bool, 
 
 
 @inner
-def _along_panel(
+def along_panel(
     rows: Floats, k: int, start: float, end: float, step: float, part: float, small: float
 ) -> float:
     """Local parameter at which a panel has the length ``step``, to within ``small`` [m].
@@ -224,7 +224,7 @@ def parameters(
             step = x - along[panel]
             part = step / (along[panel + 1] - along[panel])
             end = at[panel + 1] - k
-            out[i] = k + _along_panel(rows, k, at[panel] - k, end, step, part, 1e-15 * length)
+            out[i] = k + along_panel(rows, k, at[panel] - k, end, step, part, 1e-15 * length)
     return -1
 
 
