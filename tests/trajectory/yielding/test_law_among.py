@@ -247,6 +247,14 @@ def test_who_is_run_over_at_the_start_is_told_to_depart_later() -> None:
     )
 
 
+def test_what_stands_at_the_start_already_is_named() -> None:
+    moving = MovingObstacles([parked(0.0, [[0, 0, 0], [4, 0, 8]], "stay")])
+    outcome = law_among(line(), LIMITS, moving=moving, required=0.5)
+    assert isinstance(outcome, Refusal)
+    assert "0.0 m along the path, 'cart'" in outcome.reason
+    assert "depart" in outcome.reason
+
+
 def test_an_end_that_is_run_over_is_held_for_less() -> None:
     moving = MovingObstacles([parked(30.0, [[0, 0, -9], [25, 0, -9], [35, 0, 9]], "loop")])
     outcome = law_among(line(), LIMITS, moving=moving, required=0.5, hold=60.0)

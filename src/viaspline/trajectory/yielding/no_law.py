@@ -72,8 +72,10 @@ class Unserved:
                 remedy or ("a larger budget" if spent else "another path"),
                 reason="no law was found on this path among what moves",
             )
-        low = self._course.stage.start + reached.lowest * pitch
-        high = min(self._course.stage.start + reached.highest * pitch, self._course.stage.end)
+        low = self._course.stage.start + max(reached.lowest, 0) * pitch
+        high = min(
+            self._course.stage.start + max(reached.highest, 0) * pitch, self._course.stage.end
+        )
         begin = max(watched, self._course.static.start_time)
         where = f"{low:.1f} m" if high - low < 0.1 else f"{low:.1f} to {high:.1f} m"
         middle = self.legs.search.road.at(high if is_alive else 0.5 * (low + high))
