@@ -54,14 +54,14 @@ def bend_profile(path: Cubic, limits: Limits, stage: Stage) -> Profile:
         limits: Those of speed, acceleration, braking, across the path, and yaw rate.
         stage: What is asked.
     """
-    line, caps, rests = _stretches(path, limits, stage)
+    line, caps, rests = stretches_of(path, limits, stage)
     points, squares, over, missed = two_pass_profile(
         line, caps, rests, limits.max_accel, limits.brake, stage.first**2, stage.last**2
     )
     return Profile(points, squares, float(over), float(missed))
 
 
-def _stretches(
+def stretches_of(
     path: Cubic, limits: Limits, stage: Stage
 ) -> tuple[Floats, Floats, NDArray[np.bool_]]:
     """Ends of the stretches from start to end, the largest v² on each, and where to rest."""

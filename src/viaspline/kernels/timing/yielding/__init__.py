@@ -1,0 +1,1 @@
+"""The time law among things that move: what is blocked when, and the way through."""

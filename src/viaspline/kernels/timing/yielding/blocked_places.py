@@ -1,0 +1,272 @@
+"""Which places of a path are blocked at which instants, by things that move.
+
+A law is checked at instants a step apart. Between two of them the robot moves, as seen from an
+obstacle, along a curve of at most L that lies within a sag of its chord; a chord at most L long
+with both ends at least sqrt((D + sag)² + L²/4) from a set K stays D + sag from it (the point of K
+that is nearest to it is farther than that from both ends). So places nearer than that are blocked.
+What moves is blocked as if each piece of its motion began a step sooner and ended a step later:
+then both ends of every step know all pieces in it, and jumps as well.
+
+Tested through ``trajectory/yielding/test_law_among``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from viaspline.kernels.arrays import Ints
+from viaspline.kernels.jit import inlined, inner, kernel
+from viaspline.kernels.motion.moving_distance import piece_at, piece_distance, uncertainty
+from viaspline.kernels.motion.packed_motion import (
+    BEGINS,
+    HEADING,
+    KNOWN,
+    PRESENT,
+    SPEED_X,
+    SPEED_Y,
+    TURNING,
+    PackedMotion,
+    X,
+    Y,
+)
+from viaspline.kernels.timing.yielding.bit_rows import Words, add_places
+from viaspline.kernels.timing.yielding.path_tree import PathTree
+
+SPLITS = 40  # how often a chord is halved at most
+
+
+class Driving(NamedTuple):
+    """What every law keeps among things that move.
+
+    Attributes:
+        required: From the robot's centre to every shape [m].
+        top: Largest speed [m/s].
+        along: Largest acceleration along the path, either way [m/s²].
+        across: Largest acceleration across it [m/s²].
+        step: Between two instants at which a law is checked [s]; 0: what is blocked at each instant
+            is asked for, and nothing between them.
+    """
+
+    required: float
+    top: float
+    along: float
+    across: float
+    step: float
+
+
+class PlaceGrid(NamedTuple):
+    """Instants, and the places of each that are looked at.
+
+    Attributes:
+        begin: The first instant [s].
+        step: From one to the next [s].
+        origin: Place 0, as a distance along the path [m].
+        pitch: From one place to the next [m].
+        widen: By so much more is blocked at each second instant, which lie in the middle of a step
+            of the law, where it is between two places [m].
+        bases: The place that is bit 0 at each instant, (r,).
+    """
+
+    begin: float
+    step: float
+    origin: float
+    pitch: float
+    widen: float
+    bases: Ints
+
+
+@inlined
+def _keep_off(
+    driving: Driving, radius: float, straight: float, turning: float, reach: float
+) -> float:
+    """How far both ends of a step have to be from the core of a shape with a radius [m]."""
+    distance = driving.required + radius
+    step = driving.step
+    far = distance + reach + (driving.top + straight) * step
+    pace = driving.top + straight + turning * far
+    bent = driving.along + driving.across + turning * (2.0 * pace + turning * far)
+    return math.hypot(distance + 0.125 * step * step * bent, 0.5 * pace * step)
+
+
+@inlined
+def _meeting(dx: float, dy: float, vx: float, vy: float, reach: float) -> tuple[float, float]:
+    """From when to when a point at d + v t is within a reach of 0; from > to: never."""
+    square = vx * vx + vy * vy
+    gap = dx * dx + dy * dy - reach * reach
+    if square == 0.0:
+        return (-np.inf, np.inf) if gap < 0.0 else (np.inf, -np.inf)
+    half = (dx * vx + dy * vy) / square
+    root = half * half - gap / square
+    if root < 0.0:
+        return np.inf, -np.inf
+    root = math.sqrt(root)
+    return -half - root, -half + root
+
+
+@inlined
+def _add_stretch(grid: PlaceGrid, row: int, low: float, high: float, rows: Words) -> None:
+    """Block the places between two distances along the path, at an instant."""
+    wide = 1e-9 + (grid.widen if row & 1 else 0.0)
+    first = math.ceil((low - wide - grid.origin) / grid.pitch) - grid.bases[row]
+    last = math.floor((high + wide - grid.origin) / grid.pitch) - grid.bases[row]
+    add_places(rows, row, first, last)
+
+
+@inner
+def _block_by_disc(
+    tree: PathTree, leaf: int, x: float, y: float, reach: float, grid: PlaceGrid, row: int,
+    rows: Words,
+) -> None:  # fmt: skip
+    """Block what is within a reach of (x, y) on a chord."""
+    ax, ay = tree.points[leaf, 0], tree.points[leaf, 1]
+    ex, ey = tree.points[leaf + 1, 0] - ax, tree.points[leaf + 1, 1] - ay
+    chord = math.hypot(ex, ey)
+    begin, end = tree.along[leaf], tree.along[leaf + 1]
+    reach = max(reach + tree.misses[leaf], 0.0)
+    if chord <= 1e-12:
+        if math.hypot(x - ax, y - ay) < reach:
+            _add_stretch(grid, row, begin, end, rows)
+        return
+    on = ((x - ax) * ex + (y - ay) * ey) / chord
+    off = ((x - ax) * ey - (y - ay) * ex) / chord
+    root = reach * reach - off * off
+    if root <= 0.0:
+        return
+    root = math.sqrt(root)
+    low, high = max(on - root, 0.0), min(on + root, chord)
+    if low <= high:
+        scale = (end - begin) / chord
+        _add_stretch(grid, row, begin + low * scale, begin + high * scale, rows)
+
+
+@inner
+def _block_by_shape(
+    motion: PackedMotion, i: int, piece: int, shift: float, instant: float, reach: float,
+    tree: PathTree, leaf: int, grid: PlaceGrid, row: int, rows: Words,
+) -> None:  # fmt: skip
+    """Block what is nearer than a reach to an obstacle on a chord, which is halved for that."""
+    begin, end = tree.along[leaf], tree.along[leaf + 1]
+    ax, ay = tree.points[leaf, 0], tree.points[leaf, 1]
+    ex, ey = tree.points[leaf + 1, 0] - ax, tree.points[leaf + 1, 1] - ay
+    chord = math.hypot(ex, ey)
+    stack = np.empty((SPLITS + 2, 2))
+    stack[0, 0], stack[0, 1] = 0.0, 1.0
+    depth = 1
+    while depth > 0:
+        depth -= 1
+        low, high = stack[depth, 0], stack[depth, 1]
+        share, half = 0.5 * (low + high), 0.5 * (high - low)
+        x, y = ax + share * ex, ay + share * ey
+        gap = piece_distance(motion, i, piece, shift, instant, x, y, np.inf)
+        gap -= tree.misses[leaf] + reach
+        if gap >= half * chord:
+            continue
+        if gap <= -half * chord or half * (end - begin) <= 0.25 * grid.pitch or depth >= SPLITS:
+            _add_stretch(grid, row, begin + low * (end - begin), begin + high * (end - begin), rows)
+            continue
+        stack[depth, 0], stack[depth, 1] = share, high
+        stack[depth + 1, 0], stack[depth + 1, 1] = low, share
+        depth += 2
+
+
+@inner
+def _block_by_piece(
+    motion: PackedMotion, i: int, row: int, shift: float, begin: float, end: float,
+    driving: Driving, tree: PathTree, first: float, last: float, grid: PlaceGrid, rows: Words,
+) -> None:  # fmt: skip
+    """Block what a piece of motion blocks from one time to another, and between two places."""
+    piece = motion.pieces[row]
+    head = motion.shapes.heads[motion.shapes.slot[i]]
+    turning = abs(piece[TURNING])
+    is_disc = head[3] == 1.0 and (turning == 0.0 or (head[0] == 0.0 and head[1] == 0.0))
+    x, y, vx, vy = piece[X], piece[Y], piece[SPEED_X], piece[SPEED_Y]
+    core, reach = motion.reaches[i], motion.reaches[i]
+    if is_disc:
+        c, s = math.cos(piece[HEADING]), math.sin(piece[HEADING])
+        x += c * head[0] - s * head[1]
+        y += s * head[0] + c * head[1]
+        turning, core, reach = 0.0, head[2], 0.0
+    straight = math.hypot(vx, vy)
+    unsure = uncertainty(motion, i, end)
+    off = _keep_off(driving, core + unsure, straight, turning, reach)
+    known = shift + piece[KNOWN]
+    node = 0
+    while node < tree.skip.size:
+        run = tree.runs[node]
+        if tree.along[run[1]] < first or tree.along[run[0]] > last:
+            node = tree.skip[node]
+            continue
+        circle = tree.circles[node]
+        since, until = _meeting(x - circle[0], y - circle[1], vx, vy, circle[2] + off)
+        low = math.ceil((max(since + known, begin) - grid.begin) / grid.step - 1e-9)
+        high = math.floor((min(until + known, end) - grid.begin) / grid.step + 1e-9)
+        if max(low, 0) > min(high, grid.bases.size - 1):
+            node = tree.skip[node]
+            continue
+        if run[1] - run[0] > 1:
+            node += 1
+            continue
+        for k in range(max(low, 0), min(high, grid.bases.size - 1) + 1):
+            instant = grid.begin + k * grid.step
+            unsure = uncertainty(motion, i, instant + driving.step)
+            if is_disc:
+                near = _keep_off(driving, core + unsure, straight, 0.0, 0.0)
+                late = instant - known
+                _block_by_disc(tree, run[0], x + vx * late, y + vy * late, near, grid, k, rows)
+            else:
+                near = (
+                    _keep_off(driving, head[2] + unsure, straight, turning, reach)
+                    - head[2]
+                    - uncertainty(motion, i, instant)
+                )
+                _block_by_shape(motion, i, row, shift, instant, near, tree, run[0], grid, k, rows)
+        node += 1
+
+
+@kernel
+def block_places(
+    motion: PackedMotion, driving: Driving, tree: PathTree, first: float, last: float,
+    grid: PlaceGrid, rows: Words,
+) -> int:  # fmt: skip
+    """Block the places of a path at instants.
+
+    Args:
+        motion: What moves.
+        driving: What the law keeps.
+        tree: The path.
+        first: Only places from this distance along the path on matter [m].
+        last: And up to this one [m].
+        grid: Which instants and places.
+        rows: Where blocked places are added, (r, w).
+
+    Returns:
+        How many pieces of motion were looked at.
+    """
+    start = grid.begin - driving.step
+    stop = grid.begin + grid.bases.size * grid.step
+    seen = 0
+    for i in range(motion.first_piece.size - 1):
+        row, shift, until = piece_at(motion, i, start)
+        begin = -np.inf
+        while begin <= stop:
+            seen += 1
+            if motion.pieces[row, PRESENT] != 0.0:
+                _block_by_piece(
+                    motion, i, row, shift, max(begin, start) - driving.step,
+                    min(until, stop) + driving.step, driving, tree, first, last, grid, rows,
+                )  # fmt: skip
+            begin = until
+            row += 1
+            if row == motion.first_piece[i + 1]:
+                row = motion.first_piece[i]
+                shift += motion.rounds[i, 1]
+            if row + 1 < motion.first_piece[i + 1]:
+                until = motion.pieces[row + 1, BEGINS] + shift
+            else:
+                until = motion.rounds[i, 0] + motion.rounds[i, 1] + shift
+                if motion.rounds[i, 1] == 0.0:
+                    until = np.inf
+    return seen

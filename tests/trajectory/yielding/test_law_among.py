@@ -1,0 +1,286 @@
+"""The law on a fixed path among things that move: sampled, bounded, refused."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from viaspline.curve.cardinal import CardinalSpline
+from viaspline.curve.path import Path
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import GeometryError
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.world_spec import SpeedZone
+from viaspline.planning.problem.method import Found, GaveUp, Refusal
+from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.retime import retime
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.trajectory.yielding.law_among import law_among
+from viaspline.world.moving_obstacles import MovingObstacles
+
+SAMPLE_S = 0.0005
+LIMITS = Limits(max_speed=2, max_accel=1)
+SHAPES: tuple[dict[str, Any], ...] = (
+    {"circle": {"center": (0, 0), "radius": 0.6}},
+    {"circle": {"center": (0.5, 0.2), "radius": 0.4}},
+    {"polygon": [(-1, -0.4), (1, -0.4), (1, 0.4), (-1, 0.4)]},
+    {"polygon": [(0, 0), (1.2, -0.5), (0.4, 0), (1.2, 0.5)]},
+    {"capsule": {"from": (-0.8, 0), "to": (0.8, 0), "radius": 0.3}},
+)
+KINDS = ("loop", "bounce", "stay", "vanish")
+
+
+def line(length: float = 30.0) -> Path:
+    """A straight path from (0, 0) along x."""
+    return Path([np.linspace(0.0, 1.0, 4)[:, None] * (length, 0.0)], vias=[])
+
+
+def bent(seed: int) -> CardinalSpline:
+    """A winding path."""
+    x = np.linspace(0.0, 24.0, 6)
+    return CardinalSpline(np.stack((x, np.random.default_rng(seed).uniform(-3.0, 3.0, 6)), 1))
+
+
+def crossing(rng: np.random.Generator, path: PiecewiseCubic, **error: float) -> Obstacle:
+    """Something that turns and goes to and fro near a path."""
+    count = int(rng.integers(2, 7))
+    middle = path.at_distance(rng.uniform(0.15, 0.85) * path.length)
+    places = middle + rng.uniform(-7.0, 7.0, (count, 2))
+    steps = np.hypot(*np.diff(places, axis=0).T) / rng.uniform(0.4, 2.0)
+    times = np.concatenate(([0.0], np.cumsum(np.maximum(steps, 0.2))))
+    frames = np.column_stack((times, places, rng.uniform(-180.0, 180.0, count))).tolist()
+    shape = SHAPES[int(rng.integers(len(SHAPES)))]
+    after = KINDS[int(rng.integers(4))]
+    return Obstacle(**shape, motion={"keyframes": frames, "after": after, "error": error})
+
+
+def traffic(seed: int, path: PiecewiseCubic, count: int, **error: float) -> MovingObstacles:
+    """Some of these, each going on in its own way."""
+    rng = np.random.default_rng(seed)
+    return MovingObstacles([crossing(rng, path, **error) for _ in range(count)])
+
+
+def cart(x: float, start: float, speed: float, radius: float = 1.0) -> Obstacle:
+    """A disc that goes up across the line at x."""
+    motion = {"from": (x, start), "velocity_mps": (0, speed)}
+    return Obstacle(name="cart", circle={"center": (0, 0), "radius": radius}, motion=motion)
+
+
+def parked(at: float, frames: list[list[float]], after: str) -> Obstacle:
+    """A disc of 0.5 m on the line at some keyframes, seen from a place."""
+    moved = [[t, at + x, y] for t, x, y in frames]
+    motion = {"keyframes": moved, "after": after}
+    return Obstacle(name="cart", circle={"center": (0, 0), "radius": 0.5}, motion=motion)
+
+
+def nearest_sampled(
+    law: Trajectory, path: PiecewiseCubic, moving: MovingObstacles, hold: float = 0.0
+) -> float:
+    """The smallest distance of the robot's centre from a shape, every 0.5 ms [m]."""
+    times = np.arange(law.start_time, law.end_time + hold, SAMPLE_S)
+    places = path.at_distance(np.minimum(law.distance_at(times), path.length))
+    return float(moving.distance(places, times).min())
+
+
+def assert_kept(law: Trajectory, limits: Limits, static: Trajectory) -> None:
+    """Speeds and accelerations are within the limits, and times within their pieces."""
+    assert (np.diff(law.times) >= 0.0).all()
+    assert (np.diff(law.distances) >= 0.0).all()
+    accelerations = law.accelerations[np.diff(law.times) > 1e-9]
+    assert accelerations.max() <= limits.max_accel * (1.0 + 1e-6)
+    assert accelerations.min() >= -limits.brake * (1.0 + 1e-6)
+    passed = 0.5 * (law.speeds[1:] + law.speeds[:-1]) * np.diff(law.times)
+    assert np.allclose(np.diff(law.distances), passed, atol=1e-7)
+    s = np.linspace(law.distances[0], law.distances[-1], 3000)
+    assert (law.speed_at(s) <= static.speed_at(s) + 1e-4).all()
+    assert law.distances[-1] == static.distances[-1]
+    assert law.speeds[-1] == 0.0
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_nothing_comes_too_near_between_samples_of_half_a_millisecond(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    path = line() if seed % 3 == 0 else bent(seed)
+    limits = Limits(
+        max_speed=rng.uniform(0.8, 3.0),
+        max_accel=rng.uniform(0.4, 2.0),
+        max_brake=rng.uniform(0.4, 2.0) if seed % 2 else None,
+        max_lateral_accel=None if seed % 4 == 0 else 0.8,
+    )
+    moving = traffic(seed, path, int(rng.integers(1, 6)), position_m=0.05, growth_mps=0.01)
+    required, hold = rng.uniform(0.1, 0.6), rng.uniform(0.0, 5.0)
+    outcome = law_among(path, limits, moving=moving, required=required, hold=hold)
+    if isinstance(outcome, Found):
+        law = outcome.value
+        assert outcome.cost == law.end_time
+        assert nearest_sampled(law, path, moving, hold) >= required
+        assert_kept(law, limits, retime(path, limits))
+
+
+def test_most_of_such_drives_are_found() -> None:
+    found = [
+        law_among(bent(seed), LIMITS, moving=traffic(seed, bent(seed), 3), required=0.3)
+        for seed in range(12)
+    ]
+    assert sum(isinstance(one, Found) for one in found) >= 8
+
+
+@pytest.mark.parametrize("path", [line(), bent(3)])
+def test_where_nothing_is_in_the_way_it_is_the_static_law(path: PiecewiseCubic) -> None:
+    away = MovingObstacles([cart(15.0, -100.0, -1.0)])
+    static = retime(path, LIMITS, [Station(9.0, dwell=2.0)])
+    outcome = law_among(path, LIMITS, [Station(9.0, dwell=2.0)], moving=away, required=0.5)
+    assert isinstance(outcome, Found)
+    assert outcome.value.times.tobytes() == static.times.tobytes()
+    assert outcome.value.distances.tobytes() == static.distances.tobytes()
+    assert outcome.value.speeds.tobytes() == static.speeds.tobytes()
+
+
+def test_the_same_traffic_gives_the_same_bytes() -> None:
+    path = bent(1)
+    one, two = (law_among(path, LIMITS, moving=traffic(5, path, 4), required=0.3) for _ in range(2))
+    assert isinstance(one, Found)
+    assert isinstance(two, Found)
+    assert one.value.times.tobytes() == two.value.times.tobytes()
+
+
+def test_a_wait_behind_a_crossing_cart_is_as_short_as_it_can_be() -> None:
+    """The rear of the disc leaves the path as 15 - sqrt(1.5² - (t - 8)²); the robot goes by it."""
+    outcome = law_among(line(), LIMITS, moving=MovingObstacles([cart(15, -8, 1)]), required=0.5)
+    t = np.linspace(6.5, 9.5, 300_001)
+    late = np.max(2.0 * t - 2.0 - (15.0 - np.sqrt(2.25 - (t - 8.0) ** 2))) / 2.0
+    assert isinstance(outcome, Found)
+    assert outcome.value.duration >= 17.0 + late - 1e-6
+    assert outcome.value.duration <= 1.003 * (17.0 + late)
+
+
+def fastest_by_brute_force(
+    path: PiecewiseCubic, moving: MovingObstacles, required: float, step: float, until: float
+) -> float:
+    """The earliest arrival on a lattice of flags, checked at its instants alone [s]."""
+    pitch = 0.5 * step * step
+    count = round(path.length / pitch)
+    levels = round(2.0 / step)
+    points = path.at_distance(np.minimum(np.arange(count + 1) * pitch, path.length))
+    now = np.zeros((levels + 1, count + 1), bool)
+    now[0, 0] = True
+    for n in range(1, round(until / step)):
+        then = np.zeros_like(now)
+        for k in range(levels + 1):
+            for after in range(max(k - 1, 0), min(k + 1, levels) + 1):
+                by = k + after
+                then[after, by:] |= now[k, : count + 1 - by]
+        now = then & (moving.distance(points, n * step) >= required)
+        if now[0, count]:
+            return n * step
+    return np.inf
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_it_takes_a_hundredth_longer_than_a_finer_lattice_at_most(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    path = line(12.0)
+    discs = []
+    for _ in range(4):
+        x, speed = rng.uniform(3.0, 10.0), rng.uniform(0.5, 1.5)
+        discs.append(cart(x, -speed * rng.uniform(2.0, 8.0), speed, 0.5))
+    moving = MovingObstacles(discs)
+    best = fastest_by_brute_force(path, moving, 0.3, 0.05, 30.0)
+    outcome = law_among(path, LIMITS, moving=moving, required=0.3)
+    assert isinstance(outcome, Found)
+    assert outcome.value.duration <= 1.01 * best
+
+
+def test_a_station_is_left_alone_while_something_passes_over_it() -> None:
+    moving = MovingObstacles([cart(15.0, -10.0, 1.0)])
+    station = Station(15.0, dwell=4.0, name="pump")
+    outcome = law_among(line(), LIMITS, [station], moving=moving, required=0.5)
+    assert isinstance(outcome, Found)
+    law = outcome.value
+    assert law.stations == (station,)
+    assert nearest_sampled(law, line(), moving) >= 0.5
+    stays = np.flatnonzero((np.diff(law.distances) == 0.0) & (law.distances[:-1] == 15.0))
+    assert np.diff(law.times)[stays].sum() >= 4.0 - 1e-9
+    assert law.duration < 27.0
+
+
+def test_zones_and_slow_bends_are_kept_while_waiting() -> None:
+    zone = SpeedZone(polygon=[(8, -9), (12, -9), (12, 9), (8, 9)], max_speed_mps=0.5)
+    limits = Limits(max_speed=2, max_accel=1, max_lateral_accel=0.4, max_brake=0.7)
+    path = bent(2)
+    moving = traffic(2, path, 3)
+    outcome = law_among(path, limits, moving=moving, required=0.3, zones=[zone])
+    assert isinstance(outcome, Found)
+    assert nearest_sampled(outcome.value, path, moving) >= 0.3
+    assert_kept(outcome.value, limits, retime(path, limits, zones=[zone]))
+
+
+@pytest.mark.parametrize("speed", [0.37, 1.0, 1.93, 2.6])
+def test_a_start_under_way_is_kept(speed: float) -> None:
+    moving = MovingObstacles([cart(15.0, -6.0, 1.0)])
+    outcome = law_among(
+        line(), LIMITS, moving=moving, required=0.5, start=4.0, start_speed=speed, start_time=1.0
+    )
+    assert isinstance(outcome, Found)
+    law = outcome.value
+    assert (law.distances[0], law.speeds[0], law.times[0]) == (4.0, speed, 1.0)
+    assert law.accelerations.min() >= -1.0 - 1e-6
+    assert nearest_sampled(law, line(), moving) >= 0.5
+
+
+def test_who_cannot_brake_in_time_is_refused() -> None:
+    moving = MovingObstacles([parked(6.0, [[0, 0, 0]], "stay")])
+    outcome = law_among(line(), LIMITS, moving=moving, required=0.5, start=3.5, start_speed=2.0)
+    assert isinstance(outcome, Refusal)
+    assert "'cart'" in outcome.reason
+
+
+def test_who_is_run_over_at_the_start_is_told_to_depart_later() -> None:
+    moving = MovingObstacles([parked(0.0, [[0, 0, -1], [1, 0, 0], [7, 0, 0], [9, 0, 9]], "stay")])
+    outcome = law_among(line(), LIMITS, moving=moving, required=0.5)
+    assert isinstance(outcome, Refusal)
+    later = float(outcome.reason.split("depart ")[1].split(" s later")[0])
+    assert 7.0 < later < 8.0
+    assert isinstance(
+        law_among(line(), LIMITS, moving=moving, required=0.5, start_time=later), Found
+    )
+
+
+def test_what_stands_at_the_start_already_is_named() -> None:
+    moving = MovingObstacles([parked(0.0, [[0, 0, 0], [4, 0, 8]], "stay")])
+    outcome = law_among(line(), LIMITS, moving=moving, required=0.5)
+    assert isinstance(outcome, Refusal)
+    assert "0.0 m along the path, 'cart'" in outcome.reason
+    assert "depart" in outcome.reason
+
+
+def test_an_end_that_is_run_over_is_held_for_less() -> None:
+    moving = MovingObstacles([parked(30.0, [[0, 0, -9], [25, 0, -9], [35, 0, 9]], "loop")])
+    outcome = law_among(line(), LIMITS, moving=moving, required=0.5, hold=60.0)
+    assert not isinstance(outcome, Found)
+    said = outcome.reason if isinstance(outcome, Refusal) else outcome.would_help
+    least = float(said.split("hold ")[1].split(" s at most")[0])
+    for hold, kind in ((least, Found), (least + 2.0, (Refusal, GaveUp))):
+        assert isinstance(law_among(line(), LIMITS, moving=moving, required=0.5, hold=hold), kind)
+
+
+def test_what_stands_on_the_path_for_good_is_no_law_and_says_so() -> None:
+    moving = MovingObstacles([parked(20.0, [[0, 0, 3], [4, 0, 0]], "stay")])
+    outcome = law_among(line(), LIMITS, moving=moving, required=0.5)
+    assert isinstance(outcome, Refusal)
+    assert "'cart'" in outcome.reason
+
+
+def test_a_spent_budget_is_no_refusal() -> None:
+    moving = MovingObstacles([cart(15, -8, 1)])
+    outcome = law_among(line(), LIMITS, moving=moving, required=0.5, budget=WorkBudget(1e-9))
+    assert isinstance(outcome, GaveUp)
+    assert "budget" in outcome.would_help
+
+
+@pytest.mark.parametrize("name", ["required", "hold"])
+def test_numbers_that_make_no_sense_are_refused(name: str) -> None:
+    numbers = {"required": 0.5, "hold": 0.0, name: -1.0}
+    with pytest.raises(GeometryError, match=name):
+        law_among(line(), LIMITS, moving=MovingObstacles(), **numbers)
