@@ -15,6 +15,7 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.motion import passive_stop as kernels
 from viaspline.kernels.motion.passive_stop import Threats
+from viaspline.trajectory.retime import braking
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 
@@ -109,7 +110,6 @@ def proven_until(path: Path, law: Trajectory, premises: PassivePremises, keep: f
         GeometryError: When the law limits the jerk, or begins before the look.
 
     Example:
-        >>> from viaspline.trajectory.retime import braking
         >>> path, nothing = Path([[(x, 0.0) for x in (0, 3, 6, 9)]], []), MovingObstacles()
         >>> law = braking(0.0, speed=2.0, max_accel=1.0, start_time=0.0)
         >>> looks = [PassivePremises(nothing, 0.0, 1.0, (0, 0), reach) for reach in (4.51, 4.0)]
@@ -131,6 +131,7 @@ def passive_law(
     keep: float,
     limits: tuple[float, float],
     now: float,
+    lasting: float = math.inf,
 ) -> tuple[Trajectory, bool]:
     """A law no faster than another, from all places of which the robot stops in time.
 
@@ -144,6 +145,8 @@ def passive_law(
         keep: The body's radius and how far beside its path it may be [m].
         limits: Largest acceleration and deceleration along the path [m/s²].
         now: When it begins, by the clock of ``upper`` [s].
+        lasting: So long it goes on if it may; then it brakes [s]. Who looks again before then need
+            not know more.
 
     Returns:
         (the law, whether it is proven). Not proven: not even braking at once is, and that is the
@@ -175,12 +178,41 @@ def passive_law(
     kept = keep + part.sag + 2.0 * kernels.LEAST_GAP  # so that a check finds it proven, too
     distances, squares, proven = kernels.passive_profile(
         premises.packed, part.places, SPACING_M, kept, accel, brake, line - part.origin, caps,
-        speed, now,
+        speed, now, lasting,
     )  # fmt: skip
     if distances.size == 1:
         distances, squares = np.append(distances, distances), np.zeros(2)
     law = Trajectory.through(part.origin + distances, squares, max_accel=brake, start_time=now)
     return law, bool(proven)
+
+
+def stop_of(law: Trajectory, now: float, brake: float) -> Trajectory:
+    """How a robot stops that has driven by a proven law up to now.
+
+    It goes on to the law's next place and brakes from there: that was proven with the law, whatever
+    later looks show.
+
+    Args:
+        law: By ``passive_law``, proven.
+        now: Not before the law begins [s].
+        brake: That the law was proven with [m/s²].
+
+    Example:
+        >>> law = Trajectory.through(
+        ...     np.array((0.0, 3.0, 4.0)), np.array((4.0, 1.0, 0.0)), max_accel=0.5
+        ... )
+        >>> stop_of(law, 1.0, brake=1.0).distances
+        array([1.75, 3.  , 3.5 ])
+    """
+    here, speed, _ = (float(value) for value in law.state_at(now))
+    following = int(law.times.searchsorted(now, side="left"))
+    if speed <= 0.0 or following >= law.times.size:
+        return braking(here, 0.0, brake, now)
+    place, square = float(law.distances[following]), float(law.speeds[following]) ** 2
+    distances = np.array((here, place, place + square / (2.0 * brake)))
+    squares = np.array((speed**2, square, 0.0))
+    apart = np.append(True, np.diff(distances) > 0.0)
+    return Trajectory.through(distances[apart], squares[apart], max_accel=brake, start_time=now)
 
 
 def stoppable_speeds(

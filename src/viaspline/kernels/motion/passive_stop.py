@@ -40,7 +40,10 @@ LEAST_GAP: Final = 1e-3
 [m]."""
 
 HALVINGS: Final = 12
-"""How often the interval of speeds is halved in which the largest one is looked for."""
+"""How often the interval of speeds is halved in which the largest one is looked for,"""
+
+STEP_HALVINGS: Final = 7
+"""and that of what one step may change."""
 
 
 class Threats(NamedTuple):
@@ -243,7 +246,7 @@ def _largest_square(
     if _goes_on(threats, places, step, keep, brake, s, v, t, width, high):
         return high
     low = max(best, 0.0)
-    for _ in range(HALVINGS):
+    for _ in range(STEP_HALVINGS):
         middle = 0.5 * (low + high)
         if _goes_on(threats, places, step, keep, brake, s, v, t, width, middle):
             low = best = middle
@@ -255,7 +258,7 @@ def _largest_square(
 @kernel
 def passive_profile(
     threats: Threats, places: Floats, step: float, keep: float, accel: float, brake: float,
-    line: Floats, caps: Floats, speed: float, time: float,
+    line: Floats, caps: Floats, speed: float, time: float, lasting: float,
 ) -> tuple[Floats, Floats, bool]:  # fmt: skip
     """A fast law from here and now on, from all of which the robot stops in time.
 
@@ -275,6 +278,7 @@ def passive_profile(
         caps: Largest v² there [m²/s²], which ``brake`` can follow, (m,).
         speed: The robot's own, no larger than the first cap allows [m/s].
         time: When it is there [s].
+        lasting: From so long after that on it brakes [s].
 
     Returns:
         (distances [m] (k,), v² there (k,), whether it is proven): to the end of the line or to a
@@ -288,7 +292,7 @@ def passive_profile(
     for j in range(1, line.size):
         width = line[j] - line[j - 1]
         square = v * v - 2.0 * brake * width
-        if proven:
+        if proven and t < time + lasting:
             high = min(v * v + 2.0 * accel * width, caps[j])
             square = _largest_square(
                 threats, places, step, keep, brake, s, v, t, width, high

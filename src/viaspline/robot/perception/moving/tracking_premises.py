@@ -30,6 +30,6 @@ class TrackingPremises:
     settle_s: float = 0.8
     doubt_s: float = 2.0
     rest_s: float = 4.0
-    forget_s: float = 3.0
+    forget_s: float = 2.0
     lost_m: float = 1.0
     longest_m: float = 4.0
