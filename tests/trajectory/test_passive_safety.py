@@ -17,8 +17,8 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.trajectory.limits import Limits
 from viaspline.trajectory.passive_safety import (
     SPACING_M,
+    ChordTable,
     PassivePremises,
-    PathPart,
     passive_law,
     proven_until,
     stoppable_speeds,
@@ -197,7 +197,7 @@ def test_chords_are_no_farther_from_the_path_than_they_say(
 ) -> None:
     path = Path([[(0, 0), (1, 0), (1, turn), (2, turn)]], [])
     start, end = sorted((first * path.length, last * path.length))
-    part = PathPart.of(path, start, end)
+    part = ChordTable.of(path, start, end)
     along = np.linspace(start, end, 300)
     behind = (along - part.origin) / SPACING_M
     chords = np.column_stack(

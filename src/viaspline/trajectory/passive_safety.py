@@ -57,7 +57,7 @@ class PassivePremises:
 
 
 @dataclass(frozen=True, eq=False)
-class PathPart:
+class ChordTable:
     """A part of a path as kernels take it: places at multiples of ``SPACING_M``.
 
     Attributes:
@@ -71,7 +71,7 @@ class PathPart:
     sag: float
 
     @classmethod
-    def of(cls, path: Path, start: float, end: float) -> PathPart:
+    def of(cls, path: Path, start: float, end: float) -> ChordTable:
         """The part of a path between two distances along it [m].
 
         Of two places A and B at a distance l along the path and a chord c, a place P between them
@@ -118,7 +118,7 @@ def proven_until(path: Path, law: Trajectory, premises: PassivePremises, keep: f
     """
     pieces = _pieces(law)
     _check_begin(float(law.times[0]), premises)
-    part = PathPart.of(path, float(law.distances[0]), float(law.distances[-1]))
+    part = ChordTable.of(path, float(law.distances[0]), float(law.distances[-1]))
     pieces[:, 0] -= part.origin
     found = kernels.first_contact(premises.packed, part.places, SPACING_M, keep + part.sag, pieces)
     return float(found)
@@ -174,7 +174,7 @@ def passive_law(
     line = _line(upper, here, end)
     caps = np.interp(line, upper.distances, upper.speeds**2)
     caps[0] = speed**2
-    part = PathPart.of(path, here, end)
+    part = ChordTable.of(path, here, end)
     kept = keep + part.sag + 2.0 * kernels.LEAST_GAP  # so that a check finds it proven, too
     distances, squares, proven = kernels.passive_profile(
         premises.packed, part.places, SPACING_M, kept, accel, brake, line - part.origin, caps,
@@ -250,7 +250,7 @@ def stoppable_speeds(
     if not along.size:
         return np.empty(0)
     _check_begin(float(instants.min()), premises)
-    part = PathPart.of(path, float(along[0]), float((along + highest**2 / (2.0 * brake)).max()))
+    part = ChordTable.of(path, float(along[0]), float((along + highest**2 / (2.0 * brake)).max()))
     speeds: Floats = kernels.stoppable_speeds(
         premises.packed, part.places, SPACING_M, keep + part.sag, brake, along - part.origin,
         instants, highest,

@@ -1,4 +1,7 @@
-"""What a tracker takes for granted about things that move."""
+"""What a tracker takes for granted about things that move.
+
+Tested through ``robot/perception/moving/test_track_hits``.
+"""
 
 from __future__ import annotations
 
