@@ -16,6 +16,7 @@ from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.lidar import LidarSensor, Scan
+from viaspline.world.moving_obstacles import MovingObstacles
 
 RING = ((-6.0, -6.0), (6.0, -6.0), (6.0, 5.0), (0.0, 7.0), (-6.0, 6.0))
 HOLE = ((-5.0, -5.0), (5.0, -5.0), (5.0, 4.0), (0.0, 2.0), (-5.0, 4.0))
@@ -169,3 +170,16 @@ def test_a_scan_that_makes_no_sense_is_refused(change: dict[str, object], messag
     }  # fmt: skip
     with pytest.raises(GeometryError, match=message):
         Scan(**{**sound, **change})  # type: ignore[arg-type]
+
+
+def test_what_moves_is_hit_where_it_is_at_that_instant() -> None:
+    """With the noise of the same seed and number, as if it stood there."""
+    wall = Obstacle(polygon=((-1.0, 3.0), (4.0, 3.0), (4.0, 4.0), (-1.0, 4.0)))
+    motion = {"from": (-1.0, 2.0), "velocity_mps": (0.5, 0.0)}
+    ball = Obstacle.model_validate({"circle": {"center": (0, 0), "radius": 0.4}, "motion": motion})
+    spec = Lidar(range_m=9.0, fov_deg=200, beams=91, noise_m=0.02)
+    sensor = LidarSensor([wall], spec, seed=4, moving=MovingObstacles([ball]))
+    for time in (0.0, 1.0, 3.0):
+        there = Obstacle(circle=Circle(center=(-1.0 + 0.5 * time, 2.0), radius=0.4))
+        still = LidarSensor([wall, there], spec, seed=4).scan((0.0, 0.0), 1.0, 5)
+        assert sensor.scan((0.0, 0.0), 1.0, 5, time).ranges.tolist() == still.ranges.tolist()

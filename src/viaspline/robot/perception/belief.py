@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.curve.path import Path
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.lidar import Scan
@@ -115,9 +115,16 @@ class Belief:
         """Size of the smallest thing that counts: the radius of the discs on surfaces [m]."""
         return self.surfaces.cell_size
 
-    def with_scan(self, scan: Scan) -> tuple[Belief, News]:
-        """What is known after one more scan, and what is new about it."""
+    def with_scan(self, scan: Scan, standing: Flags | None = None) -> tuple[Belief, News]:
+        """What is known after one more scan, and what is new about it.
+
+        Args:
+            scan: A look round.
+            standing: Which of its hits show what stands, shape (h,). None: all of them.
+        """
         hits, before = scan.hits, self.surfaces.hits
+        if standing is not None:
+            hits = hits[standing]
         surfaces = self.surfaces
         strange = np.ones(len(hits), np.bool_)
         if len(self.world) and len(hits):

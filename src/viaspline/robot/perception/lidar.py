@@ -12,8 +12,11 @@ import numpy as np
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.sensing.raycast import cast
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.world.moving_obstacles import MovingObstacles
+from viaspline.world.shapes_at import shapes_at
 from viaspline.world.world import World
 
 MAX_NOISE_SIGMAS = 3.0
@@ -101,6 +104,7 @@ class LidarSensor:
         spec: Range, field of view, beams and noise.
         seed: For the noise. It is Gaussian, cut off at three standard deviations, and depends on
             nothing but the seed and the number of the scan.
+        moving: What moves beside them.
 
     Example:
         >>> post = Obstacle(circle={"center": (3, 0), "radius": 1})
@@ -109,28 +113,38 @@ class LidarSensor:
         array([inf,  2., inf])
     """
 
-    def __init__(self, obstacles: Iterable[Obstacle], spec: Lidar, seed: int = 0) -> None:
+    def __init__(
+        self,
+        obstacles: Iterable[Obstacle],
+        spec: Lidar,
+        seed: int = 0,
+        moving: MovingObstacles | None = None,
+    ) -> None:
         self.spec = spec
         self.seed = seed
+        self.moving = MovingObstacles() if moving is None else moving
         self._world = World(obstacles)
         full = spec.fov_deg >= 360.0
         fov = math.radians(spec.fov_deg)
         self._step = fov / spec.beams if full else fov / max(spec.beams - 1, 1)
         self._first = -0.5 * fov if full or spec.beams > 1 else 0.0
 
-    def scan(self, position: tuple[float, ...], heading: float, number: int = 0) -> Scan:
+    def scan(
+        self, position: tuple[float, ...], heading: float, number: int = 0, time: float = 0.0
+    ) -> Scan:
         """What is measured at a place [m] with a heading [rad].
 
         Args:
             position: Of the sensor, which is the robot's centre [m], shape (2,) or longer.
             heading: Of the robot, anticlockwise from x [rad].
             number: Of the scan; scans with the same number have the same noise.
+            time: When it is taken, by the clock of what moves [s].
         """
         spec = self.spec
-        ranges = cast(
-            self._world.packed, float(position[0]), float(position[1]), heading + self._first,
-            self._step, spec.beams, spec.range_m,
-        )  # fmt: skip
+        ranges = self._cast(self._world.packed, position, heading)
+        if len(self.moving):
+            shapes = shapes_at(self.moving, time)
+            ranges = np.minimum(ranges, self._cast(shapes, position, heading))
         if spec.noise_m > 0.0:
             noise = np.random.default_rng((self.seed, number)).standard_normal(spec.beams)
             ranges += spec.noise_m * np.clip(noise, -MAX_NOISE_SIGMAS, MAX_NOISE_SIGMAS)
@@ -138,3 +152,11 @@ class LidarSensor:
         return Scan(
             tuple(position), heading, self._first, self._step, spec.range_m, np.asarray(ranges)
         )
+
+    def _cast(self, shapes: PackedWorld, position: tuple[float, ...], heading: float) -> Floats:
+        """Distance to the first surface along each beam, without noise [m], (beams,)."""
+        spec = self.spec
+        return cast(
+            shapes, float(position[0]), float(position[1]), heading + self._first,
+            self._step, spec.beams, spec.range_m,
+        )  # fmt: skip

@@ -1,0 +1,313 @@
+"""Is a robot at rest before anything can touch it, whatever comes from where it doesn't see?
+
+The premises: nothing is faster than ``top``; what was seen stays in its tube; whatever else there
+is was beyond the reach of the look, or behind one of its mouths, when that was taken. A mouth is a
+line through which something may come out of what was hidden.
+
+At a time t after the look, all that may be there is at a distance from a place p of at least
+
+    reach - |p - eye| - top t                                  what was beyond the reach,
+    |p - mouth| - top t                                        what was hidden,
+    max(|p - tube(t)|, |p - tube(0)| - top t)                  what was seen:
+
+the first two since p lies in what was seen, and a way from the unseen to p is at least that long;
+the third since it is both in its tube and no farther than ``top t`` from where it was. With p fixed
+each of them falls by no more than a rate L in a second: ``top``, or for what was seen the larger of
+``top`` and the speed and growth of its tube. With t fixed it falls by no more than a metre a metre.
+So if the distance d(t) of a robot that drives no faster than v from t on is more than ``keep``,
+
+    d(t') >= d(t) - (v + L) (t' - t) > keep   for t <= t' < t + (d(t) - keep) / (v + L),
+
+and that is how far a check goes on: it proves a law for all instants of it, not for samples.
+
+Tested through ``trajectory/test_passive_safety``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.motion.moving_distance import moving_distance
+from viaspline.kernels.motion.packed_motion import GROWTH, PackedMotion
+
+LEAST_GAP: Final = 1e-3
+"""A gap beyond what is to be kept that is taken for none: checks would go on in ever smaller steps
+[m]."""
+
+HALVINGS: Final = 12
+"""How often the interval of speeds is halved in which the largest one is looked for,"""
+
+STEP_HALVINGS: Final = 7
+"""and that of what one step may change."""
+
+
+class Threats(NamedTuple):
+    """What may come, by one look.
+
+    Attributes:
+        tubes: What was seen; each goes without jumps, and is there from the look on.
+        seen_at: When the look was [s].
+        top: Nothing is faster [m/s].
+        eye: x, y of where it was taken [m], (2,).
+        reach: Nothing was hidden nearer than this but behind mouths [m]; infinite: nothing was
+            beyond.
+        mouths: x0, y0, x1, y1 [m], (k, 4).
+    """
+
+    tubes: PackedMotion
+    seen_at: float
+    top: float
+    eye: Floats
+    reach: float
+    mouths: Floats
+
+
+@inner
+def _segment_gap(x: float, y: float, segment: Floats) -> float:
+    """Distance from (x, y) to a segment (4,) [m]."""
+    dx = segment[2] - segment[0]
+    dy = segment[3] - segment[1]
+    length = dx * dx + dy * dy
+    w = 0.0
+    if length > 0.0:
+        w = min(max(((x - segment[0]) * dx + (y - segment[1]) * dy) / length, 0.0), 1.0)
+    return math.hypot(x - segment[0] - w * dx, y - segment[1] - w * dy)
+
+
+@inner
+def _gap(threats: Threats, k: int, t: float, x: float, y: float) -> float:
+    """How far from (x, y) at an instant what comes from source k is at least [m]."""
+    grown = threats.top * (t - threats.seen_at)
+    if k == 0:
+        return threats.reach - math.hypot(x - threats.eye[0], y - threats.eye[1]) - grown
+    mouths = threats.mouths.shape[0]
+    if k <= mouths:
+        return _segment_gap(x, y, threats.mouths[k - 1]) - grown
+    i = k - 1 - mouths
+    within_tube = moving_distance(threats.tubes, i, t, x, y, np.inf)
+    was = moving_distance(threats.tubes, i, threats.seen_at, x, y, np.inf)
+    return max(within_tube, was - grown)
+
+
+@inner
+def _rate(threats: Threats, k: int) -> float:
+    """By how much the distance to what comes from source k falls in a second at most [m/s]."""
+    i = k - 1 - threats.mouths.shape[0]
+    if i < 0:
+        return threats.top
+    return max(threats.top, threats.tubes.speeds[i] + threats.tubes.errors[i, GROWTH])
+
+
+@inner
+def _sources(threats: Threats) -> int:
+    return int(1 + threats.mouths.shape[0] + threats.tubes.speeds.size)
+
+
+@inner
+def _place(places: Floats, step: float, s: float) -> tuple[float, float]:
+    """The place at a distance along the path, on the chord between two places of the table."""
+    last = places.shape[0] - 2
+    j = min(max(math.floor(s / step), 0), last)
+    w = min(max(s / step - j, 0.0), 1.0)
+    return (
+        places[j, 0] + w * (places[j + 1, 0] - places[j, 0]),
+        places[j, 1] + w * (places[j + 1, 1] - places[j, 1]),
+    )
+
+
+@inner
+def _first_contact(
+    threats: Threats, places: Floats, step: float, keep: float,
+    s: float, v: float, accel: float, t: float, duration: float,
+) -> float:  # fmt: skip
+    """From when on a piece of a law isn't proven [s]; infinite if all of it is."""
+    first = np.inf
+    for k in range(_sources(threats)):
+        rate = _rate(threats, k)
+        late = 0.0
+        while late < duration and t + late < first:
+            now = v + accel * late
+            fastest = max(now, v + accel * duration)
+            x, y = _place(places, step, s + (v + 0.5 * accel * late) * late)
+            gap = _gap(threats, k, t + late, x, y) - keep
+            if not gap > LEAST_GAP:
+                first = t + late
+                break
+            late += gap / (fastest + rate)
+    return first
+
+
+@inner
+def _stops(
+    threats: Threats, places: Floats, step: float, keep: float, brake: float,
+    s: float, v: float, t: float,
+) -> bool:  # fmt: skip
+    """Whether a robot that brakes from here and now on is at rest before any contact."""
+    return math.isinf(_first_contact(threats, places, step, keep, s, v, -brake, t, v / brake))
+
+
+@kernel
+def first_contact(threats: Threats, places: Floats, step: float, keep: float, law: Floats) -> float:
+    """From when on it isn't proven any more that a law under way is touched by nothing [s].
+
+    Args:
+        threats: What may come.
+        places: Along the path from distance 0 on, (n, 2) with n >= 2 [m].
+        step: From each of them to the next along the path [m].
+        keep: The body's radius, and what else is to be kept: also by how much the path leaves the
+            chords between the places [m].
+        law: Pieces of constant acceleration: distance [m], speed [m/s], acceleration [m/s²], time
+            [s], duration [s], (p, 5). Those in which the robot stands are passed over.
+
+    Returns:
+        Infinite if all of it is proven.
+    """
+    for piece in range(law.shape[0]):
+        s, v, accel = law[piece, 0], law[piece, 1], law[piece, 2]
+        t, duration = law[piece, 3], law[piece, 4]
+        if v <= 0.0 and accel <= 0.0:
+            continue
+        found = _first_contact(threats, places, step, keep, s, v, accel, t, duration)
+        if found < np.inf:
+            return found
+    return np.inf
+
+
+@kernel
+def stoppable_speeds(
+    threats: Threats, places: Floats, step: float, keep: float, brake: float,
+    distances: Floats, times: Floats, caps: Floats,
+) -> Floats:  # fmt: skip
+    """The largest speed at each of some places and times from which the robot stops in time.
+
+    Found by halving, and each proven. Who is slower is not always safer: it is longer in the way.
+
+    Args:
+        threats: What may come.
+        places: See ``first_contact``.
+        step: See ``first_contact``.
+        keep: See ``first_contact``.
+        brake: Deceleration [m/s²].
+        distances: Along the path [m], (m,).
+        times: When the robot is there [s], (m,).
+        caps: No larger speed is looked for [m/s], (m,).
+
+    Returns:
+        (m,) [m/s]; 0 where none is proven.
+    """
+    speeds = np.zeros(distances.size)
+    for j in range(distances.size):
+        s, t = distances[j], times[j]
+        if _stops(threats, places, step, keep, brake, s, caps[j], t):
+            speeds[j] = caps[j]
+            continue
+        low, high = 0.0, caps[j]
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            if _stops(threats, places, step, keep, brake, s, middle, t):
+                low = middle
+            else:
+                high = middle
+        speeds[j] = low
+    return speeds
+
+
+@inner
+def _goes_on(
+    threats: Threats, places: Floats, step: float, keep: float, brake: float,
+    s: float, v: float, t: float, width: float, square: float,
+) -> bool:  # fmt: skip
+    """Whether a robot may drive to the next place, have a v² there, and still stops in time."""
+    after = math.sqrt(square)
+    if v + after <= 0.0:
+        return False
+    duration = 2.0 * width / (v + after)
+    accel = (square - v * v) / (2.0 * width)
+    found = _first_contact(threats, places, step, keep, s, v, accel, t, duration)
+    if found < np.inf:
+        return False
+    return _stops(threats, places, step, keep, brake, s + width, after, t + duration)
+
+
+@inner
+def _largest_square(
+    threats: Threats, places: Floats, step: float, keep: float, brake: float,
+    s: float, v: float, t: float, width: float, high: float,
+) -> float:  # fmt: skip
+    """The largest v² at the next place that is proven; that of braking on, below 0 if it rests."""
+    best = v * v - 2.0 * brake * width
+    if high < best:
+        return best
+    if _goes_on(threats, places, step, keep, brake, s, v, t, width, high):
+        return high
+    low = max(best, 0.0)
+    for _ in range(STEP_HALVINGS):
+        middle = 0.5 * (low + high)
+        if _goes_on(threats, places, step, keep, brake, s, v, t, width, middle):
+            low = best = middle
+        else:
+            high = middle
+    return best
+
+
+@kernel
+def passive_profile(
+    threats: Threats, places: Floats, step: float, keep: float, accel: float, brake: float,
+    line: Floats, caps: Floats, speed: float, time: float, lasting: float,
+) -> tuple[Floats, Floats, bool]:  # fmt: skip
+    """A fast law from here and now on, from all of which the robot stops in time.
+
+    From each place of the line to the next it takes the largest speed, found by halving, with which
+    it arrives untouched and from which braking is proven. There is always one: to brake on, which
+    was proven at the place before. Between two places the law is proven too, but braking begins at
+    one.
+
+    Args:
+        threats: What may come.
+        places: See ``first_contact``.
+        step: See ``first_contact``.
+        keep: See ``first_contact``.
+        accel: Largest acceleration [m/s²].
+        brake: Largest deceleration [m/s²].
+        line: Distances along the path, from where the robot is [m], increasing, (m,).
+        caps: Largest v² there [m²/s²], which ``brake`` can follow, (m,).
+        speed: The robot's own, no larger than the first cap allows [m/s].
+        time: When it is there [s].
+        lasting: From so long after that on it brakes [s].
+
+    Returns:
+        (distances [m] (k,), v² there (k,), whether it is proven): to the end of the line or to a
+        rest before. Not proven: it isn't even if the robot brakes at once, which is the law then.
+    """
+    distances, squares = np.empty(line.size + 1), np.empty(line.size + 1)
+    s, v, t = line[0], speed, time
+    distances[0], squares[0] = s, v * v
+    proven = _stops(threats, places, step, keep, brake, s, v, t)
+    n = 1
+    for j in range(1, line.size):
+        width = line[j] - line[j - 1]
+        square = v * v - 2.0 * brake * width
+        if proven and t < time + lasting:
+            high = min(v * v + 2.0 * accel * width, caps[j])
+            square = _largest_square(
+                threats, places, step, keep, brake, s, v, t, width, high
+            )  # fmt: skip
+        square = min(square, caps[j])  # it isn't more, but for rounding
+        if square < 0.0:
+            if v > 0.0:
+                distances[n], squares[n] = s + v * v / (2.0 * brake), 0.0
+                n += 1
+            break
+        after = math.sqrt(square)
+        distances[n], squares[n] = line[j], square
+        n += 1
+        if after <= 0.0:
+            break
+        t += 2.0 * width / (v + after)
+        s, v = line[j], after
+    return distances[:n].copy(), squares[:n].copy(), proven

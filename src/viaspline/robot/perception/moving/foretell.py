@@ -1,0 +1,117 @@
+"""Where things that were seen to move will be: each on a straight line, in a tube that grows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.mission.fields import MIN_LENGTH_M
+from viaspline.mission.motion_spec import Motion, MotionError
+from viaspline.mission.shapes.capsule import Capsule
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
+from viaspline.robot.perception.moving.object_track import ObjectTrack
+from viaspline.robot.perception.moving.track_sightings import SightedTrack
+from viaspline.world.moving_obstacles import MovingObstacles
+
+
+@dataclass(frozen=True)
+class Foresight:
+    """What is taken for granted of what things will do.
+
+    Attributes:
+        top_speed: Nothing is faster [m/s].
+        accel: Nothing changes its velocity faster than this [m/s²],
+        horizon: for so long; later it may be anywhere that ``top_speed`` takes it [s].
+        sigmas: Nothing is farther from where it is believed to be, nor its velocity from what that
+            is believed to be, than so many standard deviations.
+    """
+
+    top_speed: float
+    accel: float = 1.0
+    horizon: float = 2.0
+    sigmas: float = 3.0
+
+    def error(self, estimate: MotionEstimate) -> MotionError:
+        """How far from its straight line something may be.
+
+        With x₀ and v₀ as they truly are, p and v as they are believed to be, and an acceleration of
+        a at most, for t up to the horizon h:
+
+            |x(t) - p - v t| <= |x₀ - p| + |v₀ - v| t + a t²/2 <= kσ_p + (kσ_v + a h/2) t
+
+        and for all t, as nothing is faster than w:
+
+            |x(t) - p - v t| <= kσ_p + (w + |v|) t.
+
+        The growth is the smaller of the two rates.
+
+        Example:
+            >>> still = MotionEstimate.at_first_sight(0.0, (0.0, 0.0), 0.1, 0.2)
+            >>> error = Foresight(top_speed=2.0, accel=1.0, horizon=1.0).error(still)
+            >>> round(error.position_m, 6), round(error.growth_mps, 6)
+            (0.3, 1.1)
+        """
+        speed = math.hypot(*estimate.velocity.tolist())
+        by_estimate = self.sigmas * estimate.velocity_error + 0.5 * self.accel * self.horizon
+        return MotionError(
+            position_m=self.sigmas * estimate.place_error,
+            growth_mps=min(by_estimate, self.top_speed + speed),
+        )
+
+
+def foretold(
+    tracks: Iterable[ObjectTrack | SightedTrack], now: float, foresight: Foresight
+) -> MovingObstacles:
+    """Where tracked things will be, in their order, less certain from now on.
+
+    Args:
+        tracks: Each as it is now: foreseen for this time, or seen in it.
+        now: By the clock of motions [s].
+        foresight: What is taken for granted.
+    """
+    return MovingObstacles((_foretold(track, now, foresight) for track in tracks), since=now)
+
+
+def _foretold(track: ObjectTrack | SightedTrack, now: float, foresight: Foresight) -> Obstacle:
+    estimate = track.estimate
+    vx, vy = estimate.velocity.tolist()
+    x, y = estimate.place.tolist()
+    motion = Motion(
+        from_=(x - vx * now, y - vy * now),
+        velocity_mps=(vx, vy),
+        error=foresight.error(estimate),
+    )
+    if isinstance(track, SightedTrack):
+        seen = track.sighting
+        name = seen.obstacle.name or f"moving obstacle {seen.index + 1}"
+        if not track.turns:
+            return _turned(seen.obstacle, seen.frame[2], motion, name)
+        return _disc(track.reach, motion, name)
+    return _disc(track.radius, motion, f"moving thing {track.number}")
+
+
+def _disc(radius: float, motion: Motion, name: str) -> Obstacle:
+    circle = Circle(center=(0.0, 0.0), radius=max(radius, MIN_LENGTH_M))
+    return Obstacle(circle=circle, motion=motion, name=name)
+
+
+def _turned(obstacle: Obstacle, heading: float, motion: Motion, name: str) -> Obstacle:
+    """A shape turned about its frame's origin [rad], in a frame that doesn't turn."""
+    ring = obstacle.ring
+    assert ring is not None
+    c, s = math.cos(heading), math.sin(heading)
+    corners = [(c * x - s * y, s * x + c * y) for x, y in ring.loops[0]]
+    if len(corners) == 1:
+        circle = Circle(center=corners[0], radius=ring.radius)
+        return Obstacle(circle=circle, motion=motion, name=name)
+    if len(corners) == 2:
+        capsule = Capsule(from_=corners[0], to=corners[1], radius=ring.radius)
+        return Obstacle(capsule=capsule, motion=motion, name=name)
+    if ring.radius > 0.0:
+        return _disc(float(np.hypot(*ring.vertices.T).max()) + ring.radius, motion, name)
+    return Obstacle(polygon=tuple(corners), motion=motion, name=name)
