@@ -32,9 +32,9 @@ def check_kind(name: str, value: object, kind: Any, example: str) -> None:
     viaspline.errors.GeometryError: limits is of the class int, not dict; give Limits(max_speed=...
     """
     if not isinstance(value, kind):
-        problem = (
-            f"{name} is of the class {type(value).__name__}, not {getattr(kind, '__name__', kind)}"
-        )
+        kinds = kind if isinstance(kind, tuple) else (kind,)
+        names = " or ".join(getattr(one, "__name__", str(one)) for one in kinds)
+        problem = f"{name} is of the class {type(value).__name__}, not {names}"
         raise GeometryError(f"{problem}; {example}")
 
 
@@ -107,7 +107,9 @@ def numbers_from(name: str, values: object) -> NDArray[np.float64]:
         raise GeometryError(f"{name}: expected numbers: {error}") from None
 
 
-def all_of(name: str, values: object, kind: type, example: str) -> tuple[Any, ...]:
+def all_of(
+    name: str, values: object, kind: type | tuple[type, ...], example: str
+) -> tuple[Any, ...]:
     """The items of a list that was handed in.
 
     Raises:

@@ -21,14 +21,20 @@ from viaspline.machine.turns_on_spot import SpotTurning, with_turns
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.planning.alternatives.record import Account
+from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.plan_drive import find_drive
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.visit_order import ordered
+from viaspline.spacetime.plan_among import plan_among
+from viaspline.spacetime.timed_drive import TimedDrive
+from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.limits import Station
+from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
 MAX_TRIAL_ROUNDS = 6
@@ -54,6 +60,8 @@ class Plan:
         trajectory: The time law along the path.
         tracking_error: How far beside the path the driven robot may get [m]: the path keeps that
             much more than the clearance that was asked for.
+        timed: How path and time law were chosen among what moves, and what is proven of that; None
+            where nothing is known to move.
     """
 
     mission: Mission
@@ -63,6 +71,12 @@ class Plan:
     account: Account | None
     trajectory: Trajectory
     tracking_error: float = 0.0
+    timed: TimedDrive | None = None
+
+    @property
+    def moving_certificate(self) -> MovingCertificate | None:
+        """The proven clearance to everything that is known to move; None where nothing is."""
+        return None if self.timed is None else self.timed.certificate
 
     @property
     def ledger(self) -> tuple[LedgerEntry, ...]:
@@ -158,10 +172,28 @@ def _with_error(mission: Mission, world: World, error: float) -> Plan:
             problem.reason += f" ({error:.2f} m of it for how far the robot gets beside its path)"
             problem.args = (f"{problem.reason}: {problem.remedy}",)
         raise
+    if mission.world.moving:
+        return _among_what_moves(mission, world, requirements, found, error)
     stops = stations(found.path, mission.robot)
     zones = mission.world.speed_zones
     trajectory = retime(found.path, limits_of(mission.robot), stops, zones=zones)
     return Plan(mission, world, found.path, found.certificate, found.account, trajectory, error)
+
+
+def _among_what_moves(
+    mission: Mission, world: World, requirements: Requirements, found: Solution, error: float
+) -> Plan:
+    """The plan that arrives first past what moves."""
+    robot = mission.robot
+    problem = TimedProblem(
+        mission, world, MovingObstacles.known(mission), requirements, limits_of(robot),
+        lambda path: stations(path, robot),
+    )  # fmt: skip
+    timed = plan_among(problem, found)
+    path, certificate, account = (
+        timed.solution.path, timed.solution.certificate, timed.solution.account,
+    )  # fmt: skip
+    return Plan(mission, world, path, certificate, account, timed.trajectory, error, timed)
 
 
 def stations(path: Path, robot: RobotSpec) -> tuple[Station, ...]:

@@ -74,6 +74,8 @@ def _of_route(mission: Mission) -> Iterator[tuple[str, str]]:
         yield "route", "laps"
     if route.corridor is not None:
         yield "route", "corridor"
+    if route.depart_s or route.hold_s:
+        yield "route", "depart_s" if route.depart_s else "hold_s"
 
 
 def _of_world(mission: Mission, data: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
@@ -82,6 +84,9 @@ def _of_world(mission: Mission, data: Mapping[str, Any]) -> Iterator[tuple[str, 
         yield "bounds, written as a fence", "world.bounds"
     for i, item in enumerate(world.known):
         key = f"world.known[{i}]"
+        if item.motion is not None:
+            yield "moving obstacle", item.name or key
+            continue
         if item.grid is not None:
             yield "map of squares", key
         if item.ring is not None:

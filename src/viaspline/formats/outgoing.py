@@ -111,7 +111,7 @@ def _circles(mission: Mission, frame: LocalFrame) -> Iterator[FenceArea]:
 
 def _exclusions(mission: Mission, *, discs: bool) -> Iterator[RoundedRing]:
     """Obstacles on the map that fence circles are for, or those that they are not for."""
-    for obstacle in mission.world.known:
+    for obstacle in mission.world.standing:
         ring = obstacle.ring
         if ring is not None and ring.is_disc == discs:
             yield ring

@@ -90,7 +90,8 @@ def jumps_in_words(obstacles: Iterable[Obstacle]) -> str | None:
 
     >>> from viaspline.mission.shapes.obstacle import Obstacle
     >>> there = {"keyframes": [(0, 1, 2), (4, 5, 2)], "after": "loop"}
-    >>> jumps_in_words([Obstacle(circle={"center": (0, 0), "radius": 1}, name="cart", motion=there)])
+    >>> disc = {"center": (0, 0), "radius": 1}
+    >>> jumps_in_words([Obstacle(circle=disc, name="cart", motion=there)])
     "'cart' jumps by 4 m where its loop begins again"
     """
     found = []

@@ -109,10 +109,8 @@ def _of_item(
         return [item], ()
     key = "map" if "map" in item else "tracks"
     try:
-        if key == "tracks":
-            tracks = TracksSpec.model_validate(dict(item))
-            return moving_discs(tracks, folder, lambda name: _free(name, taken)), ()
-        return obstacles_of(MapSpec.model_validate(dict(item)), folder, taken), ()
+        spec = (MapSpec if key == "map" else TracksSpec).model_validate(dict(item))
+        return obstacles_of(spec, folder, taken), ()
     except ValidationError as error:
         from viaspline.mission.schema_errors import schema_faults
 
@@ -132,17 +130,19 @@ def _unplaced(path: Path, asking: str, fault: Fault) -> UnplacedFault:
     )
 
 
-def obstacles_of(spec: MapSpec, folder: FilePath, taken: set[Any]) -> list[Obstacle]:
-    """The obstacles of a map.
+def obstacles_of(spec: MapSpec | TracksSpec, folder: FilePath, taken: set[Any]) -> list[Obstacle]:
+    """The obstacles of a map, or of a file of tracks.
 
     Args:
-        spec: The map.
+        spec: The map or the tracks.
         folder: Where its file is looked for.
         taken: Names that other obstacles have; those that are given here are added.
 
     Raises:
-        MissionError: The map can't be read or makes no sense.
+        MissionError: The file can't be read or makes no sense.
     """
+    if isinstance(spec, TracksSpec):
+        return moving_discs(spec, folder, lambda name: _free(name, taken))
     path = folder / spec.map
     sides = {"pass_on": spec.pass_on, "never_pass_on": spec.never_pass_on}
     if is_of_squares(path):

@@ -15,6 +15,7 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.report import style
 from viaspline.report.canvas import any_name, polyline
 from viaspline.report.labels import Labels
+from viaspline.report.moving_film import MovingLayer
 from viaspline.report.path_marks import draw_vias
 from viaspline.report.run_picture import has_lidar, thinned
 from viaspline.report.scene import Scene
@@ -59,7 +60,7 @@ class _Stage:
         scene = Scene.of(
             run.plan.world,
             Requirements.of(mission, run.plan.tracking_error).required,
-            mission.world.unseen,
+            mission.world.unseen_standing,
         )
         planned = polyline(run.plan.path.spans)
         seen = np.vstack([planned, run.positions[:, :2]])
@@ -72,7 +73,9 @@ class _Stage:
         labels.place(planned, places)
         self._moving = _moving(sheet.map, sheet.pixels_per_metre, run)
         self._sight = sight_of(run, sheet)
-        SideColumn(sheet).legend([*handles, *vias, *self._moving, *self._sight.handles])
+        self._others = MovingLayer(sheet.map, run.moving)
+        shown = (*self._moving, *self._sight.handles, *self._others.handles)
+        SideColumn(sheet).legend([*handles, *vias, *shown])
         # the few markers of the route are drawn over the trail again
         self._over = [a for a in (*sheet.map.lines, *sheet.map.texts) if a.get_zorder() >= 11][:120]
         self._clock = _clock(sheet)
@@ -81,7 +84,9 @@ class _Stage:
         canvas = sheet.figure.canvas
         assert isinstance(canvas, FigureCanvasAgg)
         self._canvas = canvas
-        for artist in (*self._moving, *self._sight.artists, self._clock):
+        for artist in (
+            *self._moving, *self._sight.artists, *self._others.artists, self._clock,
+        ):  # fmt: skip
             artist.set_animated(True)
         canvas.draw()  # type: ignore[no-untyped-call]
         self._still = canvas.copy_from_bbox(sheet.figure.bbox)  # type: ignore[no-untyped-call]
@@ -101,7 +106,8 @@ class _Stage:
         speed = float(np.interp(time, run.times, run.speeds))
         self._clock.set_text(f"{time:7.1f} s   {speed:5.2f} m/s")
         self._canvas.restore_region(self._still)  # type: ignore[no-untyped-call]
-        for artist in (*sight, old, path, trail, *self._over, robot):
+        others = self._others.at(time)
+        for artist in (*sight, old, path, trail, *self._over, *others, robot):
             self._sheet.map.draw_artist(artist)
         self._sheet.figure.draw_artist(self._clock)
         pixels = np.asarray(self._canvas.buffer_rgba())[..., :3]  # type: ignore[no-untyped-call]

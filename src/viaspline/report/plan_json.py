@@ -13,6 +13,7 @@ from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.report.drivability_json import drivability_data
 from viaspline.report.json_text import dumps
+from viaspline.report.moving_json import moving_certificate_data, timing_choices
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.report.summary import tension
 
@@ -29,12 +30,14 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
         {
             "mission": mission_summary(plan.mission, name),
             "path": path_data(plan.path) | _turning(plan) | {"csv_spacing_m": spacing},
-            "certificate": certificate_data(plan.certificate),
+            "certificate": certificate_data(plan.certificate)
+            | moving_certificate_data(plan.moving_certificate),
             "drivability": drivability_data(plan.drivability),
             **({"tracking_error_m": plan.tracking_error} if plan.tracking_error else {}),
             **({"note": FOLLOWED_EXACTLY} if keeps_nothing(plan.mission.robot) else {}),
             "ledger": [_entry(entry) for entry in plan.ledger],
             **_preferred(plan.preferred_clearance),
+            **timing_choices(plan),
             "trajectory": {
                 "duration_s": plan.trajectory.duration,
                 "stations": [

@@ -22,6 +22,7 @@ from viaspline.report.body_marks import draw_swept, draw_zones
 from viaspline.report.canvas import any_name, png, polyline
 from viaspline.report.close_up import close_up
 from viaspline.report.labels import Labels
+from viaspline.report.moving_marks import Moment, draw_moving
 from viaspline.report.path_marks import (
     draw_arrows,
     draw_path,
@@ -33,8 +34,11 @@ from viaspline.report.profile_strips import draw_curvature_limit, fill_strips, s
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.side_column import SideColumn
+from viaspline.report.space_time_column import plan_space_time
 from viaspline.report.summary import body_words, spline_words
 from viaspline.report.units import asked_words, down, metres, seconds
+from viaspline.trajectory.moving_certificate import MovingCertificate
+from viaspline.world.moving_obstacles import MovingObstacles
 
 MAX_REASONS = 3  # why a path drives roughly, before the rest is only counted
 NOTE_WIDTH = 44  # letters of a line of the column at the right
@@ -59,7 +63,8 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     title = (
         f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in {seconds(trajectory.duration)}"
     )
-    lines = (proof(plan.certificate, plan.tracking_error), subtitle(plan.mission))
+    proven = proof(plan.certificate, plan.tracking_error) + moving_proof(plan.moving_certificate)
+    lines = (proven, subtitle(plan.mission))
     sheet = new_sheet(view, strip_names(plan.path.spans[:, 0]), title, lines)
     labels = Labels(sheet.map)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre)
@@ -72,13 +77,25 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     draw_arrows(sheet.map, points, style.PATH, avoid=places)
     handles += vias + draw_tightest(sheet.map, labels, plan.certificate)
     handles += draw_sharpest(sheet.map, labels, plan.drivability)
+    handles += draw_moving(sheet.map, labels, moment_of(plan))
     labels.place(np.vstack([points, *losers]), places)
     _fill_strips(sheet, plan)
     column = SideColumn(sheet)
     column.legend(handles)
+    plan_space_time(column, plan)
     column.notes(*drive_notes(plan.drivability))
     close_up(column, scene, plan.path, plan.certificate, plan.mission.robot)
     return png(sheet.figure)
+
+
+def moment_of(plan: Plan) -> Moment:
+    """What moves, at the plan's tightest instant."""
+    law, certificate = plan.trajectory, plan.moving_certificate
+    now = law.start_time if certificate is None else certificate.tightest_at_s
+    moving = MovingObstacles.known(plan.mission)
+    x, y = np.asarray(plan.path.at_distance(law.distance_at(now)))[:2].tolist()
+    body = (x, y, plan.mission.robot.outer_radius)
+    return Moment(moving, law.start_time, law.end_time, now, body)
 
 
 def subtitle(mission: Mission) -> str:
@@ -95,6 +112,13 @@ def proof(certificate: Certificate, tracking_error: float = 0.0) -> str:
         f"proven: nowhere closer than {down(certificate.clearance)} to anything "
         f"({asked_words(certificate.required, tracking_error)} asked)"
     )
+
+
+def moving_proof(certificate: MovingCertificate | None) -> str:
+    """The proven clearance to what moves, to follow that to what stands; nothing without."""
+    if certificate is None or not np.isfinite(certificate.clearance):
+        return ""
+    return f", nor than {down(certificate.clearance)} to what moves"
 
 
 def drive_notes(drive: Drivability) -> tuple[str, list[str]]:

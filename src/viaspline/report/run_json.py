@@ -13,6 +13,7 @@ import numpy as np
 from viaspline.curve.path import Path
 from viaspline.machine.excess import Excess
 from viaspline.report.json_text import dumps
+from viaspline.report.moving_json import encounters_data
 from viaspline.report.plan_json import mission_summary, path_data
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.robot.run import Replan, Run
@@ -32,6 +33,7 @@ def run_json(run: Run, name: str, *, seed: int = 0) -> str:
             "tightest_at": certificate.tightest_at,
             "tightest_distance_m": certificate.tightest_distance,
             "nearest": certificate.obstacle,
+            **encounters_data(run),
             "vias": [
                 {
                     "name": visit.name,

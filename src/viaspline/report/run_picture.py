@@ -19,13 +19,15 @@ from viaspline.report.body_marks import draw_headings, draw_swept, draw_zones
 from viaspline.report.canvas import any_name, png, polyline
 from viaspline.report.close_up import CLOSE_UP_ROOM_IN, close_up
 from viaspline.report.labels import Labels
+from viaspline.report.moving_marks import Moment, draw_moving
 from viaspline.report.path_marks import draw_arrows, draw_echoes, draw_tightest, draw_vias
 from viaspline.report.plan_picture import proof, subtitle, via_ticks
 from viaspline.report.profile_strips import fill_strips, strip_names
 from viaspline.report.scene import Scene, nearest_on
 from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.side_column import SideColumn
-from viaspline.report.units import metres, seconds
+from viaspline.report.space_time_column import run_space_time
+from viaspline.report.units import down, metres, seconds
 from viaspline.robot.run import Event, Replan, Run
 
 CROSS_TRACK_STRIP = "left of path [m]"  # the strip of what a robot with a drive was off
@@ -50,7 +52,7 @@ def run_picture(run: Run, name: str) -> bytes:
     """
     mission = run.plan.mission
     required = Requirements.of(mission, run.plan.tracking_error).required
-    scene = Scene.of(run.plan.world, required, mission.world.unseen)
+    scene = Scene.of(run.plan.world, required, mission.world.unseen_standing)
     planned = polyline(run.plan.path.spans)
     driven = run.positions[:, :2]
     seen = np.vstack([planned, driven])
@@ -78,12 +80,14 @@ def run_picture(run: Run, name: str) -> bytes:
         handles += draw_headings(sheet.map, some[:, :2], some[:, 2])
     handles += vias + _draw_events(sheet, labels, run)
     handles += draw_tightest(sheet.map, labels, run.certificate)
+    handles += draw_moving(sheet.map, labels, _moment(run))
     noted = [event.at[:2] for event in run.events if event.kind in _told(run)]
     labels.place(np.vstack([planned, thinned(driven)]), np.vstack([places, *noted]))
     _fill_strips(sheet, run)
     column = SideColumn(sheet)
     column.colour_bar(colours, limits, "speed of the driven path [m/s]")
     column.legend(handles)
+    run_space_time(column, run)
     column_notes = _notes(run)
     if column.room > CLOSE_UP_ROOM_IN + 0.155 * min(len(column_notes), 6):
         close_up(
@@ -98,6 +102,15 @@ def run_picture(run: Run, name: str) -> bytes:
     return png(sheet.figure)
 
 
+def _moment(run: Run) -> Moment:
+    """What moves, at the run's tightest instant."""
+    begin, end = float(run.times[0]), float(run.times[-1])
+    met = run.encounters
+    now = end if met is None or met.time is None else met.time
+    x, y = run.place_at(now)[:2]
+    return Moment(run.moving, begin, end, now, (x, y, run.plan.mission.robot.outer_radius))
+
+
 def _heading(run: Run, name: str) -> tuple[str, tuple[str, str]]:
     end = "reached its goal" if run.reached else "did NOT reach its goal"
     title = (
@@ -105,12 +118,19 @@ def _heading(run: Run, name: str) -> tuple[str, tuple[str, str]]:
     )
     new = {0: "no new path under way", 1: "1 new path under way"}
     paths = new.get(len(run.replans), f"{len(run.replans)} new paths under way")
-    line = f"{proof(run.certificate)}; {paths}"
+    line = f"{proof(run.certificate)}{_moving_proof(run)}; {paths}"
     if run.tracking is not None:
         line += f"; {metres(run.tracking.cross.p99, 3)} beside its path in 99 % of the time"
     if not run.reached:  # why is more to the point than the spline's tension
         return title, (run.reason or "", line)
     return title, (line, subtitle(run.plan.mission))
+
+
+def _moving_proof(run: Run) -> str:
+    met = run.encounters
+    if met is None or not np.isfinite(met.clearance):
+        return ""
+    return f", nor than {down(met.clearance)} to what moves"
 
 
 def has_lidar(run: Run) -> bool:

@@ -63,8 +63,8 @@ class _Range(SensorView):
         self._disc = Circle((0, 0), reach, facecolor=style.SENSOR, alpha=0.18, zorder=2.4)
         axes.add_artist(self._disc)
         self._found: list[tuple[float, Artist]] = []
-        first = len(run.plan.mission.world.known)
-        for i, obstacle in enumerate(run.plan.mission.world.unseen, first):
+        first = len(run.plan.world)
+        for i, obstacle in enumerate(run.plan.mission.world.unseen_standing, first):
             near = np.flatnonzero(run.world.distances_to(i, run.positions) <= reach)
             if near.size:
                 self._found.append((float(run.times[near[0]]), _found(axes, obstacle)))

@@ -96,10 +96,12 @@ def _world(mission: Mission) -> str:
     words = [map_words(grid) for grid in grids[:MAX_MAPS_NAMED]]
     if len(grids) > MAX_MAPS_NAMED:
         words.append(f"{len(grids) - MAX_MAPS_NAMED} more maps")
-    for obstacles, kind in ((world.known, "known"), (world.unseen, "unseen")):
+    for obstacles, kind in ((world.standing, "known"), (world.unseen_standing, "unseen")):
         shapes = [obstacle for obstacle in obstacles if obstacle.grid is None]
         if shapes or (kind == "known" and not grids):
             words.append(_obstacles(shapes, kind))
+    moving = [(world.moving, "known"), (world.unseen_moving, "unseen")]
+    words += [_obstacles(those, f"{kind} moving") for those, kind in moving if those]
     if world.bounds is not None:
         x0, y0, x1, y1 = world.bounds
         words.append(f"bounds {x1 - x0:g} m x {y1 - y0:g} m")

@@ -33,12 +33,16 @@ from viaspline.robot.navigation.track_path import track, with_command
 from viaspline.robot.path_following import command_for
 from viaspline.robot.perception.belief import Belief
 from viaspline.robot.perception.lidar import Scan
-from viaspline.robot.perception.perceive import perceive
+from viaspline.robot.perception.moving.motion_sensor import MovingSighting
+from viaspline.robot.perception.perceive import perceive, told_apart
 from viaspline.robot.replanning.decide import decide, look_again
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
+from viaspline.robot.yielding.foreseen import foreseen
+from viaspline.robot.yielding.give_way import give_way
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
 TIME_ROUNDING = 1e-12
@@ -139,14 +143,14 @@ class Navigator:
         self._state = _at_start(self._task, plan, period)
 
     def step(
-        self, state: RobotState, sensed: Iterable[Obstacle] | Scan, time: float
+        self, state: RobotState, sensed: Iterable[Obstacle | MovingSighting] | Scan, time: float
     ) -> tuple[Command, Navigator]:
         """What to do from now on until the next step.
 
         Args:
             state: Where the robot is, as measured.
             sensed: What is seen now: a lidar's scan, or every obstacle in sight; those already
-                known make no difference.
+                known make no difference. What moves is told of as ``MovingSighting``.
             time: Now [s], never less than in the step before.
 
         Returns:
@@ -161,7 +165,7 @@ class Navigator:
         task, measured = self._task, state
         before = replace(self._state, log=Log())
         if not before.progress.set_off:
-            before = _set_off(before, time)
+            before = _set_off(before, time, self._plan)
         progress, knowledge = before.progress, before.knowledge
         schedule, log = before.schedule, before.log
         # how far has the robot come?
@@ -175,8 +179,14 @@ class Navigator:
             schedule = caught_up(task, progress, knowledge, schedule, measured.speed)
         # what does it perceive? after the end only a lidar goes on
         sighting = None
-        if not progress.finished or isinstance(sensed, Scan):
+        if isinstance(sensed, Scan):
             knowledge, sighting = perceive(knowledge, sensed)
+        else:
+            standing, moving = told_apart(sensed)
+            if moving or knowledge.tracked is not None:
+                knowledge = knowledge.with_sightings(moving, progress.time, foreseen)
+            if not progress.finished:
+                knowledge, sighting = perceive(knowledge, standing)
         # what does it do about that?
         work = 0.0
         if sighting is not None or schedule.pending is not None or respond is look_again:
@@ -184,6 +194,10 @@ class Navigator:
             decision = respond(task, progress, knowledge, schedule, sighting)
             log = log.with_decision(decision, clock.perf_counter() - began)
             schedule, work = decision.schedule, decision.work
+            progress, log = note_arrivals(task, progress, schedule, log)
+        if len(knowledge.moving):
+            decision = give_way(task, progress, knowledge, schedule)
+            log, schedule = log.with_decision(decision, 0.0), decision.schedule
             progress, log = note_arrivals(task, progress, schedule, log)
         # what is it to do now?
         controller = before.progress.controller
@@ -319,11 +333,15 @@ def _at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
         pose_filter = PoseFilter.of(robot, period)
         controller = Controller.of(task.model, period, plan.path, plan.trajectory, pose_filter)
     progress = Progress(time=0.0, controller=controller)
-    knowledge = Knowledge(world, frozenset(world.obstacles), belief)
+    moving = MovingObstacles.known(task.mission)
+    knowledge = Knowledge(
+        world, frozenset(world.obstacles), belief, moving=moving, charted=len(moving)
+    )
     path, laps = first_round(task, plan.path)
     schedule = Schedule(path, plan.trajectory, laid_in=world, laps=laps)
     has_jerk = task.limits.max_jerk is not None
-    if not has_jerk or belief is not None or laps is not None or task.reaction != REACTION_S:
+    changes = not has_jerk or belief is not None or laps is not None or task.reaction != REACTION_S
+    if changes and plan.timed is None:
         schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
     return NavigationState(progress, knowledge, schedule, Log())
 
@@ -338,16 +356,20 @@ def _next_part(
     return progress, rescheduled(task, progress, knowledge, schedule, speed), log
 
 
-def _set_off(state: NavigationState, time: float) -> NavigationState:
-    """The state at its first step, at a time [s]."""
+def _set_off(state: NavigationState, time: float, plan: Plan) -> NavigationState:
+    """The state at its first step, at a time [s].
+
+    A law among what moves is one of the mission's clock; any other begins when the robot does.
+    """
     progress, schedule = state.progress, state.schedule
     if progress.controller is not None:
         time += progress.controller.ahead
     words = f"sets off on a path of {schedule.path.length:.1f} m"
+    law = schedule.trajectory
     return replace(
         state,
         progress=replace(progress, time=time, set_off=True),
-        schedule=replace(schedule, trajectory=schedule.trajectory.delayed(time)),
+        schedule=replace(schedule, trajectory=law.delayed(time) if plan.timed is None else law),
         log=state.log.with_events(Event("started", time, schedule.place(0.0), words)),
     )
 

@@ -18,6 +18,7 @@ from viaspline.curve.path import Path
 from viaspline.machine.excess import Excess, excesses
 from viaspline.machine.tracking import Tracking
 from viaspline.planner import Plan
+from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
 EventKind = Literal[
@@ -113,6 +114,42 @@ class Replan:
 
 
 @dataclass(frozen=True)
+class Contact:
+    """A touch of something that moves.
+
+    Attributes:
+        time: When it began [s].
+        obstacle: What touched the robot, or was touched.
+        robot_speed: How fast the robot was then [m/s]; 0: it stood.
+        appeared_within_braking_time: Whether it couldn't be seen until the robot couldn't stop in
+            time any more.
+    """
+
+    time: float
+    obstacle: str
+    robot_speed: float
+    appeared_within_braking_time: bool = False
+
+
+@dataclass(frozen=True)
+class Encounters:
+    """How near a drive came to what moves.
+
+    Attributes:
+        clearance: Proven lower bound of the distance between the body and all of it at every
+            instant [m]; infinite where nothing moved.
+        time: When it was tightest [s]; None where nothing moved.
+        obstacle: What was nearest then.
+        contacts: Every touch, in order.
+    """
+
+    clearance: float
+    time: float | None
+    obstacle: str | None
+    contacts: tuple[Contact, ...]
+
+
+@dataclass(frozen=True)
 class Run:
     """A driven mission.
 
@@ -137,6 +174,8 @@ class Run:
         known: What the robot knew at the end: its map, then what its sensor had shown; None: just
             its map.
         tracking: How well a robot with a drive followed its path; None for others.
+        moving: All that moved, known or not.
+        encounters: How near the robot came to that; None where nothing moved.
     """
 
     plan: Plan
@@ -157,6 +196,8 @@ class Run:
     compute_times: tuple[float, ...] = ()
     known: World | None = None
     tracking: Tracking | None = None
+    moving: MovingObstacles = field(default_factory=MovingObstacles)
+    encounters: Encounters | None = None
 
     @property
     def excesses(self) -> tuple[Excess, ...]:

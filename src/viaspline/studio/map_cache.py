@@ -23,6 +23,7 @@ from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.resolve_files import obstacles_of
 from viaspline.mission.schema_errors import schema_faults
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.tracks_spec import TracksSpec
 from viaspline.mission.unplaced_faults import located
 from viaspline.studio.document import Document
 from viaspline.studio.folder import Folder
@@ -80,13 +81,13 @@ class MapCache:
         places: dict[str, list[int]] = {}
         for key in OBSTACLE_LISTS:
             items = world.get(key)
-            if not isinstance(items, list) or not any(map(_is_map, items)):
+            if not isinstance(items, list) or not any(map(_is_file, items)):
                 continue
             taken = {item.get("name") for item in items if isinstance(item, Mapping)}
             unfolded[key], places[key] = [], []
             for i, item in enumerate(items):
                 found: Sequence[Any] = [item]
-                if _is_map(item):
+                if _is_file(item):
                     found = self._read(item, f"world.{key}[{i}]", base, taken)
                 unfolded[key] += found
                 places[key] += [i] * len(found)
@@ -110,8 +111,9 @@ class MapCache:
     def _read(
         self, item: Mapping[str, Any], key: str, base: Path, taken: set[Any]
     ) -> Sequence[Obstacle]:
+        asked = "map" if "map" in item else "tracks"
         try:
-            spec = MapSpec.model_validate(dict(item))
+            spec = (MapSpec if asked == "map" else TracksSpec).model_validate(dict(item))
         except ValidationError as error:
             path: tuple[str | int, ...] = ("world", key.split(".")[1].split("[")[0])
             index = int(key.split("[")[1][:-1])
@@ -127,13 +129,15 @@ class MapCache:
             return self._kept[name]
         except MissionError as error:
             faults = [
-                Fault(f"{key}.map", f"{fault.source}: {fault.problem}", fault.remedy)
+                Fault(f"{key}.{asked}", f"{fault.source}: {fault.problem}", fault.remedy)
                 for fault in error.faults
             ]
             raise MissionError(faults) from None
 
-    def _files(self, spec: MapSpec, base: Path) -> list[Path]:
-        """The files of a map, all of them within the folder."""
+    def _files(self, spec: MapSpec | TracksSpec, base: Path) -> list[Path]:
+        """The files of a map or of tracks, all of them within the folder."""
+        if isinstance(spec, TracksSpec):
+            return [self._within(spec.tracks, base)]
         path = self._within(spec.map, base)
         if path.suffix.lower() not in (".yaml", ".yml"):
             return [path]
@@ -153,8 +157,8 @@ class MapCache:
         return path
 
 
-def _is_map(item: Any) -> bool:
-    return isinstance(item, Mapping) and "map" in item
+def _is_file(item: Any) -> bool:
+    return isinstance(item, Mapping) and ("map" in item or "tracks" in item)
 
 
 def _stamp(path: Path) -> tuple[str, int, int]:

@@ -87,7 +87,8 @@ def ledger(planned: PlannedDocument, revision: int) -> dict[str, Any]:
     entries = []
     for entry in plan.ledger:
         members = [names[name] for name in entry.members if name in names]
-        items = [planned.unfolded.original(("world", "known", i))[2] for i in members]
+        listed = [plan.world.listed_at(i) for i in members]
+        items = [planned.unfolded.original(("world", "known", i))[2] for i in listed]
         entries.append({
             "members": entry.members,
             "items": sorted(set(items)),

@@ -111,7 +111,7 @@ def sight(run: Run) -> dict[str, Any] | None:
         return None
     if sensor.lidar is not None:
         return _beams(run, sensor.lidar)
-    first = len(run.plan.mission.world.known)
+    first = len(run.plan.world)
     seen: list[float | None] = []
     for i in range(first, len(run.world)):
         near = np.flatnonzero(run.world.distances_to(i, run.positions) <= sensor.reach)

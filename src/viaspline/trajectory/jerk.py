@@ -14,7 +14,7 @@ from viaspline.kernels.timing import time_grid
 from viaspline.trajectory.cells import Cells, CellSize
 from viaspline.trajectory.coupled import Profile, Stage, caps_of_cells, jump_caps
 from viaspline.trajectory.interior_point import Even, Moving, Rest, Rows, Seam
-from viaspline.trajectory.jerk_limited import Motion, smoothest, smoothest_from
+from viaspline.trajectory.jerk_limited import JerkLimitedMotion, smoothest, smoothest_from
 from viaspline.trajectory.limited_path import LimitedCubicPath, LimitedPath
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.motion_pieces import time_into
@@ -112,12 +112,12 @@ def fine_path(limited_path: LimitedPath, limits: Limits, stage: Stage) -> Limite
     )
 
 
-def _between(plain: Profile, first: int, last: int) -> tuple[Floats, Motion]:
+def _between(plain: Profile, first: int, last: int) -> tuple[Floats, JerkLimitedMotion]:
     """The motion of a profile between two of its points; its jerk is not limited."""
     squares, line = plain.squares[first : last + 1], plain.points[first : last + 1]
     accelerations = 0.5 * np.diff(squares) / np.diff(line)
     none = np.zeros(accelerations.size)
-    return line, Motion(np.sqrt(squares), accelerations, none, none)
+    return line, JerkLimitedMotion(np.sqrt(squares), accelerations, none, none)
 
 
 def _under_way(
@@ -127,7 +127,7 @@ def _under_way(
     start: Rest | Moving,
     end: Rest | Even,
     hint: Floats | None,
-) -> tuple[Floats, Motion, float, float]:
+) -> tuple[Floats, JerkLimitedMotion, float, float]:
     """The motion on a section, and up to where it is over another limit and over the jerk [m]."""
     assert limits.max_jerk is not None
     line, widths, rows = section.line, np.diff(section.line), section.rows(start, end)
@@ -336,7 +336,7 @@ def _beside_rest(
 
 def joined(
     line: Floats,
-    motions: Sequence[Motion],
+    motions: Sequence[JerkLimitedMotion],
     stops: Sequence[Station],
     start_time: float,
 ) -> Trajectory:

@@ -41,7 +41,7 @@ MAX_DURATION_RATIO = 1.3
 ROUNDING_EXCESS = 1e-7  # an excess that is rounding
 
 
-class Motion(NamedTuple):
+class JerkLimitedMotion(NamedTuple):
     """A motion in pieces.
 
     Attributes:
@@ -57,7 +57,7 @@ class Motion(NamedTuple):
     jerks: Floats
 
 
-def smoothest(widths: Floats, rows: Rows, jerk: float, end: Rest | Even) -> Motion:
+def smoothest(widths: Floats, rows: Rows, jerk: float, end: Rest | Even) -> JerkLimitedMotion:
     """The fastest motion over stretches from rest.
 
     Args:
@@ -71,7 +71,7 @@ def smoothest(widths: Floats, rows: Rows, jerk: float, end: Rest | Even) -> Moti
     return _motion(problem, problem.fastest(problem.crawl()), widths, Rest(), end)
 
 
-def smoothest_lap(widths: Floats, rows: Rows, jerk: float) -> Motion:
+def smoothest_lap(widths: Floats, rows: Rows, jerk: float) -> JerkLimitedMotion:
     """The fastest motion over stretches that begins as it ends, without a rest.
 
     Args:
@@ -94,7 +94,7 @@ class UnderWay(NamedTuple):
         time: How long it takes [s].
     """
 
-    motion: Motion
+    motion: JerkLimitedMotion
     beyond: float
     over: int
     harsh: int
@@ -155,7 +155,7 @@ def smoothest_from(
     return found
 
 
-def _first_jerk(motion: Motion) -> float:
+def _first_jerk(motion: JerkLimitedMotion) -> float:
     """The largest jerk on the first stretch of a motion that begins at a speed [m/s³]."""
     return float(abs(motion.changes[0]) * motion.speeds[:2].max())
 
@@ -213,7 +213,7 @@ def _risen(top: float, length: float, brake: float, jerk: float) -> tuple[Floats
 def _motion(
     problem: SpeedProblem, m: Floats, widths: Floats, start: Rest | Moving | Seam,
     end: Rest | Even | Seam,
-) -> Motion:  # fmt: skip
+) -> JerkLimitedMotion:  # fmt: skip
     """The motion with these coefficients."""
     known = problem.known(m)
     values = np.einsum("nzc,nc->nz", problem.ends, known)
@@ -235,4 +235,4 @@ def _motion(
     beside += [(-1, -2)] if isinstance(end, Rest) else []
     for k, moving in beside:
         jerks[k] = 2.0 * speeds[moving] ** 3 / (9.0 * widths[k] ** 2)
-    return Motion(speeds, accelerations, changes, jerks)
+    return JerkLimitedMotion(speeds, accelerations, changes, jerks)

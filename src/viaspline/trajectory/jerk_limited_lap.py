@@ -16,7 +16,7 @@ from viaspline.trajectory.cells import Cells
 from viaspline.trajectory.coupled import Profile, Stage
 from viaspline.trajectory.interior_point import Rest, Seam
 from viaspline.trajectory.jerk import Section, fine_path, joined, reachable, smooth_law
-from viaspline.trajectory.jerk_limited import Motion, smoothest, smoothest_lap
+from viaspline.trajectory.jerk_limited import JerkLimitedMotion, smoothest, smoothest_lap
 from viaspline.trajectory.limited_path import LimitedPath
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.slow_zones import Slow
@@ -64,7 +64,7 @@ def smooth_lap(
     stage, cells = replace(stage, end=2.0 * length, slow=slow), _twice(cells)
     places = [*still.tolist(), float(still[0]) + length]
     lines: list[Floats] = [np.zeros(1)]
-    motions: list[Motion] = []
+    motions: list[JerkLimitedMotion] = []
     for low, high in pairwise(places):
         seam = [length] if high > length else []
         section = Section.of(cells, limits, stage, cell_size, low, high, seam)
@@ -97,7 +97,7 @@ def _twice(cells: Cells) -> Cells:
     )
 
 
-def _split(motion: Motion, at: int) -> tuple[Motion, Motion]:
+def _split(motion: JerkLimitedMotion, at: int) -> tuple[JerkLimitedMotion, JerkLimitedMotion]:
     """The parts of a motion before and after one of its points."""
-    first = Motion(motion.speeds[: at + 1], *(part[:at] for part in motion[1:]))
-    return first, Motion(motion.speeds[at:], *(part[at:] for part in motion[1:]))
+    first = JerkLimitedMotion(motion.speeds[: at + 1], *(part[:at] for part in motion[1:]))
+    return first, JerkLimitedMotion(motion.speeds[at:], *(part[at:] for part in motion[1:]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -25,7 +25,8 @@ class MovingObstacles:
 
     Args:
         obstacles: Each with a shape in its own frame and a motion.
-        since: When their places begin to get less certain [s]; see the motion's ``error``.
+        since: When their places begin to get less certain [s]; see the motion's ``error``. One
+            time for all, or one for each.
 
     Raises:
         GeometryError: One has no motion, or is a map of squares.
@@ -41,7 +42,9 @@ class MovingObstacles:
         array([4.        , 4.83095189])
     """
 
-    def __init__(self, obstacles: Iterable[Obstacle] = (), *, since: float = 0.0) -> None:
+    def __init__(
+        self, obstacles: Iterable[Obstacle] = (), *, since: float | Sequence[float] = 0.0
+    ) -> None:
         self.obstacles: tuple[Obstacle, ...] = all_of(
             "obstacles", obstacles, Obstacle, "give Obstacle(circle={...}, motion={...})"
         )
@@ -51,7 +54,12 @@ class MovingObstacles:
                     f"obstacle {i} doesn't move, or is a map of squares; give "
                     "Obstacle(circle={...}, motion={...})"
                 )
-        self.since = float(since)
+        times = numbers_from("since", since)
+        if times.shape not in ((), (len(self.obstacles),)) or not np.isfinite(times).all():
+            raise GeometryError("since is no finite time for all, nor one for each of them")
+        self.since: tuple[float, ...] = tuple(
+            np.broadcast_to(times, (len(self.obstacles),)).tolist()
+        )
 
     @classmethod
     def known(cls, mission: Mission) -> MovingObstacles:
@@ -62,6 +70,17 @@ class MovingObstacles:
     def everything(cls, mission: Mission) -> MovingObstacles:
         """What moves, known or not."""
         return cls((*mission.world.moving, *mission.world.unseen_moving))
+
+    def and_those(self, others: MovingObstacles) -> MovingObstacles:
+        """These and then others."""
+        if not len(others):
+            return self
+        since = (*self.since, *others.since)
+        return MovingObstacles((*self.obstacles, *others.obstacles), since=since)
+
+    def alone(self, index: int) -> MovingObstacles:
+        """One of them."""
+        return MovingObstacles([self.obstacles[index]], since=self.since[index])
 
     @cached_property
     def packed(self) -> PackedMotion:

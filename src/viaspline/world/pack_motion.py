@@ -17,22 +17,22 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack import pack
 
 
-def pack_motion(obstacles: Sequence[Obstacle], since: float) -> PackedMotion:
+def pack_motion(obstacles: Sequence[Obstacle], since: Sequence[float]) -> PackedMotion:
     """Pack obstacles that all have a motion.
 
     Args:
         obstacles: None of them a grid.
-        since: When places begin to get less certain [s].
+        since: When the place of each begins to get less certain [s].
     """
     rows, rounds, errors, reaches, speeds = [], [], [], [], []
-    for obstacle in obstacles:
+    for obstacle, begin in zip(obstacles, since, strict=True):
         motion, ring = obstacle.motion, obstacle.ring
         assert motion is not None
         assert ring is not None
         pieces, period = _pieces(motion)
         rows.append(pieces)
         rounds.append((0.0 if period == 0.0 else pieces[0, columns.BEGINS], period))
-        errors.append((since, motion.error.position_m, motion.error.growth_mps))
+        errors.append((begin, motion.error.position_m, motion.error.growth_mps))
         reach = float(np.hypot(*ring.vertices.T).max()) + ring.radius
         reaches.append(reach)
         straight = np.hypot(pieces[:, columns.SPEED_X], pieces[:, columns.SPEED_Y])

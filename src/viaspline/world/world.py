@@ -68,13 +68,16 @@ class World:
             areas.append(self.corridor)
         self.packed: PackedWorld = pack(self.obstacles, self.bounds, areas)
         self._settled = len(self.obstacles)
+        self._listed: tuple[int, ...] = ()
 
     @classmethod
     def known(cls, mission: Mission) -> World:
         """What the mission has on its map and doesn't move."""
         spec = mission.world
         corridor = corridor_rings(mission.route)
-        return cls(spec.standing, bounds=spec.bounds, fences=spec.fences, corridor=corridor)
+        world = cls(spec.standing, bounds=spec.bounds, fences=spec.fences, corridor=corridor)
+        world._listed = tuple(i for i, one in enumerate(spec.known) if one.motion is None)
+        return world
 
     @classmethod
     def everything(cls, mission: Mission) -> World:
@@ -88,6 +91,7 @@ class World:
         world.obstacles = self.obstacles + new
         world.bounds = self.bounds
         world.fences, world.corridor = self.fences, self.corridor
+        world._listed = self._listed
         world.packed, world._settled = join(self.packed, pack(new, None, ()), self._settled)
         return world
 
@@ -98,7 +102,12 @@ class World:
         world.obstacles = (*self.obstacles[:index], asked, *self.obstacles[index + 1 :])
         world.bounds, world.fences, world.packed = self.bounds, self.fences, self.packed
         world.corridor, world._settled = self.corridor, self._settled
+        world._listed = self._listed
         return world
+
+    def listed_at(self, index: int) -> int:
+        """Where an obstacle stands in the mission's list of what is known, moving ones counted."""
+        return self._listed[index] if index < len(self._listed) else index
 
     def near(self, box: Bounds) -> World:
         """What of it reaches into a box [m], each obstacle by the name that it has in here.

@@ -1,4 +1,7 @@
-"""Where a moving obstacle is at an instant, and how far from it a place is then."""
+"""Where a moving obstacle is at an instant, and how far from it a place is then.
+
+Tested through ``world/test_moving_obstacles``.
+"""
 
 from __future__ import annotations
 

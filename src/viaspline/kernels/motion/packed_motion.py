@@ -4,7 +4,7 @@ The motion of an obstacle is a row of pieces, in each of which its frame goes st
 evenly. The pieces of one that goes on and on cover one period, which is repeated in both directions
 of time; those of any other cover all of time.
 
-Tested through ``kernels/motion/test_moving_distance``.
+Tested through ``world/test_moving_obstacles``.
 """
 
 from __future__ import annotations

@@ -34,7 +34,9 @@ def freeing_in_words(world: World, indices: Iterable[int]) -> str:
 def changes_freeing(world: World, indices: Iterable[int]) -> tuple[Change, ...]:
     """The changes of a mission that do so."""
     return tuple(
-        Change(f"world.known[{i}].{key}", None) for i in indices for key in _keys_of(world, i)
+        Change(f"world.known[{world.listed_at(i)}].{key}", None)
+        for i in indices
+        for key in _keys_of(world, i)
     )
 
 

@@ -70,7 +70,7 @@ def fig8() -> bytes:
 
 def _picture(planned: Plan, title: str, lines: Sequence[str], run: Run | None = None) -> bytes:
     mission = planned.mission
-    unseen = mission.world.unseen if run is not None else ()
+    unseen = mission.world.unseen_standing if run is not None else ()
     scene = Scene.of(planned.world, Requirements.of(mission).required, unseen)
     points = polyline(np.asarray(planned.path.spans))
     losers = losing(planned) if run is None else []

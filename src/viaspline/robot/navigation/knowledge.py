@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.belief import Belief, News
 from viaspline.robot.perception.lidar import Scan
+from viaspline.robot.perception.moving.motion_sensor import MovingSighting
+from viaspline.robot.perception.moving.track_sightings import SightedTrack, TrackedSightings
+from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
+
+Foreseen = Callable[[Iterable[SightedTrack], float], MovingObstacles]
+"""What tracked things are taken to do from a time [s] on."""
 
 
 @dataclass(frozen=True)
@@ -21,12 +27,18 @@ class Knowledge:
         belief: What a lidar has shown; None without one.
         in_sight: The obstacles that were told of in the last look, as the same objects: those that
             are told of again need not be compared with all that is known.
+        moving: What moves, as far as it is known or foreseen.
+        charted: How many of these are on the map.
+        tracked: What was seen to move and isn't on the map; None: nothing is looked for.
     """
 
     world: World
     told: frozenset[Obstacle]
     belief: Belief | None = None
     in_sight: tuple[Obstacle, ...] = field(default=(), compare=False)
+    moving: MovingObstacles = field(default_factory=MovingObstacles, compare=False)
+    charted: int = 0
+    tracked: TrackedSightings | None = field(default=None, compare=False)
 
     def with_obstacles(self, obstacles: Sequence[Obstacle]) -> tuple[Knowledge, World]:
         """What is known with obstacles that were not told before.
@@ -45,6 +57,30 @@ class Knowledge:
             for i, obstacle in enumerate(obstacles)
         )
         return replace(self, world=world, told=self.told.union(obstacles), belief=belief), new
+
+    def with_sightings(
+        self, seen: Sequence[MovingSighting], time: float, ahead: Foreseen
+    ) -> Knowledge:
+        """What is known after a look at what moves.
+
+        Args:
+            seen: All of it that is in sight.
+            time: Of the look [s].
+            ahead: What tracked things are taken to do.
+        """
+        tracked = self.tracked or TrackedSightings(velocity_noise=0.0)
+        tracked = tracked.with_sightings(seen, time)
+        moving = self.charted_moving.and_those(ahead(tracked.tracks, time))
+        return replace(self, tracked=tracked, moving=moving)
+
+    @property
+    def charted_moving(self) -> MovingObstacles:
+        """What moves as the map says."""
+        if self.charted == len(self.moving):
+            return self.moving
+        return MovingObstacles(
+            self.moving.obstacles[: self.charted], since=self.moving.since[: self.charted]
+        )
 
     def with_scan(self, scan: Scan) -> tuple[Knowledge, News]:
         """What is known after one more scan of a lidar, and what is new about it.

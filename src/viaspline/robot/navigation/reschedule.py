@@ -16,6 +16,7 @@ from viaspline.kernels.tracking.drive_motion import HEADING
 from viaspline.machine.turns_on_spot import SpotTurning, turns_where_it_stands, with_turns
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.law_past import law_past
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
 from viaspline.robot.perception.belief import Belief
@@ -79,7 +80,8 @@ def rescheduled(
             task, progress, knowledge, schedule, speed, path=path, turns=turns, at_least=probed
         )
     except GeometryError:
-        if knowledge.belief is None and schedule.held_at >= path.length:
+        certain = knowledge.belief is None and schedule.held_at >= path.length
+        if certain and not len(knowledge.moving):
             raise
         trajectory = braking_at_once(task, progress, schedule, speed)
     return replace(schedule, trajectory=trajectory, timed_at=progress.time)
@@ -237,7 +239,11 @@ def trajectory_within_sight(
         turn = _turn_before_leaving(task.model, progress, path, distance)
     if turn is not None and speed < STANDING_MPS and distance < end:
         stops, speed = [turn, *stops], 0.0
-    trajectory = _timed(task, schedule, path, stops, (distance, end), (speed, accel), time)
+    part, motion = (distance, end), (speed, accel)
+    if len(knowledge.moving):
+        trajectory = law_past(task, knowledge.moving, schedule, path, stops, part, motion, time)
+    else:
+        trajectory = _timed(task, schedule, path, stops, part, motion, time)
     if time == progress.time:
         return trajectory
     return schedule.trajectory.followed_by(trajectory, progress.time)

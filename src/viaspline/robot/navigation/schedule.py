@@ -115,6 +115,7 @@ class Schedule:
         giving_up: Why the robot brakes for good, if it does.
         laps: What the path goes on with at its end; None if the path was all laps from the start.
         driven: Distance that was driven before the path begins [m].
+        gives_way: Whether the trajectory is slower than it could be, for what moves.
     """
 
     path: Path
@@ -135,6 +136,7 @@ class Schedule:
     giving_up: str | None = None
     laps: LapsAhead | None = None
     driven: float = 0.0
+    gives_way: bool = False
 
     @property
     def is_blocked(self) -> bool:

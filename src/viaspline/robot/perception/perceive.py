@@ -11,6 +11,7 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.perception.belief import News
 from viaspline.robot.perception.lidar import Scan
+from viaspline.robot.perception.moving.motion_sensor import MovingSighting
 from viaspline.world.world import World
 
 Sighting = World | News
@@ -45,3 +46,20 @@ def perceive(
     new = tuple(dict.fromkeys(o for o in others if o not in knowledge.told))
     knowledge = replace(knowledge, in_sight=in_sight)
     return knowledge.with_obstacles(new) if new else (knowledge, None)
+
+
+def told_apart(
+    sensed: Iterable[Obstacle | MovingSighting],
+) -> tuple[tuple[Obstacle, ...], tuple[MovingSighting, ...]]:
+    """What is told of in one look: what stands, and what moves.
+
+    Raises:
+        GeometryError: Something is neither.
+    """
+    told = all_of(
+        "sensed", sensed, (Obstacle, MovingSighting), "give obstacles in sight, or a Scan"
+    )
+    moving = tuple(one for one in told if isinstance(one, MovingSighting))
+    if not moving:
+        return told, ()
+    return tuple(one for one in told if isinstance(one, Obstacle)), moving

@@ -10,12 +10,13 @@ from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.logbook import Logbook
 from viaspline.robot.navigator import Navigator
+from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.range_sensor import RangeSensor
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
 from viaspline.robot.simulation.machine_drive import Tell
 from viaspline.robot.simulation.pace import Pace, by_work, steps_taken
-from viaspline.robot.simulation.sensors import sensors_of
+from viaspline.robot.simulation.sensors import senses_of
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
@@ -67,7 +68,8 @@ def drive_exactly(
         limit: The drive is broken off at this time [s].
         pace: How long a search keeps the robot from looking again.
     """
-    lidar, sensor = sensors_of(nav.mission, world, seed)
+    senses = senses_of(nav.mission, world, seed)
+    sensor = senses.standing
     book, last = Logbook(), None
     trajectories: list[tuple[float, Trajectory]] = []
     known: frozenset[Obstacle] = frozenset()
@@ -76,12 +78,10 @@ def drive_exactly(
     while touched is None:
         time = tick * step
         state = nav.reference(time)
-        if lidar is not None:
-            _, nav = nav.step(state, lidar.scan(state.position, state.heading, tick), time)
-        else:
-            sensed = () if sensor is None else sensor.seen(state.position)
-            known = known.union(sensed)
-            _, nav = nav.step(state, sensed, time)
+        sensed = senses.at(state.position, state.heading, tick, time)
+        if not isinstance(sensed, Scan):
+            known = known.union(one for one in sensed if isinstance(one, Obstacle))
+        _, nav = nav.step(state, sensed, time)
         book.note(nav)
         if nav.trajectory is not last:
             last = nav.trajectory
@@ -93,7 +93,7 @@ def drive_exactly(
         if time > limit:
             reason = f"the drive was broken off after {time:.0f} s, its limit"
             return ExactDrive(nav, book, tuple(trajectories), tick, time, None, reason)
-        steady = lidar is None and not nav.searches
+        steady = senses.lidar is None and senses.moving is None and not nav.searches
         skipped = _quiet(nav, sensor, known, tick, step) if steady else 1
         skipped = max(skipped, steps_taken(pace(nav), step))
         touched = _contact(nav, world, step * np.arange(tick, tick + skipped + 1, dtype=float))

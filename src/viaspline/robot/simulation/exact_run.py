@@ -10,10 +10,12 @@ import numpy as np
 from viaspline.curve.path import SEAM, Path
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.run import Event, Run
+from viaspline.robot.simulation.encounters import DrivenMotion, encounters, touched_by
 from viaspline.robot.simulation.exact_drive import ExactDrive
 from viaspline.robot.simulation.machine_run import proven
 from viaspline.robot.simulation.outcome import outcome
 from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
 ROUNDING = 1e-12
@@ -30,11 +32,14 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
     """
     nav = drive.nav
     reason, events, visits = outcome(nav, drive.book, drive.end, drive.touched, drive.overdue)
+    moving = MovingObstacles.everything(nav.mission)
     times = _sample_times(drive, step, events)
     distances, speeds = _along(drive.trajectories, times)
     path = driven_part(drive.book.path(nav), float(distances[-1]))
     u = np.asarray(path.parameter(np.minimum(distances, path.length)))
     robot = nav.mission.robot
+    met = encounters(_motion(drive, path), robot, moving) if len(moving) else None
+    reason = reason or touched_by(met)
     return Run(
         plan=nav.plan,
         world=world,
@@ -53,7 +58,20 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
         replans=drive.book.replans,
         compute_times=drive.book.compute_times,
         known=nav.world,
+        moving=moving,
+        encounters=met,
     )
+
+
+def _motion(drive: ExactDrive, path: Path) -> DrivenMotion:
+    """Where the robot was when."""
+
+    def state_at(times: Floats) -> tuple[Floats, Floats]:
+        distances, speeds = _along(drive.trajectories, times)
+        places = np.asarray(path.at_distance(np.minimum(distances, path.length)))
+        return places[:, :2], speeds
+
+    return DrivenMotion(0.0, drive.end, state_at)
 
 
 def _sample_times(drive: ExactDrive, step: float, events: tuple[Event, ...]) -> Floats:

@@ -29,7 +29,7 @@ from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
 from viaspline.robot.simulation.pace import Pace, by_work, steps_taken
-from viaspline.robot.simulation.sensors import sensors_of
+from viaspline.robot.simulation.sensors import senses_of
 from viaspline.robot.state import RobotState
 from viaspline.world.world import World
 
@@ -87,7 +87,7 @@ def drive_machine(
     """
     controller = nav.controller
     assert controller is not None
-    lidar, sensor = sensors_of(nav.mission, world, seed)
+    senses = senses_of(nav.mission, world, seed)
     model, faults = controller.model, DriveNoise(nav.mission.robot, seed)
     substeps = max(math.ceil(step / SUBSTEP_S - 1e-9), 1)
     state = start_of(model, controller.reference)
@@ -99,10 +99,7 @@ def drive_machine(
         x, y, heading = (state[: HEADING + 1] + faults.measured(1)[0]).tolist()
         believed = RobotState((x, y), heading, float(state[ALONG]), float(state[ACROSS]))
         place = float(state[X]), float(state[Y])
-        if lidar is not None:
-            _, nav = nav.step(believed, lidar.scan(place, float(state[HEADING]), tick), time)
-        else:
-            _, nav = nav.step(believed, () if sensor is None else sensor.seen(place), time)
+        _, nav = nav.step(believed, senses.at(place, float(state[HEADING]), tick, time), time)
         book.note(nav)
         controller = nav.controller
         assert controller is not None

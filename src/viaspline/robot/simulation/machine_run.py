@@ -19,8 +19,10 @@ from viaspline.machine.trace import trace
 from viaspline.machine.travel import travel_of
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Run, Visit
+from viaspline.robot.simulation.encounters import DrivenMotion, encounters, touched_by
 from viaspline.robot.simulation.machine_drive import MachineDrive
 from viaspline.robot.simulation.outcome import outcome
+from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
 PASSING_WINDOW_M = 1.0
@@ -51,6 +53,9 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     rates = np.interp(times, rows[:, ROW_TIME], travel.turn_rates)
     headings = np.interp(times, rows[:, ROW_TIME], rows[:, ROW_HEADING])
     least = MIN_CURVATURE_SPEED_MPS
+    moving = MovingObstacles.everything(nav.mission)
+    met = encounters(_motion(drive, travel.speeds), robot, moving) if len(moving) else None
+    reason = reason or touched_by(met)
     return Run(
         plan=nav.plan,
         world=world,
@@ -70,7 +75,21 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
         compute_times=drive.book.compute_times,
         known=nav.world,
         tracking=drive.tracking,
+        moving=moving,
+        encounters=met,
     )
+
+
+def _motion(drive: MachineDrive, speeds: Floats) -> DrivenMotion:
+    """Where the robot was when."""
+    rows = drive.rows
+    moments = rows[:, ROW_TIME]
+
+    def state_at(times: Floats) -> tuple[Floats, Floats]:
+        x, y = (np.interp(times, moments, rows[:, column]) for column in (ROW_X, ROW_Y))
+        return np.column_stack((x, y)), np.abs(np.interp(times, moments, speeds))
+
+    return DrivenMotion(float(moments[0]), float(moments[-1]), state_at)
 
 
 def proven(path: PiecewiseCubic, world: World, robot: RobotSpec) -> Certificate:

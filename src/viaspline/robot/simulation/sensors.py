@@ -5,29 +5,61 @@ Tested through ``robot/test_simulator``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.robot.perception.lidar import LidarSensor
+from viaspline.robot.perception.lidar import LidarSensor, Scan
+from viaspline.robot.perception.moving.motion_sensor import MotionSensor, MovingSighting
 from viaspline.robot.perception.range_sensor import RangeSensor
+from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
 
-def sensors_of(
-    mission: Mission, world: World, seed: int
-) -> tuple[LidarSensor | None, RangeSensor | None]:
+@dataclass(frozen=True)
+class Senses:
+    """What a robot is shown at every step.
+
+    Attributes:
+        lidar: It shows surfaces; None without one.
+        standing: It tells of obstacles; None without one.
+        moving: It tells of what moves; None where nothing unseen does, or without one.
+    """
+
+    lidar: LidarSensor | None = None
+    standing: RangeSensor | None = None
+    moving: MotionSensor | None = None
+
+    def at(
+        self, place: tuple[float, ...], heading: float, tick: int, time: float
+    ) -> Sequence[Obstacle | MovingSighting] | Scan:
+        """What is shown at a place [m] with a heading [rad], at a step and its time [s]."""
+        if self.lidar is not None:
+            return self.lidar.scan(place, heading, tick, time)
+        seen = () if self.standing is None else self.standing.seen(place)
+        moving = () if self.moving is None else self.moving.seen(place, time, tick)
+        return (*seen, *moving)
+
+
+def senses_of(mission: Mission, world: World, seed: int) -> Senses:
     """The sensor that a robot has: a lidar, one that tells it of obstacles, or neither.
 
     Args:
         mission: What is driven.
-        world: Everything that is there.
-        seed: Of the lidar's noise.
+        world: Everything that is there and stands.
+        seed: Of the sensor's noise.
     """
     sensor = mission.robot.sensor
     if sensor is None:
-        return None, None
+        return Senses()
     if sensor.lidar is not None:
-        return LidarSensor(world.obstacles, sensor.lidar, seed), None
-    return None, RangeSensor(_named_unseen(mission, world), sensor.reach)
+        everything = MovingObstacles.everything(mission)
+        return Senses(LidarSensor(world.obstacles, sensor.lidar, seed, everything))
+    unseen = MovingObstacles(mission.world.unseen_moving)
+    moving = MotionSensor(unseen, sensor.reach, sensor.velocity_noise_mps, seed)
+    standing = RangeSensor(_named_unseen(mission, world), sensor.reach)
+    return Senses(None, standing, moving if len(unseen) else None)
 
 
 def _named_unseen(mission: Mission, world: World) -> tuple[Obstacle, ...]:

@@ -86,6 +86,11 @@ def _foretold(track: ObjectTrack | SightedTrack, now: float, foresight: Foresigh
         velocity_mps=(vx, vy),
         error=foresight.error(estimate),
     )
+    return as_obstacle(track, motion)
+
+
+def as_obstacle(track: ObjectTrack | SightedTrack, motion: Motion) -> Obstacle:
+    """A tracked thing as an obstacle with a motion of its place."""
     if isinstance(track, SightedTrack):
         seen = track.sighting
         name = seen.obstacle.name or f"moving obstacle {seen.index + 1}"

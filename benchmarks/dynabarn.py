@@ -1,0 +1,123 @@
+"""DynaBARN: worlds of moving discs, their motion known, planned in space and time.
+
+    python benchmarks/dynabarn.py FOLDER [--traffic]
+
+FOLDER has DynaBARN's worlds as JSON: start, goal, obstacles with a radius, a period and keyframes
+t, x, y, which begin again at their end. A robot of radius 0.25 m, 2 m/s and 1 m/s² goes from the
+start to the goal. With ``--traffic`` it sets out in the middle of the traffic: from five places
+and times in every world. Every plan is sampled every half millisecond by numpy alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time as clock
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import viaspline as vs
+
+RADIUS_M, SPEED_MPS, ACCEL_MPS2 = 0.25, 2.0, 1.0
+SAMPLE_S = 5e-4
+PLACES = 5  # in the traffic of every world
+
+
+def mission_of(world: dict[str, Any], start: Any, depart: float) -> vs.Mission:
+    """A world as a mission."""
+    known = [
+        {
+            "name": one["name"],
+            "circle": {"center": [0, 0], "radius": one["radius_m"]},
+            "motion": {"keyframes": one["keyframes_t_x_y"], "after": "loop"},
+        }
+        for one in world["obstacles"]
+    ]
+    return vs.Mission.model_validate(
+        {
+            "world": {"known": known},
+            "robot": {
+                "radius_m": RADIUS_M,
+                "clearance_m": 0.0,
+                "max_speed_mps": SPEED_MPS,
+                "max_accel_mps2": ACCEL_MPS2,
+            },
+            "route": {"start": start, "goal": world["goal"], "depart_s": depart},
+        }
+    )
+
+
+def places_at(world: dict[str, Any], times: np.ndarray) -> np.ndarray:
+    """Where the discs are, (times, discs, 2): linear between keyframes, again and again."""
+    found = []
+    for one in world["obstacles"]:
+        frames = np.array(one["keyframes_t_x_y"])
+        begin, period = frames[0, 0], frames[-1, 0] - frames[0, 0]
+        local = begin + np.mod(times - begin, period)
+        found.append(
+            np.column_stack([np.interp(local, frames[:, 0], frames[:, k]) for k in (1, 2)])
+        )
+    return np.stack(found, axis=1)
+
+
+def least_gap(world: dict[str, Any], plan: vs.Plan) -> float:
+    """The least distance between the robot and a disc, by samples [m]."""
+    law = plan.trajectory
+    times = np.arange(law.start_time, law.end_time, SAMPLE_S)
+    robot = np.asarray(plan.path.at_distance(law.distance_at(times)))
+    radii = np.array([one["radius_m"] for one in world["obstacles"]])
+    apart = np.hypot(*np.moveaxis(places_at(world, times) - robot[:, None], -1, 0))
+    return float((apart - radii).min()) - RADIUS_M
+
+
+def cases(world: dict[str, Any], number: int, traffic: bool) -> Iterator[tuple[Any, float]]:
+    """Where and when the robot sets out."""
+    if not traffic:
+        yield world["start"], 0.0
+        return
+    random = np.random.default_rng(number)
+    count = 0
+    while count < PLACES:
+        start = random.uniform(-7.0, 7.0, 2)
+        depart = round(float(random.uniform(0.0, 60.0)), 2)
+        radii = np.array([one["radius_m"] for one in world["obstacles"]])
+        apart = np.hypot(*(places_at(world, np.array([depart]))[0] - start).T) - radii
+        if apart.min() > RADIUS_M + 0.05:
+            count += 1
+            yield start.round(3).tolist(), depart
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--traffic", action="store_true")
+    asked = parser.parse_args()
+    taken, planned, gaps, refused = [], [], [], []
+    for number, file in enumerate(sorted(asked.folder.glob("*.json"))):
+        world = json.loads(file.read_text())
+        for start, depart in cases(world, number, asked.traffic):
+            mission = mission_of(world, start, depart)
+            began = clock.perf_counter()
+            try:
+                plan = vs.plan(mission)
+            except vs.PlanningError as error:
+                refused.append(f"{file.stem} from {start} at {depart}: {error}")
+                continue
+            planned.append(clock.perf_counter() - began)
+            taken.append(plan.trajectory.duration)
+            gaps.append(least_gap(world, plan))
+            assert plan.moving_certificate is not None
+            assert gaps[-1] >= plan.moving_certificate.clearance - 1e-9, file
+    print(f"planned {len(taken)}, not planned {len(refused)}")
+    print(f"duration {np.mean(taken):.2f} s mean, {np.max(taken):.2f} s worst")
+    print(
+        f"least gap {min(gaps):.4f} m; plan {np.median(planned):.3f} s, {max(planned):.3f} s worst"
+    )
+    print(*refused, sep="\n")
+
+
+if __name__ == "__main__":
+    main()

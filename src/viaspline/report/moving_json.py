@@ -1,0 +1,83 @@
+"""What moves, in ``plan.json`` and ``run.json``.
+
+Tested through ``report/test_moving_pictures``.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from viaspline.planner import Plan
+from viaspline.robot.run import Run
+from viaspline.spacetime.timed_drive import TimedCandidate
+from viaspline.trajectory.moving_certificate import MovingCertificate
+
+
+def moving_certificate_data(certificate: MovingCertificate | None) -> dict[str, Any]:
+    """The part of the certificate on what moves; nothing where nothing does."""
+    if certificate is None:
+        return {}
+    return {
+        "moving": {
+            "clearance_m": certificate.clearance,
+            "required_clearance_m": certificate.required,
+            "holds": certificate.holds,
+            "tightest_at_s": certificate.tightest_at_s,
+            "tightest_at": certificate.tightest_at,
+            "obstacle": certificate.obstacle,
+        }
+    }
+
+
+def timing_choices(plan: Plan) -> dict[str, Any]:
+    """Every path that was timed among what moves, and what became of it."""
+    if plan.timed is None:
+        return {}
+    return {
+        "among_moving": {
+            "free_duration_s": plan.timed.free.duration,
+            "candidates": [_candidate(one) for one in plan.timed.candidates],
+        }
+    }
+
+
+def _candidate(one: TimedCandidate) -> dict[str, Any]:
+    return {
+        "passes": [
+            {
+                "obstacle": passing.obstacle,
+                "side": passing.side,
+                "from_s": passing.from_time,
+                "until_s": passing.until,
+            }
+            for passing in one.passings
+        ],
+        "length_m": one.length,
+        "free_arrival_s": one.free_arrival,
+        "arrival_s": one.arrival,
+        "reason": one.reason,
+        "chosen": one.chosen,
+    }
+
+
+def encounters_data(run: Run) -> dict[str, Any]:
+    """How near the drive came to what moves, and every contact; nothing where nothing moved."""
+    met = run.encounters
+    if met is None:
+        return {}
+    return {
+        "moving": {
+            "min_clearance_m": met.clearance,
+            "tightest_at_s": met.time,
+            "nearest": met.obstacle,
+        },
+        "contacts": [
+            {
+                "time_s": contact.time,
+                "obstacle": contact.obstacle,
+                "robot_speed_mps": contact.robot_speed,
+                "appeared_within_braking_time": contact.appeared_within_braking_time,
+            }
+            for contact in met.contacts
+        ],
+    }

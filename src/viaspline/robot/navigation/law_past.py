@@ -1,0 +1,61 @@
+"""The time law of what lies ahead past what moves.
+
+Tested through ``robot/yielding/test_give_way``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from viaspline.curve.path import Path
+from viaspline.errors import GeometryError
+from viaspline.planning.problem.method import Found
+from viaspline.robot.navigation.drive_task import DriveTask
+from viaspline.robot.navigation.schedule import Schedule
+from viaspline.trajectory.limits import Station
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.trajectory.yielding.law_among import law_among
+from viaspline.world.moving_obstacles import MovingObstacles
+
+
+def law_past(
+    task: DriveTask,
+    moving: MovingObstacles,
+    schedule: Schedule,
+    path: Path,
+    stops: Sequence[Station],
+    part: tuple[float, float],
+    motion: tuple[float, float],
+    time: float,
+) -> Trajectory:
+    """The law of a part of a path, to rest at its end, on which nothing that moves is met.
+
+    Args:
+        task: What is asked of the drive.
+        moving: What moves.
+        schedule: What the robot means to do up to now.
+        path: What is driven.
+        stops: On the part.
+        part: From where to where [m].
+        motion: Speed and acceleration at its start [m/s], [m/s²].
+        time: There [s].
+
+    Raises:
+        GeometryError: When there is no such law, or none was found.
+    """
+    distance, end = part
+    timed = path
+    if end < path.length:
+        timed = Path(path.section(0.0, float(path.parameter(end))).spans, [])
+        stops = [stop for stop in stops if stop.distance < timed.length]
+    requirements = task.requirements
+    outcome = law_among(
+        timed, task.limits, stops, moving=moving,
+        required=requirements.outer_radius + requirements.kept,
+        zones=task.mission.world.speed_zones, slow=schedule.slow,
+        start=min(distance, timed.length), start_speed=motion[0], start_time=time,
+        hold=task.mission.route.hold_s if end >= path.length else 0.0,
+    )  # fmt: skip
+    if isinstance(outcome, Found):
+        return outcome.value
+    raise GeometryError(f"no law past what moves: {outcome.reason}")

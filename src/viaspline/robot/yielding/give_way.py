@@ -1,0 +1,192 @@
+"""What a robot does about what moves: go on, slow down, pass on another side, brake.
+
+Its path is timed anew first. Where that costs much, or can't be done, it is led round what it would
+meet, on either side, and the earliest arrival wins. Where nothing is found it takes the law on
+which nothing is met for the longest time, and braking if none is better.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from viaspline.curve.path import Path
+from viaspline.errors import GeometryError, PlanningError
+from viaspline.mission.shapes.obstacle import Side
+from viaspline.planning import replan
+from viaspline.robot.navigation.decision import Decision
+from viaspline.robot.navigation.drive_task import DriveTask
+from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.reschedule import (
+    braking_at_once,
+    rescheduled,
+    trajectory_within_sight,
+)
+from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.replanning.path_candidate import PathCandidate, timed
+from viaspline.robot.replanning.replan_context import ReplanContext
+from viaspline.robot.replanning.transitions import take_over
+from viaspline.robot.run import Event
+from viaspline.spacetime.meetings import Meeting, first_meeting
+from viaspline.spacetime.standing_ghost import standing_ghost
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.moving_obstacles import MovingObstacles
+
+RETRY_S = 0.3
+"""A robot that gives way looks so often for something better [s]."""
+
+PATIENCE_S = 1.0
+"""It waits so much longer than it would drive before it looks at other sides [s]."""
+
+GAIN_S = 0.5
+"""Another side has to be so much sooner than waiting [s]."""
+
+SIDE_WORK_S = 0.03
+"""What may be spent on laying one other path [s of the reference machine]."""
+
+LOOK_S = 8.0
+"""It looks at least so far ahead [s]."""
+
+FREE_S = 0.05
+"""Who comes no later than this doesn't give way [s]."""
+
+SIDES: tuple[Side, Side] = ("left", "right")
+
+
+def give_way(
+    task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule
+) -> Decision:
+    """The schedule of a robot that meets nothing that moves, as far as is known.
+
+    Args:
+        task: What is asked of the drive.
+        progress: How far it has come.
+        knowledge: All that is known, with what moves.
+        schedule: What it has meant to do so far.
+    """
+    if schedule.giving_up is not None or progress.finished:
+        return Decision(schedule)
+    meeting = _meeting(task, knowledge.moving, schedule.path, schedule.trajectory, progress.time)
+    if meeting is None and not _hopes_for_more(progress, schedule):
+        return Decision(schedule)
+    context = ReplanContext.of(task, progress, knowledge, schedule)
+    free = _free_law(context)
+    waiting = _on_path(context)
+    late = math.inf if waiting is None else waiting.trajectory.end_time - free.end_time
+    if waiting is not None and late <= PATIENCE_S:
+        return Decision(_giving_way(waiting, progress, late))
+    other = _other_side(context, free)
+    if other is not None and (
+        waiting is None or other.trajectory.end_time + GAIN_S < waiting.trajectory.end_time
+    ):
+        decision = take_over(context, other, {})
+        return replace(decision, schedule=_giving_way(decision.schedule, progress, math.inf))
+    if waiting is not None:
+        return Decision(_giving_way(waiting, progress, late))
+    return _longest(context, free)
+
+
+def _meeting(
+    task: DriveTask, moving: MovingObstacles, path: Path, law: Trajectory, now: float
+) -> Meeting | None:
+    """What a law meets from now on, and a robot that stands at its end."""
+    required = task.requirements.outer_radius + task.requirements.kept
+    return first_meeting(path, law, moving, required, (now, max(law.end_time, now + LOOK_S)))
+
+
+def _hopes_for_more(progress: Progress, schedule: Schedule) -> bool:
+    """Whether a robot that gives way may have a better way by now."""
+    return schedule.gives_way and progress.time >= schedule.timed_at + RETRY_S
+
+
+def _giving_way(schedule: Schedule, progress: Progress, late: float) -> Schedule:
+    """The schedule of a robot that gives way if it comes later for it [s]."""
+    return replace(schedule, timed_at=progress.time, gives_way=late > FREE_S)
+
+
+def _free_law(context: ReplanContext) -> Trajectory:
+    """The law that the robot would drive on its path if nothing moved."""
+    knowledge = replace(context.knowledge, moving=MovingObstacles())
+    return rescheduled(
+        context.task, context.progress, knowledge, context.schedule, context.speed
+    ).trajectory
+
+
+def _on_path(context: ReplanContext) -> Schedule | None:
+    """The schedule with a law past what moves on the path that there is."""
+    try:
+        law = trajectory_within_sight(
+            context.task, context.progress, context.knowledge, context.schedule, context.speed,
+            path=context.schedule.path, turns=context.schedule.turns,
+            at_least=context.schedule.probed_until,
+        )  # fmt: skip
+    except GeometryError:
+        return None
+    return replace(context.schedule, trajectory=law)
+
+
+def _other_side(context: ReplanContext, free: Trajectory) -> PathCandidate | None:
+    """The path round what is met first that arrives first; None if none has a law."""
+    moving, path = context.knowledge.moving, context.schedule.path
+    meeting = _meeting(context.task, moving, path, free, context.progress.time)
+    if meeting is None:
+        return None
+    found = [
+        candidate
+        for window in meeting.windows
+        for side in SIDES
+        if (candidate := _led_round(context, meeting.obstacle, side, window)) is not None
+    ]
+    return min(found, key=lambda candidate: candidate.trajectory.end_time, default=None)
+
+
+def _led_round(
+    context: ReplanContext, obstacle: int, side: Side, window: tuple[float, float]
+) -> PathCandidate | None:
+    """The path on one side of where an obstacle is for a while, with its law."""
+    made = standing_ghost(context.knowledge.moving, obstacle, side, window)
+    if made is None:
+        return None
+    ghost, _ = made
+    world = context.knowledge.world.with_obstacles([ghost])
+    index, required = len(world) - 1, context.requirements.required
+    places = [context.here[:2], *(via.at[:2] for via, _ in context.vias_ahead)]
+    if (world.distances_to(index, places) < required).any():
+        return None
+    searching = context.searching(SIDE_WORK_S)
+    path, until = context.schedule.path, context.schedule.looked_at
+    stands = context.speed == 0.0
+    lay = replan.from_rest if stands else replan.planned
+    leave = context.stop if stands else context.leaves[0]
+    try:
+        solution = lay(path, leave, world, searching.requirements, (), until)
+        return timed(context, "from_rest" if stands else "planned", solution)
+    except PlanningError:
+        return None
+
+
+def _longest(context: ReplanContext, free: Trajectory) -> Decision:
+    """The law on which nothing is met for the longest time; braking if it is no worse."""
+    schedule, progress, task = context.schedule, context.progress, context.task
+    braking = braking_at_once(task, progress, schedule, context.speed)
+    laws = (braking, schedule.trajectory, free)
+    meetings = [
+        _meeting(task, context.knowledge.moving, schedule.path, law, progress.time) for law in laws
+    ]
+    until = [math.inf if meeting is None else meeting.begins for meeting in meetings]
+    best = max(range(len(laws)), key=lambda k: (until[k], -k))
+    held = replace(schedule, trajectory=laws[best], timed_at=progress.time, gives_way=True)
+    if best != 0 or context.speed == 0.0 or schedule.gives_way:
+        return Decision(held)
+    name = _met(context, meetings)
+    words = f"brakes for '{name}', which moves"
+    return Decision(held, (Event("braked", progress.time, context.here, words),))
+
+
+def _met(context: ReplanContext, meetings: Sequence[Meeting | None]) -> str:
+    """The name of what is met first on any of the laws."""
+    known = [meeting for meeting in meetings if meeting is not None]
+    first = min(known, key=lambda meeting: meeting.begins)
+    return context.knowledge.moving.name(first.obstacle)

@@ -1,0 +1,149 @@
+"""Paths past what moves: the static one first, then round where something will be.
+
+Tested through ``spacetime/test_plan_among``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viaspline.errors import GeometryError, PlanningError
+from viaspline.mission.shapes.obstacle import Obstacle, Side
+from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.checking.conflicts import proven
+from viaspline.planning.plan_drive import find_drive
+from viaspline.spacetime.meetings import Meeting, first_meeting, times_near
+from viaspline.spacetime.standing_ghost import standing_ghost
+from viaspline.spacetime.timed_drive import Passing
+from viaspline.spacetime.timed_problem import TimedProblem
+from viaspline.trajectory.trajectory import Trajectory
+
+MAX_PASSINGS = 4
+"""How many times a path is led round something that moves at most."""
+
+LOOKED_AROUND = 2.0
+"""So many times the time of the drive it is looked where something is near the path,"""
+
+PLACES_AROUND = 24
+"""and at so many instants of that the path is led round it."""
+
+SIDES: tuple[Side, Side] = ("left", "right")
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """A path that might be driven.
+
+    Attributes:
+        solution: Proven clear of what stands.
+        free: The law along it if nothing moved.
+        ghosts: What it was led round,
+        passings: and what that stands for.
+    """
+
+    solution: Solution
+    free: Trajectory
+    ghosts: tuple[Obstacle, ...] = ()
+    passings: tuple[Passing, ...] = ()
+
+
+def alternatives_to(problem: TimedProblem, taken: Alternative) -> Iterator[Alternative]:
+    """Paths that are led round what a path first meets, where it is met, on either side of it.
+
+    What was led round on that side already is led round where it is met now.
+
+    Args:
+        problem: What is asked.
+        taken: The path with its law, as if nothing moved.
+    """
+    meeting = _met(problem, taken)
+    if meeting is not None:
+        yield from _on_either_side(problem, taken, meeting.obstacle, meeting.windows)
+
+
+def alternatives_elsewhere(problem: TimedProblem, taken: Alternative) -> Iterator[Alternative]:
+    """Paths that are led round what a path first meets, where that is before or afterwards.
+
+    There the robot may wait for it, in a bay beside its way or on the far side of it.
+
+    Args:
+        problem: What is asked.
+        taken: The path with its law, as if nothing moved.
+    """
+    meeting = _met(problem, taken)
+    if meeting is None:
+        return
+    begin = problem.mission.route.depart_s
+    end = begin + LOOKED_AROUND * (taken.free.end_time - begin)
+    path, required = taken.solution.path, problem.required
+    near = times_near(path, problem.moving, meeting.obstacle, required, (begin, end))
+    if not near.size:
+        return
+    chosen = near[np.linspace(0, len(near) - 1, PLACES_AROUND).round().astype(int)]
+    windows = tuple((time, time) for time in dict.fromkeys(chosen.tolist()))
+    yield from _on_either_side(problem, taken, meeting.obstacle, windows)
+
+
+def _met(problem: TimedProblem, taken: Alternative) -> Meeting | None:
+    """What is met first by a path that may be led round something more."""
+    if len(taken.passings) >= MAX_PASSINGS:
+        return None
+    return first_meeting(taken.solution.path, taken.free, problem.moving, problem.required)
+
+
+def _on_either_side(
+    problem: TimedProblem,
+    taken: Alternative,
+    obstacle: int,
+    windows: tuple[tuple[float, float], ...],
+) -> Iterator[Alternative]:
+    for window in windows:
+        for side in SIDES:
+            found = _led_round(problem, taken, obstacle, side, window)
+            if found is not None:
+                yield found
+
+
+def _led_round(
+    problem: TimedProblem,
+    taken: Alternative,
+    obstacle: int,
+    side: Side,
+    window: tuple[float, float],
+) -> Alternative | None:
+    """The path led round one thing more; None where there is none."""
+    made = standing_ghost(problem.moving, obstacle, side, window)
+    if made is None:
+        return None
+    ghost, passing = made
+    kept = [
+        (old, other)
+        for old, other in zip(taken.ghosts, taken.passings, strict=True)
+        if (other.obstacle, other.side) != (passing.obstacle, passing.side)
+    ]
+    others = tuple(old for old, _ in kept)
+    ghosts = (*others, _named_apart(ghost, others))
+    world = problem.world.with_obstacles(ghosts)
+    points = [point.at[:2] for _, point in problem.mission.route.points()]
+    if (world.distances_to(len(world) - 1, points) < problem.requirements.required).any():
+        return None
+    try:
+        laid = find_drive(problem.mission, world, problem.requirements)
+        free = problem.free_law(laid.path)
+    except (PlanningError, GeometryError):
+        return None
+    certificate = proven(laid.path, problem.world, problem.requirements)
+    solution = replace(laid, certificate=certificate)
+    return Alternative(solution, free, ghosts, (*(other for _, other in kept), passing))
+
+
+def _named_apart(ghost: Obstacle, others: tuple[Obstacle, ...]) -> Obstacle:
+    """The ghost by a name that none of the others has."""
+    taken = {other.name for other in others}
+    name, number = ghost.name, 2
+    while name in taken:
+        name, number = f"{ghost.name} ({number})", number + 1
+    return ghost.model_copy(update={"name": name})

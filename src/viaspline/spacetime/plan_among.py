@@ -1,0 +1,156 @@
+"""A proven path with a proven time law past what moves, the one that arrives first."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from viaspline.curve.path import Path
+from viaspline.errors import GaveUpError
+from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.problem.method import Found, GaveUp, Outcome
+from viaspline.spacetime.alternatives import (
+    Alternative,
+    alternatives_elsewhere,
+    alternatives_to,
+)
+from viaspline.spacetime.hopeless import check_start
+from viaspline.spacetime.meetings import first_meeting
+from viaspline.spacetime.timed_drive import TimedCandidate, TimedDrive
+from viaspline.spacetime.timed_problem import TimedProblem
+from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.trajectory.yielding.law_among import law_among
+
+MAX_PATHS = 40
+"""Paths that are timed at most."""
+
+WORTH_S = 1.0
+"""What has to be lost by waiting before it is looked for bays to wait in [s]."""
+
+
+def plan_among(problem: TimedProblem, static: Solution) -> TimedDrive:
+    """The path and the law that arrive first among what was tried.
+
+    The path among what stands comes first. Each path is timed: the robot slows and waits where
+    that is better. Then it is led round what it would meet if it didn't, as if that stood where it
+    is by then, on either side; and so on, always the path with the earliest arrival it could have.
+    With ``optimise: length`` it is the shortest path that can be timed.
+
+    Args:
+        problem: What is asked.
+        static: The path among what stands.
+
+    Raises:
+        NoPathError: When the robot is run over whatever it does.
+        GaveUpError: When no path that was tried has a law, or none was found.
+    """
+    check_start(problem)
+    first = Alternative(static, problem.free_law(static.path))
+    queue = [(problem.cost(static.path, first.free), 0, first)]
+    seen = {static.path.spans.tobytes()}
+    best: TimedDrive | None = None
+    tried: list[TimedCandidate] = []
+    outcomes: list[Outcome[Trajectory]] = []
+    count = 0
+    while queue and len(tried) < MAX_PATHS:
+        bound, _, taken = heapq.heappop(queue)
+        if best is not None and bound >= problem.cost(best.solution.path, best.trajectory):
+            break
+        outcome = _law(problem, taken)
+        outcomes.append(outcome)
+        tried.append(_candidate(taken, outcome))
+        if isinstance(outcome, Found):
+            best = _better(problem, best, taken, outcome.value)
+        for other in _others(problem, taken, outcome):
+            key = other.solution.path.spans.tobytes()
+            if key not in seen and len(seen) <= 2 * MAX_PATHS:
+                seen.add(key)
+                count += 1
+                cost = problem.cost(other.solution.path, other.free)
+                heapq.heappush(queue, (cost, count, other))
+    if best is None:
+        raise _given_up(problem, outcomes, static)
+    chosen = (best.solution.path.length, best.trajectory.end_time)
+    marked = tuple(replace(one, chosen=(one.length, one.arrival) == chosen) for one in tried)
+    return replace(best, candidates=marked)
+
+
+def _others(
+    problem: TimedProblem, taken: Alternative, outcome: Outcome[Trajectory]
+) -> Iterator[Alternative]:
+    """Paths that may serve better than one that was timed."""
+    yield from alternatives_to(problem, taken)
+    is_first = not taken.passings
+    waits = not isinstance(outcome, Found) or outcome.value.end_time > (
+        taken.free.end_time + WORTH_S
+    )
+    if is_first and waits:
+        yield from alternatives_elsewhere(problem, taken)
+
+
+def _law(problem: TimedProblem, taken: Alternative) -> Outcome[Trajectory]:
+    """The law with the earliest arrival on a path."""
+    route, path = problem.mission.route, taken.solution.path
+    return law_among(
+        path, problem.limits, problem.stops(path), moving=problem.moving,
+        required=problem.required, zones=problem.mission.world.speed_zones,
+        start_time=route.depart_s, hold=route.hold_s,
+    )  # fmt: skip
+
+
+def _certificate(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCertificate:
+    requirements = problem.requirements
+    return certify_moving(
+        path, law, problem.moving, requirements.kept, radius=requirements.radius,
+        footprint=requirements.footprint, hold=problem.mission.route.hold_s,
+    )  # fmt: skip
+
+
+def _better(
+    problem: TimedProblem, best: TimedDrive | None, taken: Alternative, law: Trajectory
+) -> TimedDrive | None:
+    """The better of what was best and a path with its law, if that is proven."""
+    path = taken.solution.path
+    cost = problem.cost(path, law)
+    if best is not None and problem.cost(best.solution.path, best.trajectory) <= cost:
+        return best
+    certificate = _certificate(problem, path, law)
+    if not certificate.holds:
+        return best
+    return TimedDrive(taken.solution, law, certificate, taken.free, ())
+
+
+def _candidate(taken: Alternative, outcome: Outcome[Trajectory]) -> TimedCandidate:
+    path = taken.solution.path
+    if isinstance(outcome, Found):
+        arrival = outcome.value.end_time
+        return TimedCandidate(taken.passings, path.length, taken.free.end_time, arrival)
+    reason = outcome.reason
+    return TimedCandidate(taken.passings, path.length, taken.free.end_time, None, reason)
+
+
+def _given_up(
+    problem: TimedProblem, outcomes: Sequence[Outcome[Trajectory]], static: Solution
+) -> GaveUpError:
+    """The error of a search that found no path with a law."""
+    tried = [f"{len(outcomes)} paths, with waits and on either side of what is met"]
+    tried += dict.fromkeys(outcome.reason for outcome in outcomes if not isinstance(outcome, Found))
+    helps = [outcome.would_help for outcome in outcomes if isinstance(outcome, GaveUp)]
+    remedy = next((words for words in helps if words), "depart at another time (route.depart_s)")
+    meeting = first_meeting(
+        static.path, problem.free_law(static.path), problem.moving, problem.required
+    )
+    where = static.path.at_distance(0.0 if meeting is None else meeting.distance)
+    names = () if meeting is None else (problem.moving.name(meeting.obstacle),)
+    first = f", '{names[0]}' first" if names else ""
+    return GaveUpError(
+        f"no path was found on which the robot is clear of what moves{first}",
+        where=np.asarray(where).tolist(),
+        remedy=remedy,
+        tried=tried,
+        obstacles=names,
+    )

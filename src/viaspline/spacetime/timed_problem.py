@@ -1,0 +1,65 @@
+"""What is asked of a path with a time law among moving obstacles.
+
+Tested through ``spacetime/test_plan_among``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from viaspline.curve.path import Path
+from viaspline.mission.model import Mission
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.trajectory.limits import Limits, Station
+from viaspline.trajectory.retime import retime
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.world.moving_obstacles import MovingObstacles
+from viaspline.world.world import World
+
+
+@dataclass(frozen=True)
+class TimedProblem:
+    """A mission among what moves.
+
+    Attributes:
+        mission: What is asked for.
+        world: What stands.
+        moving: What moves.
+        requirements: Of every path.
+        limits: Of every law.
+        stops: The stops of a path.
+    """
+
+    mission: Mission
+    world: World
+    moving: MovingObstacles
+    requirements: Requirements
+    limits: Limits
+    stops: Callable[[Path], Sequence[Station]]
+
+    @property
+    def required(self) -> float:
+        """Distance that a disc round the body's reference point keeps from what moves [m].
+
+        A body that is no disc is taken for the one around it; its certificate knows better.
+        """
+        return self.requirements.outer_radius + self.requirements.kept
+
+    @property
+    def least(self) -> float:
+        """Distance that the reference point of any body keeps from what moves [m]."""
+        return self.requirements.required
+
+    def free_law(self, path: Path) -> Trajectory:
+        """The law that would be driven along a path if nothing moved."""
+        return retime(
+            path, self.limits, self.stops(path), zones=self.mission.world.speed_zones,
+            start_time=self.mission.route.depart_s,
+        )  # fmt: skip
+
+    def cost(self, path: Path, law: Trajectory) -> float:
+        """What a path with a law costs, in what the mission asks to have little of [m or s]."""
+        if self.mission.route.optimise == "length":
+            return path.length
+        return law.end_time

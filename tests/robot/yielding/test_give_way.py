@@ -1,0 +1,85 @@
+"""Robots give way to what moves and isn't on the map: judged by what happens in the simulator."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viaspline as vs
+
+
+def crossing(*moving: dict[str, Any], **robot: Any) -> vs.Mission:
+    return vs.Mission.model_validate(
+        {
+            "world": {"unseen": list(moving)},
+            "robot": {"radius_m": 0.25, "clearance_m": 0.1, "sensor": {"range_m": 10}, **robot},
+            "route": {"start": [0, 0], "goal": [24, 0]},
+        }
+    )
+
+
+def cart(name: str, start: tuple[float, float], velocity: tuple[float, float]) -> dict[str, Any]:
+    return {
+        "name": name,
+        "circle": {"center": [0, 0], "radius": 0.5},
+        "motion": {"from": list(start), "velocity_mps": list(velocity)},
+    }
+
+
+def test_what_crosses_is_let_pass_or_passed_and_nothing_is_touched() -> None:
+    run = vs.simulate(crossing(cart("a", (12.0, -7.5), (0.0, 1.1))), step=0.1)
+    assert run.reached
+    assert run.encounters is not None
+    assert run.encounters.contacts == ()
+    assert run.encounters.clearance > 0.0
+
+
+def test_what_is_far_from_the_way_changes_nothing() -> None:
+    alone = vs.simulate(crossing(), step=0.1)
+    other = vs.simulate(crossing(cart("far", (12.0, 30.0), (1.0, 0.0))), step=0.1)
+    assert other.duration == alone.duration
+    assert other.replans == ()
+
+
+def test_what_comes_head_on_is_passed_at_its_side() -> None:
+    run = vs.simulate(crossing(cart("oncoming", (24.0, 0.0), (-1.0, 0.0))), step=0.1)
+    assert run.reached
+    assert run.replans
+    assert run.encounters is not None
+    assert run.encounters.contacts == ()
+    for replan in run.replans:
+        assert replan.position_jump < 1e-6
+        assert replan.heading_jump < 1e-6
+        assert replan.curvature_jump < 1e-4
+
+
+def test_the_same_drive_is_the_same_to_the_bit() -> None:
+    mission = crossing(cart("a", (12.0, -7.0), (0.0, 1.2)), sensor={
+        "range_m": 10, "velocity_noise_mps": 0.05,
+    })  # fmt: skip
+    one, other = (vs.simulate(mission, step=0.1, seed=3) for _ in range(2))
+    assert one.positions.tobytes() == other.positions.tobytes()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_limit_is_broken_while_giving_way(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    moving = [
+        cart(
+            f"d{i}",
+            (float(random.uniform(5, 20)), float(random.choice([-1, 1]) * random.uniform(4, 9))),
+            (0.0, 0.0),
+        )
+        for i in range(4)
+    ]
+    for one in moving:
+        x, y = one["motion"]["from"]
+        speed = float(random.uniform(0.5, 1.5))
+        one["motion"]["velocity_mps"] = [float(random.uniform(-0.5, 0.5)), -np.sign(y) * speed]
+        assert x > 0
+    run = vs.simulate(crossing(*moving, max_speed_mps=2, max_accel_mps2=1), step=0.1)
+    assert run.speeds.max() <= 2.0 + 1e-9
+    accelerations = np.diff(run.speeds) / np.maximum(np.diff(run.times), 1e-9)
+    assert np.abs(accelerations[np.diff(run.times) > 0.05]).max() <= 1.0 + 1e-6

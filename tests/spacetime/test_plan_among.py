@@ -1,0 +1,130 @@
+"""Plans past what moves: proven by the package, sampled here by numpy alone."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+import viaspline as vs
+from viaspline.report.plan_json import plan_json
+
+RADIUS, CLEARANCE = 0.3, 0.2
+
+
+def mission(moving: list[dict[str, Any]], **route: Any) -> vs.Mission:
+    return vs.Mission.model_validate(
+        {
+            "world": {"known": moving},
+            "robot": {"radius_m": RADIUS, "clearance_m": CLEARANCE},
+            "route": {"start": [0, 0], "goal": [20, 0], **route},
+        }
+    )
+
+
+def disc(name: str, start: tuple[float, float], velocity: tuple[float, float]) -> dict[str, Any]:
+    return {
+        "name": name,
+        "circle": {"center": [0, 0], "radius": 0.5},
+        "motion": {"from": list(start), "velocity_mps": list(velocity)},
+    }
+
+
+def least_gap(plan: vs.Plan, moving: list[dict[str, Any]]) -> float:
+    """The least free space between robot and discs that go straight on, by samples [m]."""
+    law = plan.trajectory
+    times = np.arange(law.start_time, law.end_time + plan.mission.route.hold_s, 2e-3)
+    robot = np.asarray(plan.path.at_distance(law.distance_at(times)))
+    gaps = [
+        np.hypot(*(np.array(d["motion"]["from"]) + np.outer(times, d["motion"]["velocity_mps"])
+                   - robot).T)
+        for d in moving
+    ]  # fmt: skip
+    return float(np.min(gaps)) - 0.5 - RADIUS
+
+
+def test_where_nothing_is_met_the_plan_is_the_one_without_what_moves() -> None:
+    far = [disc("far", (0, 50), (1, 0))]
+    among, alone = vs.plan(mission(far)), vs.plan(mission([]))
+    assert among.trajectory.times.tolist() == alone.trajectory.times.tolist()
+    assert among.path.spans.tolist() == alone.path.spans.tolist()
+    assert among.moving_certificate is not None
+    assert alone.moving_certificate is None
+
+
+def test_what_crosses_is_passed_with_the_clearance_that_is_asked_for() -> None:
+    crossing = [disc("cart", (10, -8), (0, 1.3))]
+    plan = vs.plan(mission(crossing))
+    certificate = plan.moving_certificate
+    assert certificate is not None
+    assert certificate.holds
+    assert certificate.obstacle == "cart"
+    assert CLEARANCE - 1e-6 <= certificate.clearance <= least_gap(plan, crossing) + 1e-9
+    assert plan.timed is not None
+    assert sum(one.chosen for one in plan.timed.candidates) == 1
+
+
+def test_a_plan_that_departs_later_moves_by_the_same_clock() -> None:
+    crossing = [disc("cart", (10, -8), (0, 1.3))]
+    plan = vs.plan(mission(crossing, depart_s=30.0))
+    assert plan.trajectory.start_time == 30.0
+    assert plan.trajectory.duration == vs.plan(mission([])).trajectory.duration
+
+
+def test_the_goal_stays_free_for_as_long_as_is_asked() -> None:
+    passing = [disc("cart", (20, -18), (0, 1.0))]
+    free = vs.plan(mission([])).trajectory.duration
+    plan = vs.plan(mission(passing, hold_s=20.0))
+    assert plan.trajectory.end_time > free + 1.0
+    assert least_gap(plan, passing) >= CLEARANCE - 1e-6
+
+
+def test_a_start_that_is_run_over_is_refused_with_a_departure_that_would_do() -> None:
+    truck = {
+        "name": "truck",
+        "polygon": [[-1, -15], [1, -15], [1, 15], [-1, 15]],
+        "motion": {"from": [-4, 0], "velocity_mps": [6, 0]},
+    }
+    with pytest.raises(vs.NoPathError, match="'truck' runs over the start") as caught:
+        vs.plan(mission([truck]))
+    assert "depart" in caught.value.remedy
+    later = float(caught.value.remedy.split("route.depart_s: ")[1].rstrip(")"))
+    vs.plan(mission([truck], depart_s=later))
+
+
+def test_two_plans_of_a_mission_are_the_same_bytes() -> None:
+    crossing = [disc("a", (10, -8), (0, 1.3)), disc("b", (14, 9), (0, -1.1))]
+    one, other = (plan_json(vs.plan(mission(crossing)), "x", spacing=0.5) for _ in range(2))
+    assert one == other
+    assert '"among_moving"' in one
+
+
+discs = st.lists(
+    st.tuples(
+        st.tuples(st.floats(3, 17), st.floats(-10, 10)),
+        st.tuples(st.floats(-1.5, 1.5), st.floats(-1.5, 1.5)),
+    ),
+    min_size=1,
+    max_size=4,
+)
+
+
+@settings(max_examples=15, deadline=None)
+@given(discs)
+@example([((10.0, -8.0), (0.0, 1.3)), ((12.0, 8.0), (0.0, -1.3))])
+def test_no_plan_comes_nearer_than_it_proves(
+    drawn: list[tuple[tuple[float, float], tuple[float, float]]],
+) -> None:
+    moving = [disc(f"d{i}", place, velocity) for i, (place, velocity) in enumerate(drawn)]
+    try:
+        plan = vs.plan(mission(moving))
+    except vs.PlanningError:
+        return
+    certificate = plan.moving_certificate
+    assert certificate is not None
+    assert certificate.holds
+    assert least_gap(plan, moving) >= certificate.clearance - 1e-9
+    assert plan.certificate.holds
