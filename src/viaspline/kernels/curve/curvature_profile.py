@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve.cubic import first_derivative, speed_bound
+from viaspline.kernels.curve.cubic import speed_at, speed_bound
 from viaspline.kernels.curve.extrema import MAX_ROOT_DEPTH, curvature_slope, roots
 from viaspline.kernels.curve.frenet import curvature_at, direction_at
 from viaspline.kernels.jit import inner, kernel
@@ -116,10 +116,7 @@ def _crossing(spans: Floats, k: int, low: float, high: float, limit: float) -> f
 def _tangent(spans: Floats, k: int, w: float, before: bool, out: Floats) -> None:
     """Unit tangent at w, at a cusp that just before or just after it."""
     direction_at(spans, k, w, out)
-    still = 0.0
-    for axis in range(spans.shape[2]):
-        still += first_derivative(spans, k, axis, w) ** 2
-    if before and w < 1.0 and math.sqrt(still) <= 1e-13 * speed_bound(spans, k):
+    if before and w < 1.0 and speed_at(spans, k, w) <= 1e-13 * speed_bound(spans, k):
         for axis in range(spans.shape[2]):
             out[axis] = -out[axis]
 

@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve.cubic import first_derivative, speed_bound
+from viaspline.kernels.curve.cubic import first_derivative, speed_at, speed_bound
 from viaspline.kernels.jit import inner, kernel
 
 STANDSTILL = 1e-9
@@ -26,13 +26,11 @@ SAME_CUSP = 1e-6
 @inner
 def _turns_back(spans: Floats, k: int, w: float, small: float) -> bool:
     """Whether the derivative is zero there and opposite a little before and a little after."""
-    here = 0.0
     across = 0.0
     for axis in range(spans.shape[2]):
-        here += first_derivative(spans, k, axis, w) ** 2
         before = first_derivative(spans, k, axis, w - SAME_CUSP)
         across += before * first_derivative(spans, k, axis, w + SAME_CUSP)
-    return math.sqrt(here) <= small and across < 0.0
+    return speed_at(spans, k, w) <= small and across < 0.0
 
 
 @inner
