@@ -24,13 +24,15 @@ SAME_CUSP = 1e-6
 
 
 @inner
-def _turns_back(spans: Floats, k: int, w: float, small: float) -> bool:
+def turns_back(spans: Floats, k: int, w: float) -> bool:
     """Whether the derivative is zero there and opposite a little before and a little after."""
+    if speed_at(spans, k, w) > STANDSTILL * speed_bound(spans, k):
+        return False
     across = 0.0
     for axis in range(spans.shape[2]):
         before = first_derivative(spans, k, axis, w - SAME_CUSP)
         across += before * first_derivative(spans, k, axis, w + SAME_CUSP)
-    return speed_at(spans, k, w) <= small and across < 0.0
+    return across < 0.0
 
 
 @inner
@@ -67,14 +69,13 @@ def cusps(spans: Floats) -> Floats:
     total = 0
     roots = np.empty(2)
     for k in range(count):
-        scale = speed_bound(spans, k)
         first = total
         for axis in range(spans.shape[2]):
             for i in range(_roots_of_axis(spans, k, axis, roots)):
                 w = roots[i]
                 if not SAME_CUSP < w < 1.0 - SAME_CUSP:
                     continue
-                if not _turns_back(spans, k, w, STANDSTILL * scale):
+                if not turns_back(spans, k, w):
                     continue
                 known = False
                 for j in range(first, total):
