@@ -12,6 +12,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.curve.piece_bounds import shape_bounds, velocity_polygon
+from viaspline.kernels.curve.straight_span import runs_straight, span_rounding
 from viaspline.kernels.jit import inlined, kernel
 
 _QUADRATIC = 0.00802
@@ -36,33 +37,6 @@ def _bounds(k: float, t: float, c: float) -> tuple[float, float]:
     k3 += 3.0 * (t2 * k + t1 * k1) + 3.0 * (t1 * k1 + t * k2)
     k3 += 2.0 * (k1 * k1 + k * k2) + 4.0 * kk1 * k + k * k * k1
     return k2, k3
-
-
-@inlined
-def _size(spans: Floats, i: int) -> tuple[float, bool]:
-    """What rounding does to the derivative of a span, and whether it runs straight ahead."""
-    largest, longest, chord = 0.0, 0.0, 0.0
-    for j in range(spans.shape[2]):
-        chord += (spans[i, 3, j] - spans[i, 0, j]) ** 2
-        for k in range(4):
-            largest = max(largest, abs(spans[i, k, j]))
-            if k < 3:
-                longest = max(longest, abs(3.0 * (spans[i, k + 1, j] - spans[i, k, j])))
-    noise = 2.0**-46 * (largest + longest)
-    straight, last = True, 0.0
-    for k in range(1, 4):
-        if not straight:
-            break
-        along, across = 0.0, 0.0
-        for j in range(spans.shape[2]):
-            along += (spans[i, k, j] - spans[i, 0, j]) * (spans[i, 3, j] - spans[i, 0, j])
-        share = along / (chord + 1e-300)
-        for j in range(spans.shape[2]):
-            ideal = share * (spans[i, 3, j] - spans[i, 0, j])
-            across = max(across, abs(spans[i, k, j] - spans[i, 0, j] - ideal))
-        straight &= across <= noise and along >= last
-        last = along
-    return (noise if longest > 0.0 else -1.0), straight and chord > 0.0
 
 
 @kernel
@@ -93,7 +67,8 @@ def cut_cells(
     r, stack = np.empty((3, d)), np.empty((64, 2))
     count = 0
     for i in range(m):
-        noise, straight = _size(spans, i)
+        noise = span_rounding(spans, i)
+        straight = runs_straight(spans, i, noise)
         depth = 1 if noise >= 0.0 else 0
         stack[0, 0], stack[0, 1] = 0.0, 1.0
         while depth > 0:
