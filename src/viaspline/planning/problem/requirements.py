@@ -82,6 +82,11 @@ class Requirements:
         return self.turn_radius is None and self.footprint is None
 
     @property
+    def turns_at_rest(self) -> bool:
+        """Whether a robot that has stopped may go on in any direction."""
+        return self.turn_radius is None or self.turns_on_spot != "never"
+
+    @property
     def outer_radius(self) -> float:
         """Distance of the body's farthest point from its reference point [m]."""
         return max((math.hypot(*corner) for corner in self.footprint or ()), default=self.radius)
