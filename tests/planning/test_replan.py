@@ -147,9 +147,11 @@ def test_from_rest_turns_away_on_the_spot(shapely_distance: Oracle) -> None:
 
 
 @settings(deadline=None, max_examples=40)
-@given(st.integers(0, 10_000), st.sampled_from(["local", "short"]), st.sampled_from([3.0, 8.0]))
+@given(
+    st.integers(0, 10_000), st.sampled_from([None, "local", "short"]), st.sampled_from([3.0, 8.0])
+)
 def test_from_rest_a_robot_that_never_turns_on_the_spot_goes_on_with_its_wheels_as_they_are(
-    seed: int, detours: str, radius: float
+    seed: int, detours: str | None, radius: float
 ) -> None:
     rng = np.random.default_rng(seed)
     stops = [[10.0, 10.0], *rng.uniform(20, 120, (3, 2)).tolist(), [130.0, 130.0]]

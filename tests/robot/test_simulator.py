@@ -216,13 +216,13 @@ def test_it_never_touches_what_its_sensor_shows_in_time(
     assert np.all(acceleration[np.diff(run.times) > 1e-6] <= 1.0 + 1e-6)
 
 
-@pytest.mark.parametrize("detours", ["local", "short"])
+@pytest.mark.parametrize("detours", [None, "local", "short"])
 @given(st.integers(0, 10_000))
 @example(153)  # each stopped in a turn, and went on with its wheels straight
 @example(439)
 @settings(deadline=None, max_examples=15)
 def test_what_is_driven_past_unseen_obstacles_goes_on_as_it_was_at_every_new_path(
-    disc_at: Shape, detours: str, seed: int
+    disc_at: Shape, detours: str | None, seed: int
 ) -> None:
     rng = np.random.default_rng(seed)
     unseen = [disc_at(*rng.uniform((20, 20, 2), (180, 180, 7))) for _ in range(rng.integers(8, 25))]
