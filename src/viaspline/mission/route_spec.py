@@ -89,7 +89,8 @@ class Route(Value):
             within the robot's limits, or its ``length``, the paper's rule.
         detours: ``local``: round what stands between two via points, the path leaves the straight
             line between them late and is back on it early, so that a lane stays a lane; ``short``:
-            on the shortest way.
+            on the shortest way. None: local where the line is more than ten times as long as what
+            stands in it and ``optimise`` is ``time``.
     """
 
     start: End
@@ -100,7 +101,7 @@ class Route(Value):
     laps: Annotated[int, Field(strict=True, ge=1, le=MAX_LAPS)] = 1
     corridor: Corridor | None = None
     optimise: Optimise = "time"
-    detours: Detours = "short"
+    detours: Detours | None = None
 
     def points(self) -> Iterator[tuple[str, ViaPoint]]:
         """Every point of the route in order, with its key in the mission file."""

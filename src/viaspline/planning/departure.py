@@ -20,6 +20,8 @@ from viaspline.planning.problem.via_sequence import RouteVia
 from viaspline.planning.stretch import LEAST_RUN_OUT_M, Stretch, room_to_run_out
 from viaspline.world.world import World
 
+AT_REST = 0.05  # a run-out from a standstill, over that of a rolling robot
+
 
 @dataclass(frozen=True)
 class Departure:
@@ -47,11 +49,15 @@ def rolling(
 def standing(
     path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
 ) -> Departure:
-    """Leave a path from a standstill, in any direction if the robot turns on the spot."""
-    turns = requirements.turn_radius is None or requirements.turns_on_spot != "never"
+    """Leave a path from a standstill: in any direction if the robot turns on the spot.
+
+    Else it goes on with its wheels as they are, by a run-out that is shorter than a rolling robot's
+    [m]: as slow as it is, it turns them on little way.
+    """
+    if not requirements.turns_at_rest:
+        return rolling(path, stretch, world, requirements, AT_REST * reach)
     place = np.asarray(path.evaluate(stretch.u))
-    tangent = None if turns else np.asarray(path.tangent(stretch.u))
-    return Departure(np.empty((0, 4, place.size)), RouteVia("the robot", place, None), tangent)
+    return Departure(np.empty((0, 4, place.size)), RouteVia("the robot", place, None), None)
 
 
 def refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> None:

@@ -128,25 +128,20 @@ def from_rest(
 ) -> Solution:
     """Lay everything ahead anew from a standstill at ``at``; on a round as ``planned`` does.
 
-    The robot may turn on the spot, unless it never does: then it goes on as it stands.
+    The robot may turn on the spot, unless it never does: then heading and curvature go on as they
+    were.
 
     Raises:
         NoPathError: When there is no way.
     """
+    if requirements.turns_at_rest:
+        u = float(path.parameter(at))
+    else:
+        at, u = leaving_place(path, at)
     if is_round(path):
         return _on_round(path, at, world, requirements, skip, until, standing)
-    u = float(path.parameter(at))
     stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
-    refuse_the_end(path, stretch)
-    departure = standing(path, stretch, world, requirements, 0.0)
-    sequence = sequence_through(path, departure.start, stretch, requirements)
-    sequence = replace(sequence, start_tangent=departure.tangent)
-    spline_path, account = lay_path(sequence, world, requirements)
-    head = _head(path, u)
-    vias = (*_vias_until(path, u, len(head)), *spline_path.vias_from(len(head)))
-    new = Path(np.concatenate((head, spline_path.spans)), vias)
-    certificate = proven(PiecewiseCubic(spline_path.spans), world, requirements)
-    return _result(new, at, certificate, account)
+    return _joined(path, stretch, world, requirements, until, standing)
 
 
 def _on_round(
@@ -183,8 +178,7 @@ def _joined(
     """The new path with the first run-out, from long to short, that lets it be clear."""
     refuse_the_end(path, stretch)
     problem: PlanningError | None = None
-    for length in RUN_OUT_LENGTHS:
-        reach = length * max(requirements.required, 0.1)
+    for reach in _run_outs(stretch, requirements, leave):
         try:
             departure = leave(path, stretch, world, requirements, reach)
             return _join(path, stretch, departure, world, requirements, reach, until)
@@ -194,8 +188,15 @@ def _joined(
             raise
         except PlanningError as error:
             problem = error
-    assert problem is not None  # RUN_OUT_LENGTHS is not empty
+    assert problem is not None  # there is a length at least
     raise problem
+
+
+def _run_outs(stretch: Stretch, requirements: Requirements, leave: Leave) -> tuple[float, ...]:
+    """The lengths of run-outs that are tried [m]; nothing where there are none."""
+    if leave is standing and requirements.turns_at_rest and stretch.tail is None:
+        return (0.0,)
+    return tuple(length * max(requirements.required, 0.1) for length in RUN_OUT_LENGTHS)
 
 
 def _join(

@@ -47,8 +47,11 @@ def way_out(
         floor: What it keeps on the way there [m].
 
     Returns:
-        The path, with what it keeps where; None if there is none.
+        The path, with what it keeps where; None if there is none, or if the robot can't turn on
+        the spot.
     """
+    if not requirements.turns_at_rest:
+        return None
     world, stop = context.knowledge.world, context.stop
     here = np.asarray(context.schedule.path.at_distance(stop))
     place = _roomy_place(world, here, requirements.required, floor)
