@@ -4,8 +4,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapely.affinity import rotate, translate
 
 import viaspline as vs
 from viaspline.curve.bending import curvature_bound
@@ -173,6 +175,31 @@ def test_from_rest_a_robot_that_never_turns_on_the_spot_goes_on_with_its_wheels_
         assert abs(math.remainder(float(turn), math.tau)) < 1e-4
     assert max(found.path.curvature_jumps()) < 1e-6
     assert curvature_bound(found.path)[0] * radius <= 1.0
+
+
+def test_from_rest_a_body_turns_only_where_nothing_is_in_its_way() -> None:
+    """It turned towards the new path whatever stood beside it, and touched what it had seen."""
+    plank, clearance, found = [(-0.3, -0.2), (0.9, -0.2), (0.9, 0.2), (-0.3, 0.2)], 0.05, 0
+    path, world, requirements = start(
+        [0, 0], [20, 0], robot={"footprint": plank, "clearance_m": clearance}
+    )
+    for seed in range(12):
+        random = np.random.default_rng(seed)
+        angle = random.uniform(0.6, 1.4) * random.choice([-1.0, 1.0])
+        beside = 10.0 + 0.75 * math.cos(angle), 0.75 * math.sin(angle)
+        seen = world.with_obstacles([disc(*beside, 0.1), disc(13.2, 0.1, 2.1)])
+        try:
+            new = from_rest(path, 10.0, seen, requirements).path
+        except vs.PlanningError:
+            continue
+        found += 1
+        way = float(new.heading(float(new.parameter(10.0 + 1e-6))))
+        things = [shapely.Point(*beside).buffer(0.1), shapely.Point(13.2, 0.1).buffer(2.1)]
+        for heading in np.linspace(0.0, math.remainder(way, math.tau), 60):
+            turned = rotate(shapely.Polygon(plank), heading, origin=(0, 0), use_radians=True)
+            body = translate(turned, 10.0, 0.0)
+            assert min(body.distance(thing) for thing in things) >= clearance - 1e-3
+    assert found > 3
 
 
 @pytest.mark.parametrize("mode", MODES)

@@ -6,14 +6,14 @@ Tested through ``planning/test_replan``.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats
-from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
+from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, turn_conflict
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
 from viaspline.planning.problem.via_sequence import RouteVia
@@ -58,6 +58,41 @@ def standing(
         return rolling(path, stretch, world, requirements, AT_REST * reach)
     place = np.asarray(path.evaluate(stretch.u))
     return Departure(np.empty((0, 4, place.size)), RouteVia("the robot", place, None), None)
+
+
+def straight_on(
+    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
+) -> Departure:
+    """Leave a path from a standstill in the direction in which the body looks."""
+    left = standing(path, stretch, world, requirements, reach)
+    return replace(left, tangent=np.asarray(path.tangent(stretch.u)))
+
+
+class BlockedTurnError(NoPathError):
+    """A body can't turn on the spot where it stands without coming too close to something."""
+
+
+def refuse_blocked_turn(
+    path: Path, u: float, span: Floats, world: World, requirements: Requirements
+) -> None:
+    """Raise BlockedTurnError for a body that stands at u and can't turn to where a span begins.
+
+    Args:
+        path: On which it stands.
+        u: Where.
+        span: By which it is to go on [m], (4, d).
+        world: What it keeps clear of.
+        requirements: The body.
+    """
+    index = turn_conflict(world, float(path.heading(u)), span[:, :2], requirements)
+    if index != CLEAR:
+        name = world.name(index)
+        raise BlockedTurnError(
+            f"{name!r} is too near to turn on the spot",
+            where=span[0],
+            remedy="leave it where there is room for its body to turn",
+            obstacles=(name,),
+        )
 
 
 def refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> None:

@@ -23,12 +23,15 @@ from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
 from viaspline.planning.departure import (
+    BlockedTurnError,
     Departure,
     Leave,
     refuse_blocked,
+    refuse_blocked_turn,
     refuse_no_room,
     rolling,
     standing,
+    straight_on,
 )
 from viaspline.planning.nearby import lay_nearby
 from viaspline.planning.plan_path import lay_path
@@ -128,20 +131,36 @@ def from_rest(
 ) -> Solution:
     """Lay everything ahead anew from a standstill at ``at``; on a round as ``planned`` does.
 
-    The robot may turn on the spot, unless it never does: then heading and curvature go on as they
-    were.
+    The robot may turn on the spot. If it never does, heading and curvature go on as they were; if
+    something is too near for its body to turn to where the path leads, it goes on as it stands.
 
     Raises:
         NoPathError: When there is no way.
     """
+    try:
+        return _left(path, at, world, requirements, skip, until, standing)
+    except BlockedTurnError:
+        return _left(path, at, world, requirements, skip, until, straight_on)
+
+
+def _left(
+    path: Path,
+    at: float,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int],
+    until: float,
+    leave: Leave,
+) -> Solution:
+    """Everything ahead laid anew from a standstill that is left in one way."""
     if requirements.turns_at_rest:
         u = float(path.parameter(at))
     else:
         at, u = leaving_place(path, at)
     if is_round(path):
-        return _on_round(path, at, world, requirements, skip, until, standing)
+        return _on_round(path, at, world, requirements, skip, until, leave)
     stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
-    return _joined(path, stretch, world, requirements, until, standing)
+    return _joined(path, stretch, world, requirements, until, leave)
 
 
 def _on_round(
@@ -159,7 +178,7 @@ def _on_round(
     for stretch in stretches_on_round(path, at, world, requirements, skip, blocked, until):
         try:
             return _joined(path, stretch, world, requirements, until, leave)
-        except SpentBudgetError:
+        except (SpentBudgetError, BlockedTurnError):
             raise
         except PlanningError as error:
             problem = error
@@ -182,7 +201,7 @@ def _joined(
         try:
             departure = leave(path, stretch, world, requirements, reach)
             return _join(path, stretch, departure, world, requirements, reach, until)
-        except BlockedLegError:
+        except (BlockedLegError, BlockedTurnError):
             raise  # a run-out is clear: where none leads on from one, none does from another
         except SpentBudgetError:
             raise
@@ -194,7 +213,7 @@ def _joined(
 
 def _run_outs(stretch: Stretch, requirements: Requirements, leave: Leave) -> tuple[float, ...]:
     """The lengths of run-outs that are tried [m]; nothing where there are none."""
-    if leave is standing and requirements.turns_at_rest and stretch.tail is None:
+    if leave is not rolling and requirements.turns_at_rest and stretch.tail is None:
         return (0.0,)
     return tuple(length * max(requirements.required, 0.1) for length in RUN_OUT_LENGTHS)
 
@@ -231,6 +250,8 @@ def _join(
         old = path.spans[int(stretch.u) : math.ceil(tail.u)]
         spline_path, account = lay_nearby(sequence, old, world, requirements)
     spans = spline_path.spans
+    if not len(departure.spans):
+        refuse_blocked_turn(path, stretch.u, spans[0], world, requirements)
     head = _head(path, stretch.u)
     first = len(head) + len(departure.spans)
     pieces = [head, departure.spans, spans]

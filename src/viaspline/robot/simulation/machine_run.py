@@ -19,7 +19,9 @@ from viaspline.machine.trace import trace
 from viaspline.machine.travel import travel_of
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Run, Visit
+from viaspline.robot.simulation.driven_motion import DrivenMotion
 from viaspline.robot.simulation.machine_drive import MachineDrive
+from viaspline.robot.simulation.near_misses import near_misses
 from viaspline.robot.simulation.outcome import outcome
 from viaspline.world.world import World
 
@@ -43,6 +45,7 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     reason, events, visits = outcome(nav, drive.book, end, drive.touched, drive.overdue)
     path, bound, u = driven_path(drive)
     certificate = proven(path, world, robot)
+    certificate = replace(certificate, clearance=certificate.clearance - bound)
     ticks = step * np.arange(math.floor(end / step + 1e-9) + 1)
     times = np.unique(np.concatenate((ticks, [event.time for event in events], [end])))
     times = times[times <= end]
@@ -51,6 +54,7 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     rates = np.interp(times, rows[:, ROW_TIME], travel.turn_rates)
     headings = np.interp(times, rows[:, ROW_TIME], rows[:, ROW_HEADING])
     least = MIN_CURVATURE_SPEED_MPS
+    near = () if certificate.holds else near_misses(nav.mission, world, _motion(drive, step))
     return Run(
         plan=nav.plan,
         world=world,
@@ -58,7 +62,7 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
         reason=reason,
         duration=end,
         path=path,
-        certificate=replace(certificate, clearance=certificate.clearance - bound),
+        certificate=certificate,
         times=times,
         positions=np.asarray(path.evaluate(np.interp(times, rows[:, ROW_TIME], u))),
         headings=np.remainder(headings + np.pi, 2.0 * np.pi) - np.pi,
@@ -70,7 +74,19 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
         compute_times=drive.book.compute_times,
         known=nav.world,
         tracking=drive.tracking,
+        shortfalls=near,
     )
+
+
+def _motion(drive: MachineDrive, step: float) -> DrivenMotion:
+    """What was driven, moment by moment."""
+    rows = drive.rows
+    times, places = rows[:, ROW_TIME], rows[:, ROW_X : ROW_Y + 1]
+    steps = np.hypot(*np.diff(places, axis=0).T)
+    return DrivenMotion(
+        times, places, rows[:, ROW_HEADING], travel_of(drive.model, rows).speeds,
+        np.concatenate(([0.0], np.cumsum(steps))), step,
+    )  # fmt: skip
 
 
 def proven(path: PiecewiseCubic, world: World, robot: RobotSpec) -> Certificate:
