@@ -84,7 +84,7 @@ class WideTurns:
                 left = turn_path.left
                 count = len(left)
                 pair = left[[turn_path.where % count, (turn_path.where + 1) % count]]
-                tight = [pair] if turn_path.where >= 0 else [np.arange(len(radii))]
+                tight = [pair]
                 swings = radii
             else:
                 close = body_conflicts(world, turn_path.spans, requirements)
