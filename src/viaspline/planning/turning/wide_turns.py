@@ -8,7 +8,6 @@ Tested through ``planning/methods/test_ordered``.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import partial
 
@@ -16,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.turning.gentle_lengths import gentle_lengths
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.requirements import Requirements
@@ -24,6 +24,7 @@ from viaspline.planning.turning.bend_row import KEPT, RADIUS, Bends
 from viaspline.planning.turning.repair import clear_turn_path
 from viaspline.planning.turning.turn_path import (
     NoTurnPath,
+    SettledTurns,
     TurnPath,
     settled_turns,
     turn_path_on_sides,
@@ -34,8 +35,10 @@ from viaspline.world.world import World
 NARROWER = 0.7  # a radius that doesn't fit, over the next one that is tried
 MOST_NARROWED = 0.5  # of the widest swing of those between which it is too tight: narrowed as well
 MAX_NARROWINGS = 40
-GENTLE_SHARE = 1e-3  # of the length, that may be spent on gentle bends
-GENTLE_ROOM = 0.9  # of a ramp's share of a line
+GENTLE_SHARE = 2e-3  # of the length, that may be spent on gentle bends
+GENTLE_ROOM = 0.97  # of a line, that its turns may take
+ARC_LONGER = 24.0  # an arc of radius R by t is longer than its corner by R t³ over this
+LEAST_ROOM_M = 1e-6  # of a line between two bends at the same place
 LEAST_SHARE = 1e-12  # of its radius that a turn swings out
 
 
@@ -69,8 +72,15 @@ class WideTurns:
         ]
         clear = [turn_path for turn_path in found if turn_path is not None]
         if not clear:
-            return clear_turn_path(bends.turning(self.least), world, requirements)
+            return self._pushed(bends, world, requirements)
         return min(clear, key=lambda turn_path: turn_path.length)
+
+    def _pushed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
+        """The least turns pushed clear, then as wide as fits round what they were pushed from."""
+        pushed = clear_turn_path(bends.turning(self.least), world, requirements)
+        if pushed is None:
+            return None
+        return self._narrowed(pushed.bends, world, requirements) or pushed
 
     def _narrowed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
         """The widest turns to the sides that are set, narrowed until they are clear."""
@@ -114,8 +124,9 @@ class WideTurns:
             return None
         rows, angles = narrowest.left, np.abs(narrowest.turns)
         radii = np.full(len(bends.rows), max(self.roomy, self.least))
-        fast = self.pace.corner_radii(angles, bends.rows[rows, KEPT]) * np.minimum(angles, 1.0)
-        radii[rows] = np.maximum(radii[rows], np.maximum(fast, _gentle(bends.rows[rows], angles)))
+        fast = self.pace.corner_radii(angles, bends.rows[rows, KEPT])
+        wide = np.maximum(fast * np.minimum(angles, 1.0), _gentle(narrowest, fast))
+        radii[rows] = np.maximum(radii[rows], wide)
         swung = bends.swings[rows] / np.maximum(swing_share(angles), LEAST_SHARE)
         radii[rows] = np.minimum(radii[rows], bends.rows[rows, KEPT] + swung)
         radii[rows] = np.maximum(radii[rows], self.sharpest)
@@ -136,23 +147,25 @@ def swing_share(turns: Floats) -> Floats:
     return found
 
 
-def _gentle(rows: Floats, angles: Floats) -> Floats:
-    """Radii with which a path bends as little as it can for a small part of its length [m], (n,).
+def _gentle(settled: SettledTurns, fast: Floats) -> Floats:
+    """Least radii with which a path bends as little as it can for a small part of its length [m].
 
-    A ramp up to a bend and down from it, of the length l together, bends by 4 t² / 3 l where it
-    turns by t, and is longer than the corner by t² l / 40. So the same l is best for all of them:
-    40 times what may be spent, over the sum of t². No more than half of a line is taken by a ramp.
+    The part is over that of the fastest turns, so that it is as much of the time.
+
+    Args:
+        settled: The narrowest turns.
+        fast: The radii of the fastest [m], (n,).
     """
-    lines = np.hypot(*np.diff(rows[:, :2], axis=0).T)
-    square = float((angles**2).sum())
-    if square == 0.0 or not lines.size:
-        return np.zeros(len(rows))
-    ramp = 20.0 * GENTLE_SHARE * float(lines.sum()) / square
-    room = np.full(len(rows), math.inf)
-    taken = np.where(angles > 0.0, 0.5, 0.0)  # where it doesn't turn no ramp begins
-    whole = lines / np.maximum(taken[1:] + taken[:-1], 0.5)
-    room[1:], room[:-1] = whole * 0.5, np.minimum(room[:-1], whole * 0.5)
-    return np.minimum(ramp, GENTLE_ROOM * room)
+    rows, angles = settled.bends.rows, np.abs(settled.turns)
+    apexes = settled.lines_and_turns[2]
+    ends = np.vstack((apexes, apexes[:1])) if settled.bends.closed else apexes
+    rooms = np.maximum(np.hypot(*np.diff(ends, axis=0).T), LEAST_ROOM_M)
+    spent = GENTLE_SHARE * float(rooms.sum()) + float((fast * angles**3).sum()) / ARC_LONGER
+    lengths = gentle_lengths(angles, 2.0 * GENTLE_ROOM * rooms, settled.bends.closed, spent)
+    gentle = lengths / np.maximum(2.0, 1.0 + angles)
+    hugging = rows[:, KEPT] * angles  # the arc, where it is longer than a ramp
+    found: Floats = np.where(gentle < hugging, np.maximum(lengths - hugging, 0.0), gentle)
+    return found
 
 
 def _swings(turn_path: TurnPath) -> Floats:
