@@ -20,7 +20,7 @@ from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
-from viaspline.planning.turning.bend_row import KEPT, RADIUS, Bends
+from viaspline.planning.turning.bend_row import HEADING, KEPT, RADIUS, Bends
 from viaspline.planning.turning.joined_bends import (
     TurnWishes,
     joins_worth_it,
@@ -164,7 +164,10 @@ class WideTurns:
         return TurnWishes(angles, gaps, lengths, fast, spent)
 
     def _wished(self, bends: Bends, narrowest: SettledTurns) -> Floats:
-        """The radius that each turn should have [m], (n,)."""
+        """The radius that each turn should have [m], (n,).
+
+        A turn into a heading that is given swings out by all of its angle: its line leads there.
+        """
         wishes = self._wishes(narrowest)
         rows, angles, lengths = narrowest.left, wishes.turns, wishes.lengths
         kept = bends.rows[rows, KEPT]
@@ -174,7 +177,9 @@ class WideTurns:
         ramps = np.maximum(lengths - kept * angles, 0.0)  # beside an arc round what is kept
         wide = np.where(gentle < kept * angles, ramps, wide)
         radii[rows] = np.maximum(radii[rows], wide)
-        swung = bends.swings[rows] / np.maximum(swing_share(angles), LEAST_SHARE)
+        given = np.isfinite(bends.rows[rows, HEADING])
+        shares = np.where(given, np.minimum(angles, 1.0), swing_share(angles))
+        swung = bends.swings[rows] / np.maximum(shares, LEAST_SHARE)
         radii[rows] = np.minimum(radii[rows], kept + swung)
         radii[rows] = np.maximum(radii[rows], self.sharpest)
         return radii

@@ -64,7 +64,7 @@ def near_misses(mission: Mission, world: World, motion: DrivenMotion) -> tuple[S
         >>> x, still = np.linspace(0, 9, 91), np.zeros(91)
         >>> motion = DrivenMotion(x, np.column_stack((x, still)), still, still + 1, x, step=0.1)
         >>> [near] = near_misses(mission, World.everything(mission), motion)
-        >>> round(near.clearance, 3), near.seen_in_time, near.shown
+        >>> round(near.clearance, 3), near.seen_in_time, round(near.shown, 3)
         (0.1, False, 4.8)
     """
     robot = mission.robot
