@@ -15,7 +15,6 @@ import argparse
 import hashlib
 import json
 import math
-import multiprocessing
 import re
 import sys
 from collections import Counter
@@ -24,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from work_pool import done
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 NUMBER = re.compile(r"-?\d+\.?\d*(?:[eE][-+]?\d+)?")
@@ -285,11 +285,12 @@ def lay(folder: Path, missions: int, jobs: int, only: str | None) -> None:
         stale.unlink()
     todo = [job for job in example_jobs() + random_jobs(missions) if only in (None, job[0])]
     lines: list[str] = []
-    with multiprocessing.get_context("spawn").Pool(jobs) as pool:
-        for count, found in enumerate(pool.imap_unordered(partial(do, folder), todo), 1):
-            lines += found
-            if count % 20 == 0 or count == len(todo):
-                print(f"{count} of {len(todo)}", file=sys.stderr, flush=True)
+    for count, (job, found) in enumerate(
+        done(partial(do, folder), todo, jobs, math.inf, math.inf), 1
+    ):
+        lines += [f"{'died':64}  {job[0]}-{job[1]:03d}"] if found is None else found
+        if count % 20 == 0 or count == len(todo):
+            print(f"{count} of {len(todo)}", file=sys.stderr, flush=True)
     lines.sort(key=lambda line: line.split()[1])
     (folder / "SHA256SUMS").write_text("\n".join(lines) + "\n")
     print(hashlib.sha256("\n".join(lines).encode()).hexdigest(), f"{len(lines)} files")

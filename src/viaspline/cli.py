@@ -7,79 +7,23 @@ defect of viaspline itself.
 
 from __future__ import annotations
 
-import os
-import traceback
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import click
 
 from viaspline import __version__
-from viaspline.errors import GaveUpError, MissionError, NoPathError, ViasplineError
-from viaspline.report.interrupts import Terminated, remembered, undone_at_the_end
-from viaspline.report.terminal_lines import gave_up, no_path, say, say_error, telling_warnings
-
-if TYPE_CHECKING:
-    from viaspline.mission.model import Mission
-    from viaspline.mission.robot_parts import RobotSpec
-    from viaspline.planner import Plan
-    from viaspline.report.progress_bar import ProgressBar
-    from viaspline.report.result_files import ResultFolder
-    from viaspline.report.video_file import VideoFile
-
-DEFECT, WRONG, NO_PATH, NOT_REACHED, GAVE_UP = 1, 2, 3, 4, 5
-INTERRUPTED, TERMINATED = 130, 143
-
-
-class Commands(click.Group):
-    """The commands; every error that they raise becomes a message and an exit code."""
-
-    def invoke(self, ctx: click.Context) -> Any:
-        """Run a command."""
-        try:
-            with telling_warnings():
-                return super().invoke(ctx)
-        except (click.ClickException, click.exceptions.Exit, click.Abort):
-            raise
-        except (Exception, KeyboardInterrupt, Terminated) as error:
-            ctx.exit(told(error))
-
-
-def told(error: BaseException) -> int:
-    """Say what happened; returns the exit code."""
-    signalled = remembered()
-    if isinstance(error, KeyboardInterrupt) or signalled is KeyboardInterrupt:
-        say_error("interrupted; no file was left half written")
-        return INTERRUPTED
-    if isinstance(error, Terminated) or signalled is Terminated:
-        say_error("terminated; no file was left half written")
-        return TERMINATED
-    if isinstance(error, NoPathError):
-        say_error(no_path(error))
-        return NO_PATH
-    if isinstance(error, GaveUpError):
-        say_error(gave_up(error))
-        return GAVE_UP
-    if isinstance(error, MissionError):
-        say_error(*(str(fault) for fault in error.faults), prefix="")
-        return WRONG
-    if isinstance(error, ViasplineError):
-        say_error(str(error))
-        return WRONG
-    if isinstance(error, MemoryError):
-        say_error("gave up: there is not enough memory; make the mission or its maps smaller")
-        return GAVE_UP
-    if isinstance(error, OSError):  # the machine's trouble, not the program's
-        name = "" if error.filename is None else f"{error.filename}: "
-        say_error(f"{name}{(error.strerror or str(error)).lower()}")
-        return WRONG
-    if os.environ.get("VIASPLINE_DEBUG"):
-        traceback.print_exception(error)
-    problem = " ".join(str(error).split())
-    say_error(f"defect: {type(error).__name__}: {problem} (VIASPLINE_DEBUG=1 shows where)")
-    return DEFECT
+from viaspline.command_steps import (
+    default_folder,
+    film_file,
+    load_mission,
+    progress_bar,
+    result_folder,
+    say_remarks,
+    say_written,
+    watched_plan,
+)
+from viaspline.exit_codes import NOT_REACHED, Commands
+from viaspline.report.terminal_lines import say, say_error
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
@@ -92,6 +36,12 @@ def cli() -> None:
       viaspline run examples/fig8-patrol.yaml --out patrol
     """
 
+
+PLAN_NAMES = ("plan.json", "path.csv", "plan.png", "timing.json")
+RUN_NAMES = (*PLAN_NAMES, "run.json", "run.csv", "run.png")
+FIGURE_NAMES = tuple(
+    f"{name}.png" for name in ("fig2", "fig3", "fig5", "fig6", "fig7", "fig8", "curvature")
+)
 
 MISSION = click.argument("mission", type=click.Path(path_type=Path))
 OUT = click.option(
@@ -125,13 +75,13 @@ def run(
     Example:
       viaspline run examples/fig8-patrol.yaml --out patrol --animate patrol/run.gif
     """
-    asked = _load(mission)
+    asked = load_mission(mission)
     with (
-        _folder(out or _default(mission), RUN_NAMES) as folder,
-        _film(animate) as film,
-        _watch(quiet, asked.robot) as watch,
+        result_folder(out or default_folder(mission), RUN_NAMES) as folder,
+        film_file(animate) as film,
+        progress_bar(quiet, asked.robot) as watch,
     ):
-        plan = _plan(asked, watch)
+        plan = watched_plan(asked, watch)
         with watch.stage("simulate", "driving"):
             from viaspline.robot.simulation.pace import by_clock, by_work
             from viaspline.robot.simulator import simulate
@@ -153,8 +103,8 @@ def run(
         from viaspline.report.terminal_tables import plan_tables, run_tables, show
 
         show(plan_tables(plan, mission.stem), run_tables(done, mission.stem))
-        _say_remarks(asked)
-        _say_written([*files, *([] if film is None else [film.path])])
+        say_remarks(asked)
+        say_written([*files, *([] if film is None else [film.path])])
     if not done.reached:
         from viaspline.report.units import place, seconds
 
@@ -179,12 +129,12 @@ def plan(mission: Path, out: Path | None, quiet: bool) -> None:
     Example:
       viaspline plan examples/fig7-obstacles.yaml --out detour
     """
-    asked = _load(mission)
+    asked = load_mission(mission)
     with (
-        _folder(out or _default(mission), PLAN_NAMES) as folder,
-        _watch(quiet, asked.robot) as watch,
+        result_folder(out or default_folder(mission), PLAN_NAMES) as folder,
+        progress_bar(quiet, asked.robot) as watch,
     ):
-        planned = _plan(asked, watch)
+        planned = watched_plan(asked, watch)
         with watch.stage("report", "drawing and writing"):
             from viaspline.report import results
 
@@ -194,8 +144,8 @@ def plan(mission: Path, out: Path | None, quiet: bool) -> None:
         from viaspline.report.terminal_tables import plan_tables, show
 
         show(plan_tables(planned, mission.stem))
-        _say_remarks(asked)
-        _say_written(files)
+        say_remarks(asked)
+        say_written(files)
 
 
 @cli.command()
@@ -214,10 +164,10 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
     Example:
       viaspline tension examples/fig8-patrol.yaml --out advice
     """
-    asked = _load(mission)
+    asked = load_mission(mission)
     with (
-        _folder(out or _default(mission), ("tension.png",)) as folder,
-        _watch(quiet, asked.robot) as watch,
+        result_folder(out or default_folder(mission), ("tension.png",)) as folder,
+        progress_bar(quiet, asked.robot) as watch,
     ):
         with watch.stage("advise", "trying tensions"):
             from viaspline.advice import advise_tension
@@ -234,7 +184,7 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
         from viaspline.report.terminal_tables import show
 
         show(advice_tables(advice, mission.stem))
-        _say_written([file])
+        say_written([file])
 
 
 @cli.command()
@@ -260,7 +210,7 @@ def check(mission: Path | None, schema: bool) -> None:
     from viaspline.report.remarks import remarks
     from viaspline.report.summary import summary
 
-    loaded = _load(mission)
+    loaded = load_mission(mission)
     lines = [*summary(loaded), *(("note", words) for words in remarks(loaded))]
     say(f"{mission} is sound", *(f"  {name:<7} {words}" for name, words in lines))
 
@@ -278,7 +228,7 @@ def figures(out: Path, quiet: bool) -> None:
     Example:
       viaspline figures --out figures
     """
-    with _folder(out, FIGURE_NAMES) as folder, _watch(quiet) as watch:
+    with result_folder(out, FIGURE_NAMES) as folder, progress_bar(quiet) as watch:
         contents = {}
         with watch.stage("load", "loading"):
             from viaspline.report.figures import FIGURES
@@ -288,7 +238,7 @@ def figures(out: Path, quiet: bool) -> None:
         files = [folder.write(name, content) for name, content in contents.items()]
     if not quiet:
         say(*(f"{name:<14} {caption}" for name, (caption, _) in FIGURES.items()))
-        _say_written(files)
+        say_written(files)
 
 
 @cli.command()
@@ -311,93 +261,3 @@ def studio(mission: Path | None, port: int, host: str, token: str | None, no_bro
     from viaspline.studio.serve import serve
 
     serve(mission, host=host, port=port, token=token, browser=not no_browser, say=say)
-
-
-PLAN_NAMES = ("plan.json", "path.csv", "plan.png", "timing.json")
-RUN_NAMES = (*PLAN_NAMES, "run.json", "run.csv", "run.png")
-FIGURE_NAMES = tuple(
-    f"{name}.png" for name in ("fig2", "fig3", "fig5", "fig6", "fig7", "fig8", "curvature")
-)
-
-
-def _default(mission: Path) -> Path:
-    return Path("viaspline-out") / (mission.stem or "mission")
-
-
-def _load(path: Path) -> Mission:
-    from threading import Timer
-
-    from viaspline.formats.load import load
-
-    patience = Timer(1.0, say_error, [f"reading {path} …"], {"prefix": ""})
-    patience.daemon = True
-    patience.start()
-    try:
-        return load(path)
-    finally:
-        patience.cancel()
-
-
-@contextmanager
-def _folder(path: Path, names: Iterable[str]) -> Iterator[ResultFolder]:
-    """The folder of the results, tried before the work and not left empty by a failure."""
-    from viaspline.report.result_files import ResultFolder
-
-    folder = ResultFolder(path, names)
-    old = folder.holds_earlier_results()
-    try:
-        with undone_at_the_end(folder.forget_if_empty):
-            yield folder
-    except BaseException:
-        folder.forget_if_empty()
-        if old:
-            say_error(f"what {path} holds is from an earlier run", prefix="note: ")
-        raise
-
-
-@contextmanager
-def _film(path: Path | None) -> Iterator[VideoFile | None]:
-    """The file of the animation, tried before the work."""
-    from viaspline.report.video_file import VideoFile
-
-    film = None if path is None else VideoFile(path)
-    try:
-        yield film
-    except BaseException:
-        if film is not None:
-            film.folder.forget_if_empty()
-        raise
-
-
-@contextmanager
-def _watch(quiet: bool, robot: RobotSpec | None = None) -> Iterator[ProgressBar]:
-    """Progress, which hears of every kernel that is compiled within the block."""
-    from viaspline.report.progress_bar import ProgressBar
-
-    watch = ProgressBar(quiet=quiet)
-    with watch.stage("start", "starting"):
-        from viaspline.kernels.jit import compile_progress
-        from viaspline.precompile import jobs_for, second_compiler
-    compiler = second_compiler() if robot is None else second_compiler(jobs_for(robot))
-    with compile_progress(watch.compiling), compiler:
-        yield watch
-
-
-def _plan(mission: Mission, watch: ProgressBar) -> Plan:
-    with watch.stage("plan", "planning"):
-        from viaspline import planner
-
-        return planner.plan(mission)
-
-
-def _say_remarks(asked: Mission) -> None:
-    from viaspline.report.remarks import plan_remarks
-
-    say(*(f"note: {words}" for words in plan_remarks(asked)))
-
-
-def _say_written(files: list[Path]) -> None:
-    folders: dict[Path, list[str]] = {}
-    for file in files:
-        folders.setdefault(file.parent, []).append(file.name)
-    say(*(f"wrote {', '.join(names)} into {folder}" for folder, names in folders.items()))

@@ -91,7 +91,9 @@ class Plan:
     @cached_property
     def drivability(self) -> Drivability:
         """How the path drives: its sharpest place, accelerations across it, turns on the spot."""
-        return drivability_of(self.path, self.trajectory, self.mission.robot, self.world)
+        robot, route = self.mission.robot, self.mission.route
+        once = route.closed and route.laps == 1  # of more laps the seams lie inside of the path
+        return drivability_of(self.path, self.trajectory, robot, self.world, closed=once)
 
 
 def whole_plan(mission: Mission, world: World) -> Plan:

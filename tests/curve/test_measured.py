@@ -183,6 +183,41 @@ def test_a_needle_of_curvature_is_not_missed():
     assert value > 1e3
 
 
+@settings(deadline=None, max_examples=200)
+@given(
+    at=st.floats(0.05, 0.95),
+    ahead=st.floats(0.5, 3.0),
+    change=st.floats(-0.4, 3.0),
+    flat=st.floats(-8.0, 0.0).map(lambda power: 10.0**power),
+    turned=st.floats(0.0, 6.3),
+)
+def test_a_reversal_on_a_nearly_straight_span_is_as_sharp_as_it_is(at, ahead, change, flat, turned):
+    """P' = ((w - at) (ahead + change w), flat): so curvature about ``at`` is known to a digit."""
+    along = (-at * ahead, 0.5 * (ahead - at * change) - at * ahead, (1 - at) * (ahead + change))
+    steps = np.stack((along, np.full(3, flat)), axis=1) / 3
+    places = np.vstack(([0.0, 0.0], np.cumsum(steps, axis=0)))
+    c, s = np.cos(turned), np.sin(turned)
+    value, u = PiecewiseCubic([places @ [[c, s], [-s, c]]]).max_curvature()
+    away = np.concatenate((np.linspace(0.0, 1.0, 20001), np.geomspace(1e-14, 1.0, 20001)))
+    away = np.concatenate((-away[away <= at], away[away <= 1 - at]))
+    forwards = away * (ahead + change * (at + away))
+    bend = ahead + change * (at + 2 * away)
+    curvature = flat * np.abs(bend) / np.hypot(forwards, flat) ** 3
+    rounding = 1e-15 / flat
+    assert value >= curvature.max() * (1 - 1e-6 - rounding)
+    assert value <= curvature.max() * (1 + 1e-4 + rounding)
+    assert abs(u - at) < 2 * flat or flat > 1e-2
+
+
+def test_a_straight_line_that_goes_back_on_the_way_has_a_cusp_there():
+    line = PiecewiseCubic([[[0, 0], [3, 3], [-2, -2], [1, 1]]])
+    value, u = line.max_curvature()
+    assert value == np.inf
+    assert np.linalg.norm(line.evaluate(u, 1)) < 1e-8
+    pause = PiecewiseCubic([np.outer([0, 1, 0, 1], [0.3, 0.7])])
+    assert pause.max_curvature()[0] == 0.0
+
+
 def test_a_polyline_and_a_line_have_no_curvature_and_no_jumps():
     for dimension in (1, 2, 3):
         ours = curve(dimension, tension=1.0)

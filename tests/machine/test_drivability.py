@@ -172,6 +172,49 @@ def test_a_corner_is_asked_for_where_the_robot_may_turn(where: Any, asked: list[
     assert len(found.reasons) == asked.count(False)
 
 
+@settings(deadline=None, max_examples=30)
+@given(seed=st.integers(0, 2**32 - 1), tension=st.sampled_from([1.0, 0.0]))
+def test_the_corner_at_the_seam_of_a_round_counts_as_those_inside_of_it(
+    seed: int, tension: float
+) -> None:
+    """A round begins anywhere: where it does, no corner is lost, and none is made."""
+    places = np.random.default_rng(seed).uniform(0.0, 30.0, (5, 2))
+    robot = RobotSpec(radius_m=0.0)
+    told = []
+    for first in range(2):
+        ring = CardinalSpline(np.roll(places, first, axis=0), tension=tension, closed=True)
+        path = path_of(ring)
+        law = timed(path, robot)
+        found = drivability_of(path, law, robot, World([]), closed=True)
+        told.append(sorted(abs(turn.turn) for turn in found.turns_on_spot))
+        assert (found.verdict == "rough") == (tension == 1.0)
+        inside = drivability_of(path, law, robot, World([])).turns_on_spot
+        assert len(found.turns_on_spot) - len(inside) == (tension == 1.0)
+    assert told[0] == pytest.approx(told[1])
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    length=st.floats(1.0, 300.0), heading=st.floats(0.0, 6.3), at=st.floats(0.2, 0.8),
+    far=st.floats(-50.0, 50.0), yaw=st.sampled_from([None, 90.0]),
+)  # fmt: skip
+def test_a_straight_line_is_driven_through_where_its_parameter_stands_still(
+    length: float, heading: float, at: float, far: float, yaw: float | None
+) -> None:
+    """P' = (w - at)² ahead: the place goes straight on, and so does the robot."""
+    steps = np.array([at * at, at * at - at, (1.0 - at) ** 2]) / 3.0
+    along = np.concatenate(([0.0], np.cumsum(steps)))
+    ahead = np.array([math.cos(heading), math.sin(heading)])
+    span = far + np.outer(along / along[3] * length, ahead)
+    path = Path([span], [])
+    robot = RobotSpec(max_speed_mps=2.0, max_accel_mps2=0.5, max_yaw_accel_degps2=yaw)
+    found, law = driven(path, robot)
+    assert found.verdict == "good"
+    ramps = min(1.0, (length * 0.5 / 4.0) ** 0.5)  # share of the top speed that is reached
+    least = 2.0 * ramps * 4.0 + max(length - 8.0 * ramps**2, 0.0) / 2.0
+    assert law.duration == pytest.approx(least, rel=1e-6 if yaw is None else 1e-3)
+
+
 def test_a_corner_that_no_limit_slows_down_is_said_to_jump() -> None:
     corner = CardinalSpline([(0, 0), (9, 0), (9, 9)], tension=1.0)
     path = path_of(corner)

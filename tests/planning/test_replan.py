@@ -4,8 +4,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely.affinity import rotate, translate
 
 import viaspline as vs
+from viaspline.curve.bending import curvature_bound
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.alternatives.solution import Solution
@@ -25,6 +30,8 @@ def disc(x: float, y: float, radius: float, name: str | None = None) -> vs.Obsta
 
 def start(*stops: Any, **more: Any) -> tuple[Path, vs.World, Requirements]:
     route = {"start": stops[0], "via": list(stops[1:-1]), "goal": stops[-1]}
+    if "detours" in more:
+        route["detours"] = more.pop("detours")
     if more.pop("closed", False):
         route = {"start": stops[0], "via": list(stops[1:]), "closed": True}
     more.setdefault("spline", {"tangents": "cardinal"})  # a span from via point to via point
@@ -139,6 +146,60 @@ def test_from_rest_turns_away_on_the_spot(shapely_distance: Oracle) -> None:
     world = world.with_obstacles([disc(25.0, 0, 3.9, "crate")])
     found = from_rest(path, 20.0, world, requirements)
     check(found, path, 20.0, world, shapely_distance)
+
+
+@settings(deadline=None, max_examples=40)
+@given(
+    st.integers(0, 10_000), st.sampled_from([None, "local", "short"]), st.sampled_from([3.0, 8.0])
+)
+def test_from_rest_a_robot_that_never_turns_on_the_spot_goes_on_with_its_wheels_as_they_are(
+    seed: int, detours: str | None, radius: float
+) -> None:
+    rng = np.random.default_rng(seed)
+    stops = [[10.0, 10.0], *rng.uniform(20, 120, (3, 2)).tolist(), [130.0, 130.0]]
+    robot = {"min_turn_radius_m": radius, "turn_on_spot": "never"}
+    path, world, requirements = start(*stops, robot=robot, spline={}, detours=detours)
+    at = float(rng.uniform(0.0, 0.7) * path.length)
+    ahead = float(at + rng.uniform(3.0, 20.0))
+    place = path.at_distance(min(ahead, path.length)) + rng.normal(0.0, 0.5, 2)
+    try:
+        found = from_rest(
+            path, at, world.with_obstacles([disc(*place.tolist(), 1.0)]), requirements
+        )
+    except vs.PlanningError:
+        return
+    u, before = float(found.path.parameter(at)), float(path.parameter(at))
+    for beside in (-1e-6, 1e-6):
+        assert found.path.curvature(u + beside) == pytest.approx(path.curvature(before), abs=1e-4)
+        turn = found.path.heading(u + beside) - path.heading(before)
+        assert abs(math.remainder(float(turn), math.tau)) < 1e-4
+    assert max(found.path.curvature_jumps()) < 1e-6
+    assert curvature_bound(found.path)[0] * radius <= 1.0
+
+
+def test_from_rest_a_body_turns_only_where_nothing_is_in_its_way() -> None:
+    """It turned towards the new path whatever stood beside it, and touched what it had seen."""
+    plank, clearance, found = [(-0.3, -0.2), (0.9, -0.2), (0.9, 0.2), (-0.3, 0.2)], 0.05, 0
+    path, world, requirements = start(
+        [0, 0], [20, 0], robot={"footprint": plank, "clearance_m": clearance}
+    )
+    for seed in range(12):
+        random = np.random.default_rng(seed)
+        angle = random.uniform(0.6, 1.4) * random.choice([-1.0, 1.0])
+        beside = 10.0 + 0.75 * math.cos(angle), 0.75 * math.sin(angle)
+        seen = world.with_obstacles([disc(*beside, 0.1), disc(13.2, 0.1, 2.1)])
+        try:
+            new = from_rest(path, 10.0, seen, requirements).path
+        except vs.PlanningError:
+            continue
+        found += 1
+        way = float(new.heading(float(new.parameter(10.0 + 1e-6))))
+        things = [shapely.Point(*beside).buffer(0.1), shapely.Point(13.2, 0.1).buffer(2.1)]
+        for heading in np.linspace(0.0, math.remainder(way, math.tau), 60):
+            turned = rotate(shapely.Polygon(plank), heading, origin=(0, 0), use_radians=True)
+            body = translate(turned, 10.0, 0.0)
+            assert min(body.distance(thing) for thing in things) >= clearance - 1e-3
+    assert found > 3
 
 
 @pytest.mark.parametrize("mode", MODES)

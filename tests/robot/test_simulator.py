@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.curve.certificate import certify
-from viaspline.errors import GeometryError, PlanningError
+from viaspline.errors import GeometryError, MissionError, PlanningError
 from viaspline.mission.model import Mission
 from viaspline.planner import plan
 from viaspline.robot.logbook import Logbook
@@ -214,6 +214,40 @@ def test_it_never_touches_what_its_sensor_shows_in_time(
     assert np.all(run.speeds <= 4.0 + 1e-9)
     acceleration = np.abs(np.diff(run.speeds)) / np.diff(run.times)
     assert np.all(acceleration[np.diff(run.times) > 1e-6] <= 1.0 + 1e-6)
+
+
+@pytest.mark.parametrize("detours", [None, "local", "short"])
+@given(st.integers(0, 10_000))
+@example(153)  # each stopped in a turn, and went on with its wheels straight
+@example(439)
+@settings(deadline=None, max_examples=15)
+def test_what_is_driven_past_unseen_obstacles_goes_on_as_it_was_at_every_new_path(
+    disc_at: Shape, detours: str | None, seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    unseen = [disc_at(*rng.uniform((20, 20, 2), (180, 180, 7))) for _ in range(rng.integers(8, 25))]
+    stops = [[10, 10], *rng.uniform(20, 180, (int(rng.integers(0, 3)), 2)).tolist(), [190, 190]]
+    robot = {"radius_m": 1.0, "sensor": {"range_m": float(rng.choice([6, 9, 15]))}}
+    radius = rng.choice([0.0, 4.0, 8.0])
+    if radius > 0.0:
+        robot |= {"min_turn_radius_m": radius, "turn_on_spot": str(rng.choice(["never", "vias"]))}
+    route = {"start": stops[0], "via": stops[1:-1], "goal": stops[-1], "detours": detours}
+    try:
+        world = {"unseen": unseen, "bounds": [0, 0, 200, 200]}
+        mission = Mission.model_validate({"world": world, "robot": robot, "route": route})
+    except MissionError:
+        return  # something stands on a via point
+    run, stays = simulate(mission), robot.get("turn_on_spot") == "never"
+    for replan in run.replans:
+        assert replan.position_jump < 1e-6
+        if replan.mode != "from_rest" or stays:
+            assert replan.heading_jump < 1e-6
+            assert replan.curvature_jump < 1e-6
+    if stays:
+        assert max(run.path.curvature_jumps(), default=0.0) < 1e-6
+        joints = np.arange(1.0, run.path.domain[1])
+        turns = run.path.heading(joints + 1e-7) - run.path.heading(joints - 1e-7)
+        assert np.abs(np.angle(np.exp(1j * turns))).max(initial=0.0) < 1e-4
 
 
 @given(unseen_discs)

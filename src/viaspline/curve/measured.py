@@ -13,7 +13,7 @@ from viaspline.curve.arguments import as_point, call, frozen, outside
 from viaspline.errors import GeometryError
 from viaspline.handed_in import number_from
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve import arclength, cubic, extrema, frenet
+from viaspline.kernels.curve import arclength, cubic, curvature_extrema, extrema, frenet
 
 MAX_SAMPLES = 50_000_000
 
@@ -164,12 +164,14 @@ class Measured:
     def max_curvature(self) -> tuple[float, float]:
         """The largest curvature without its sign, both sides of every joint included.
 
-        Every stationary point of the curvature is found as the root of a polynomial.
+        Every stationary point of the curvature is found as the root of a polynomial; the largest
+        value is exact to a millionth of it.
 
         Returns:
-            (curvature [1/m], u); infinite when the curve has a cusp at a joint.
+            (curvature [1/m], u); infinite at a cusp, where the curve stands still, to a billionth
+            of its largest derivative there, and turns back, on a straight line as well.
         """
-        value, span, w = extrema.sharpest(self._spans)
+        value, span, w = curvature_extrema.sharpest(self._spans)
         return float(value), float(span + w)
 
     def curvature_jumps(self) -> Floats:

@@ -25,14 +25,14 @@ from viaspline.machine.drivability import (
 )
 from viaspline.machine.drivability_verdict import place_slip, reasons_against
 from viaspline.machine.machine_limits import limits_of
-from viaspline.machine.turns_on_spot import SAME_DISTANCE_M, corners
+from viaspline.machine.turns_on_spot import SAME_DISTANCE_M, corners, seam_corner
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import NOTHING, World
 
 
 def drivability_of(
-    path: Path, trajectory: Trajectory, robot: RobotSpec, world: World
+    path: Path, trajectory: Trajectory, robot: RobotSpec, world: World, *, closed: bool = False
 ) -> Drivability:
     """How a path drives.
 
@@ -41,6 +41,7 @@ def drivability_of(
         trajectory: Its time law, of all of it.
         robot: Its body, its drive and its limits.
         world: What stands beside the path; it gives places their names.
+        closed: Whether the path goes on where it begins: then a corner at its seam counts.
 
     Example:
         >>> from viaspline.trajectory.limits import Limits
@@ -51,7 +52,7 @@ def drivability_of(
         >>> found.verdict, round(found.sharpest_radius, 2), round(found.max_lateral_accel, 2)
         ('good', 3.95, 0.48)
     """
-    drive = _Drive(path, trajectory, robot, world)
+    drive = _Drive(path, trajectory, robot, world, closed)
     sharpest, radius = drive.sharpest
     lateral, lateral_at = drive.largest(1.0)
     jumps, largest_jump, jump_at = drive.jumps
@@ -96,6 +97,7 @@ class _Drive:
     trajectory: Trajectory
     robot: RobotSpec
     world: World
+    closed: bool
 
     @cached_property
     def nodes(self) -> Floats:
@@ -147,10 +149,14 @@ class _Drive:
 
     @property
     def turns(self) -> tuple[SpotTurn, ...]:
-        """Corners and cusps."""
+        """Corners and cusps; that at the seam of a round is the last."""
         law = self.trajectory
+        at, angles = corners(self.path)
+        seam = seam_corner(self.path) if self.closed else 0.0
+        if seam:
+            at, angles = np.append(at, self.path.length), np.append(angles, seam)
         found = []
-        for distance, angle in zip(*corners(self.path), strict=True):
+        for distance, angle in zip(at, angles, strict=True):
             near = [s.dwell for s in law.stations if abs(s.distance - distance) <= SAME_DISTANCE_M]
             found.append(
                 SpotTurn(

@@ -56,6 +56,27 @@ def corners(path: PiecewiseCubic) -> tuple[Floats, Floats]:
     return np.atleast_1d(np.asarray(path.distance(u[order]))), angles[order]
 
 
+def seam_corner(path: PiecewiseCubic) -> float:
+    """By how much a path that ends where it starts turns there [rad], left is positive.
+
+    0 where it goes on smoothly, or ends elsewhere.
+
+    Example:
+        >>> there, back = [[0, 0], [1, 0], [2, 0], [3, 0]], [[3, 0], [3, 3], [0, 3], [0, 0]]
+        >>> round(seam_corner(PiecewiseCubic([there, back])), 3)
+        1.571
+        >>> seam_corner(PiecewiseCubic([there]))
+        0.0
+    """
+    flat = path.spans[:, :, :2]
+    moving = np.flatnonzero(np.ptp(flat, axis=1).max(axis=1) > SAME_DISTANCE_M)
+    if not moving.size or np.abs(flat[-1, 3] - flat[0, 0]).max() > SAME_DISTANCE_M:
+        return 0.0
+    after, before = _direction(flat[moving[:1]]), _direction(flat[moving[-1:], ::-1]) + np.pi
+    turn = float((np.remainder(after - before + np.pi, 2.0 * np.pi) - np.pi)[0])
+    return turn if abs(turn) > CORNER_RAD else 0.0
+
+
 def _direction(spans: Floats) -> Floats:
     """From the first control point of each span to the first other one [rad], shape (m,)."""
     legs = spans[:, 1:] - spans[:, :1]

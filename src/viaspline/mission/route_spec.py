@@ -89,7 +89,8 @@ class Route(Value):
             within the robot's limits, or its ``length``, the paper's rule.
         detours: ``local``: round what stands between two via points, the path leaves the straight
             line between them late and is back on it early, so that a lane stays a lane; ``short``:
-            on the shortest way.
+            on the shortest way. None: local where the line is more than ten times as long as what
+            stands in it and ``optimise`` is ``time``.
         depart_s: When the robot may set out [s]; what moves does so by the same clock.
         hold_s: How long the goal has to stay free of what moves once the robot is there [s].
     """
@@ -102,7 +103,7 @@ class Route(Value):
     laps: Annotated[int, Field(strict=True, ge=1, le=MAX_LAPS)] = 1
     corridor: Corridor | None = None
     optimise: Optimise = "time"
-    detours: Detours = "short"
+    detours: Detours | None = None
     depart_s: Duration = 0.0
     hold_s: Duration = 0.0
 

@@ -13,6 +13,7 @@ from viaspline.mission.annotations import Expects
 from viaspline.mission.fields import Coordinate, Name, Ring, Rings, Speed, plain
 from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.standalone import Standalone
 from viaspline.mission.tracks_spec import TracksSpec
 from viaspline.mission.value import Value
 
@@ -39,7 +40,7 @@ Bounds4: TypeAlias = Annotated[
 
 
 class SpeedZone(
-    Value,
+    Standalone,
     expected="a zone such as {polygon: [[x, y], ...], max_speed_mps: 0.5}",
 ):
     """An area in which the robot drives more slowly.
@@ -48,7 +49,12 @@ class SpeedZone(
         polygon: Its corners ``[[x, y], ...]`` [m].
         max_speed_mps: The greatest speed of the reference point inside of it [m/s].
         name: What it is called in reports and errors.
+
+    Raises:
+        MissionError: With every fault.
     """
+
+    stands_at = ("world", "speed_zones", 0)
 
     polygon: Ring
     max_speed_mps: Speed

@@ -6,19 +6,21 @@ Tested through ``planning/test_replan``.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import NoPathError
 from viaspline.kernels.arrays import Floats
-from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
+from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, turn_conflict
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import RunOut, run_out
 from viaspline.planning.problem.via_sequence import RouteVia
 from viaspline.planning.stretch import LEAST_RUN_OUT_M, Stretch, room_to_run_out
 from viaspline.world.world import World
+
+AT_REST = 0.05  # a run-out from a standstill, over that of a rolling robot
 
 
 @dataclass(frozen=True)
@@ -47,11 +49,50 @@ def rolling(
 def standing(
     path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
 ) -> Departure:
-    """Leave a path from a standstill, in any direction if the robot turns on the spot."""
-    turns = requirements.turn_radius is None or requirements.turns_on_spot != "never"
+    """Leave a path from a standstill: in any direction if the robot turns on the spot.
+
+    Else it goes on with its wheels as they are, by a run-out that is shorter than a rolling robot's
+    [m]: as slow as it is, it turns them on little way.
+    """
+    if not requirements.turns_at_rest:
+        return rolling(path, stretch, world, requirements, AT_REST * reach)
     place = np.asarray(path.evaluate(stretch.u))
-    tangent = None if turns else np.asarray(path.tangent(stretch.u))
-    return Departure(np.empty((0, 4, place.size)), RouteVia("the robot", place, None), tangent)
+    return Departure(np.empty((0, 4, place.size)), RouteVia("the robot", place, None), None)
+
+
+def straight_on(
+    path: Path, stretch: Stretch, world: World, requirements: Requirements, reach: float
+) -> Departure:
+    """Leave a path from a standstill in the direction in which the body looks."""
+    left = standing(path, stretch, world, requirements, reach)
+    return replace(left, tangent=np.asarray(path.tangent(stretch.u)))
+
+
+class BlockedTurnError(NoPathError):
+    """A body can't turn on the spot where it stands without coming too close to something."""
+
+
+def refuse_blocked_turn(
+    path: Path, u: float, span: Floats, world: World, requirements: Requirements
+) -> None:
+    """Raise BlockedTurnError for a body that stands at u and can't turn to where a span begins.
+
+    Args:
+        path: On which it stands.
+        u: Where.
+        span: By which it is to go on [m], (4, d).
+        world: What it keeps clear of.
+        requirements: The body.
+    """
+    index = turn_conflict(world, float(path.heading(u)), span[:, :2], requirements)
+    if index != CLEAR:
+        name = world.name(index)
+        raise BlockedTurnError(
+            f"{name!r} is too near to turn on the spot",
+            where=span[0],
+            remedy="leave it where there is room for its body to turn",
+            obstacles=(name,),
+        )
 
 
 def refuse_blocked(piece: RunOut, world: World, requirements: Requirements) -> None:

@@ -23,12 +23,15 @@ from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
 from viaspline.planning.departure import (
+    BlockedTurnError,
     Departure,
     Leave,
     refuse_blocked,
+    refuse_blocked_turn,
     refuse_no_room,
     rolling,
     standing,
+    straight_on,
 )
 from viaspline.planning.nearby import lay_nearby
 from viaspline.planning.plan_path import lay_path
@@ -128,25 +131,36 @@ def from_rest(
 ) -> Solution:
     """Lay everything ahead anew from a standstill at ``at``; on a round as ``planned`` does.
 
-    The robot may turn on the spot, unless it never does: then it goes on as it stands.
+    The robot may turn on the spot. If it never does, heading and curvature go on as they were; if
+    something is too near for its body to turn to where the path leads, it goes on as it stands.
 
     Raises:
         NoPathError: When there is no way.
     """
+    try:
+        return _left(path, at, world, requirements, skip, until, standing)
+    except BlockedTurnError:
+        return _left(path, at, world, requirements, skip, until, straight_on)
+
+
+def _left(
+    path: Path,
+    at: float,
+    world: World,
+    requirements: Requirements,
+    skip: Collection[int],
+    until: float,
+    leave: Leave,
+) -> Solution:
+    """Everything ahead laid anew from a standstill that is left in one way."""
+    if requirements.turns_at_rest:
+        u = float(path.parameter(at))
+    else:
+        at, u = leaving_place(path, at)
     if is_round(path):
-        return _on_round(path, at, world, requirements, skip, until, standing)
-    u = float(path.parameter(at))
+        return _on_round(path, at, world, requirements, skip, until, leave)
     stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
-    refuse_the_end(path, stretch)
-    departure = standing(path, stretch, world, requirements, 0.0)
-    sequence = sequence_through(path, departure.start, stretch, requirements)
-    sequence = replace(sequence, start_tangent=departure.tangent)
-    spline_path, account = lay_path(sequence, world, requirements)
-    head = _head(path, u)
-    vias = (*_vias_until(path, u, len(head)), *spline_path.vias_from(len(head)))
-    new = Path(np.concatenate((head, spline_path.spans)), vias)
-    certificate = proven(PiecewiseCubic(spline_path.spans), world, requirements)
-    return _result(new, at, certificate, account)
+    return _joined(path, stretch, world, requirements, until, leave)
 
 
 def _on_round(
@@ -164,7 +178,7 @@ def _on_round(
     for stretch in stretches_on_round(path, at, world, requirements, skip, blocked, until):
         try:
             return _joined(path, stretch, world, requirements, until, leave)
-        except SpentBudgetError:
+        except (SpentBudgetError, BlockedTurnError):
             raise
         except PlanningError as error:
             problem = error
@@ -183,19 +197,25 @@ def _joined(
     """The new path with the first run-out, from long to short, that lets it be clear."""
     refuse_the_end(path, stretch)
     problem: PlanningError | None = None
-    for length in RUN_OUT_LENGTHS:
-        reach = length * max(requirements.required, 0.1)
+    for reach in _run_outs(stretch, requirements, leave):
         try:
             departure = leave(path, stretch, world, requirements, reach)
             return _join(path, stretch, departure, world, requirements, reach, until)
-        except BlockedLegError:
+        except (BlockedLegError, BlockedTurnError):
             raise  # a run-out is clear: where none leads on from one, none does from another
         except SpentBudgetError:
             raise
         except PlanningError as error:
             problem = error
-    assert problem is not None  # RUN_OUT_LENGTHS is not empty
+    assert problem is not None  # there is a length at least
     raise problem
+
+
+def _run_outs(stretch: Stretch, requirements: Requirements, leave: Leave) -> tuple[float, ...]:
+    """The lengths of run-outs that are tried [m]; nothing where there are none."""
+    if leave is not rolling and requirements.turns_at_rest and stretch.tail is None:
+        return (0.0,)
+    return tuple(length * max(requirements.required, 0.1) for length in RUN_OUT_LENGTHS)
 
 
 def _join(
@@ -230,6 +250,8 @@ def _join(
         old = path.spans[int(stretch.u) : math.ceil(tail.u)]
         spline_path, account = lay_nearby(sequence, old, world, requirements)
     spans = spline_path.spans
+    if not len(departure.spans):
+        refuse_blocked_turn(path, stretch.u, spans[0], world, requirements)
     head = _head(path, stretch.u)
     first = len(head) + len(departure.spans)
     pieces = [head, departure.spans, spans]

@@ -16,7 +16,7 @@ from viaspline.report.json_text import dumps
 from viaspline.report.moving_json import encounters_data
 from viaspline.report.plan_json import mission_summary, path_data
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
-from viaspline.robot.run import Replan, Run
+from viaspline.robot.run import Replan, Run, Shortfall
 
 
 def run_json(run: Run, name: str, *, seed: int = 0) -> str:
@@ -34,6 +34,7 @@ def run_json(run: Run, name: str, *, seed: int = 0) -> str:
             "tightest_distance_m": certificate.tightest_distance,
             "nearest": certificate.obstacle,
             **encounters_data(run),
+            "nearer_than_asked": [_shortfall(shortfall) for shortfall in run.shortfalls],
             "vias": [
                 {
                     "name": visit.name,
@@ -89,6 +90,20 @@ def _excess(run: Run, excess: Excess) -> dict[str, Any]:
         "distance_m": excess.distance,
         "off_m": excess.off,
         "beyond_m": excess.off - excess.kept,
+    }
+
+
+def _shortfall(shortfall: Shortfall) -> dict[str, Any]:
+    return {
+        "obstacle": shortfall.obstacle,
+        "on_map": shortfall.on_map,
+        "clearance_m": shortfall.clearance,
+        "time_s": shortfall.time,
+        "at": shortfall.at,
+        "surface_at": shortfall.surface_at,
+        "shown_s": shortfall.shown,
+        "needed_by_s": shortfall.needed_by,
+        "seen_in_time": shortfall.seen_in_time,
     }
 
 

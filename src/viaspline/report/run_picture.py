@@ -70,7 +70,9 @@ def run_picture(run: Run, name: str) -> bytes:
         scene.name(labels)
     handles += draw_zones(sheet.map, labels, mission.world.speed_zones)
     handles += draw_swept(sheet.map, run.path, mission.robot, sheet.pixels_per_metre)
-    handles.append(_draw_planned(sheet, planned))
+    before = _draw_planned(sheet, planned)
+    if run.replans or not run.reached:  # else the driven path covers it
+        handles.append(before)
     colours, limits = speed_colours(run.speeds)
     draw_driven(sheet, run, colours, limits)
     vias, places = draw_vias(sheet.map, labels, _all_vias(run), mission)

@@ -48,7 +48,7 @@ class SideColumn:
         legend = figure.legend(
             handles=list(handles), loc="upper left", fontsize=SMALL_PT, frameon=False,
             bbox_to_anchor=(self._left / across, self._top / up), borderaxespad=0,
-            borderpad=0, handlelength=2.0, labelspacing=0.55,
+            borderpad=0, handlelength=2.0, labelspacing=0.55, markerscale=0.75,
         )  # fmt: skip
         for text in legend.get_texts():
             text.set_parse_math(False)

@@ -15,7 +15,7 @@ from viaspline.report.style import without_folder
 from viaspline.report.summary import map_words
 from viaspline.report.terminal_lines import writing_output
 from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
-from viaspline.robot.run import MODES, Run
+from viaspline.robot.run import MODES, Run, Shortfall
 
 MAX_REASONS = 4  # why a path drives roughly, before the rest is only counted
 MAX_LIST_LINES = 12  # of a long list, before the rest is only counted
@@ -144,6 +144,8 @@ def run_tables(run: Run, name: str) -> RenderableType:
             "tightest place",
             f"{place(run.certificate.tightest_at)} beside {run.certificate.obstacle}",
         )
+    for shortfall in run.shortfalls[:MAX_LIST_LINES]:
+        facts.add_row("NEARER THAN ASKED", shortfall_words(shortfall))
     if run.tracking is not None:
         cross = run.tracking.cross
         facts.add_row(
@@ -174,6 +176,22 @@ def run_tables(run: Run, name: str) -> RenderableType:
     used = {replan.mode for replan in run.replans}
     modes = [f"{mode}: {words}" for mode, words in MODES.items() if mode in used]
     return Group(facts, table, *modes)
+
+
+def shortfall_words(shortfall: Shortfall) -> str:
+    """What the body came nearer to than was asked, and whether the sensor could have shown it."""
+    near = (
+        f"{shortfall.obstacle} by {metres(shortfall.required - shortfall.clearance, 3)}, at "
+        f"{place(shortfall.at)} after {seconds(shortfall.time)}"
+    )
+    if shortfall.on_map:
+        return f"{near}: it is on the map"
+    if shortfall.needed_by is None:
+        return f"{near}: it was that near from the start"
+    asked = f"needed by {seconds(shortfall.needed_by)}"
+    shown = "never" if shortfall.shown is None else f"from {seconds(shortfall.shown)} on"
+    could = "could" if shortfall.seen_in_time else "could NOT"
+    return f"{near}: its sensor {could} have shown it in time ({asked}, in view {shown})"
 
 
 def _beyond(run: Run) -> str:

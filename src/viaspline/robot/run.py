@@ -150,6 +150,41 @@ class Encounters:
 
 
 @dataclass(frozen=True)
+class Shortfall:
+    """Something that the driven body came nearer to than was asked.
+
+    It could have been known of in time if, at a moment in which the robot could still have braked
+    before it was too near, its sensor could have shown the place on the surface that the body came
+    nearest to: within range, within the field of view, with nothing before it. What is on the map
+    is known from the start.
+
+    Attributes:
+        obstacle: What it was.
+        on_map: Whether it is on the map.
+        clearance: What was left between it and the body [m]; below 0 if they overlapped.
+        required: What was asked for [m].
+        time: When that was [s].
+        at: Where the robot was then [m], shape (2,).
+        surface_at: The place on its surface that was nearest [m], shape (2,).
+        shown: When the sensor first could show that place [s]; None if it never could.
+        needed_by: Until when the robot had to know of it, to brake before it was too near [s]; None
+            if it was so from the start.
+        seen_in_time: Whether it could have been known of in time.
+    """
+
+    obstacle: str
+    on_map: bool
+    clearance: float
+    required: float
+    time: float
+    at: tuple[float, float]
+    surface_at: tuple[float, float]
+    shown: float | None
+    needed_by: float | None
+    seen_in_time: bool
+
+
+@dataclass(frozen=True)
 class Run:
     """A driven mission.
 
@@ -176,6 +211,8 @@ class Run:
         tracking: How well a robot with a drive followed its path; None for others.
         moving: All that moved, known or not.
         encounters: How near the robot came to that; None where nothing moved.
+        shortfalls: What the body came nearer to than was asked, the nearest first; nothing if the
+            certificate holds.
     """
 
     plan: Plan
@@ -198,6 +235,7 @@ class Run:
     tracking: Tracking | None = None
     moving: MovingObstacles = field(default_factory=MovingObstacles)
     encounters: Encounters | None = None
+    shortfalls: tuple[Shortfall, ...] = ()
 
     @property
     def excesses(self) -> tuple[Excess, ...]:

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BPoly, PPoly
 
-from viaspline.kernels.curve import extrema
+from viaspline.kernels.curve import curvature_extrema, extrema
 
 
 def found_roots(coefficients):
@@ -52,12 +52,12 @@ def test_the_nearest_point_is_the_nearest_of_many(dimension):
 
 def test_the_sharpest_place_of_a_symmetric_span_is_its_middle():
     arch = np.array([[[0.0, 0], [1, 2], [2, 2], [3, 0]]])
-    value, span, w = extrema.sharpest(arch)
+    value, span, w = curvature_extrema.sharpest(arch)
     assert (span, w) == (0, pytest.approx(0.5))
     assert value == pytest.approx(12 / 9)
 
 
 def test_a_line_and_a_point_have_no_sharpest_place():
     line = np.array([[[0.0], [1], [2], [3]]])
-    assert extrema.sharpest(line) == (0.0, 0, 0.0)
-    assert extrema.sharpest(np.ones((2, 4, 2))) == (0.0, 0, 0.0)
+    assert curvature_extrema.sharpest(line) == (0.0, 0, 0.0)
+    assert curvature_extrema.sharpest(np.ones((2, 4, 2))) == (0.0, 0, 0.0)

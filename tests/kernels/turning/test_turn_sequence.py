@@ -13,6 +13,7 @@ from viaspline.kernels.turning.turn_sequence import (
     KEPT,
     LEFT_OUT,
     RADIUS,
+    RESTLESS,
     SIDE,
     X,
     Y,
@@ -138,3 +139,34 @@ def test_a_bend_that_the_others_make_needless_is_left_out():
     rows[:, RADIUS] = RHO
     *_, state, where = turn_sequence(rows, False, 1.0)
     assert (state, where) == (LEFT_OUT, 2)
+
+
+@pytest.mark.parametrize("radius", [0.4954, 0.8])
+def test_an_s_between_two_corners_of_cells_settles(radius):
+    """With ramps as long as its radius each turn has an arc in one round and none in the next."""
+    rows = bends_through(
+        [(0, 0), (1, -3), (2, -4), (3, -6)], kept=[0, 0.3313, 0.3313, 0], side=[0.0, 1.0, -1.0, 0.0]
+    )
+    curve, _, length = swung(rows, rho=radius, ramp=radius)
+    points = curve.evaluate(np.linspace(*curve.domain, 20_001))
+    for x, y, kept, *_ in rows[1:-1]:
+        assert np.hypot(points[:, 0] - x, points[:, 1] - y).min() == pytest.approx(kept, abs=1e-4)
+    assert curve.max_curvature()[0] * radius < 1.003
+    assert curve.curvature_jumps().max() < 1e-6
+    assert curve.length == pytest.approx(length, rel=1e-5)
+
+
+def test_random_slaloms_round_corners_of_cells_settle_or_have_no_room():
+    rng = np.random.default_rng(11)
+    steps = rng.integers(1, 4, (200, 6, 2)) * np.array([1, -1])
+    served = 0
+    for corners in np.cumsum(steps, axis=1).astype(float):
+        into, out = np.diff(corners, axis=0)[:-1], np.diff(corners, axis=0)[1:]
+        side = np.sign(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0])
+        rows = bends_through(corners, kept=[0, *(0.33 * np.abs(side)), 0], side=[0.0, *side, 0.0])
+        rows[:, RADIUS] = 0.4954
+        *_, state, where = turn_sequence(rows, False, 1.0)
+        assert state != RESTLESS
+        assert (where >= 0) == (state != FINE)
+        served += state == FINE
+    assert served > 50

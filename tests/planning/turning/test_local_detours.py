@@ -7,13 +7,18 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import pytest
 import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
+from viaspline.mission.spline_spec import SplineSpec
+from viaspline.planning import replan
+from viaspline.planning.problem.requirements import Requirements
 
 NEAR_M = 1.0
+TAUT = SplineSpec(tension=0.0)
 ROBOT = {"radius_m": 1.0, "clearance_m": 1.0, "max_speed_mps": 3.0, "max_accel_mps2": 0.5,
          "max_lateral_accel_mps2": 0.5}  # fmt: skip
 
@@ -132,8 +137,70 @@ def test_islands_too_near_to_each_other_are_gone_round_as_one() -> None:
     assert np.abs(at[at[:, 0] < 130, 1]).max() < 0.5
 
 
+@pytest.mark.parametrize("length", [300.0, 600.0])
+def test_a_lane_is_kept_unless_it_is_short_beside_what_stands_in_it(length: float) -> None:
+    disc = [{"circle": {"center": [length / 2, 1], "radius": 20}}]
+    ends = ((0, 0), (length, 0))
+    given, local, short = (
+        vs.plan(mission(ends, disc, **route)).path.length
+        for route in ({}, {"detours": "local"}, {"detours": "short"})
+    )
+    assert short < local
+    assert given == (local if length > 10 * 40 else short)
+
+
+def test_the_shortest_way_is_taken_where_length_is_what_counts() -> None:
+    disc = [{"circle": {"center": [300, 1], "radius": 5}}]
+    ends = ((0, 0), (600, 0))
+    given, short = (
+        vs.plan(mission(ends, disc, optimise="length", **route)).path.length
+        for route in ({}, {"detours": "short"})
+    )
+    assert given == short
+    assert shares(vs.plan(mission(ends, disc, optimise="length", detours="local")).path)[0][0] > 0.9
+
+
+def test_where_a_tension_is_stated_a_blocked_leg_keeps_its_lane_and_a_free_one_is_the_spline() -> (
+    None
+):
+    disc = [{"circle": {"center": [300, 1], "radius": 5}}]
+    places = ((0, 0), (600, 0), (1200, 60), (1800, 0))
+    free, bent = (
+        vs.plan(mission(places, known).model_copy(update={"spline": TAUT})).path
+        for known in ([], disc)
+    )
+    assert shares(bent)[0][0] > 0.9
+    np.testing.assert_array_equal(bent.spans[-1], free.spans[-1])
+    assert np.abs(bent.curvature(np.linspace(bent.vias[-2].u, bent.domain[1], 99))).max() > 1e-4
+
+
+@pytest.mark.parametrize("detours", [None, "local"])
+@pytest.mark.parametrize("mode", [replan.planned, replan.from_rest])
+def test_a_path_that_is_laid_anew_beside_its_lane_gets_back_to_it_where_nothing_stands_ahead(
+    mode: Any, detours: Any
+) -> None:
+    disc = [{"circle": {"center": [150, 1], "radius": 5}}]
+    asked = mission(((0, 0), (300, 0)), disc, detours=detours)
+    plan = vs.plan(asked)
+    at = next(s for s in np.arange(150.0, 170.0, 0.5) if plan.path.at_distance(s)[0] > 151.0)
+    assert abs(plan.path.at_distance(at)[1]) > 5.0
+    new = mode(plan.path, at, plan.world, Requirements.of(asked)).path
+    beyond = new.at_distance(np.linspace(at, new.length, 2000))
+    off = beyond[np.abs(beyond[:, 1]) > NEAR_M, 0]
+    assert off.max() < 200.0
+
+
+def test_a_lane_that_is_short_beside_what_has_been_passed_is_not_gone_back_to() -> None:
+    disc = [{"circle": {"center": [150, 1], "radius": 20}}]
+    asked = mission(((0, 0), (300, 0)), disc)
+    plan = vs.plan(asked)
+    at = next(s for s in np.arange(150.0, 200.0, 0.5) if plan.path.at_distance(s)[0] > 165.0)
+    new = replan.planned(plan.path, at, plan.world, Requirements.of(asked)).path
+    assert new.length < plan.path.length + 0.5
+
+
 def test_a_path_on_which_the_robot_goes_round_something_new_gets_back_to_its_lane() -> None:
-    asked = mission(((0, 0), (300, 0)), [], detours="local").model_dump(exclude_unset=True)
+    asked = mission(((0, 0), (300, 0)), []).model_dump(exclude_unset=True)
     asked["world"]["unseen"] = [{"circle": {"center": [150, 1], "radius": 5}}]
     asked["robot"]["sensor"] = {"range_m": 60}
     run = vs.simulate(vs.Mission.model_validate(asked))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,9 +12,10 @@ from hypothesis import strategies as st
 
 from viaspline.mission.model import Mission
 from viaspline.planner import plan
-from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule
-from viaspline.robot.navigation.track_path import project, track
+from viaspline.robot.navigation.track_path import beyond_corner, project, track
+from viaspline.robot.simulator import simulate
 from viaspline.robot.state import RobotState
 
 MISSION = Mission.model_validate(
@@ -73,3 +75,29 @@ def test_progress_never_goes_back(schedule: Schedule) -> None:
     measured = RobotState(schedule.place(should - 5.0), 0.0, 2.0)
     progress, _ = track(Progress(time=8.9, distance=should - 1.0), schedule, measured, 9.0)
     assert progress.distance == pytest.approx(should - 1.0, abs=1e-5)
+
+
+def test_a_robot_at_a_corner_is_beyond_it(schedule: Schedule) -> None:
+    """Before it, it looked the way that it came, and waited for ever to have turned."""
+    corner = replace(schedule, turns=(2.0,))
+    for distance in (2.0 - SAME_PLACE_M, 2.0, 2.0 + SAME_PLACE_M):
+        beyond = beyond_corner(corner, distance)
+        assert 2.0 < beyond <= 2.0 + SAME_PLACE_M
+        assert beyond >= distance
+    for distance in (1.9, 2.1):
+        assert beyond_corner(corner, distance) == distance
+
+
+def test_a_robot_that_rolls_on_at_every_stop_goes_on_from_where_it_is() -> None:
+    """By a narrow lidar it goes on in small steps, and each had brought it a little farther."""
+    wheels = {"differential": {"track_m": 0.4}, "delay_s": 0.1, "lag_s": 0.1}
+    robot = {
+        "radius_m": 0.3, "clearance_m": 0.1, "max_speed_mps": 1.5, "drive": wheels,
+        "sensor": {"lidar": {"range_m": 4, "fov_deg": 120}},
+    }  # fmt: skip
+    route = {"start": {"at": [0, 0], "heading_deg": 0}, "goal": [3, 0]}
+    run = simulate(Mission.model_validate({"robot": robot, "route": route}))
+    stops = np.flatnonzero(np.diff((run.speeds > 0.02).astype(int)) == -1)
+    assert run.reached
+    assert len(stops) > 2
+    assert not run.excesses

@@ -12,7 +12,12 @@ import pytest
 from viaspline.mission.model import Mission
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.replanning import deadline
-from viaspline.robot.replanning.deadline import MAX_STANDING_WORK_S, STEP_WORK_S
+from viaspline.robot.replanning.deadline import (
+    MAX_STANDING_WORK_S,
+    STEP_WORK_S,
+    with_time_to_search,
+)
+from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.simulator import simulate
 
 Make = Callable[..., Mission]
@@ -125,3 +130,25 @@ def test_who_has_tried_all_that_he_has_time_for_goes_on_for_a_while_before_he_tr
     far = [bool(nav.compute_times) for nav in navs if nav.searches and nav.distance < 45.0]
     assert 0 < far.count(True) < 0.4 * len(far)
     assert navs[-1].reached
+
+
+def test_a_robot_with_a_drive_searches_no_longer_than_until_its_next_command(
+    mission_of: Make,
+) -> None:
+    """What it was told in a bend led it off its path while it went on by that for longer."""
+    wheels = {"differential": {"track_m": 0.5}, "delay_s": 0.1, "lag_s": 0.1}
+    limits = []
+
+    def pace(nav: Navigator) -> float:
+        state = nav._state
+        context = ReplanContext.of(nav._task, state.progress, state.knowledge, state.schedule)
+        if context.speed > 0.0:
+            budget = with_time_to_search(context).requirements.budget
+            assert budget is not None
+            limits.append(budget.limit)
+        return nav.work
+
+    for step in (STEP, 0.02):
+        limits.clear()
+        simulate(mission_of([0, 0], [9, 0], drive=wheels), pace=pace, step=step)
+        assert max(limits) == pytest.approx(step)

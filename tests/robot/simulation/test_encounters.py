@@ -10,7 +10,7 @@ import pytest
 import viaspline as vs
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.robot.simulation.encounters import DrivenMotion, encounters, touched_by
+from viaspline.robot.simulation.encounters import DrivenStates, encounters, touched_by
 from viaspline.world.moving_obstacles import MovingObstacles
 
 ROBOT = RobotSpec(radius_m=0.5)
@@ -22,12 +22,12 @@ def cart(velocity: tuple[float, float], start: tuple[float, float]) -> MovingObs
     return MovingObstacles([Obstacle.model_validate(data)])
 
 
-def straight(speed: float, seconds: float) -> DrivenMotion:
+def straight(speed: float, seconds: float) -> DrivenStates:
     def state_at(times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         places = np.column_stack((speed * times, np.zeros_like(times)))
         return places, np.full(times.shape, speed)
 
-    return DrivenMotion(0.0, seconds, state_at)
+    return DrivenStates(0.0, seconds, state_at)
 
 
 def test_the_clearance_is_proven_and_near_the_true_one() -> None:

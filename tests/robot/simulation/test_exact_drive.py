@@ -73,6 +73,21 @@ def test_a_long_body_touches_what_its_outline_touches_and_not_its_outer_disc(
     assert 0.1 <= run.certificate.clearance < 0.4
 
 
+def test_a_long_body_that_turns_on_the_spot_touches_what_its_corners_pass(
+    mission_of: Make, disc_at: Shape
+) -> None:
+    plank = [(-0.2, -0.2), (1.5, -0.2), (1.5, 0.2), (-0.2, 0.2)]
+    robot = {"footprint": plank, "clearance_m": 0.1, "sensor": {"range_m": 5}}
+    route = {"start": [0, 0], "via": [[5, 0]], "goal": [5, 5]}
+    mission = Mission.model_validate({"robot": robot, "route": route, "spline": {"tension": 1}})
+    assert simulate(mission).reached
+    post = Obstacle(circle=Circle(center=(5.9, 0.9), radius=0.1), name="post")
+    blind = mission.robot.model_copy(update={"sensor": None})
+    world = mission.world.model_copy(update={"unseen": (post,)})
+    run = simulate(mission.model_copy(update={"robot": blind, "world": world}))
+    assert run.reason == "the robot touched 'post'"
+
+
 def test_a_robot_that_thinks_for_long_goes_on_by_its_old_path_meanwhile(mission_of: Make) -> None:
     """Two rocks: the second comes in sight while the robot still searches a way round the first."""
     rocks = [Circle(center=(x, 0.5), radius=1.5) for x in (30, 36)]

@@ -185,6 +185,15 @@ def third_derivative(spans: Floats, k: int, axis: int) -> float:
     return float(6.0 * ((third - second) - (second - first)))
 
 
+@inner
+def speed_at(spans: Floats, k: int, w: float) -> float:
+    """|P'(w)| on span k [m per unit of the parameter]."""
+    squared = 0.0
+    for axis in range(spans.shape[2]):
+        squared += first_derivative(spans, k, axis, w) ** 2
+    return math.sqrt(squared)
+
+
 @kernel
 def speed_bound(spans: Floats, k: int) -> float:
     """Upper bound of |P'(w)| on span k: the longest control vector of the derivative [m]."""

@@ -13,13 +13,18 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve.cubic import first_derivative, speed_bound
-from viaspline.kernels.curve.extrema import MAX_ROOT_DEPTH, curvature_slope, roots
+from viaspline.kernels.curve.cubic import speed_at, speed_bound
+from viaspline.kernels.curve.curvature_extrema import (
+    MAX_EXTREMA,
+    ExtremaRoom,
+    curvature_extrema,
+    extrema_room,
+)
 from viaspline.kernels.curve.frenet import curvature_at, direction_at
 from viaspline.kernels.jit import inner, kernel
 
-MAX_NODES = 34
-"""Of a span: its ends, and every root of a polynomial of degree 7 and of one of degree 3."""
+MAX_NODES = 2 + MAX_EXTREMA
+"""Of a span: its ends, and where its curvature may be the largest."""
 
 CROSSING_HALVINGS = 40
 AT, VALUE, OF = 0, 1, 2
@@ -27,21 +32,6 @@ FIRST, LAST, PEAK, TURN = 0, 1, 2, 3
 
 SMOOTH_RAD = 0.02
 """A tangent that jumps by less is steered away."""
-
-
-@inner
-def _slowest(spans: Floats, k: int, out: Floats) -> None:
-    """Bernstein coefficients (4,) of P' . P'', whose roots are where the speed is stationary."""
-    for j in range(4):
-        out[j] = 0.0
-    for axis in range(spans.shape[2]):
-        a = spans[k, 1, axis] - spans[k, 0, axis]
-        b = spans[k, 2, axis] - spans[k, 1, axis]
-        c = spans[k, 3, axis] - spans[k, 2, axis]
-        out[0] += a * (b - a)
-        out[1] += (a * (c - b) + 2.0 * b * (b - a)) / 3.0
-        out[2] += (c * (b - a) + 2.0 * b * (c - b)) / 3.0
-        out[3] += c * (c - b)
 
 
 @inner
@@ -56,19 +46,11 @@ def _sort(values: Floats, count: int) -> None:
 
 
 @inner
-def _nodes_of(
-    spans: Floats, k: int, slope: Floats, speed: Floats, stack: Floats, other: Floats, out: Floats
-) -> int:
+def _nodes_of(spans: Floats, k: int, room: ExtremaRoom, out: Floats) -> int:
     """Parameters of the nodes of a span, in order; how many there are."""
     out[0] = 0.0
     out[1] = 1.0
-    count = 2
-    scale = speed_bound(spans, k)
-    if scale > 0.0 and spans.shape[2] > 1:
-        curvature_slope(spans, k, scale, slope)
-        count += roots(slope, stack, out[count : MAX_NODES - 8])
-        _slowest(spans, k, speed)
-        count += roots(speed, other, out[count:MAX_NODES])
+    count = 2 + curvature_extrema(spans, k, room, out[2:MAX_NODES])
     _sort(out, count)
     return count
 
@@ -87,12 +69,11 @@ def curvature_profile(spans: Floats) -> Floats:
     """
     count = spans.shape[0]
     rows = np.empty((MAX_NODES * count, 3))
-    slope, speed = np.empty(8), np.empty(4)
-    stack, other = np.empty((MAX_ROOT_DEPTH, 10)), np.empty((MAX_ROOT_DEPTH, 6))
+    room = extrema_room()
     w = np.empty(MAX_NODES)
     size = 0
     for k in range(count):
-        for i in range(_nodes_of(spans, k, slope, speed, stack, other, w)):
+        for i in range(_nodes_of(spans, k, room, w)):
             rows[size, AT] = k + w[i]
             rows[size, VALUE] = curvature_at(spans, k, w[i])
             rows[size, OF] = k
@@ -116,10 +97,7 @@ def _crossing(spans: Floats, k: int, low: float, high: float, limit: float) -> f
 def _tangent(spans: Floats, k: int, w: float, before: bool, out: Floats) -> None:
     """Unit tangent at w, at a cusp that just before or just after it."""
     direction_at(spans, k, w, out)
-    still = 0.0
-    for axis in range(spans.shape[2]):
-        still += first_derivative(spans, k, axis, w) ** 2
-    if before and w < 1.0 and math.sqrt(still) <= 1e-13 * speed_bound(spans, k):
+    if before and w < 1.0 and speed_at(spans, k, w) <= 1e-13 * speed_bound(spans, k):
         for axis in range(spans.shape[2]):
             out[axis] = -out[axis]
 

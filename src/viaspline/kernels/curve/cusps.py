@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve.cubic import first_derivative, speed_bound
+from viaspline.kernels.curve.cubic import first_derivative, speed_at, speed_bound
 from viaspline.kernels.jit import inner, kernel
 
 STANDSTILL = 1e-9
@@ -24,15 +24,15 @@ SAME_CUSP = 1e-6
 
 
 @inner
-def _turns_back(spans: Floats, k: int, w: float, small: float) -> bool:
+def turns_back(spans: Floats, k: int, w: float) -> bool:
     """Whether the derivative is zero there and opposite a little before and a little after."""
-    here = 0.0
+    if speed_at(spans, k, w) > STANDSTILL * speed_bound(spans, k):
+        return False
     across = 0.0
     for axis in range(spans.shape[2]):
-        here += first_derivative(spans, k, axis, w) ** 2
         before = first_derivative(spans, k, axis, w - SAME_CUSP)
         across += before * first_derivative(spans, k, axis, w + SAME_CUSP)
-    return math.sqrt(here) <= small and across < 0.0
+    return across < 0.0
 
 
 @inner
@@ -69,14 +69,13 @@ def cusps(spans: Floats) -> Floats:
     total = 0
     roots = np.empty(2)
     for k in range(count):
-        scale = speed_bound(spans, k)
         first = total
         for axis in range(spans.shape[2]):
             for i in range(_roots_of_axis(spans, k, axis, roots)):
                 w = roots[i]
                 if not SAME_CUSP < w < 1.0 - SAME_CUSP:
                     continue
-                if not _turns_back(spans, k, w, STANDSTILL * scale):
+                if not turns_back(spans, k, w):
                     continue
                 known = False
                 for j in range(first, total):

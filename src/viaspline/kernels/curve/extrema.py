@@ -1,6 +1,6 @@
-"""Exact extrema on piecewise cubics: the nearest point and the sharpest curvature.
+"""Roots of polynomials in Bernstein form, and by them the nearest point of a piecewise cubic.
 
-Both are roots of a polynomial in Bernstein form. Where the signs of its coefficients don't change
+ Where the signs of its coefficients don't change
 there is no root; elsewhere it is halved. So every candidate is found, none by luck of a sample.
 
 Polynomials are kept in the scaled form ``sum a_i v^(n-i) w^i`` with v = 1 - w, in which a product
@@ -14,8 +14,6 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve.cubic import speed_bound
-from viaspline.kernels.curve.frenet import curvature_at
 from viaspline.kernels.jit import inner, kernel
 
 MIN_BRACKET = 2.0**-26
@@ -23,7 +21,7 @@ MAX_ROOT_DEPTH = 32
 
 
 @inner
-def _add_product(a: Floats, b: Floats, factor: float, out: Floats) -> None:
+def add_product(a: Floats, b: Floats, factor: float, out: Floats) -> None:
     """Add ``factor * a * b`` to ``out``; all in the scaled form."""
     for i in range(a.shape[0]):
         for j in range(b.shape[0]):
@@ -31,7 +29,7 @@ def _add_product(a: Floats, b: Floats, factor: float, out: Floats) -> None:
 
 
 @inner
-def _slope(a: Floats, out: Floats) -> None:
+def slope_of(a: Floats, out: Floats) -> None:
     """Derivative in the scaled form."""
     degree = a.shape[0] - 1
     for i in range(degree):
@@ -39,7 +37,7 @@ def _slope(a: Floats, out: Floats) -> None:
 
 
 @inner
-def _to_bernstein(a: Floats) -> None:
+def to_bernstein(a: Floats) -> None:
     """From the scaled form to Bernstein coefficients, in place."""
     degree = a.shape[0] - 1
     binomial = 1.0
@@ -207,78 +205,11 @@ def nearest_parameter(
                 position[j] = control[j, axis] * (3.0 if 0 < j < 3 else 1.0)
             for j in range(3):
                 velocity[j] = (control[j + 1, axis] - control[j, axis]) * (2.0 if j == 1 else 1.0)
-            _add_product(position, velocity, 1.0, product)
-        _to_bernstein(product)
+            add_product(position, velocity, 1.0, product)
+        to_bernstein(product)
         for i in range(roots(product, stack, found)):
             w = min(max(_polished(control, found[i]), start - k), end - k)
             here = _squared(control, w)
             if here < best or (here == best and k + w < at):
                 best, at = here, k + w
     return at, math.sqrt(best)
-
-
-@inner
-def curvature_slope(spans: Floats, k: int, scale: float, out: Floats) -> None:
-    """Bernstein coefficients of Y' q - 3 Y q', whose sign is that of the slope of curvature.
-
-    With Y = |P' x P''|^2 and q = |P'|^2 curvature squared is Y / q^3. With the differences d of
-    the control points, P' x P'' = 18 (v^2 d0 x d1 + v w d0 x d2 + w^2 d1 x d2).
-    """
-    dimension = spans.shape[2]
-    step = np.empty((3, dimension))
-    for j in range(3):
-        for axis in range(dimension):
-            step[j, axis] = 3.0 * (spans[k, j + 1, axis] - spans[k, j, axis]) / scale
-    q = np.zeros(5)
-    y = np.zeros(5)
-    factor = np.empty(3)
-    for i in range(dimension):
-        factor[0] = step[0, i]
-        factor[1] = 2.0 * step[1, i]
-        factor[2] = step[2, i]
-        _add_product(factor, factor, 1.0, q)
-        for j in range(i):
-            factor[0] = step[0, i] * step[1, j] - step[0, j] * step[1, i]
-            factor[1] = step[0, i] * step[2, j] - step[0, j] * step[2, i]
-            factor[2] = step[1, i] * step[2, j] - step[1, j] * step[2, i]
-            _add_product(factor, factor, 1.0, y)
-    slope = np.empty(4)
-    for j in range(8):
-        out[j] = 0.0
-    _slope(y, slope)
-    _add_product(slope, q, 1.0, out)
-    _slope(q, slope)
-    _add_product(y, slope, -3.0, out)
-    _to_bernstein(out)
-
-
-@kernel
-def sharpest(spans: Floats) -> tuple[float, int, float]:
-    """The largest curvature of a piecewise cubic, both sides of every joint included.
-
-    Args:
-        spans: (m, 4, d) [m].
-
-    Returns:
-        (curvature without sign [1/m], span, w); the first of several.
-    """
-    stack = np.empty((MAX_ROOT_DEPTH, 10))
-    found = np.empty(56)
-    slope = np.empty(8)
-    largest = -1.0
-    span_at = 0
-    w_at = 0.0
-    for k in range(spans.shape[0]):
-        candidates = 1
-        found[0] = 0.0
-        scale = speed_bound(spans, k)
-        if scale > 0.0 and spans.shape[2] > 1:
-            curvature_slope(spans, k, scale, slope)
-            candidates = 1 + roots(slope, stack, found[1:55])
-            found[candidates] = 1.0
-            candidates += 1
-        for i in range(candidates):
-            value = abs(curvature_at(spans, k, found[i]))
-            if value > largest:
-                largest, span_at, w_at = value, k, found[i]
-    return largest, span_at, w_at

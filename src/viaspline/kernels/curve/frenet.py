@@ -21,6 +21,8 @@ from viaspline.kernels.curve.cubic import (
 from viaspline.kernels.jit import inner, kernel
 
 REST_ROUNDING = 2e-15
+NEARLY_STILL = 1e-2
+"""Slower than this share of a span's largest speed, the rounding of its coordinates turns it."""
 
 
 @kernel
@@ -60,9 +62,20 @@ def curvature_at(spans: Floats, k: int, w: float) -> float:
         across += (b - ab / aa * a) ** 2
     if dimension > 2:
         area = math.sqrt(across) * speed
-    if abs(area) <= REST_ROUNDING * scale * (speed + math.sqrt(bb)):
+    size = scale if speed > NEARLY_STILL * scale else max(scale, _extent(spans, k))
+    if abs(area) <= REST_ROUNDING * size * (speed + math.sqrt(bb)):
         return 0.0
     return area / (aa * speed)
+
+
+@inner
+def _extent(spans: Floats, k: int) -> float:
+    """The largest coordinate of a span [m]."""
+    largest = 0.0
+    for j in range(4):
+        for axis in range(spans.shape[2]):
+            largest = max(largest, abs(spans[k, j, axis]))
+    return largest
 
 
 @inner

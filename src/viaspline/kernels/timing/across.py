@@ -9,13 +9,12 @@ Tested through ``machine/test_drivability``.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.curve.cubic import first_derivative
+from viaspline.kernels.curve.cubic import speed_at
 from viaspline.kernels.curve.frenet import curvature_at
+from viaspline.kernels.curve.piece_bounds import shape_bounds, velocity_polygon
 from viaspline.kernels.jit import inner, kernel
 
 ACROSS_TOLERANCE = 1e-4
@@ -33,32 +32,9 @@ _GAUSS_WEIGHT = np.array([5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0])
 @inner
 def _curvature_bound(spans: Floats, k: int, a: float, b: float, r: Floats) -> float:
     """No curvature on [a, b] of a span is larger; infinite where the curve may stand still."""
-    d = spans.shape[2]
-    for j in range(d):
-        x0 = spans[k, 1, j] - spans[k, 0, j]
-        x1 = spans[k, 2, j] - spans[k, 1, j]
-        x2 = spans[k, 3, j] - spans[k, 2, j]
-        p, q = x0 + a * (x1 - x0), x1 + a * (x2 - x1)
-        r[0, j], r[1, j] = 3.0 * (p + a * (q - p)), 3.0 * (p + b * (q - p))
-        p, q = x0 + b * (x1 - x0), x1 + b * (x2 - x1)
-        r[2, j] = 3.0 * (p + b * (q - p))
-    g0, g01, g02, g11, g12, g2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    w0, w1, w2 = 0.0, 0.0, 0.0
-    for j in range(d):
-        g0 += r[0, j] * r[0, j]
-        g01 += r[0, j] * r[1, j]
-        g02 += r[0, j] * r[2, j]
-        g11 += r[1, j] * r[1, j]
-        g12 += r[1, j] * r[2, j]
-        g2 += r[2, j] * r[2, j]
-        for i in range(j):
-            w0 += (r[0, i] * r[1, j] - r[0, j] * r[1, i]) ** 2
-            w1 += (r[0, i] * r[2, j] - r[0, j] * r[2, i]) ** 2
-            w2 += (r[1, i] * r[2, j] - r[1, j] * r[2, i]) ** 2
-    low = min(g0, g01, (g02 + 2.0 * g11) / 3.0, g12, g2)
-    if low <= 0.0:
-        return np.inf
-    return math.sqrt(max(4.0 * w0, w1, 4.0 * w2)) / ((b - a) * low * math.sqrt(low))
+    velocity_polygon(spans, k, a, b, r)
+    _, _, bound, _, _ = shape_bounds(r, b - a)
+    return bound
 
 
 @inner
@@ -66,10 +42,7 @@ def _length(spans: Floats, k: int, a: float, b: float) -> float:
     total = 0.0
     for i in range(3):
         w = a + (b - a) * _GAUSS_AT[i]
-        square = 0.0
-        for axis in range(spans.shape[2]):
-            square += first_derivative(spans, k, axis, w) ** 2
-        total += _GAUSS_WEIGHT[i] * math.sqrt(square)
+        total += _GAUSS_WEIGHT[i] * speed_at(spans, k, w)
     return (b - a) * total
 
 

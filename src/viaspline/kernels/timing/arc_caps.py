@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.curve.straight_span import runs_straight, span_rounding
 from viaspline.kernels.jit import inner, kernel
 
 _GAUSS_AT = np.array([-0.906179845938664, -0.5384693101056831, 0.0,
@@ -49,15 +50,6 @@ def _restrict(q: Floats, a: float, b: float, r: Floats) -> None:
 @inner
 def _cubed(square: float) -> float:
     return float(square * np.sqrt(square))
-
-
-@inner
-def _largest(values: Floats) -> float:
-    largest = 0.0
-    for row in range(values.shape[0]):
-        for j in range(values.shape[1]):
-            largest = max(largest, abs(values[row, j]))
-    return largest
 
 
 @inner
@@ -106,18 +98,6 @@ def _arc_length(q: Floats, a: float, b: float) -> float:
             square += v * v
         total += _GAUSS_WEIGHT[k] * np.sqrt(square)
     return half * total
-
-
-@inner
-def _runs_on(q: Floats) -> bool:
-    """Whether no two control vectors of a derivative point apart: a straight span doesn't turn."""
-    for k in range(3):
-        along = 0.0
-        for j in range(q.shape[1]):
-            along += q[k, j] * q[(k + 1) % 3, j]
-        if along < 0.0:
-            return False
-    return True
 
 
 @inner
@@ -257,12 +237,11 @@ def bend_caps(
         if length <= 0.0:
             continue
         _hodograph(spans[i], q)
-        noise = 2.0**-46 * (_largest(spans[i]) + _largest(q))
+        noise = span_rounding(spans, i)
         handle = _end_tangent(spans[i], False, after)
         rests[count] |= count > 0 and _turns(before, after, noise / handle)
         _end_tangent(spans[i], True, before)
-        bend = max(_wedge(q[0], q[1]), _wedge(q[0], q[2]), _wedge(q[1], q[2]))
-        is_straight = bend <= noise * _largest(q) and _runs_on(q)
+        is_straight = runs_straight(spans, i, noise)
         first, summed = count, 0.0
         stack[0, 0], stack[0, 1] = 0.0, 1.0
         depth = 1

@@ -8,8 +8,9 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.curve.piece_bounds import velocity_polygon
 from viaspline.kernels.jit import inlined, kernel
-from viaspline.kernels.timing.cut_cells import FIRST, LAST, NOISE, SPAN, STRAIGHT, velocity
+from viaspline.kernels.timing.cut_cells import FIRST, LAST, NOISE, SPAN, STRAIGHT
 
 _GAUSS = np.array([[0.05635083268962915, 5 / 36], [0.25, 8 / 36], [0.44364916731037085, 5 / 36]])
 """Places and weights for the first half of [0, 1]; the second one mirrors them."""
@@ -109,7 +110,7 @@ def fill_cells(
     now = -1
     for i in range(n):
         span, a, b = int(rows[i, SPAN]), rows[i, FIRST], rows[i, LAST]
-        velocity(spans, span, a, b, r)
+        velocity_polygon(spans, span, a, b, r)
         straight = rows[i, STRAIGHT] > 0.0
         handle = _straight_frame(spans, span, at) if straight else _frame(r, 0.0, b - a, at)
         if span != now:

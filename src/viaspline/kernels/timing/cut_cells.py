@@ -11,6 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.curve.piece_bounds import shape_bounds, velocity_polygon
+from viaspline.kernels.curve.straight_span import runs_straight, span_rounding
 from viaspline.kernels.jit import inlined, kernel
 
 _QUADRATIC = 0.00802
@@ -35,78 +37,6 @@ def _bounds(k: float, t: float, c: float) -> tuple[float, float]:
     k3 += 3.0 * (t2 * k + t1 * k1) + 3.0 * (t1 * k1 + t * k2)
     k3 += 2.0 * (k1 * k1 + k * k2) + 4.0 * kk1 * k + k * k * k1
     return k2, k3
-
-
-@inlined
-def _shape_bounds(r: Floats, width: float) -> tuple[float, float, float, float, float]:
-    """Least and largest |q'| where q' has the control vectors r; bounds of κ, |τ| and |p_3|.
-
-    |q'|² has the Bernstein coefficients g; a polynomial lies between the least and the largest.
-    """
-    g0, g01, g02, g11, g12, g2, third = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    w0, w1, w2 = 0.0, 0.0, 0.0
-    d = r.shape[1]
-    for i in range(d):
-        g0 += r[0, i] * r[0, i]
-        g01 += r[0, i] * r[1, i]
-        g02 += r[0, i] * r[2, i]
-        g11 += r[1, i] * r[1, i]
-        g12 += r[1, i] * r[2, i]
-        g2 += r[2, i] * r[2, i]
-        third += (r[2, i] - 2.0 * r[1, i] + r[0, i]) ** 2
-        for j in range(i + 1, d):
-            w0 += (r[0, i] * r[1, j] - r[0, j] * r[1, i]) ** 2
-            w1 += (r[0, i] * r[2, j] - r[0, j] * r[2, i]) ** 2
-            w2 += (r[1, i] * r[2, j] - r[1, j] * r[2, i]) ** 2
-    mid = (g02 + 2.0 * g11) / 3.0
-    low, high = min(g0, g01, mid, g12, g2), max(g0, g01, mid, g12, g2)
-    if low <= 0.0:
-        return 0.0, np.sqrt(high), np.inf, np.inf, np.inf
-    over = 1.0 / (low * np.sqrt(low))
-    k = np.sqrt(max(4.0 * w0, w1, 4.0 * w2)) / width * over
-    t = max(abs(g01 - g0), abs(mid - g01), abs(g12 - mid), abs(g2 - g12)) * 2.0 / width * over
-    c = 2.0 * np.sqrt(third) / (width * width) * over
-    return np.sqrt(low), np.sqrt(high), k, t, c
-
-
-@inlined
-def velocity(spans: Floats, i: int, a: float, b: float, r: Floats) -> None:
-    """Control vectors of the derivative of span i on [a, b] of its parameter."""
-    for j in range(spans.shape[2]):
-        x0 = 3.0 * (spans[i, 1, j] - spans[i, 0, j])
-        x1 = 3.0 * (spans[i, 2, j] - spans[i, 1, j])
-        x2 = 3.0 * (spans[i, 3, j] - spans[i, 2, j])
-        p, q = x0 + a * (x1 - x0), x1 + a * (x2 - x1)
-        r[0, j], r[1, j] = p + a * (q - p), p + b * (q - p)
-        p, q = x0 + b * (x1 - x0), x1 + b * (x2 - x1)
-        r[2, j] = p + b * (q - p)
-
-
-@inlined
-def _size(spans: Floats, i: int) -> tuple[float, bool]:
-    """What rounding does to the derivative of a span, and whether it runs straight ahead."""
-    largest, longest, chord = 0.0, 0.0, 0.0
-    for j in range(spans.shape[2]):
-        chord += (spans[i, 3, j] - spans[i, 0, j]) ** 2
-        for k in range(4):
-            largest = max(largest, abs(spans[i, k, j]))
-            if k < 3:
-                longest = max(longest, abs(3.0 * (spans[i, k + 1, j] - spans[i, k, j])))
-    noise = 2.0**-46 * (largest + longest)
-    straight, last = True, 0.0
-    for k in range(1, 4):
-        if not straight:
-            break
-        along, across = 0.0, 0.0
-        for j in range(spans.shape[2]):
-            along += (spans[i, k, j] - spans[i, 0, j]) * (spans[i, 3, j] - spans[i, 0, j])
-        share = along / (chord + 1e-300)
-        for j in range(spans.shape[2]):
-            ideal = share * (spans[i, 3, j] - spans[i, 0, j])
-            across = max(across, abs(spans[i, k, j] - spans[i, 0, j] - ideal))
-        straight &= across <= noise and along >= last
-        last = along
-    return (noise if longest > 0.0 else -1.0), straight and chord > 0.0
 
 
 @kernel
@@ -137,15 +67,16 @@ def cut_cells(
     r, stack = np.empty((3, d)), np.empty((64, 2))
     count = 0
     for i in range(m):
-        noise, straight = _size(spans, i)
+        noise = span_rounding(spans, i)
+        straight = runs_straight(spans, i, noise)
         depth = 1 if noise >= 0.0 else 0
         stack[0, 0], stack[0, 1] = 0.0, 1.0
         while depth > 0:
             depth -= 1
             a, b = stack[depth, 0], stack[depth, 1]
             width = b - a
-            velocity(spans, i, a, b, r)
-            low, high, k, t, c = _shape_bounds(r, width)
+            velocity_polygon(spans, i, a, b, r)
+            low, high, k, t, c = shape_bounds(r, width)
             h = high * width
             fine, miss_t, miss_k, miss_y, miss_z = False, 0.0, 0.0, 0.0, 0.0
             if straight:

@@ -13,26 +13,25 @@ import math
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.curve.cubic import first_derivative, second_derivative
 from viaspline.kernels.jit import inner, kernel
 
 PLACES_PER_SPAN = 6
 
 
 @inner
-def _place(span: Floats, u: float, velocity: Floats, bend: Floats) -> tuple[float, float]:
+def _place(spans: Floats, k: int, w: float, velocity: Floats, bend: Floats) -> tuple[float, float]:
     """Speed of the parametrisation and curvature at a parameter of a span."""
-    v = 1.0 - u
     square = 0.0
-    for j in range(span.shape[1]):
-        a, b, c = span[1, j] - span[0, j], span[2, j] - span[1, j], span[3, j] - span[2, j]
-        velocity[j] = 3.0 * (v * v * a + 2.0 * u * v * b + u * u * c)
-        bend[j] = 6.0 * (v * (b - a) + u * (c - b))
+    for j in range(spans.shape[2]):
+        velocity[j] = first_derivative(spans, k, j, w)
+        bend[j] = second_derivative(spans, k, j, w)
         square += velocity[j] * velocity[j]
     cross = 0.0
-    for i in range(span.shape[1]):
-        for j in range(i + 1, span.shape[1]):
-            w = velocity[i] * bend[j] - velocity[j] * bend[i]
-            cross += w * w
+    for i in range(spans.shape[2]):
+        for j in range(i + 1, spans.shape[2]):
+            area = velocity[i] * bend[j] - velocity[j] * bend[i]
+            cross += area * area
     speed = math.sqrt(square)
     if speed <= 0.0:
         return 0.0, np.inf
@@ -76,7 +75,7 @@ def path_time(
     velocity, bend = np.empty(d), np.empty(d)
     for k in range(count):
         i, place = k // PLACES_PER_SPAN, (k % PLACES_PER_SPAN + 0.5) / PLACES_PER_SPAN
-        speed, curvature = _place(spans[i], place, velocity, bend)
+        speed, curvature = _place(spans, i, place, velocity, bend)
         steps[k] = speed / PLACES_PER_SPAN
         caps[k] = top * top
         if curvature > 0.0:

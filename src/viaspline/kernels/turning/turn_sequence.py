@@ -30,6 +30,7 @@ X, Y, KEPT, SIDE, HEADING, RADIUS = range(6)
 FINE, NO_TANGENT, NO_ROOM, RESTLESS, LEFT_OUT = range(5)
 MAX_HEADING_ROUNDS = 400
 SETTLED_RAD = 1e-13  # change of a heading in the last round [rad]
+HOPELESS_ROUNDS = 40  # in which the least change isn't halved: they go round and round
 ACCELERATED_RAD = 0.05  # change of a heading from which on the next changes are foreseen [rad]
 MAX_OVERSHOOT = 20.0  # of such a change
 GENTLE_TURN_RAD = 1.2  # turns up to this are reckoned from where their lines meet [rad]
@@ -163,7 +164,12 @@ def _relaxed(
     count = bends.shape[0]
     last = count if closed else count - 1
     came_from, steps, steps_before = lines.copy(), np.zeros(last), np.zeros(last)
+    moved, least, least_before = 0.0, math.inf, math.inf
     for round_ in range(MAX_HEADING_ROUNDS):
+        if round_ % HOPELESS_ROUNDS == 0 and round_ > 0:
+            if least > 0.5 * least_before:
+                break
+            least, least_before = math.inf, least
         moved = 0.0
         for k in range(last):
             line = _line(circles, k, (k + 1) % count)
@@ -171,6 +177,7 @@ def _relaxed(
                 return _failed(bends, closed, turns, NO_TANGENT, k)
             steps_before[k], steps[k] = steps[k], _wrapped(line, lines[k]) - lines[k]
             moved = max(moved, abs(steps[k]))
+        least = min(least, moved)
         share = _overshoot(steps, steps_before) if round_ > 1 and moved < ACCELERATED_RAD else 0.0
         for k in range(last):
             here, line = lines[k], lines[k] + steps[k]
@@ -192,7 +199,9 @@ def _relaxed(
             turns[k] = _turn_at(bends[k], before, after, turns[k])
             middle = before + 0.5 * turns[k] if kind >= 0 else after - 0.5 * turns[k]
             _settle(bends[k], kind, turns[k], middle, ramps[k], circles[k], apexes[k])
-    return _failed(bends, closed, turns, FINE if moved < 1e-10 else RESTLESS, -1)
+    if moved < 1e-10:
+        return _failed(bends, closed, turns, FINE, -1)
+    return _failed(bends, closed, turns, RESTLESS, int(np.argmax(np.abs(steps))))
 
 
 @inner
@@ -239,23 +248,49 @@ def _nodes_of(
 
 
 @inner
-def _crowded(
+def _fill_ends(
     bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats, apexes: Floats,
     ends: Floats,
-) -> int:  # fmt: skip
-    """The first line on which two turns overlap, -1 if there is none."""
-    count = bends.shape[0]
+) -> None:  # fmt: skip
+    """Where the turn of each bend begins and ends: x, y and x, y [m], (n, 4)."""
     nodes = np.empty((MAX_TURN_NODES, 4))
-    for k in range(count):
+    for k in range(bends.shape[0]):
         size = _nodes_of(bends, closed, lines, turns, apexes, ramps, k, nodes)
         for i in range(2):
             ends[k, i], ends[k, 2 + i] = nodes[0, i], nodes[size - 1, i]
-    for k in range(count if closed else count - 1):
+
+
+@inner
+def _shortened(lines: Floats, ends: Floats, ramps: Floats, shortest: Floats) -> tuple[int, int]:
+    """Shorten the ramps of turns that overlap on a line.
+
+    Of two such lines behind each other only the first's: that may make room on the other.
+
+    Returns:
+        The first line on which turns overlap, and the first whose ramps can't be shorter; -1 if
+        there is none.
+    """
+    count = ends.shape[0]
+    crowded, eased = -1, -1
+    for k in range(lines.size):
         after = (k + 1) % count
         dx, dy = ends[after, 0] - ends[k, 2], ends[after, 1] - ends[k, 3]
-        if dx * math.cos(lines[k]) + dy * math.sin(lines[k]) < -1e-9:
-            return k
-    return -1
+        if dx * math.cos(lines[k]) + dy * math.sin(lines[k]) >= -1e-9:
+            continue
+        crowded = k if crowded < 0 else crowded
+        if ramps[k] <= shortest[k] and ramps[after] <= shortest[after]:
+            return crowded, k
+        if eased < 0 or k > eased + 1:
+            _shorten(ramps, shortest, k, after)
+            eased = k
+    return crowded, -1
+
+
+@inner
+def _shorten(ramps: Floats, shortest: Floats, k: int, after: int) -> None:
+    """Shorten the ramps of two turns."""
+    ramps[k] = max(RAMP_SHRINK * ramps[k], shortest[k])
+    ramps[after] = max(RAMP_SHRINK * ramps[after], shortest[after])
 
 
 @kernel
@@ -282,19 +317,20 @@ def turn_sequence(
     while True:
         state, where = _relaxed(bends, closed, ramps, lines, turns, circles, apexes)
         if state == FINE:
-            where = _crowded(bends, closed, ramps, lines, turns, apexes, ends)
-            if where < 0:
+            _fill_ends(bends, closed, ramps, lines, turns, apexes, ends)
+            crowded, where = _shortened(lines, ends, ramps, shortest)
+            if crowded < 0:
                 return lines, turns, apexes, ramps, FINE, -1
-            state = NO_ROOM
-        if state != NO_ROOM and state != NO_TANGENT:
+            if where >= 0:
+                return lines, turns, apexes, ramps, NO_ROOM, where
+            continue
+        if state == LEFT_OUT:
             return lines, turns, apexes, ramps, state, where
         after = (where + 1) % count
         if ramps[where] <= shortest[where] and ramps[after] <= shortest[after]:
             return lines, turns, apexes, ramps, state, where
-        ramps[where] = max(RAMP_SHRINK * ramps[where], shortest[where])
-        ramps[after] = max(RAMP_SHRINK * ramps[after], shortest[after])
-        if state == NO_TANGENT:
-            _guess(bends, closed, lines, turns, circles)
+        _shorten(ramps, shortest, where, after)  # restless: ramps and arcs that come and go
+        _guess(bends, closed, lines, turns, circles)
 
 
 @inner
@@ -388,7 +424,7 @@ def turn_sequence_length(
     """Length of a swing [m]."""
     count = bends.shape[0]
     ends = np.empty((count, 4))
-    _crowded(bends, closed, ramps, lines, turns, apexes, ends)
+    _fill_ends(bends, closed, ramps, lines, turns, apexes, ends)
     length = 0.0
     for k in range(count):
         length += turn_length(turns[k], _turn_radius(bends[k]), ramps[k])

@@ -21,7 +21,7 @@ from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.polygon import Polygon
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.mission.shapes.shape_protocol import Shape
-from viaspline.mission.value import Value
+from viaspline.mission.standalone import Standalone
 
 Side = Literal["left", "right"]
 
@@ -46,7 +46,7 @@ def _as_grid(value: Any) -> Any:
 
 
 class Obstacle(
-    Value,
+    Standalone,
     expected="an obstacle such as {circle: {center: [x, y], radius: 5}}",
     exactly_one=SHAPES,
     needing=(("holes", "polygon"),),
@@ -69,7 +69,16 @@ class Obstacle(
             it on this side anyway; in a corridor with a line, wherever it stands inside.
         never_pass_on: The side that is forbidden; forbidding one is forcing the other.
         motion: How it moves; its shape then stands in a frame of its own. None: it stands.
+
+    Raises:
+        MissionError: With every fault.
+
+    >>> Obstacle(circle={"center": (1, 2), "radius": "wide"})
+    Traceback (most recent call last):
+    viaspline.errors.MissionError: <mission>: circle.radius: found the text "wide"; it should be ...
     """
+
+    stands_at = ("world", "known", 0)
 
     circle: Circle | None = None
     capsule: Capsule | None = None

@@ -70,6 +70,26 @@ def conflicts_within(
     )
 
 
+def turn_conflict(world: World, arrival: float, span: Floats, requirements: Requirements) -> int:
+    """What a polygonal body comes too close to while it turns on the spot: its index, or -1.
+
+    Args:
+        world: What to keep clear of.
+        arrival: Heading before the turn [rad].
+        span: On which the body goes on after it [m], (4, 2); it is looked at as well.
+        requirements: The body, and what it keeps. A disc is too close to nothing by turning.
+    """
+    if requirements.footprint is None:
+        return CLEAR
+    requirements.spend(CONFLICTS_S + CONFLICTS_BODY_SPAN_S)
+    return int(
+        footprint_conflicts.body_conflicts(
+            world.packed, span[None], outline(requirements.footprint),
+            max(requirements.required - requirements.radius, LEAST_KEPT_M), arrival=arrival,
+        )[0]
+    )  # fmt: skip
+
+
 def proven(curve: PiecewiseCubic, world: World, requirements: Requirements) -> Certificate:
     """The certificate of a curve that the body drives."""
     cost = PROOF_S + PROOF_SPAN_S * len(curve.spans)

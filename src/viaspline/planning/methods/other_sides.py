@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, cheapest_laid
 from viaspline.planning.problem.method import Found, Method, Outcome, first_settled
@@ -35,9 +36,11 @@ class OtherSides:
             return outcome
 
         def attempt(row: TautRow, bound: float) -> Attempt[SplinePath]:
-            if not problem.is_promising(row.taut_paths, bound):
+            choices = problem.bends_along(row.taut_paths)
+            first = next(choices)
+            if not problem.is_promising(first, bound):
                 return Attempt(None)
-            laid = problem.turns_along(row.taut_paths)
+            laid = problem.turns_along(row.taut_paths, chain((first,), choices))
             return Attempt(laid, () if laid is None else _other_rows(problem, row))
 
         try:

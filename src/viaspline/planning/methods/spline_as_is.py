@@ -19,7 +19,8 @@ class SplineAsItIs:
 
     Where the mission doesn't say how taut it is to be, turns may be faster. A bend that is sharper
     than the robot itself never is, whatever a time law for points says: it is what remains where
-    nothing else is found. So it is where lanes are to be kept: it swings out between via points.
+    nothing else is found. So it is where lanes are to be kept: it swings out between via points, or
+    goes straight to the next one from beside a lane.
     """
 
     def lay(self, problem: DrivenProblem, bound: float = math.inf) -> Found[SplinePath] | GaveUp:
@@ -31,5 +32,6 @@ class SplineAsItIs:
             return Found(spline_path, math.inf, is_settled=False)
         if needs.has_own_tension or not needs.objective.is_time:
             return Found(spline_path, problem.cost(spline_path))
-        cost = problem.cost(spline_path) if problem.is_round(spline_path.spans) else math.inf
+        is_last = problem.keeps_lanes or not problem.is_round(spline_path.spans)
+        cost = math.inf if is_last else problem.cost(spline_path)
         return Found(spline_path, cost, is_settled=False)

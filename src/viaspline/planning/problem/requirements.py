@@ -38,7 +38,8 @@ class Requirements:
             has no limit.
         turns_on_spot: Where it may stand and turn.
         objective: By what paths are chosen.
-        detours: Whether they keep to the lines between via points, or take the shortest way.
+        detours: Whether they keep to the line between via points; None: where that is long beside
+            what stands in it.
         budget: What may be spent on looking for a path; None: as much as it takes.
     """
 
@@ -53,7 +54,7 @@ class Requirements:
     turn_radius: float | None = None
     turns_on_spot: TurnOnSpot = "stations"
     objective: Objective = field(default_factory=lambda: Objective("time", Pace.of(RobotSpec())))
-    detours: Detours = "short"
+    detours: Detours | None = None
     budget: WorkBudget | None = None
 
     def spend(self, cost: float) -> None:
@@ -82,6 +83,11 @@ class Requirements:
         return self.turn_radius is None and self.footprint is None
 
     @property
+    def turns_at_rest(self) -> bool:
+        """Whether a robot that has stopped may go on in any direction."""
+        return self.turn_radius is None or self.turns_on_spot != "never"
+
+    @property
     def outer_radius(self) -> float:
         """Distance of the body's farthest point from its reference point [m]."""
         return max((math.hypot(*corner) for corner in self.footprint or ()), default=self.radius)
@@ -94,6 +100,8 @@ class Requirements:
     @property
     def may_be_local(self) -> bool:
         """Whether there may be legs that keep to the line between their via points."""
+        if self.detours is None:
+            return self.objective.is_time
         return self.detours == "local"
 
     @property

@@ -5,9 +5,10 @@ Tested through ``planning/methods/test_ordered``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
+from itertools import tee
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import DETOUR, Bends, LegBends, bends_along, bends_of_legs
+from viaspline.planning.turning.lane_stays import LegLane
 from viaspline.planning.turning.local_detours import LANE_REACHES, LaneTurns, local_bends
 from viaspline.planning.turning.repair import clear_turn_path
 from viaspline.planning.turning.spline_and_turns import turns_on_runs
@@ -40,6 +42,7 @@ LEAST_FREE_TURN_RADIUS = 0.5
 ROOMY_TURN_RADIUS = 2.0  # of turns where there is room, even if sharper ones are as fast
 LEAST_REQUIRED_M = 1e-3  # that these are of
 
+RowBends = tuple[LegBends, ...]
 LayTurns = Callable[[Bends, World, Requirements], TurnPath | None]
 
 
@@ -150,35 +153,47 @@ class DrivenProblem(PathProblem):
         rests = spline_path.rests(self.sequence)
         return driving_time(spline_path.spans, objective.pace, rests)
 
-    def turns_along(self, taut_paths: Sequence[TautPath]) -> SplinePath | None:
+    def turns_along(
+        self, taut_paths: Sequence[TautPath], choices: Iterable[RowBends] | None = None
+    ) -> SplinePath | None:
         """Lines and turns along a row of taut paths, with the widest turns that keep clear.
 
         Where the mission says how taut its spline is to be, on the blocked legs alone if that
         keeps clear.
+
+        Args:
+            taut_paths: One for each leg.
+            choices: The bends along them, if they are known: see ``bends_along``.
         """
+        tried, again = tee(self.bends_along(taut_paths) if choices is None else choices)
         if self.requirements.has_own_tension and self.requirements.detours != "local":
-            spline_path = self._turns_on_blocked(taut_paths)
+            spline_path = self._turns_on_blocked(taut_paths, tried)
             if spline_path is not None:
                 return spline_path
-        for bends in self._rows_along(taut_paths):
-            for rho in self.least_radii:
-                turn_path = self._turns_round(bends, rho)
-                if turn_path is None:
-                    continue
-                spline_path = self.through_turns([turn_path])
-                if self.keeps_sides(spline_path):
-                    return spline_path
+        for legs, rho in self._at_radii(again):
+            turn_path = self._turns_round(bends_of_legs(self.sequence, legs), rho)
+            if turn_path is None:
+                continue
+            spline_path = self.through_turns([turn_path])
+            if self.keeps_sides(spline_path):
+                return spline_path
         return None
 
-    def _turns_on_blocked(self, taut_paths: Sequence[TautPath]) -> SplinePath | None:
+    def _at_radii(self, choices: Iterable[RowBends]) -> Iterator[tuple[RowBends, float]]:
+        """Each choice of bends with every least radius of turns [m]."""
+        return ((legs, rho) for legs in choices for rho in self.least_radii)
+
+    def _turns_on_blocked(
+        self, taut_paths: Sequence[TautPath], choices: Iterable[RowBends]
+    ) -> SplinePath | None:
         """The spline with turns on its blocked legs, if some are free and it can be driven."""
         bent = {k for k, taut_path in enumerate(taut_paths) if not taut_path.is_direct}
         blocked = bent | set(self.cleared.passed)
         if len(blocked) == len(self.sequence.legs):
             return None
-        for rho in self.least_radii:
+        for legs, rho in self._at_radii(choices):
             lay_row = partial(self._turns_round, rho=rho)
-            found = turns_on_runs(self.sequence, taut_paths, blocked, lay_row)
+            found = turns_on_runs(self.sequence, legs, blocked, lay_row)
             if found is None:
                 continue
             spans, joints, detours = found
@@ -187,8 +202,13 @@ class DrivenProblem(PathProblem):
                 return spline_path
         return None
 
-    def _rows_along(self, taut_paths: Sequence[TautPath]) -> Iterator[Bends]:
-        """The bends along taut paths, those first that keep most to the lines between vias."""
+    @property
+    def keeps_lanes(self) -> bool:
+        """Whether there is a leg on its shortest way that is to keep to its line, or get to it."""
+        return any(self._shortest_local)
+
+    def bends_along(self, taut_paths: Sequence[TautPath]) -> Iterator[RowBends]:
+        """The bends of legs along taut paths, those first that keep most to the lines of vias."""
         short = tuple(LegBends.along(taut_path) for taut_path in taut_paths)
         stretched = []
         for reach in LANE_REACHES:
@@ -196,13 +216,11 @@ class DrivenProblem(PathProblem):
             if not any(local):
                 break
             stretched.append(local)
-            legs = [mine or its for mine, its in zip(local, short, strict=True)]
-            yield bends_of_legs(self.sequence, legs)
+            yield tuple(mine or its for mine, its in zip(local, short, strict=True))
         if stretched and len(short) > 1:
             choices = zip(*stretched, short, strict=True)
-            legs = [self._first_that_fits(k, legs) for k, legs in enumerate(choices)]
-            yield bends_of_legs(self.sequence, legs)
-        yield bends_of_legs(self.sequence, short)
+            yield tuple(self._first_that_fits(k, legs) for k, legs in enumerate(choices))
+        yield short
 
     def _first_that_fits(self, leg: int, choices: Sequence[LegBends | None]) -> LegBends:
         """The first of some bends of a leg round which it can be laid by itself, else the last."""
@@ -222,21 +240,48 @@ class DrivenProblem(PathProblem):
         """The bends of every leg that keeps to its line, None where it takes the shortest way."""
         if not self.requirements.may_be_local:
             return (None,) * len(taut_paths)
-        widest = max(self.requirements.objective.pace.widest_radius, self._roomy)
-        turns = LaneTurns(self.least_radii[-1], max(widest, self.least_radii[-1]), reach)
+        if reach > LANE_REACHES[0]:
+            return self._kept_to_lanes(taut_paths, reach)
+        known = zip(self.shortest_row.taut_paths, self._shortest_local, strict=True)
+        rows = zip(self.lanes, taut_paths, known, strict=True)
+        turns = self._lane_turns(reach)
         return tuple(
-            local_bends(leg, taut_path, turns)
-            for leg, taut_path in zip(self.legs, taut_paths, strict=True)
+            bends if taut_path is shortest else local_bends(lane, taut_path, turns)
+            for lane, taut_path, (shortest, bends) in rows
         )
 
-    def is_promising(self, taut_paths: Sequence[TautPath], bound: float) -> bool:
-        """Whether turns along taut paths may cost less than a bound [m or s].
+    @cached_property
+    def _shortest_local(self) -> tuple[LegBends | None, ...]:
+        """Those of the legs of the shortest row; other rows differ from it in a leg or two."""
+        taut_paths = self.shortest_row.taut_paths
+        if not self.requirements.may_be_local:
+            return (None,) * len(taut_paths)
+        return self._kept_to_lanes(taut_paths, LANE_REACHES[0])
+
+    def _kept_to_lanes(
+        self, taut_paths: Sequence[TautPath], reach: float
+    ) -> tuple[LegBends | None, ...]:
+        turns = self._lane_turns(reach)
+        pairs = zip(self.lanes, taut_paths, strict=True)
+        return tuple(local_bends(lane, taut_path, turns) for lane, taut_path in pairs)
+
+    def _lane_turns(self, reach: float) -> LaneTurns:
+        widest = max(self.requirements.objective.pace.widest_radius, self._roomy)
+        return LaneTurns(self.least_radii[-1], max(widest, self.least_radii[-1]), reach)
+
+    @cached_property
+    def lanes(self) -> tuple[LegLane, ...]:
+        """The lines that legs may keep to."""
+        return tuple(LegLane.of(leg) for leg in self.legs)
+
+    def is_promising(self, legs: RowBends, bound: float) -> bool:
+        """Whether turns round the bends of all legs may cost less than a bound [m or s].
 
         Those of a good driver do where nothing else stands beside them.
         """
         if not self.requirements.objective.is_time:
             return True
-        bends = next(self._rows_along(taut_paths))
+        bends = bends_of_legs(self.sequence, legs)
         ideal = self._wide_turns(self.least_radii[-1]).ideal(bends, self.requirements)
         if ideal is None:
             return True

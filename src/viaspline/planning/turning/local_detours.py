@@ -17,25 +17,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
-from viaspline.kernels.world.corner_fans import X as CORNER_X
-from viaspline.kernels.world.corner_fans import Y as CORNER_Y
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.problem.method import Outcome
 from viaspline.planning.problem.work_budget import ROUTE_S
-from viaspline.planning.routing.blocked_runs import blocked_runs
 from viaspline.planning.routing.route_on_sides import route_on_sides
-from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
-from viaspline.planning.routing.side_barrier import Barriers, barriers_at, barriers_of
+from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import KEPT, SIDE, LegBends, X, Y, bend, rows_along
 from viaspline.planning.turning.lane import Lane
+from viaspline.planning.turning.lane_stays import OFF_LANE, LegLane, Stay
 from viaspline.planning.turning.wide_turns import swing_share
-from viaspline.world.world import World
 
 LANE_REACHES = (1.0, 1.6)  # how long turns off and onto a lane are made, over what they need
 LONGEST_S = 1.25  # of such a turn with its counter-turn, over what is gone round
 END_SWING = 0.35  # of a turn at an end of a lane, in required distances
-OFF_LANE = 0.05  # beside its line a leg begins off it, in required distances
 NEXT_TO = 1.001  # from an end of a leg, at which there is room just so for a turn, in radii
 CLEAR_OF_RUN = 0.25  # before a blocked place, at which the line is left at the latest; the same
 
@@ -62,25 +57,6 @@ class LaneTurns:
     def length(self, aside: float, radius: float) -> float:
         """Along the lane, of a turn and a counter-turn that lead so far aside [m]."""
         return self.reach * math.sqrt(8.0 * radius * min(aside, 2.0 * radius))
-
-
-@dataclass(frozen=True)
-class Stay:
-    """A piece of a lane on which the path can't stay on it.
-
-    Attributes:
-        begin: Where it begins, along the lane [m].
-        end: Where it ends [m].
-        aside: How far beside the lane the path gets there [m].
-        size: Of the largest thing that stands in the way there [m].
-        barriers: What closes the sides on which the path doesn't pass what stands there, (b, 4).
-    """
-
-    begin: float
-    end: float
-    aside: float
-    size: float
-    barriers: Floats
 
 
 @dataclass(frozen=True)
@@ -131,11 +107,11 @@ def turn_aside(aside: Floats, radius: float) -> Floats:
     return turn
 
 
-def local_bends(leg: LegSearch, taut_path: TautPath, turns: LaneTurns) -> LegBends | None:
+def local_bends(leg_lane: LegLane, taut_path: TautPath, turns: LaneTurns) -> LegBends | None:
     """The bends of a leg that keeps to its line as long as it can.
 
     Args:
-        leg: The leg.
+        leg_lane: The leg with its line.
         taut_path: The shortest path to the sides on which it is to pass what it meets.
         turns: The turns off its line and onto it.
 
@@ -143,67 +119,31 @@ def local_bends(leg: LegSearch, taut_path: TautPath, turns: LaneTurns) -> LegBen
         None where the leg takes the shortest way: that is asked for, its line is short beside what
         stands in it, too little of it is left between that, or it begins or ends right beside that.
     """
-    lane = Lane.of(leg.sequence.whole_leg(leg.index))
-    stays = _stays(leg, lane, taut_path)
+    leg, lane = leg_lane.leg, leg_lane.lane
+    stays = leg_lane.stays(taut_path)
     needs = leg.requirements
-    room = leg.world.distance(np.array([end[:2] for end in leg.ends]))
-    if room.min() < (1.0 + CLEAR_OF_RUN) * needs.required and stays:
+    if needs.detours is None and not (stays and leg_lane.is_long_beside(stays)):
+        return None
+    on_lane = [end[:2] for end in leg.ends if not leg_lane.is_off(end)]
+    room = leg.world.distance(np.array(on_lane).reshape(-1, 2))
+    if room.min(initial=math.inf) < (1.0 + CLEAR_OF_RUN) * needs.required and stays:
         return None  # it begins or ends beside what it has to go round: no lane is left there
-    while True:
-        found = [_aside(leg, lane, stay, turns) for stay in stays]
-        asides = [aside for aside in found if aside is not None]
-        if len(asides) < len(stays):
-            return None
-        joined = _joined(stays, asides)
-        if len(joined) == len(stays):
-            break
-        stays = joined
+    pieces: list[tuple[Stay, Aside | None]] = [(stay, None) for stay in stays]
+    while any(aside is None for _, aside in pieces):
+        found: list[tuple[Stay, Aside]] = []
+        for stay, known in pieces:
+            aside = known or _aside(leg, lane, stay, turns)
+            if aside is None:
+                return None
+            found.append((stay, aside))
+        pieces = _joined(found)
     rows, swings = [np.empty((0, 6))], [np.empty(0)]
-    for aside in asides:
+    for _, aside in pieces:
+        assert aside is not None
         bends = aside.bends(lane)
         rows.append(bends[0])
         swings.append(bends[1])
     return LegBends(np.vstack(rows), np.concatenate(swings), END_SWING * needs.required)
-
-
-def _stays(leg: LegSearch, lane: Lane, taut_path: TautPath) -> list[Stay]:
-    """Where the path can't stay on its lane: beside it at a leg's ends, and where it is blocked.
-
-    A taut path says on which side what stands there is passed, and how far aside.
-    """
-    required = leg.requirements.required
-    (first, first_off), (last, last_off) = (lane.seen(end).tolist() for end in leg.ends)
-    runs = blocked_runs(leg.world, lane.at(first), lane.at(last), required)
-    places = lane.seen(taut_path.corners[:, [CORNER_X, CORNER_Y]])
-    stays = [_blocked(leg, lane, taut_path, places, first + run) for run in runs]
-    for at, off in ((first, first_off), (last, last_off)):
-        if abs(off) > OFF_LANE * required:
-            stays.append(Stay(at, at, abs(off), 0.0, NO_BARRIERS))
-    return sorted(stays, key=lambda stay: stay.begin)
-
-
-def _blocked(leg: LegSearch, lane: Lane, taut_path: TautPath, places: Floats, run: Floats) -> Stay:
-    """A blocked piece of a lane, as a taut path with corners at places (k, 2) [m] passes it."""
-    begin, end = run.tolist()
-    within = places[(places[:, 0] > begin) & (places[:, 0] < end), 1]
-    at_ends = np.interp([begin, end], places[:, 0], places[:, 1])
-    aside = float(np.abs(np.append(within, at_ends)).max())
-    barriers = _barriers(leg.world, lane, lane.at(0.5 * (begin + end)))
-    passed = barriers.left if taut_path.crosses(barriers.left) else barriers.right
-    closed = barriers.right if passed is barriers.left else barriers.left
-    return Stay(begin, end, aside, max(end - begin, 2.0 * aside), closed)
-
-
-def _barriers(world: World, lane: Lane, place: Floats) -> Barriers:
-    """What closes either side of what blocks a lane at a place [m], (2,).
-
-    They begin inside of it: a path may pass between it and a lane that it blocks only just.
-    """
-    index = int(world.nearest(place)[1])
-    ends = lane.start, lane.at(lane.length)
-    if index >= 0 and world.obstacles[index].ring is not None:
-        return barriers_of(world, index, *ends)
-    return barriers_at(world, place, *ends)
 
 
 def _aside(leg: LegSearch, lane: Lane, stay: Stay, turns: LaneTurns) -> Aside | None:
@@ -282,22 +222,23 @@ def _touching(lane: Lane, along: float, off: float, radius: float) -> Floats:
     return bend(x, y, radius, side)
 
 
-def _joined(stays: Sequence[Stay], asides: Sequence[Aside]) -> list[Stay]:
-    """Pieces of a lane, those as one between which the path isn't back on it."""
-    found: list[Stay] = []
+def _joined(pieces: Sequence[tuple[Stay, Aside]]) -> list[tuple[Stay, Aside | None]]:
+    """Pieces of a lane, those as one, with None, between which the path isn't back on it."""
+    found: list[tuple[Stay, Aside | None]] = []
     meets = -math.inf
-    for stay, aside in zip(stays, asides, strict=True):
+    for stay, aside in pieces:
         leaves = -math.inf if aside.leave is None else aside.leave
         if found and leaves < meets:
-            last = found[-1]
-            found[-1] = Stay(
+            last = found[-1][0]
+            both = Stay(
                 last.begin,
                 stay.end,
                 max(last.aside, stay.aside),
                 max(last.size, stay.size),
                 np.vstack((last.barriers, stay.barriers)),
             )
+            found[-1] = both, None
         else:
-            found.append(stay)
+            found.append((stay, aside))
         meets = max(meets, math.inf if aside.meet is None else aside.meet)
     return found

@@ -17,8 +17,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve.cardinal_tangents import flattened
 from viaspline.planning.problem.via_sequence import Leg, ViaSequence, lay
-from viaspline.planning.routing.taut_path import TautPath
-from viaspline.planning.turning.bend_row import DETOUR, Bends, bends_along
+from viaspline.planning.turning.bend_row import DETOUR, Bends, LegBends, bends_of_legs
 from viaspline.planning.turning.turn_path import TurnPath
 
 LayRow = Callable[[Bends], TurnPath | None]
@@ -44,13 +43,13 @@ def runs_of(blocked: Collection[int], legs: int, closed: bool) -> Iterator[tuple
 
 
 def turns_on_runs(
-    sequence: ViaSequence, taut_paths: Sequence[TautPath], blocked: Collection[int], lay_row: LayRow
+    sequence: ViaSequence, bends: Sequence[LegBends], blocked: Collection[int], lay_row: LayRow
 ) -> tuple[Floats, list[int], list[int]] | None:
     """The spline of a sequence, with turns on its blocked legs.
 
     Args:
         sequence: Via points without detours, some of its legs free.
-        taut_paths: One for each leg.
+        bends: Those of each leg.
         blocked: Its blocked legs.
         lay_row: Lays a clear turn path round a row of bends, if it can.
 
@@ -68,7 +67,7 @@ def turns_on_runs(
         if sequence.closed:
             before, after = before % count, after % count
         part = _part(sequence, run, spline[first[run[0]]], spline[first[run[-1] + 1] - 1])
-        turn_path = lay_row(bends_along(part, [taut_paths[k] for k in run]))
+        turn_path = lay_row(bends_of_legs(part, [bends[k] for k in run]))
         if turn_path is None:
             return None
         vias = turn_path.bends.vias

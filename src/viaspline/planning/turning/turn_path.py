@@ -78,7 +78,7 @@ class NoTurnPath:
         bends: The row, without those that the others make needless.
         left: Which of those that were asked for they are, (n,).
         state: One of the states of ``kernels.turning.turn_sequence``.
-        where: The line or the bend at which it failed, -1 where it can't be said.
+        where: The line at which it failed.
     """
 
     bends: Bends

@@ -8,7 +8,6 @@ Tested through ``planning/methods/test_ordered``.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import partial
 
@@ -16,14 +15,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.turning.gentle_lengths import gentle_lengths
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts
 from viaspline.planning.problem.path_pace import Pace
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import TURN_PATH_BEND_S, TURN_PATH_S
-from viaspline.planning.turning.bend_row import KEPT, RADIUS, Bends
+from viaspline.planning.turning.bend_row import HEADING, KEPT, RADIUS, Bends
+from viaspline.planning.turning.joined_bends import (
+    TurnWishes,
+    joins_worth_it,
+    loosened,
+    seconds_of,
+    with_joins,
+)
 from viaspline.planning.turning.repair import clear_turn_path
 from viaspline.planning.turning.turn_path import (
     NoTurnPath,
+    SettledTurns,
     TurnPath,
     settled_turns,
     turn_path_on_sides,
@@ -34,8 +42,10 @@ from viaspline.world.world import World
 NARROWER = 0.7  # a radius that doesn't fit, over the next one that is tried
 MOST_NARROWED = 0.5  # of the widest swing of those between which it is too tight: narrowed as well
 MAX_NARROWINGS = 40
-GENTLE_SHARE = 1e-3  # of the length, that may be spent on gentle bends
-GENTLE_ROOM = 0.9  # of a ramp's share of a line
+GENTLE_SHARE = 2e-3  # of the length, that may be spent on gentle bends
+GENTLE_ROOM = 0.97  # of a line, that its turns may take
+ARC_LONGER = 24.0  # an arc of radius R by t is longer than its corner by R t³ over this
+LEAST_ROOM_M = 1e-6  # of a line between two bends at the same place
 LEAST_SHARE = 1e-12  # of its radius that a turn swings out
 
 
@@ -60,23 +70,54 @@ class WideTurns:
 
         Where a heading is given at an end, it is left to the side that makes the path shorter.
         """
-        found = [
-            requirements.once(
-                ("wide", self, tried.key, world),
-                partial(self._narrowed, tried, world, requirements),
-            )
-            for tried in with_sides(bends)
-        ]
+        found = [self._narrowed_once(tried, world, requirements) for tried in with_sides(bends)]
         clear = [turn_path for turn_path in found if turn_path is not None]
         if not clear:
-            return clear_turn_path(bends.turning(self.least), world, requirements)
+            return self._pushed(bends, world, requirements)
         return min(clear, key=lambda turn_path: turn_path.length)
 
-    def _narrowed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
-        """The widest turns to the sides that are set, narrowed until they are clear."""
-        radii = self._wished(bends)
-        if radii is None:
+    def _pushed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
+        """The least turns pushed clear, then as wide as fits round what they were pushed from."""
+        pushed = clear_turn_path(bends.turning(self.least), world, requirements)
+        if pushed is None:
             return None
+        return self._narrowed_once(pushed.bends, world, requirements) or pushed
+
+    def _narrowed_once(
+        self, bends: Bends, world: World, requirements: Requirements
+    ) -> TurnPath | None:
+        """See ``_narrowed``: what came of it is kept."""
+        lay = partial(self._narrowed, bends, world, requirements)
+        return requirements.once(("wide", self, bends.key, world), lay)
+
+    def _narrowed(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
+        """The widest turns to the sides that are set, narrowed until they are clear.
+
+        Bends are joined first where that is gentler, as far as there is room for it.
+        """
+        narrowest = settled_turns(bends.turning(self.least))
+        if isinstance(narrowest, NoTurnPath):
+            return None
+        joins = joins_worth_it(narrowest.bends, self._wishes(narrowest))
+        while joins:
+            found = self._fitted(with_joins(narrowest.bends, joins), world, requirements)
+            if isinstance(found, TurnPath):
+                return found
+            rows = np.delete(np.arange(len(narrowest.bends.rows)), seconds_of(joins))
+            looser = tuple(loosened(joins, set(rows[found].tolist())))
+            joins = looser if looser != joins else ()
+        found = self._fitted(bends, world, requirements)
+        return found if isinstance(found, TurnPath) else None
+
+    def _fitted(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | Ints:
+        """The widest turns round a row, narrowed until they are clear, or where there is no room.
+
+        Where the least have none, these are the bends before and after it and between them, (k,).
+        """
+        narrowest = settled_turns(bends.turning(self.least))
+        if isinstance(narrowest, NoTurnPath):
+            return np.arange(len(bends.rows))
+        radii = self._wished(bends, narrowest)
         for _ in range(MAX_NARROWINGS):
             requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
             turn_path = turn_path_on_sides(bends.turning(radii))
@@ -84,7 +125,7 @@ class WideTurns:
                 left = turn_path.left
                 count = len(left)
                 pair = left[[turn_path.where % count, (turn_path.where + 1) % count]]
-                tight = [pair] if turn_path.where >= 0 else [np.arange(len(radii))]
+                tight = [pair]
                 swings = radii
             else:
                 close = body_conflicts(world, turn_path.spans, requirements)
@@ -98,26 +139,48 @@ class WideTurns:
             if np.array_equal(narrowed, radii):
                 break
             radii = narrowed
-        return None
+        return np.concatenate([np.arange(pair.min(), pair.max() + 1) for pair in tight])
 
     def ideal(self, bends: Bends, requirements: Requirements) -> TurnPath | None:
         """The turn path with the widest turns, clear or not; None where they overlap."""
         requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
-        radii = self._wished(bends)
-        found = None if radii is None else turn_path_on_sides(bends.turning(radii))
-        return found if isinstance(found, TurnPath) else None
-
-    def _wished(self, bends: Bends) -> Floats | None:
-        """The radius that each turn should have [m], (n,); None where the least have no room."""
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None
-        rows, angles = narrowest.left, np.abs(narrowest.turns)
+        found = turn_path_on_sides(bends.turning(self._wished(bends, narrowest)))
+        return found if isinstance(found, TurnPath) else None
+
+    def _wishes(self, narrowest: SettledTurns) -> TurnWishes:
+        """What turns should be like that bend as little as they can for a part of the length.
+
+        The part is over that of the fastest turns, so that it is as much of the time.
+        """
+        angles, gaps = np.abs(narrowest.turns), _gaps(narrowest)
+        fast = self.pace.corner_radii(angles, narrowest.bends.rows[:, KEPT])
+        arcs = float((fast * np.minimum(angles, 1.0) ** 3).sum()) / ARC_LONGER
+        spent = GENTLE_SHARE * float(gaps.sum()) + arcs
+        rooms = 2.0 * GENTLE_ROOM * gaps
+        lengths = gentle_lengths(angles, rooms, narrowest.bends.closed, spent)
+        return TurnWishes(angles, gaps, lengths, fast, spent)
+
+    def _wished(self, bends: Bends, narrowest: SettledTurns) -> Floats:
+        """The radius that each turn should have [m], (n,).
+
+        A turn into a heading that is given swings out by all of its angle: its line leads there.
+        """
+        wishes = self._wishes(narrowest)
+        rows, angles, lengths = narrowest.left, wishes.turns, wishes.lengths
+        kept = bends.rows[rows, KEPT]
         radii = np.full(len(bends.rows), max(self.roomy, self.least))
-        fast = self.pace.corner_radii(angles, bends.rows[rows, KEPT]) * np.minimum(angles, 1.0)
-        radii[rows] = np.maximum(radii[rows], np.maximum(fast, _gentle(bends.rows[rows], angles)))
-        swung = bends.swings[rows] / np.maximum(swing_share(angles), LEAST_SHARE)
-        radii[rows] = np.minimum(radii[rows], bends.rows[rows, KEPT] + swung)
+        gentle = lengths / np.maximum(2.0, 1.0 + angles)
+        wide = np.maximum(wishes.fast * np.minimum(angles, 1.0), gentle)
+        ramps = np.maximum(lengths - kept * angles, 0.0)  # beside an arc round what is kept
+        wide = np.where(gentle < kept * angles, ramps, wide)
+        radii[rows] = np.maximum(radii[rows], wide)
+        given = np.isfinite(bends.rows[rows, HEADING])
+        shares = np.where(given, np.minimum(angles, 1.0), swing_share(angles))
+        swung = bends.swings[rows] / np.maximum(shares, LEAST_SHARE)
+        radii[rows] = np.minimum(radii[rows], kept + swung)
         radii[rows] = np.maximum(radii[rows], self.sharpest)
         return radii
 
@@ -136,23 +199,12 @@ def swing_share(turns: Floats) -> Floats:
     return found
 
 
-def _gentle(rows: Floats, angles: Floats) -> Floats:
-    """Radii with which a path bends as little as it can for a small part of its length [m], (n,).
-
-    A ramp up to a bend and down from it, of the length l together, bends by 4 t² / 3 l where it
-    turns by t, and is longer than the corner by t² l / 40. So the same l is best for all of them:
-    40 times what may be spent, over the sum of t². No more than half of a line is taken by a ramp.
-    """
-    lines = np.hypot(*np.diff(rows[:, :2], axis=0).T)
-    square = float((angles**2).sum())
-    if square == 0.0 or not lines.size:
-        return np.zeros(len(rows))
-    ramp = 20.0 * GENTLE_SHARE * float(lines.sum()) / square
-    room = np.full(len(rows), math.inf)
-    taken = np.where(angles > 0.0, 0.5, 0.0)  # where it doesn't turn no ramp begins
-    whole = lines / np.maximum(taken[1:] + taken[:-1], 0.5)
-    room[1:], room[:-1] = whole * 0.5, np.minimum(room[:-1], whole * 0.5)
-    return np.minimum(ramp, GENTLE_ROOM * room)
+def _gaps(settled: SettledTurns) -> Floats:
+    """From the apex of each turn to that of the next [m], (n - 1,), or (n,) when closed."""
+    apexes = settled.lines_and_turns[2]
+    ends = np.vstack((apexes, apexes[:1])) if settled.bends.closed else apexes
+    found: Floats = np.maximum(np.hypot(*np.diff(ends, axis=0).T), LEAST_ROOM_M)
+    return found
 
 
 def _swings(turn_path: TurnPath) -> Floats:

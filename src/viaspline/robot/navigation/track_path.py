@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 
 from viaspline.curve.path import Path
-from viaspline.kernels.tracking.control_law import CROSS_TRACK
+from viaspline.kernels.tracking.control_law import CROSS_TRACK, PROGRESS, REST
+from viaspline.kernels.tracking.drive_motion import ACROSS, ALONG, X, Y
 from viaspline.robot.controller import Controller
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule
@@ -18,6 +20,17 @@ ON_PATH_M = 1e-6
 
 MAX_ALONG_TRACK_M = 0.05
 """Farther than this along the path from where it should be, a robot gets a new trajectory [m]."""
+
+MAX_AHEAD_M = 0.005
+"""So does one with a drive that is farther ahead than this [m]: else it would stop beyond the place
+up to which it is certain to be free, and a little farther beyond with every stop. Where it is
+behind, its trajectory waits."""
+
+MAX_ROLL_M = 0.3
+"""A robot with a drive that stands is looked for so far beyond its stop [m]."""
+
+STANDSTILL_MPS = 0.02
+"""A robot that is slower stands [m/s]."""
 
 
 def track(
@@ -57,13 +70,48 @@ def _controlled(
     if controller.late > 0.0:
         schedule = replace(schedule, trajectory=schedule.trajectory.delayed(controller.late))
     now = time + controller.ahead
-    return replace(
+    should = float(schedule.trajectory.distance_at(now))
+    progress = replace(
         progress,
         time=now,
-        distance=max(float(schedule.trajectory.distance_at(now)), progress.distance),
+        distance=beyond_corner(schedule, max(should, progress.distance)),
+        along_track=0.0,
         cross_track=abs(float(controller.note[CROSS_TRACK])),
         controller=controller,
-    ), schedule
+    )
+    ahead = _place_of(progress, controller, schedule) - progress.distance
+    if ahead <= MAX_AHEAD_M or progress.dwell is not None or schedule.giving_up is not None:
+        return progress, schedule
+    return replace(progress, distance=progress.distance + ahead, along_track=ahead), schedule
+
+
+def beyond_corner(schedule: Schedule, distance: float) -> float:
+    """A distance along the path, beyond the corner if it is at one [m].
+
+    Before it the controller would have the robot look the way that it came, and its trajectory,
+    which looks ahead, would wait for it to turn.
+    """
+    for turn in schedule.turns:
+        if abs(turn - distance) <= 2.0 * SAME_PLACE_M:
+            return max(distance, turn + 0.5 * SAME_PLACE_M)
+    return distance
+
+
+def _place_of(progress: Progress, controller: Controller, schedule: Schedule) -> float:
+    """Distance along the path of the place where a robot with a drive is [m].
+
+    One that stands may have rolled on beyond the stop; at a corner it turns first.
+    """
+    if not controller.note[REST] > 0.0:
+        return float(controller.note[PROGRESS])
+    assert controller.believed is not None
+    here, believed = progress.distance, controller.believed
+    stops = [turn for turn in schedule.turns if turn >= here - SAME_PLACE_M]
+    high = min([here + MAX_ROLL_M, schedule.path.length, *stops])
+    if high <= here or math.hypot(believed[ALONG], believed[ACROSS]) > STANDSTILL_MPS:
+        return here
+    x, y = believed[[X, Y]].tolist()
+    return project(schedule.path, (x, y), here, high)[0]
 
 
 def with_command(

@@ -50,7 +50,7 @@ def with_time_to_search(context: ReplanContext) -> ReplanContext:
         standing = context.searching(limit, before.finished if before and is_known else NOTHING)
         if standing.speed == 0.0:
             return standing
-    longest = min(STEP_WORK_S, _left(context))
+    longest = min(STEP_WORK_S, _until_next_command(context), _left(context))
     for share in SHARES if longest > 0.0 else ():
         committed = context.searching(share * longest)
         if committed.is_clear(committed.stop):
@@ -129,6 +129,15 @@ def last_place(context: ReplanContext) -> float:
 def unhurried(context: ReplanContext) -> ReplanContext:
     """The robot with what a step may spend while nothing is in its way."""
     return context.searching(STEP_WORK_S)
+
+
+def _until_next_command(context: ReplanContext) -> float:
+    """How long a robot with a drive can go on by its last command [s]: then it needs another.
+
+    Held for longer, what it was told in a bend leads it off its path.
+    """
+    controller = context.progress.controller
+    return float("inf") if controller is None else controller.period
 
 
 def _left(context: ReplanContext) -> float:

@@ -13,6 +13,7 @@ from viaspline.curve.path import Path, PathVia
 from viaspline.errors import PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning import replan
+from viaspline.planning.checking.conflicts import CLEAR, turn_conflict
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.sides_ahead import spans_on_wrong_side
@@ -47,8 +48,11 @@ def way_out(
         floor: What it keeps on the way there [m].
 
     Returns:
-        The path, with what it keeps where; None if there is none.
+        The path, with what it keeps where; None if there is none, or if the robot can't turn on
+        the spot.
     """
+    if not requirements.turns_at_rest:
+        return None
     world, stop = context.knowledge.world, context.stop
     here = np.asarray(context.schedule.path.at_distance(stop))
     place = _roomy_place(world, here, requirements.required, floor)
@@ -57,6 +61,9 @@ def way_out(
     share = np.arange(4.0)[:, None] / 3.0
     straight = by_way_of(context, (here + share * (place - here))[None])
     u = float(straight.parameter(stop))
+    heading = float(context.schedule.path.heading(float(context.schedule.path.parameter(stop))))
+    if turn_conflict(world, heading, straight.spans[round(u)], requirements) != CLEAR:
+        return None
     if round(u) in spans_on_wrong_side(straight, u, world, requirements):
         return None
     at = stop + math.dist(here, place)

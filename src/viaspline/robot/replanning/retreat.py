@@ -46,9 +46,8 @@ def retreat(
         The path, with what it keeps where; if there is none, why the place leads nowhere. Without
         a reason if there is no such place, or if the robot can't turn round where it stands.
     """
-    never_turns = requirements.turn_radius is not None and requirements.turns_on_spot == "never"
     ways = _ways_back(context, requirements.required, least)
-    if never_turns or requirements.footprint is not None or not ways:
+    if not requirements.turns_at_rest or requirements.footprint is not None or not ways:
         return ReplanResult(None)
     path, stop = context.schedule.path, context.stop
     place, floor = ways[attempt % len(ways)]

@@ -27,7 +27,7 @@ STANDING_MPS = 1e-3
 
 
 @dataclass(frozen=True)
-class DrivenMotion:
+class DrivenStates:
     """Where a robot was at every time.
 
     Attributes:
@@ -41,7 +41,7 @@ class DrivenMotion:
     state_at: Callable[[Floats], tuple[Floats, Floats]]
 
 
-def encounters(motion: DrivenMotion, robot: RobotSpec, moving: MovingObstacles) -> Encounters:
+def encounters(motion: DrivenStates, robot: RobotSpec, moving: MovingObstacles) -> Encounters:
     """How near a drive came to what moves.
 
     The distance changes by no more than both can go in the time between two instants, so what is

@@ -14,6 +14,7 @@ from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.range_sensor import RangeSensor
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
+from viaspline.robot.simulation.driven_motion import DrivenMotion
 from viaspline.robot.simulation.machine_drive import Tell
 from viaspline.robot.simulation.pace import Pace, by_work, steps_taken
 from viaspline.robot.simulation.sensors import senses_of
@@ -129,7 +130,9 @@ def _contact(nav: Navigator, world: World, times: Floats) -> Event | None:
         fine = np.linspace(times[max(k - 1, 0)], times[k], 33)
         u = np.asarray(nav.path.parameter(nav.trajectory.distance_at(fine)))
         places, headings = np.asarray(nav.path.evaluate(u)), np.asarray(nav.path.heading(u))
-        rows = np.column_stack((fine, places[:, :2], headings))
+        still = np.zeros(len(fine))
+        motion = DrivenMotion(fine, places[:, :2], headings, still, still, 1.0).with_turns()
+        rows = np.column_stack((motion.times, motion.places, motion.headings))
         contact = first_contact(nav.mission.robot, world, rows)
         if contact is not None:
             where = tuple(places[int(fine.searchsorted(contact.time))].tolist())

@@ -10,9 +10,11 @@ import numpy as np
 from viaspline.curve.path import SEAM, Path
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.run import Event, Run
-from viaspline.robot.simulation.encounters import DrivenMotion, encounters, touched_by
+from viaspline.robot.simulation.driven_motion import DrivenMotion
+from viaspline.robot.simulation.encounters import DrivenStates, encounters, touched_by
 from viaspline.robot.simulation.exact_drive import ExactDrive
 from viaspline.robot.simulation.machine_run import proven
+from viaspline.robot.simulation.near_misses import near_misses
 from viaspline.robot.simulation.outcome import outcome
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -20,6 +22,9 @@ from viaspline.world.world import World
 
 ROUNDING = 1e-12
 """Part of a path's length that may be missing at its end though all of it was driven."""
+
+MOMENTS = 10
+"""At which it is looked at what the body was near to, in every step."""
 
 
 def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
@@ -38,7 +43,9 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
     path = driven_part(drive.book.path(nav), float(distances[-1]))
     u = np.asarray(path.parameter(np.minimum(distances, path.length)))
     robot = nav.mission.robot
-    met = encounters(_motion(drive, path), robot, moving) if len(moving) else None
+    certificate = proven(path, world, robot)
+    near = () if certificate.holds else near_misses(nav.mission, world, _motion(drive, path, step))
+    met = encounters(_states(drive, path), robot, moving) if len(moving) else None
     reason = reason or touched_by(met)
     return Run(
         plan=nav.plan,
@@ -47,7 +54,7 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
         reason=reason,
         duration=drive.end,
         path=path,
-        certificate=proven(path, world, robot),
+        certificate=certificate,
         times=times,
         positions=np.asarray(path.evaluate(u)),
         headings=np.asarray(path.heading(u)),
@@ -60,10 +67,11 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
         known=nav.world,
         moving=moving,
         encounters=met,
+        shortfalls=near,
     )
 
 
-def _motion(drive: ExactDrive, path: Path) -> DrivenMotion:
+def _states(drive: ExactDrive, path: Path) -> DrivenStates:
     """Where the robot was when."""
 
     def state_at(times: Floats) -> tuple[Floats, Floats]:
@@ -71,7 +79,17 @@ def _motion(drive: ExactDrive, path: Path) -> DrivenMotion:
         places = np.asarray(path.at_distance(np.minimum(distances, path.length)))
         return places[:, :2], speeds
 
-    return DrivenMotion(0.0, drive.end, state_at)
+    return DrivenStates(0.0, drive.end, state_at)
+
+
+def _motion(drive: ExactDrive, path: Path, step: float) -> DrivenMotion:
+    """What was driven, moment by moment."""
+    count = max(round(MOMENTS * drive.end / step), 1)
+    times = np.linspace(0.0, drive.end, count + 1)
+    distances, speeds = _along(drive.trajectories, times)
+    u = np.asarray(path.parameter(np.minimum(distances, path.length)))
+    places, headings = np.asarray(path.evaluate(u))[:, :2], np.asarray(path.heading(u))
+    return DrivenMotion(times, places, headings, speeds, distances, step).with_turns()
 
 
 def _sample_times(drive: ExactDrive, step: float, events: tuple[Event, ...]) -> Floats:

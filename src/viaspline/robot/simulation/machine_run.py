@@ -19,8 +19,10 @@ from viaspline.machine.trace import trace
 from viaspline.machine.travel import travel_of
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Run, Visit
-from viaspline.robot.simulation.encounters import DrivenMotion, encounters, touched_by
+from viaspline.robot.simulation.driven_motion import DrivenMotion
+from viaspline.robot.simulation.encounters import DrivenStates, encounters, touched_by
 from viaspline.robot.simulation.machine_drive import MachineDrive
+from viaspline.robot.simulation.near_misses import near_misses
 from viaspline.robot.simulation.outcome import outcome
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
@@ -45,6 +47,7 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     reason, events, visits = outcome(nav, drive.book, end, drive.touched, drive.overdue)
     path, bound, u = driven_path(drive)
     certificate = proven(path, world, robot)
+    certificate = replace(certificate, clearance=certificate.clearance - bound)
     ticks = step * np.arange(math.floor(end / step + 1e-9) + 1)
     times = np.unique(np.concatenate((ticks, [event.time for event in events], [end])))
     times = times[times <= end]
@@ -53,8 +56,9 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     rates = np.interp(times, rows[:, ROW_TIME], travel.turn_rates)
     headings = np.interp(times, rows[:, ROW_TIME], rows[:, ROW_HEADING])
     least = MIN_CURVATURE_SPEED_MPS
+    near = () if certificate.holds else near_misses(nav.mission, world, _motion(drive, step))
     moving = MovingObstacles.everything(nav.mission)
-    met = encounters(_motion(drive, travel.speeds), robot, moving) if len(moving) else None
+    met = encounters(_states(drive, travel.speeds), robot, moving) if len(moving) else None
     reason = reason or touched_by(met)
     return Run(
         plan=nav.plan,
@@ -63,7 +67,7 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
         reason=reason,
         duration=end,
         path=path,
-        certificate=replace(certificate, clearance=certificate.clearance - bound),
+        certificate=certificate,
         times=times,
         positions=np.asarray(path.evaluate(np.interp(times, rows[:, ROW_TIME], u))),
         headings=np.remainder(headings + np.pi, 2.0 * np.pi) - np.pi,
@@ -77,10 +81,11 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
         tracking=drive.tracking,
         moving=moving,
         encounters=met,
+        shortfalls=near,
     )
 
 
-def _motion(drive: MachineDrive, speeds: Floats) -> DrivenMotion:
+def _states(drive: MachineDrive, speeds: Floats) -> DrivenStates:
     """Where the robot was when."""
     rows = drive.rows
     moments = rows[:, ROW_TIME]
@@ -89,7 +94,18 @@ def _motion(drive: MachineDrive, speeds: Floats) -> DrivenMotion:
         x, y = (np.interp(times, moments, rows[:, column]) for column in (ROW_X, ROW_Y))
         return np.column_stack((x, y)), np.abs(np.interp(times, moments, speeds))
 
-    return DrivenMotion(float(moments[0]), float(moments[-1]), state_at)
+    return DrivenStates(float(moments[0]), float(moments[-1]), state_at)
+
+
+def _motion(drive: MachineDrive, step: float) -> DrivenMotion:
+    """What was driven, moment by moment."""
+    rows = drive.rows
+    times, places = rows[:, ROW_TIME], rows[:, ROW_X : ROW_Y + 1]
+    steps = np.hypot(*np.diff(places, axis=0).T)
+    return DrivenMotion(
+        times, places, rows[:, ROW_HEADING], travel_of(drive.model, rows).speeds,
+        np.concatenate(([0.0], np.cumsum(steps))), step,
+    )  # fmt: skip
 
 
 def proven(path: PiecewiseCubic, world: World, robot: RobotSpec) -> Certificate:

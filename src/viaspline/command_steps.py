@@ -1,0 +1,110 @@
+"""What the commands have in common: read, plan with progress, write into a folder, say so.
+
+Tested through ``test_cli``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from viaspline.report.interrupts import undone_at_the_end
+from viaspline.report.terminal_lines import say, say_error
+
+if TYPE_CHECKING:
+    from viaspline.mission.model import Mission
+    from viaspline.mission.robot_parts import RobotSpec
+    from viaspline.planner import Plan
+    from viaspline.report.progress_bar import ProgressBar
+    from viaspline.report.result_files import ResultFolder
+    from viaspline.report.video_file import VideoFile
+
+
+def default_folder(mission: Path) -> Path:
+    """Where the results of a mission go if nobody says."""
+    return Path("viaspline-out") / (mission.stem or "mission")
+
+
+def load_mission(path: Path) -> Mission:
+    """Read a mission; what takes longer than a second is said."""
+    from threading import Timer
+
+    from viaspline.formats.load import load
+
+    patience = Timer(1.0, say_error, [f"reading {path} …"], {"prefix": ""})
+    patience.daemon = True
+    patience.start()
+    try:
+        return load(path)
+    finally:
+        patience.cancel()
+
+
+@contextmanager
+def result_folder(path: Path, names: Iterable[str]) -> Iterator[ResultFolder]:
+    """The folder of the results, tried before the work and not left empty by a failure."""
+    from viaspline.report.result_files import ResultFolder
+
+    folder = ResultFolder(path, names)
+    old = folder.holds_earlier_results()
+    try:
+        with undone_at_the_end(folder.forget_if_empty):
+            yield folder
+    except BaseException:
+        folder.forget_if_empty()
+        if old:
+            say_error(f"what {path} holds is from an earlier run", prefix="note: ")
+        raise
+
+
+@contextmanager
+def film_file(path: Path | None) -> Iterator[VideoFile | None]:
+    """The file of the animation, tried before the work."""
+    from viaspline.report.video_file import VideoFile
+
+    film = None if path is None else VideoFile(path)
+    try:
+        yield film
+    except BaseException:
+        if film is not None:
+            film.folder.forget_if_empty()
+        raise
+
+
+@contextmanager
+def progress_bar(quiet: bool, robot: RobotSpec | None = None) -> Iterator[ProgressBar]:
+    """Progress, which hears of every kernel that is compiled within the block."""
+    from viaspline.report.progress_bar import ProgressBar
+
+    watch = ProgressBar(quiet=quiet)
+    with watch.stage("start", "starting"):
+        from viaspline.kernels.jit import compile_progress
+        from viaspline.precompile import jobs_for, second_compiler
+    compiler = second_compiler() if robot is None else second_compiler(jobs_for(robot))
+    with compile_progress(watch.compiling), compiler:
+        yield watch
+
+
+def watched_plan(mission: Mission, watch: ProgressBar) -> Plan:
+    """Plan a mission, with progress."""
+    with watch.stage("plan", "planning"):
+        from viaspline import planner
+
+        return planner.plan(mission)
+
+
+def say_remarks(asked: Mission) -> None:
+    """Say what a plan of a mission leaves out."""
+    from viaspline.report.remarks import plan_remarks
+
+    say(*(f"note: {words}" for words in plan_remarks(asked)))
+
+
+def say_written(files: list[Path]) -> None:
+    """Say which files were written into which folders."""
+    folders: dict[Path, list[str]] = {}
+    for file in files:
+        folders.setdefault(file.parent, []).append(file.name)
+    say(*(f"wrote {', '.join(names)} into {folder}" for folder, names in folders.items()))

@@ -1,0 +1,129 @@
+"""Where a path can't stay on the line between two via points: what stands there, and its own ends.
+
+Tested through ``planning/turning/test_local_detours``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.world.corner_fans import X as CORNER_X
+from viaspline.kernels.world.corner_fans import Y as CORNER_Y
+from viaspline.planning.alternatives.leg_search import LegSearch
+from viaspline.planning.routing.blocked_runs import blocked_runs
+from viaspline.planning.routing.route_problem import NO_BARRIERS
+from viaspline.planning.routing.side_barrier import Barriers, barriers_at, barriers_of
+from viaspline.planning.routing.taut_path import TautPath
+from viaspline.planning.turning.lane import Lane
+from viaspline.world.world import World
+
+LONG_LANE = 10.0  # a lane over what stands in it, from which on it is kept unless it is said
+OFF_LANE = 0.05  # beside its line a leg begins off it, in required distances
+
+
+@dataclass(frozen=True)
+class Stay:
+    """A piece of a lane on which the path can't stay on it.
+
+    Attributes:
+        begin: Where it begins, along the lane [m].
+        end: Where it ends [m].
+        aside: How far beside the lane the path gets there [m].
+        size: Of the largest thing that stands in the way there [m].
+        barriers: What closes the sides on which the path doesn't pass what stands there, (b, 4).
+    """
+
+    begin: float
+    end: float
+    aside: float
+    size: float
+    barriers: Floats
+
+
+@dataclass(frozen=True)
+class LegLane:
+    """A leg with the line that it may keep to.
+
+    Attributes:
+        leg: The leg.
+        lane: The line of all of the leg of the route that it is or is the rest of.
+        runs: Where that is blocked, along it [m], (k, 2).
+    """
+
+    leg: LegSearch
+    lane: Lane
+    runs: Floats
+
+    @classmethod
+    def of(cls, leg: LegSearch) -> LegLane:
+        """The line of a leg."""
+        lane = Lane.of(leg.sequence.whole_leg(leg.index))
+        along = [0.0, lane.length, *(float(lane.seen(end)[0]) for end in leg.ends)]
+        first, last = min(along), max(along)
+        ends = lane.at(first), lane.at(last)
+        return cls(leg, lane, first + blocked_runs(leg.world, *ends, leg.requirements.required))
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """How far along the line the leg begins and ends [m]."""
+        first, last = (float(self.lane.seen(end)[0]) for end in self.leg.ends)
+        return first, last
+
+    def is_long_beside(self, stays: Sequence[Stay]) -> bool:
+        """Whether it is long beside what stands in it: all along it, and to the side ahead."""
+        grown = 2.0 * self.leg.requirements.required
+        along = np.maximum(np.diff(self.runs, axis=1) - grown, 0.0).sum()
+        sizes = [max(stay.end - stay.begin, stay.aside) - grown for stay in stays]
+        ahead = np.maximum(sizes, 0.0).sum()
+        return bool(self.lane.length > LONG_LANE * max(along, ahead))
+
+    def is_off(self, place: Floats) -> bool:
+        """Whether a place lies beside the line [m], (d,)."""
+        off = abs(float(self.lane.seen(place)[1]))
+        return off > OFF_LANE * self.leg.requirements.required
+
+    def stays(self, taut_path: TautPath) -> list[Stay]:
+        """Where the path can't stay on it: beside it at the leg's ends, and where it is blocked.
+
+        A taut path says on which side what stands there is passed, and how far aside.
+        """
+        first, last = self.ends
+        runs = np.clip(self.runs, first, max(first, last))
+        places = self.lane.seen(taut_path.corners[:, [CORNER_X, CORNER_Y]])
+        stays = [
+            _blocked(self.leg, self.lane, taut_path, places, run)
+            for run in runs[runs[:, 1] > runs[:, 0]]
+        ]
+        for end, at in zip(self.leg.ends, (first, last), strict=True):
+            if self.is_off(end):
+                off = abs(float(self.lane.seen(end)[1]))
+                stays.append(Stay(at, at, off, 0.0, NO_BARRIERS))
+        return sorted(stays, key=lambda stay: stay.begin)
+
+
+def _blocked(leg: LegSearch, lane: Lane, taut_path: TautPath, places: Floats, run: Floats) -> Stay:
+    """A blocked piece of a lane, as a taut path with corners at places (k, 2) [m] passes it."""
+    begin, end = run.tolist()
+    within = places[(places[:, 0] > begin) & (places[:, 0] < end), 1]
+    at_ends = np.interp([begin, end], places[:, 0], places[:, 1])
+    aside = float(np.abs(np.append(within, at_ends)).max())
+    barriers = _barriers(leg.world, lane, lane.at(0.5 * (begin + end)))
+    passed = barriers.left if taut_path.crosses(barriers.left) else barriers.right
+    closed = barriers.right if passed is barriers.left else barriers.left
+    return Stay(begin, end, aside, max(end - begin, 2.0 * aside), closed)
+
+
+def _barriers(world: World, lane: Lane, place: Floats) -> Barriers:
+    """What closes either side of what blocks a lane at a place [m], (2,).
+
+    They begin inside of it: a path may pass between it and a lane that it blocks only just.
+    """
+    index = int(world.nearest(place)[1])
+    ends = lane.start, lane.at(lane.length)
+    if index >= 0 and world.obstacles[index].ring is not None:
+        return barriers_of(world, index, *ends)
+    return barriers_at(world, place, *ends)
