@@ -41,6 +41,25 @@ def timing_choices(plan: Plan) -> dict[str, Any]:
     }
 
 
+def waits_data(plan: Plan) -> dict[str, Any]:
+    """Where the robot loses time to what moves; nothing where nothing does."""
+    if plan.timed is None:
+        return {}
+    return {
+        "waits": [
+            {
+                "from_m": wait.start,
+                "to_m": wait.end,
+                "at_s": wait.begins,
+                "lost_s": wait.lost,
+                "stood_s": wait.stood,
+                "obstacle": wait.obstacle,
+            }
+            for wait in plan.timed.waits
+        ]
+    }
+
+
 def _candidate(one: TimedCandidate) -> dict[str, Any]:
     return {
         "passes": [

@@ -13,7 +13,7 @@ from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.report.drivability_json import drivability_data
 from viaspline.report.json_text import dumps
-from viaspline.report.moving_json import moving_certificate_data, timing_choices
+from viaspline.report.moving_json import moving_certificate_data, timing_choices, waits_data
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.report.summary import tension
 
@@ -44,6 +44,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
                     {"name": s.name, "distance_m": s.distance, "dwell_s": s.dwell}
                     for s in plan.trajectory.stations
                 ],
+                **waits_data(plan),
             },
         }
     )

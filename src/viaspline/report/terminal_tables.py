@@ -61,6 +61,8 @@ def plan_tables(plan: Plan, name: str) -> RenderableType:
     facts.add_row("largest curvature", curvature(path.max_curvature()[0]))
     for name, words in drivability_rows(plan.drivability):
         facts.add_row(name, words)
+    for name, words in moving_rows(plan):
+        facts.add_row(name, words)
     stations = [s for s in plan.trajectory.stations if s.dwell > 0]
     if stations:
         facts.add_row(
@@ -90,6 +92,30 @@ def drivability_rows(drive: Drivability) -> list[tuple[str, str]]:
     if len(drive.reasons) > MAX_REASONS:
         shown.append(f"… and {len(drive.reasons) - MAX_REASONS} more in plan.json")
     return [*rows, ("drives", f"rough: {shown[0]}"), *(("", words) for words in shown[1:])]
+
+
+def moving_rows(plan: Plan) -> list[tuple[str, str]]:
+    """How near what moves comes, what the path passes, and where it waits; nothing without."""
+    if plan.timed is None:
+        return []
+    proof = plan.timed.certificate
+    words = "nothing comes near"
+    if proof.obstacle is not None:
+        words = f"{down(proof.clearance)}, to '{proof.obstacle}' at {proof.tightest_at_s:.1f} s"
+    rows = [("to what moves, proven", words)]
+    taken = next((one for one in plan.timed.candidates if one.chosen), None)
+    rows += [
+        ("", f"leaves '{passing.obstacle}' on its {_OTHER[passing.side]}")
+        for passing in (() if taken is None else taken.passings)
+    ]
+    for wait in plan.timed.waits[:MAX_LIST_LINES]:
+        how = f"waits {seconds(wait.stood)}" if wait.stood > 0.0 else "slows"
+        what = f"{how} for '{wait.obstacle}', {seconds(wait.lost)} later by {metres(wait.end, 1)}"
+        rows.append(("", what))
+    return rows
+
+
+_OTHER = {"left": "right", "right": "left"}
 
 
 def ledger_table(ledger: tuple[LedgerEntry, ...]) -> RenderableType:
@@ -146,6 +172,13 @@ def run_tables(run: Run, name: str) -> RenderableType:
         )
     for shortfall in run.shortfalls[:MAX_LIST_LINES]:
         facts.add_row("NEARER THAN ASKED", shortfall_words(shortfall))
+    met = run.encounters
+    if met is not None and met.time is not None:
+        near = f"{down(met.clearance)}, to '{met.obstacle}' at {met.time:.1f} s"
+        facts.add_row("to what moves, proven", near)
+        for contact in met.contacts[:MAX_LIST_LINES]:
+            how = "while it stood" if contact.robot_speed == 0.0 else "under way"
+            facts.add_row("CONTACT", f"'{contact.obstacle}' at {contact.time:.1f} s, {how}")
     if run.tracking is not None:
         cross = run.tracking.cross
         facts.add_row(

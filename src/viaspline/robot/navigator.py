@@ -34,12 +34,15 @@ from viaspline.robot.path_following import command_for
 from viaspline.robot.perception.belief import Belief
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.motion_sensor import MovingSighting
+from viaspline.robot.perception.moving.track_hits import TrackedHits
+from viaspline.robot.perception.moving.tracking_premises import TrackingPremises
 from viaspline.robot.perception.perceive import perceive, told_apart
 from viaspline.robot.replanning.decide import decide, look_again
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
 from viaspline.robot.yielding.foreseen import foreseen
 from viaspline.robot.yielding.give_way import give_way
+from viaspline.robot.yielding.stoppable import sight_of, stoppable
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -180,13 +183,13 @@ class Navigator:
         # what does it perceive? after the end only a lidar goes on
         sighting = None
         if isinstance(sensed, Scan):
-            knowledge, sighting = perceive(knowledge, sensed)
+            knowledge, sighting = perceive(knowledge, sensed, time, foreseen)
         else:
             standing, moving = told_apart(sensed)
             if moving or knowledge.tracked is not None:
-                knowledge = knowledge.with_sightings(moving, progress.time, foreseen)
+                knowledge = knowledge.with_sightings(moving, time, foreseen)
             if not progress.finished:
-                knowledge, sighting = perceive(knowledge, standing)
+                knowledge, sighting = perceive(knowledge, standing, time, foreseen)
         # what does it do about that?
         work = 0.0
         if sighting is not None or schedule.pending is not None or respond is look_again:
@@ -199,6 +202,9 @@ class Navigator:
             decision = give_way(task, progress, knowledge, schedule)
             log, schedule = log.with_decision(decision, 0.0), decision.schedule
             progress, log = note_arrivals(task, progress, schedule, log)
+        if task.mission.robot.moving is not None:
+            sight = sight_of(task.mission.robot, sensed, measured)
+            schedule = stoppable(task, progress, knowledge, before.schedule, schedule, sight)
         # what is it to do now?
         controller = before.progress.controller
         progress, schedule = with_command(controller, progress, schedule, measured, time, work)
@@ -334,8 +340,12 @@ def _at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
         controller = Controller.of(task.model, period, plan.path, plan.trajectory, pose_filter)
     progress = Progress(time=0.0, controller=controller)
     moving = MovingObstacles.known(task.mission)
+    hits = None
+    if belief is not None and robot.moving is not None:
+        premises = TrackingPremises(robot.moving.max_speed_mps, noise=belief.surfaces.noise)
+        hits = TrackedHits(premises)
     knowledge = Knowledge(
-        world, frozenset(world.obstacles), belief, moving=moving, charted=len(moving)
+        world, frozenset(world.obstacles), belief, moving=moving, charted=len(moving), hits=hits
     )
     path, laps = first_round(task, plan.path)
     schedule = Schedule(path, plan.trajectory, laid_in=world, laps=laps)

@@ -24,6 +24,7 @@ from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_among import law_among
+from viaspline.trajectory.yielding.waits import TrafficWait, waits
 
 MAX_PATHS = 40
 """Paths that are timed at most."""
@@ -76,7 +77,15 @@ def plan_among(problem: TimedProblem, static: Solution) -> TimedDrive:
         raise _given_up(problem, outcomes, static)
     chosen = (best.solution.path.length, best.trajectory.end_time)
     marked = tuple(replace(one, chosen=(one.length, one.arrival) == chosen) for one in tried)
-    return replace(best, candidates=marked)
+    return replace(best, candidates=marked, waits=_waits(problem, best))
+
+
+def _waits(problem: TimedProblem, best: TimedDrive) -> tuple[TrafficWait, ...]:
+    """Where the robot loses time to what moves."""
+    return waits(
+        best.solution.path, best.trajectory, best.free, moving=problem.moving,
+        required=problem.required, hold=problem.mission.route.hold_s,
+    )  # fmt: skip
 
 
 def _others(
@@ -106,7 +115,8 @@ def _certificate(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCe
     requirements = problem.requirements
     return certify_moving(
         path, law, problem.moving, requirements.kept, radius=requirements.radius,
-        footprint=requirements.footprint, hold=problem.mission.route.hold_s,
+        footprint=requirements.footprint, heading=problem.mission.robot.held_heading,
+        hold=problem.mission.route.hold_s,
     )  # fmt: skip
 
 
@@ -121,7 +131,7 @@ def _better(
     certificate = _certificate(problem, path, law)
     if not certificate.holds:
         return best
-    return TimedDrive(taken.solution, law, certificate, taken.free, ())
+    return TimedDrive(taken.solution, law, certificate, taken.free)
 
 
 def _candidate(taken: Alternative, outcome: Outcome[Trajectory]) -> TimedCandidate:

@@ -11,6 +11,7 @@ from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.trajectory.trajectory import Trajectory
+from viaspline.trajectory.yielding.waits import TrafficWait
 
 
 @dataclass(frozen=True)
@@ -61,10 +62,12 @@ class TimedDrive:
         certificate: The proven clearance to what moves.
         free: The law that would be driven if nothing moved.
         candidates: Every path that was tried, in the order in which they were.
+        waits: Where the robot loses time to what moves, and to what.
     """
 
     solution: Solution
     trajectory: Trajectory
     certificate: MovingCertificate
     free: Trajectory
-    candidates: tuple[TimedCandidate, ...]
+    candidates: tuple[TimedCandidate, ...] = ()
+    waits: tuple[TrafficWait, ...] = ()

@@ -7,6 +7,7 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.perception.belief import Belief
 from viaspline.robot.perception.lidar import LidarSensor
+from viaspline.robot.yielding.foreseen import foreseen
 from viaspline.world.world import World
 
 TANK = Obstacle.model_validate({"circle": {"center": (9, 0), "radius": 1}, "name": "tank"})
@@ -29,7 +30,7 @@ def test_what_is_told_comes_before_what_a_lidar_has_seen() -> None:
     world = World([TANK])
     before = Knowledge(world, frozenset([TANK]), Belief.at_start(world, ROBOT))
     scan = LidarSensor([ROCK], ROBOT.sensor.lidar).scan((0.0, 0.0), 0.0)
-    seen, news = before.with_scan(scan)
+    seen, news = before.with_scan(scan, 0.0, foreseen)
     assert len(news.new) == len(seen.world) - 1 > 0
     told, new = seen.with_obstacles([ROCK])
     assert told.world.names[:2] == ("tank", "obstacle 2")

@@ -10,6 +10,7 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.perception.perceive import perceive
+from viaspline.robot.yielding.foreseen import foreseen
 from viaspline.world.world import World
 
 TANK = Obstacle.model_validate({"circle": {"center": (9, 0), "radius": 1}, "name": "tank"})
@@ -18,19 +19,19 @@ MAP = Knowledge(World([TANK]), frozenset([TANK]))
 
 
 def test_what_is_on_the_map_is_nothing_new() -> None:
-    assert perceive(MAP, [TANK, TANK]) == (MAP, None)
-    assert perceive(MAP, []) == (MAP, None)
+    assert perceive(MAP, [TANK, TANK], 0.0, foreseen) == (MAP, None)
+    assert perceive(MAP, [], 0.0, foreseen) == (MAP, None)
 
 
 def test_what_is_told_twice_at_once_is_one_thing() -> None:
-    knowledge, sighting = perceive(MAP, iter([ROCK, TANK, ROCK]))
+    knowledge, sighting = perceive(MAP, iter([ROCK, TANK, ROCK]), 0.0, foreseen)
     assert isinstance(sighting, World)
     assert sighting.names == ("rock",)
     assert knowledge.world.names == ("tank", "rock")
-    assert perceive(knowledge, [ROCK]) == (knowledge, None)
+    assert perceive(knowledge, [ROCK], 0.0, foreseen) == (knowledge, None)
 
 
 def test_a_scan_for_a_robot_without_a_lidar_is_refused() -> None:
     scan = LidarSensor([ROCK], Lidar(range_m=5)).scan((0.0, 0.0), 0.0)
     with pytest.raises(GeometryError, match=r"has no lidar; give it one by robot\.sensor\.lidar"):
-        perceive(MAP, scan)
+        perceive(MAP, scan, 0.0, foreseen)

@@ -9,11 +9,13 @@ from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.belief import Belief, News
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.motion_sensor import MovingSighting
+from viaspline.robot.perception.moving.object_track import ObjectTrack
+from viaspline.robot.perception.moving.track_hits import TrackedHits
 from viaspline.robot.perception.moving.track_sightings import SightedTrack, TrackedSightings
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
-Foreseen = Callable[[Iterable[SightedTrack], float], MovingObstacles]
+Foreseen = Callable[[Iterable[ObjectTrack | SightedTrack], float], MovingObstacles]
 """What tracked things are taken to do from a time [s] on."""
 
 
@@ -29,7 +31,8 @@ class Knowledge:
             are told of again need not be compared with all that is known.
         moving: What moves, as far as it is known or foreseen.
         charted: How many of these are on the map.
-        tracked: What was seen to move and isn't on the map; None: nothing is looked for.
+        tracked: What was told to move and isn't on the map; None: nothing was told of.
+        hits: What a lidar has shown that moves or may; None: it is taken to show what stands.
     """
 
     world: World
@@ -39,6 +42,7 @@ class Knowledge:
     moving: MovingObstacles = field(default_factory=MovingObstacles, compare=False)
     charted: int = 0
     tracked: TrackedSightings | None = field(default=None, compare=False)
+    hits: TrackedHits | None = field(default=None, compare=False)
 
     def with_obstacles(self, obstacles: Sequence[Obstacle]) -> tuple[Knowledge, World]:
         """What is known with obstacles that were not told before.
@@ -82,12 +86,24 @@ class Knowledge:
             self.moving.obstacles[: self.charted], since=self.moving.since[: self.charted]
         )
 
-    def with_scan(self, scan: Scan) -> tuple[Knowledge, News]:
-        """What is known after one more scan of a lidar, and what is new about it.
+    def with_scan(self, scan: Scan, time: float, ahead: Foreseen) -> tuple[Knowledge, News]:
+        """What is known after one more scan of a lidar, and what is new about what stands.
+
+        Where things may move, a hit goes to what stands or to what moves, and to one of them alone.
+
+        Args:
+            scan: A look round.
+            time: When it was taken [s].
+            ahead: What tracked things are taken to do.
 
         Raises:
             AssertionError: When the robot has no lidar.
         """
         assert self.belief is not None
-        belief, news = self.belief.with_scan(scan)
-        return replace(self, belief=belief, world=belief.world), news
+        if self.hits is None:
+            belief, news = self.belief.with_scan(scan)
+            return replace(self, belief=belief, world=belief.world), news
+        hits, standing = self.hits.with_scan(scan, time, self.belief.world)
+        belief, news = self.belief.with_scan(scan, standing)
+        moving = self.charted_moving.and_those(ahead(hits.tracks, time))
+        return replace(self, belief=belief, world=belief.world, hits=hits, moving=moving), news

@@ -8,7 +8,7 @@ from dataclasses import replace
 from viaspline.errors import GeometryError
 from viaspline.handed_in import all_of
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.knowledge import Foreseen, Knowledge
 from viaspline.robot.perception.belief import News
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.motion_sensor import MovingSighting
@@ -19,13 +19,15 @@ Sighting = World | News
 
 
 def perceive(
-    knowledge: Knowledge, sensed: Iterable[Obstacle] | Scan
+    knowledge: Knowledge, sensed: Iterable[Obstacle] | Scan, time: float, ahead: Foreseen
 ) -> tuple[Knowledge, Sighting | None]:
     """What is known after one more look.
 
     Args:
         knowledge: What was known before.
         sensed: A lidar's scan, or every obstacle in sight.
+        time: Of the look [s].
+        ahead: What things that move are taken to do.
 
     Returns:
         (what is known now, what that look has shown); None if it told of nothing new.
@@ -39,7 +41,7 @@ def perceive(
                 "a scan was given, but the mission's robot has no lidar; give it one by "
                 "robot.sensor.lidar"
             )
-        return knowledge.with_scan(sensed)
+        return knowledge.with_scan(sensed, time, ahead)
     in_sight = all_of("sensed", sensed, Obstacle, "give obstacles in sight, or a Scan")
     same = {id(obstacle) for obstacle in knowledge.in_sight}
     others = (obstacle for obstacle in in_sight if id(obstacle) not in same)

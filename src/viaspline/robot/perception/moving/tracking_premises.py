@@ -20,8 +20,7 @@ class TrackingPremises:
         settle_s: What hasn't moved for so long since it was first seen stands [s].
         doubt_s: What seems to move but is where it was for so long stands [s]: a wall of which ever
             more comes into sight.
-        doubt_s: float = 2.0
-    rest_s: What has moved stands again when it hasn't for so long [s].
+        rest_s: What has moved stands again when it hasn't for so long [s].
         forget_s: What hasn't been seen for so long is forgotten [s].
         lost_m: So is that whose place is as uncertain as this, in standard deviations [m].
         longest_m: What is longer than this when it first comes into sight stands [m].
