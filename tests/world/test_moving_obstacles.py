@@ -132,3 +132,10 @@ def test_what_makes_no_sense_is_refused_in_words() -> None:
     for points, times in (((math.nan, 0), 0.0), ((0, 0), math.inf), ([(0, 0)] * 2, [0, 1, 2])):
         with pytest.raises(GeometryError):
             moving.distance(points, times)
+
+
+def test_a_keyframe_without_a_heading_has_that_of_the_one_before() -> None:
+    frames = [(0.0, 0.0, 0.0), (1.0, 1.0, 0.0, 90.0), (2.0, 2.0, 0.0), (3.0, 3.0, 0.0, 0.0)]
+    moving = moved({"keyframes": frames, "after": "stay"}, BOX)
+    headings = [float(np.degrees(moving.frames(t)[0, 2])) for t in (-1, 0.5, 1.0, 1.5, 2.5, 4)]
+    assert headings == pytest.approx([0, 45, 90, 90, 45, 0])

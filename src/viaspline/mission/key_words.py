@@ -91,7 +91,7 @@ def keys_at(path: Path) -> tuple[str, ...]:
     """The keys that the mapping at a path may have.
 
     >>> keys_at(("robot", "sensor"))
-    ('range_m', 'lidar')
+    ('range_m', 'lidar', 'velocity_noise_mps')
     """
     models = [option.model for option in options_at(path, MissionParts) if option.model is not None]
     return tuple(dict.fromkeys(key for model in models for key in keys_of(model)))

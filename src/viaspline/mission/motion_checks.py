@@ -63,13 +63,6 @@ def _of_motion(path: Path, motion: Motion) -> Iterator[UnplacedFault]:
 
 def _of_keyframes(path: Path, motion: Motion) -> Iterator[UnplacedFault]:
     frames = motion.keyframes or ()
-    lengths = np.fromiter(map(len, frames), np.int64, len(frames))
-    odd = np.flatnonzero(lengths != lengths[0])
-    if odd.size:
-        i = int(odd[0])
-        problem = f"has {lengths[i]} numbers, but the first keyframe has {lengths[0]}"
-        yield UnplacedFault((*path, i), problem, "give a heading in all keyframes, or in none")
-        return
     times = np.array([frame[0] for frame in frames])
     steps = np.flatnonzero(np.diff(times) <= 0.0)
     if steps.size:

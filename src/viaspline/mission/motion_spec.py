@@ -41,7 +41,7 @@ def _in_range(frame: tuple[float, ...]) -> tuple[float, ...]:
 
 
 Keyframe: TypeAlias = Annotated[
-    tuple[Number, ...],
+    tuple[Annotated[Number, Field(ge=-MAX_LENGTH_M, le=MAX_LENGTH_M)], ...],
     Field(min_length=3, max_length=4),
     AfterValidator(_in_range),
     Expects(KEYFRAME_WORDS),
@@ -88,6 +88,7 @@ class Motion(
     Attributes:
         keyframes: Where the frame's origin is when, ``[t, x, y]`` or ``[t, x, y, heading_deg]``
             [s, m, deg anticlockwise from x]; it goes evenly from one to the next. Times increase.
+            One without a heading has that of the one before, at first 0.
         after: What it does when the keyframes are over: begins again (``loop``), goes back the
             way that it came (``bounce``), ``stay`` or ``vanish``.
         before: What it does before the first keyframe: stands there (``stay``), or isn't there

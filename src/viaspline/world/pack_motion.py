@@ -77,11 +77,14 @@ def _pieces(motion: Motion) -> tuple[Floats, float]:
 
 def _frames(keyframes: Sequence[Sequence[float]]) -> Floats:
     """Time, x, y [m] and heading [rad] of keyframes, (k, 4)."""
-    given = np.array(keyframes, np.float64)
-    frames = np.zeros((len(given), 4))
-    frames[:, : given.shape[1]] = given
-    frames[:, 3] = np.deg2rad(frames[:, 3])
-    return frames
+    frames = np.array([frame[:3] for frame in keyframes], np.float64)
+    headings = np.zeros(len(frames))
+    turned = np.array([k for k, frame in enumerate(keyframes) if len(frame) > 3], np.int64)
+    if turned.size:
+        said = np.deg2rad([keyframes[k][3] for k in turned])
+        before = np.searchsorted(turned, np.arange(len(frames)), side="right") - 1
+        headings = np.where(before >= 0, said[before], 0.0)
+    return np.column_stack((frames, headings))
 
 
 def _between(frames: Floats) -> Floats:

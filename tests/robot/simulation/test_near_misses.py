@@ -125,7 +125,7 @@ def check(
         assert found.shown >= min(views[0.05]) - 0.02
     if views[-0.02]:
         assert found.shown is not None
-        assert found.shown <= min(views[-0.02]) + 2.0 * STEP + 1e-9  # from look to look, of beams
+        assert found.shown <= min(views[-0.02]) + 5.0 * STEP  # beams that graze it are apart
     both = found.shown is not None and found.needed_by is not None
     assert found.seen_in_time == (both and found.shown <= found.needed_by)  # type: ignore[operator]
 

@@ -139,10 +139,18 @@ def braking_at_once(
     """
     old, until = schedule.trajectory, schedule.committed_until
     if until <= progress.time:
-        return braking(progress.distance, speed, task.limits.brake, progress.time)
+        return _harsh_stop(task, progress.distance, speed, progress.time)
     distance, speed, _ = (float(x) for x in old.state_at(until))
     distance = max(distance, progress.distance)
-    return old.followed_by(braking(distance, speed, task.limits.brake, until), progress.time)
+    return old.followed_by(_harsh_stop(task, distance, speed, until), progress.time)
+
+
+def _harsh_stop(task: DriveTask, distance: float, speed: float, time: float) -> Trajectory:
+    """Braking as hard as it goes, which says so where the jerk has a limit."""
+    law = braking(distance, speed, task.limits.brake, time)
+    if task.limits.max_jerk is None:
+        return law
+    return replace(law, over_jerk_until=float(law.distances[-1]))
 
 
 def rescheduled_by_sight(
