@@ -1,11 +1,13 @@
 """DynaBARN: worlds of moving discs, their motion known, planned in space and time.
 
-    python benchmarks/dynabarn.py FOLDER [--traffic]
+    python benchmarks/dynabarn.py FOLDER [--traffic | --unseen]
 
 FOLDER has DynaBARN's worlds as JSON: start, goal, obstacles with a radius, a period and keyframes
 t, x, y, which begin again at their end. A robot of radius 0.25 m, 2 m/s and 1 m/s² goes from the
 start to the goal. With ``--traffic`` it sets out in the middle of the traffic: from five places
-and times in every world. Every plan is sampled every half millisecond by numpy alone.
+and times in every world. Every plan is sampled every half millisecond by numpy alone. With
+``--unseen`` nothing is known: a range sensor of 10 m shows places and velocities, at three phases
+of every world's motion; a drive is clean if it arrives and touches nothing.
 """
 
 from __future__ import annotations
@@ -67,7 +69,8 @@ def least_gap(world: dict[str, Any], plan: vs.Plan) -> float:
     """The least distance between the robot and a disc, by samples [m]."""
     law = plan.trajectory
     times = np.arange(law.start_time, law.end_time, SAMPLE_S)
-    robot = np.asarray(plan.path.at_distance(law.distance_at(times)))
+    along = np.minimum(law.distance_at(times), plan.path.length)
+    robot = np.asarray(plan.path.at_distance(along))
     radii = np.array([one["radius_m"] for one in world["obstacles"]])
     apart = np.hypot(*np.moveaxis(places_at(world, times) - robot[:, None], -1, 0))
     return float((apart - radii).min()) - RADIUS_M
@@ -90,11 +93,51 @@ def cases(world: dict[str, Any], number: int, traffic: bool) -> Iterator[tuple[A
             yield start.round(3).tolist(), depart
 
 
+PHASES_S = (0.0, 7.0, 19.0)
+LOOK_S = 0.1
+
+
+def unseen(world: dict[str, Any], phase: float) -> vs.Mission:
+    """A world that a range sensor has to find, its motion that much farther on [s]."""
+    data = mission_of(world, world["start"], 0.0).model_dump(by_alias=True, exclude_defaults=True)
+    for item in data["world"]["known"]:
+        item["motion"]["keyframes"] = [(t - phase, x, y) for t, x, y in item["motion"]["keyframes"]]
+    data["world"] = {"unseen": data["world"]["known"]}
+    data["robot"]["sensor"] = {"range_m": 10}
+    return vs.Mission.model_validate(data)
+
+
+def drive_unseen(folder: Path) -> None:
+    """Drive all worlds at all phases and say how that went."""
+    clean, moving, standing, lost, spent = 0, 0, 0, 0, []
+    for file in sorted(folder.glob("*.json")):
+        for phase in PHASES_S:
+            mission = unseen(json.loads(file.read_text()), phase)
+            began = clock.process_time()
+            run = vs.simulate(mission, step=LOOK_S)
+            spent.append(clock.process_time() - began)
+            assert run.encounters is not None
+            contacts = run.encounters.contacts
+            touched = any(contact.robot_speed > 0.0 for contact in contacts)
+            clean += run.reached and not contacts
+            moving += touched
+            standing += bool(contacts) and not touched
+            lost += not run.reached and not contacts
+    print(
+        f"{clean} of {len(spent)} clean; touched under way {moving}, only while standing {standing}"
+    )
+    print(f"not arrived, nothing touched {lost}; a drive takes {np.median(spent):.2f} s of work")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--traffic", action="store_true")
+    parser.add_argument("--unseen", action="store_true")
     asked = parser.parse_args()
+    if asked.unseen:
+        drive_unseen(asked.folder)
+        return
     taken, planned, gaps, refused = [], [], [], []
     for number, file in enumerate(sorted(asked.folder.glob("*.json"))):
         world = json.loads(file.read_text())

@@ -93,7 +93,8 @@ def moment_of(plan: Plan) -> Moment:
     law, certificate = plan.trajectory, plan.moving_certificate
     now = law.start_time if certificate is None else certificate.tightest_at_s
     moving = MovingObstacles.known(plan.mission)
-    x, y = np.asarray(plan.path.at_distance(law.distance_at(now)))[:2].tolist()
+    along = min(float(law.distance_at(now)), plan.path.length)
+    x, y = np.asarray(plan.path.at_distance(along))[:2].tolist()
     body = (x, y, plan.mission.robot.outer_radius)
     return Moment(moving, law.start_time, law.end_time, now, body)
 

@@ -18,7 +18,7 @@ from viaspline.planning.plan_drive import find_drive
 from viaspline.spacetime.meetings import Meeting, first_meeting, times_near
 from viaspline.spacetime.standing_ghost import standing_ghost
 from viaspline.spacetime.timed_drive import Passing
-from viaspline.spacetime.timed_problem import TimedProblem
+from viaspline.spacetime.timed_problem import TimedProblem, without_lanes
 from viaspline.trajectory.trajectory import Trajectory
 
 MAX_PASSINGS = 4
@@ -131,7 +131,7 @@ def _led_round(
     if (world.distances_to(len(world) - 1, points) < problem.requirements.required).any():
         return None
     try:
-        laid = find_drive(problem.mission, world, problem.requirements)
+        laid = find_drive(problem.mission, world, without_lanes(problem.requirements))
         free = problem.free_law(laid.path)
     except (PlanningError, GeometryError):
         return None

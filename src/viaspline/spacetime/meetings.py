@@ -62,7 +62,7 @@ def first_meeting(
     begin, end = (law.start_time, law.end_time) if span is None else span
     count = min(max(int((end - begin) / SAMPLE_S), 2), MAX_SAMPLES)
     times = np.linspace(begin, end, count + 1)
-    along = np.asarray(law.distance_at(times))
+    along = np.minimum(np.asarray(law.distance_at(times)), path.length)  # but for rounding
     gaps, nearest = moving.nearest(np.asarray(path.at_distance(along)), times)
     close = np.flatnonzero(gaps < required)
     if not close.size:

@@ -6,7 +6,7 @@ Tested through ``spacetime/test_plan_among``.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
@@ -63,3 +63,13 @@ class TimedProblem:
         if self.mission.route.optimise == "length":
             return path.length
         return law.end_time
+
+
+def without_lanes(requirements: Requirements) -> Requirements:
+    """What paths keep that are led round what moves: where it isn't said, no lanes.
+
+    What moves is gone soon; to swerve for it and back costs time.
+    """
+    if requirements.detours is not None:
+        return requirements
+    return replace(requirements, detours="short")

@@ -31,6 +31,7 @@ from viaspline.robot.replanning.transitions import take_over
 from viaspline.robot.run import Event
 from viaspline.spacetime.meetings import Meeting, first_meeting
 from viaspline.spacetime.standing_ghost import standing_ghost
+from viaspline.spacetime.timed_problem import without_lanes
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 
@@ -161,7 +162,8 @@ def _led_round(
     lay = replan.from_rest if stands else replan.planned
     leave = context.stop if stands else context.leaves[0]
     try:
-        solution = lay(path, leave, world, searching.requirements, (), until)
+        requirements = without_lanes(searching.requirements)
+        solution = lay(path, leave, world, requirements, (), until)
         return timed(context, "from_rest" if stands else "planned", solution)
     except PlanningError:
         return None
