@@ -170,6 +170,7 @@ class Trajectory:
             times=np.concatenate((self.times[kept], later.times)),
             accelerations=np.concatenate((self.accelerations[kept], later.accelerations)),
             stations=(*passed, *later.stations),
+            over_jerk_until=self._over_jerk_with(later),
         )
         if self.changes is None and later.changes is None:
             return joined
@@ -178,6 +179,13 @@ class Trajectory:
             for before, after_it in zip(self._bends, later._bends, strict=True)
         )
         return replace(joined, changes=changes, jerks=jerks)
+
+    def _over_jerk_with(self, later: Trajectory) -> float | None:
+        """Up to where the jerk is exceeded on this law up to a later one, and on that [m]."""
+        if self.over_jerk_until is None:
+            return later.over_jerk_until
+        until = min(self.over_jerk_until, float(later.distances[0]))
+        return until if later.over_jerk_until is None else max(until, later.over_jerk_until)
 
     @property
     def _bends(self) -> tuple[Floats, Floats]:
