@@ -146,8 +146,8 @@ export function obstaclesOf(doc) {
   return found;
 }
 
-/** Those that the page draws. @param {Obstacle[]} obstacles */
-export const outlined = (obstacles) => /** @type {Outlined[]} */ (obstacles.filter((one) => one.shape?.hasOutline));
+/** Those that the page draws; the shape of what moves stands in a frame of its own, nowhere on the map. @param {Obstacle[]} obstacles */
+export const outlined = (obstacles) => /** @type {Outlined[]} */ (obstacles.filter((one) => one.shape?.hasOutline && !one.item?.motion));
 
 /**
  * Fences and speed zones.
