@@ -46,8 +46,7 @@ def run_space_time(column: SideColumn, run: Run) -> None:
 
 
 def _required(plan: Plan) -> float:
-    requirements = Requirements.of(plan.mission, plan.tracking_error)
-    return requirements.outer_radius + requirements.kept
+    return Requirements.of(plan.mission, plan.tracking_error).around
 
 
 def _draw(column: SideColumn, shown: SpaceTime, driven: Floats, free: Floats | None) -> None:

@@ -44,7 +44,7 @@ class TimedProblem:
 
         A body that is no disc is taken for the one around it; its certificate knows better.
         """
-        return self.requirements.outer_radius + self.requirements.kept
+        return self.requirements.around
 
     @property
     def least(self) -> float:

@@ -124,6 +124,11 @@ class Requirements:
         """Distance that the path itself keeps from every obstacle [m]."""
         return max(self.radius + self.kept, LEAST_KEPT_M)
 
+    @property
+    def around(self) -> float:
+        """Distance that the path keeps if the body is taken for the disc around it [m]."""
+        return self.outer_radius + self.kept
+
     @classmethod
     def of(cls, mission: Mission, tracking_error: float = 0.0) -> Requirements:
         """The requirements of a mission.

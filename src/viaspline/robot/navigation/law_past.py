@@ -46,12 +46,10 @@ def law_past(
     distance, end = part
     timed = path
     if end < path.length:
-        timed = Path(path.section(0.0, float(path.parameter(end))).spans, [])
-        stops = [stop for stop in stops if stop.distance < timed.length]
-    requirements = task.requirements
+        timed, stops = part_until(path, stops, end)
     outcome = law_among(
         timed, task.limits, stops, moving=moving,
-        required=requirements.outer_radius + requirements.kept,
+        required=task.requirements.around,
         zones=task.mission.world.speed_zones, slow=schedule.slow,
         start=min(distance, timed.length), start_speed=motion[0], start_time=time,
         hold=task.mission.route.hold_s if end >= path.length else 0.0,
@@ -59,3 +57,9 @@ def law_past(
     if isinstance(outcome, Found):
         return outcome.value
     raise GeometryError(f"no law past what moves: {outcome.reason}")
+
+
+def part_until(path: Path, stops: Sequence[Station], end: float) -> tuple[Path, Sequence[Station]]:
+    """The part of a path up to a distance [m], and the stops on it."""
+    part = Path(path.section(0.0, float(path.parameter(end))).spans, [])
+    return part, [stop for stop in stops if stop.distance < part.length]

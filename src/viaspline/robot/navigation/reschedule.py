@@ -16,7 +16,7 @@ from viaspline.kernels.tracking.drive_motion import HEADING
 from viaspline.machine.turns_on_spot import SpotTurning, turns_where_it_stands, with_turns
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
-from viaspline.robot.navigation.law_past import law_past
+from viaspline.robot.navigation.law_past import law_past, part_until
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
 from viaspline.robot.perception.belief import Belief
@@ -307,8 +307,7 @@ def _timed(
         )  # fmt: skip
     timed = path
     if schedule.is_round and end < path.length:
-        timed = Path(path.section(0.0, float(path.parameter(end))).spans, [])
-        stops = [stop for stop in stops if stop.distance < timed.length]
+        timed, stops = part_until(path, stops, end)
     trajectory = retime(
         timed, task.limits, stops, zones=zones, slow=schedule.slow,
         start=min(distance, timed.length), start_speed=speed, start_accel=accel, start_time=time,

@@ -93,7 +93,7 @@ def _meeting(
     task: DriveTask, moving: MovingObstacles, path: Path, law: Trajectory, now: float
 ) -> Meeting | None:
     """What a law meets from now on, and a robot that stands at its end."""
-    required = task.requirements.outer_radius + task.requirements.kept
+    required = task.requirements.around
     return first_meeting(path, law, moving, required, (now, max(law.end_time, now + LOOK_S)))
 
 
