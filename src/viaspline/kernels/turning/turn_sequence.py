@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.clothoid import (
     MAX_SPAN_TURN_RAD,
@@ -30,7 +30,14 @@ X, Y, KEPT, SIDE, HEADING, RADIUS = range(6)
 FINE, NO_TANGENT, NO_ROOM, RESTLESS, LEFT_OUT = range(5)
 MAX_HEADING_ROUNDS = 400
 SETTLED_RAD = 1e-13  # change of a heading in the last round [rad]
+RESTING_RAD = 1e-10  # the same, if it won't become less [rad]
+ROUGHLY_SETTLED_RAD = 1e-3  # the same, where lines are missing or turns overlap [rad]
+LEAST_RESTLESS = 0.05  # a line that still turns, of what the most restless one does
+WRONG_TURN_RAD = 1e-9  # by which a bend is turned at to the wrong side, at least [rad]
+WRONG_PER_SETTLED = 10.0  # the same, over the change of a heading in the last round
+UNMOVED = 1e-2  # of that: a turn between lines that change less stays as it is
 HOPELESS_ROUNDS = 40  # in which the least change isn't halved: they go round and round
+ROUGHLY_HOPELESS_ROUNDS = 16  # the same, where they need to settle roughly only
 ACCELERATED_RAD = 0.05  # change of a heading from which on the next changes are foreseen [rad]
 MAX_OVERSHOOT = 20.0  # of such a change
 GENTLE_TURN_RAD = 1.2  # turns up to this are reckoned from where their lines meet [rad]
@@ -123,17 +130,23 @@ def _settle(bend: Floats, kind: int, turn: float, heading: float, ramp: float, c
 
 
 @inner
-def _failed(bends: Floats, closed: bool, turns: Floats, state: int, where: int) -> tuple[int, int]:
-    """A state and where, unless a bend is turned at to the wrong side: the others make it needless.
+def _outcome(
+    bends: Floats, closed: bool, turns: Floats, state: int, tight: Flags, settled: float
+) -> int:  # fmt: skip
+    """A state, unless a bend is turned at to the wrong side: the others make it needless.
 
     Only the last round tells: before the turns have settled, one may seem so that is needed.
+    ``tight`` is then that bend.
     """
-    worst, count = -1e-9, bends.shape[0]
+    worst, found, count = -max(WRONG_TURN_RAD, WRONG_PER_SETTLED * settled), -1, bends.shape[0]
     for k in range(0 if closed else 1, count if closed else count - 1):
         if bends[k, SIDE] * turns[k] < worst:
-            worst = bends[k, SIDE] * turns[k]
-            state, where = LEFT_OUT, k
-    return state, where
+            worst, found = bends[k, SIDE] * turns[k], k
+    if found < 0:
+        return state
+    tight[:] = False
+    tight[found] = True
+    return LEFT_OUT
 
 
 @inner
@@ -152,56 +165,105 @@ def _overshoot(steps: Floats, before: Floats) -> float:
 
 
 @inner
+def _lay(
+    bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats,
+    circles: Floats, apexes: Floats, laid: Floats, fresh: Flags, unmoved: float,
+) -> None:  # fmt: skip
+    """Lay the turns between lines anew, but where these have hardly moved since.
+
+    Args:
+        bends: As in ``turn_sequence``, and so are the next three.
+        closed: The same.
+        ramps: The same.
+        lines: The same.
+        turns: [rad], (n,); changed.
+        circles: What lines touch, (n, 3); changed.
+        apexes: [m], (n, 2); changed.
+        laid: The headings before and after each turn as it was last laid [rad], (n, 2); changed.
+        fresh: Which turns are laid anew, (n,); filled.
+        unmoved: By what these may differ [rad].
+    """
+    count, last = bends.shape[0], lines.shape[0]
+    for k in range(count):
+        kind = 0
+        if not closed and k == 0:
+            kind, after = -1, lines[0]
+            before = after if math.isnan(bends[k, HEADING]) else bends[k, HEADING]
+        elif not closed and k == count - 1:
+            kind, before = 1, lines[last - 1]
+            after = before if math.isnan(bends[k, HEADING]) else bends[k, HEADING]
+        else:
+            before, after = lines[(k - 1) % last], lines[k]
+        fresh[k] = max(abs(before - laid[k, 0]), abs(after - laid[k, 1])) > unmoved
+        if fresh[k]:
+            laid[k, 0], laid[k, 1] = before, after
+            turns[k] = _turn_at(bends[k], before, after, turns[k])
+            middle = before + 0.5 * turns[k] if kind >= 0 else after - 0.5 * turns[k]
+            _settle(bends[k], kind, turns[k], middle, ramps[k], circles[k], apexes[k])
+
+
+@inner
 def _relaxed(
     bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats,
-    circles: Floats, apexes: Floats,
-) -> tuple[int, int]:  # fmt: skip
-    """Let lines and turns settle; both have the values of a first guess.
+    circles: Floats, apexes: Floats, tight: Flags, settled: float,
+) -> int:  # fmt: skip
+    """Let lines and turns settle, until no heading changes more than ``settled`` [rad] in a round.
+
+    Lines and turns have the values of a first guess.
 
     Returns:
-        What came of it, and at which line or bend.
+        What came of it; ``tight`` says at which lines, or bends.
     """
     count = bends.shape[0]
     last = count if closed else count - 1
     came_from, steps, steps_before = lines.copy(), np.zeros(last), np.zeros(last)
+    touching, laid = np.zeros(last), np.full((count, 2), np.inf)
+    fresh = np.ones(count, np.bool_)
     moved, least, least_before = 0.0, math.inf, math.inf
+    missing = False
+    hopeless = HOPELESS_ROUNDS if settled < ROUGHLY_SETTLED_RAD else ROUGHLY_HOPELESS_ROUNDS
     for round_ in range(MAX_HEADING_ROUNDS):
-        if round_ % HOPELESS_ROUNDS == 0 and round_ > 0:
+        if round_ % hopeless == 0 and round_ > 0:
             if least > 0.5 * least_before:
                 break
             least, least_before = math.inf, least
-        moved = 0.0
+        moved, missing = 0.0, False
         for k in range(last):
-            line = _line(circles, k, (k + 1) % count)
-            if math.isnan(line):
-                return _failed(bends, closed, turns, NO_TANGENT, k)
-            steps_before[k], steps[k] = steps[k], _wrapped(line, lines[k]) - lines[k]
+            after = (k + 1) % count
+            if fresh[k] or fresh[after]:
+                touching[k] = _line(circles, k, after)
+            tight[k] = math.isnan(touching[k])  # stays, until its ends have found their places
+            missing = missing or tight[k]
+            steps_before[k] = steps[k]
+            steps[k] = 0.0 if tight[k] else _wrapped(touching[k], lines[k]) - lines[k]
             moved = max(moved, abs(steps[k]))
+        if missing and round_ > 0 and moved < ROUGHLY_SETTLED_RAD:
+            break
         least = min(least, moved)
         share = _overshoot(steps, steps_before) if round_ > 1 and moved < ACCELERATED_RAD else 0.0
         for k in range(last):
             here, line = lines[k], lines[k] + steps[k]
             lines[k] = line - share * (line - came_from[k] - steps_before[k])
             came_from[k] = here
-        if round_ > 0 and moved < SETTLED_RAD:
-            return _failed(bends, closed, turns, FINE, -1)
-        for k in range(count):
-            kind = 0
-            before, after = 0.0, 0.0
-            if not closed and k == 0:
-                kind, after = -1, lines[0]
-                before = after if math.isnan(bends[k, HEADING]) else bends[k, HEADING]
-            elif not closed and k == count - 1:
-                kind, before = 1, lines[last - 1]
-                after = before if math.isnan(bends[k, HEADING]) else bends[k, HEADING]
-            else:
-                before, after = lines[(k - 1) % last], lines[k]
-            turns[k] = _turn_at(bends[k], before, after, turns[k])
-            middle = before + 0.5 * turns[k] if kind >= 0 else after - 0.5 * turns[k]
-            _settle(bends[k], kind, turns[k], middle, ramps[k], circles[k], apexes[k])
-    if moved < 1e-10:
-        return _failed(bends, closed, turns, FINE, -1)
-    return _failed(bends, closed, turns, RESTLESS, int(np.argmax(np.abs(steps))))
+        if round_ > 0 and moved < settled:
+            return _outcome(bends, closed, turns, FINE, tight, settled)
+        _lay(bends, closed, ramps, lines, turns, circles, apexes, laid, fresh, UNMOVED * settled)
+    state = NO_TANGENT if missing else FINE
+    if moved >= (ROUGHLY_SETTLED_RAD if missing else max(RESTING_RAD, settled)):
+        state = NO_TANGENT if missing else RESTLESS
+        _add_restless(steps, tight)
+    return _outcome(bends, closed, turns, state, tight, max(settled, moved))
+
+
+@inner
+def _add_restless(steps: Floats, tight: Flags) -> None:
+    """Tell the lines that still turn, of neighbours the one that turns most."""
+    most = max(np.abs(steps).max() * LEAST_RESTLESS, SETTLED_RAD)
+    for k in range(steps.size):
+        here = abs(steps[k])
+        before = abs(steps[k - 1]) if k > 0 else 0.0
+        after = abs(steps[k + 1]) if k + 1 < steps.size else 0.0
+        tight[k] = tight[k] or (here >= most and here >= before and here > after)
 
 
 @inner
@@ -261,42 +323,45 @@ def _fill_ends(
 
 
 @inner
-def _shortened(lines: Floats, ends: Floats, ramps: Floats, shortest: Floats) -> tuple[int, int]:
-    """Shorten the ramps of turns that overlap on a line.
-
-    Of two such lines behind each other only the first's: that may make room on the other.
-
-    Returns:
-        The first line on which turns overlap, and the first whose ramps can't be shorter; -1 if
-        there is none.
-    """
-    count = ends.shape[0]
-    crowded, eased = -1, -1
+def _overlapping(lines: Floats, ends: Floats, tight: Flags) -> bool:
+    """Tell the lines on which turns overlap, and whether there are any."""
+    found = False
     for k in range(lines.size):
-        after = (k + 1) % count
+        after = (k + 1) % ends.shape[0]
         dx, dy = ends[after, 0] - ends[k, 2], ends[after, 1] - ends[k, 3]
-        if dx * math.cos(lines[k]) + dy * math.sin(lines[k]) >= -1e-9:
-            continue
-        crowded = k if crowded < 0 else crowded
-        if ramps[k] <= shortest[k] and ramps[after] <= shortest[after]:
-            return crowded, k
-        if eased < 0 or k > eased + 1:
-            _shorten(ramps, shortest, k, after)
-            eased = k
-    return crowded, -1
+        tight[k] = dx * math.cos(lines[k]) + dy * math.sin(lines[k]) < -1e-9
+        found = found or tight[k]
+    return found
 
 
 @inner
-def _shorten(ramps: Floats, shortest: Floats, k: int, after: int) -> None:
-    """Shorten the ramps of two turns."""
-    ramps[k] = max(RAMP_SHRINK * ramps[k], shortest[k])
-    ramps[after] = max(RAMP_SHRINK * ramps[after], shortest[after])
+def _shortened(ramps: Floats, shortest: Floats, tight: Flags) -> bool:
+    """Shorten the ramps of the turns at tight lines, if all of them can be shorter.
+
+    Of two such lines behind each other only the first's: that may make room on the other. If not
+    all can be, ``tight`` is left with those that can't, of two behind each other the first.
+    """
+    count, stuck = ramps.size, np.zeros(tight.size, np.bool_)
+    for k in range(tight.size):
+        after = (k + 1) % count
+        least = ramps[k] <= shortest[k] and ramps[after] <= shortest[after]
+        stuck[k] = tight[k] and least and not (k > 0 and stuck[k - 1])
+    if stuck.any():
+        tight[:] = stuck
+        return False
+    eased = -2
+    for k in range(tight.size):
+        if tight[k] and k > eased + 1:
+            for end in (k, (k + 1) % count):
+                ramps[end] = max(RAMP_SHRINK * ramps[end], shortest[end])
+            eased = k
+    return True
 
 
 @kernel
 def turn_sequence(
     bends: Floats, closed: bool, ramp: float
-) -> tuple[Floats, Floats, Floats, Floats, int, int]:
+) -> tuple[Floats, Floats, Floats, Floats, int, Ints]:
     """Lay lines and turns round a row of bends.
 
     Args:
@@ -306,31 +371,33 @@ def turn_sequence(
 
     Returns:
         Headings of the lines (n - 1,) or (n,), turns (n,) [rad], apexes (n, 2) [m] and ramps
-        (n,) [m]; what came of it, and the line or bend where it failed.
+        (n,) [m]; what came of it, and every line at which it failed (k,), or the bend that is
+        turned at most to the wrong side, (1,).
     """
     count = bends.shape[0]
     lines, turns = np.zeros(count if closed else count - 1), np.zeros(count)
     circles, apexes = np.zeros((count, 3)), np.zeros((count, 2))
     ends, ramps = np.empty((count, 4)), ramp * bends[:, RADIUS]
     shortest = MIN_RAMP_RADII * bends[:, RADIUS]
+    tight = np.zeros(lines.size, np.bool_)
     _guess(bends, closed, lines, turns, circles)
+    settled = ROUGHLY_SETTLED_RAD
     while True:
-        state, where = _relaxed(bends, closed, ramps, lines, turns, circles, apexes)
-        if state == FINE:
+        tight[:] = False
+        state = _relaxed(bends, closed, ramps, lines, turns, circles, apexes, tight, settled)
+        found = state == FINE
+        if found:
             _fill_ends(bends, closed, ramps, lines, turns, apexes, ends)
-            crowded, where = _shortened(lines, ends, ramps, shortest)
-            if crowded < 0:
-                return lines, turns, apexes, ramps, FINE, -1
-            if where >= 0:
-                return lines, turns, apexes, ramps, NO_ROOM, where
-            continue
-        if state == LEFT_OUT:
-            return lines, turns, apexes, ramps, state, where
-        after = (where + 1) % count
-        if ramps[where] <= shortest[where] and ramps[after] <= shortest[after]:
-            return lines, turns, apexes, ramps, state, where
-        _shorten(ramps, shortest, where, after)  # restless: ramps and arcs that come and go
-        _guess(bends, closed, lines, turns, circles)
+            if _overlapping(lines, ends, tight):
+                state = NO_ROOM
+            elif settled > SETTLED_RAD:
+                settled = SETTLED_RAD
+                continue
+        if state in (FINE, LEFT_OUT) or not _shortened(ramps, shortest, tight):
+            return lines, turns, apexes, ramps, state, np.flatnonzero(tight)
+        settled = ROUGHLY_SETTLED_RAD
+        if not found:  # restless: ramps and arcs that come and go
+            _guess(bends, closed, lines, turns, circles)
 
 
 @inner
