@@ -102,8 +102,8 @@ def test_others_are_not(unlike: str) -> None:
 
 
 def test_corners_with_room_for_a_turn_each_are_not_joined() -> None:
-    bends = pair(20.0, (0.7, 0.7), 1.0, 0.0)
-    assert joins_worth_it(bends, wishes((0.2, 0.2), (5.0, 20.0, 5.0)), 1.0) == ()
+    bends = pair(60.0, (0.7, 0.7), 1.0, 0.0)
+    assert joins_worth_it(bends, wishes((0.2, 0.2), (5.0, 60.0, 5.0)), 1.0) == ()
 
 
 def test_three_corners_close_together_are_one_turn_and_the_nearest_two_its_inner_one() -> None:

@@ -28,7 +28,7 @@ MAX_TURN_RAD = 2.5  # of one turn
 LEAST_PART = 0.2  # of what the circle turns by on half of the way, that either turns by alone
 LEAST_TURN_RAD = 1e-6  # of each that is joined
 LEAST_LENGTH_M = 1e-9
-CROWDED = 0.9  # of a line, that two turns take which may be one
+CROWDED = 0.4  # of a line, that two turns take which may be one
 
 
 @dataclass(frozen=True)
@@ -79,6 +79,7 @@ class _Runs:
         ways: From the first bend of each to its last [m], (k,).
         gaps: From the last bend of each to the first of the next [m], one for each line.
         lengths: [m], (k,).
+        spent: By how much the path may be longer than its corners [m].
         joins: For each that is joined what it is, else None.
     """
 
@@ -87,6 +88,7 @@ class _Runs:
     ways: Floats
     gaps: Floats
     lengths: Floats
+    spent: float
     joins: tuple[Join | None, ...]
 
     @property
@@ -106,7 +108,10 @@ def joins_worth_it(bends: Bends, wishes: TurnWishes, room_share: float) -> tuple
     """
     count = len(bends.rows)
     ends = np.repeat(np.arange(count), 2).reshape(-1, 2)
-    runs = _Runs(ends, wishes.turns, np.zeros(count), wishes.gaps, wishes.lengths, (None,) * count)
+    runs = _Runs(
+        ends, wishes.turns, np.zeros(count), wishes.gaps, wishes.lengths, wishes.spent,
+        (None,) * count,
+    )  # fmt: skip
     while True:
         tried = (_joined_at(k, runs, bends, wishes, room_share) for k in _crowded(runs, bends))
         found = [runs_and_saved for runs_and_saved in tried if runs_and_saved is not None]
@@ -144,8 +149,9 @@ def _joined_at(
     turns, ways = _merged(runs.turns, k, turn), _merged(runs.ways, k, way)
     gaps = np.delete(runs.gaps, k)
     fast = turn * float(wishes.fast[first : last + 1].max())
+    spent = runs.spent * float((turns**2).sum() / (runs.turns**2).sum())  # as much for each turn
     rooms = 2.0 * room_share * (gaps + 0.5 * (ways + np.roll(ways, -1))[: len(gaps)])
-    lengths = gentle_lengths(turns, rooms, bends.closed, wishes.spent)
+    lengths = gentle_lengths(turns, rooms, bends.closed, spent)
     lengths[k] = _no_shorter(lengths, rooms, k, fast)
     radius = 0.5 * (float(lengths[k]) + way) / turn
     kept = float(bends.rows[first : last + 1, KEPT].max())
@@ -156,7 +162,7 @@ def _joined_at(
     inner = next((join for join in runs.joins[k : k + 2] if join is not None), None)
     joins = (*runs.joins[:k], Join(first, last, radius, least, inner), *runs.joins[k + 2 :])
     ends = np.vstack((runs.ends[:k], [[first, last]], runs.ends[k + 2 :]))
-    joined = _Runs(ends, turns, ways, gaps, lengths, joins)
+    joined = _Runs(ends, turns, ways, gaps, lengths, spent, joins)
     saved = float(runs.bending.sum() - joined.bending.sum())
     return (joined, saved) if saved > LEAST_GENTLER * runs.bending[k : k + 2].sum() else None
 
