@@ -25,7 +25,7 @@ from viaspline.planning.turning.joined_bends import (
     TurnWishes,
     joins_worth_it,
     loosened,
-    seconds_of,
+    rest_of,
     with_joins,
 )
 from viaspline.planning.turning.repair import clear_turn_path
@@ -99,12 +99,12 @@ class WideTurns:
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None
-        joins = joins_worth_it(narrowest.bends, self._wishes(narrowest))
+        joins = joins_worth_it(narrowest.bends, self._wishes(narrowest), GENTLE_ROOM)
         while joins:
             found = self._fitted(with_joins(narrowest.bends, joins), world, requirements)
             if isinstance(found, TurnPath):
                 return found
-            rows = np.delete(np.arange(len(narrowest.bends.rows)), seconds_of(joins))
+            rows = np.delete(np.arange(len(narrowest.bends.rows)), rest_of(joins))
             looser = tuple(loosened(joins, set(rows[found].tolist())))
             joins = looser if looser != joins else ()
         found = self._fitted(bends, world, requirements)
