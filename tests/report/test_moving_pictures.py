@@ -14,7 +14,7 @@ from viaspline.report.plan_json import plan_json
 from viaspline.report.plan_picture import plan_picture
 from viaspline.report.run_json import run_json
 from viaspline.report.run_picture import run_picture
-from viaspline.report.space_time_panel import SpaceTime
+from viaspline.report.space_time import SpaceTime
 from viaspline.world.moving_obstacles import MovingObstacles
 
 

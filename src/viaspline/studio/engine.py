@@ -148,6 +148,16 @@ class Engine:
 
         return await self._planner.run(work)
 
+    async def space_time(self, planned: PlannedDocument, revision: int) -> str:
+        """When a plan's path is blocked where by what moves, as text."""
+
+        def work() -> str:
+            from viaspline.studio import moving_messages
+
+            return encoded(moving_messages.space_time(planned, revision))
+
+        return await self._planner.run(work)
+
     def _keep_pictures(self, planned: PlannedDocument) -> None:
         from viaspline.studio.map_cache import grid_name, grid_png
 

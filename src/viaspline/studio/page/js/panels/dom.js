@@ -33,6 +33,7 @@ const ICONS = {
   fit: "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5",
   play: "M7 4l13 8-13 8z",
   pause: "M7 4h4v16H7zM14 4h4v16h-4z",
+  watch: "M12 4a8 8 0 1 0 0 16 8 8 0 0 0 0-16zM10 8.500l5.500 3.500-5.500 3.500z",
   next: "M5 4l10 8-10 8zM18 4v16",
   prev: "M19 4L9 12l10 8zM6 4v16",
   stop: "M6 6h12v12H6z",

@@ -4,6 +4,7 @@ import { forceSide, moveTo, reshaped, setKey, setOnPoint, setTension } from "../
 import { anchorOf, areasOf, isArea, isPoint, obstaclesOf, pointsOf, refOf, tensionsOf, whole } from "../core/mission.js";
 import { erase } from "../input/keyboard.js";
 import { metres } from "../units.js";
+import { motionFields } from "./motion.js";
 import { checkbox, choice, fill, h, icon, lazily, numberField, slider, textField } from "./dom.js";
 
 export class Inspector {
@@ -83,6 +84,7 @@ export class Inspector {
       textField({ label: "Name", value: one.given ?? "", placeholder: one.name, set: (value) => store.edit(setKey(store.doc, owner, "name", value || undefined)) }),
       at ? this.placeFields(id, at) : null,
       ...(shape?.fields(item) ?? []).map((field) => this.shapeField(owner, field)),
+      ...motionFields(app, owner, item.motion ? ref.vertex : -1),
       checkbox({ label: "Unseen: only the sensor finds it", value: isUnseen, set: () => app.toggleUnseen() }),
       !isUnseen && (shape?.hasSides ?? true) ? choice({
         label: "Pass on", value: one.side ?? "", options: [["", "either side"], ["left", "left"], ["right", "right"]],
