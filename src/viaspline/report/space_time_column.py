@@ -16,7 +16,9 @@ from viaspline.report.style import SMALL_PT
 from viaspline.robot.run import Run
 
 HEIGHT_IN = 2.2
-TITLE = "When the path is blocked by what moves:\ntime [s] over distance [m]"
+NUMBERS_IN = 0.26
+TITLE = "Blocked by what moves: time [s] over\ndistance [m]"
+FREE_WORDS = "; dashed: if nothing moved"
 
 
 def plan_space_time(column: SideColumn, plan: Plan) -> None:
@@ -43,9 +45,7 @@ def _draw(column: SideColumn, shown: SpaceTime, driven: Floats, free: Floats | N
     """The panel, if there is room for it."""
     if column.room < HEIGHT_IN + 0.8:
         return
-    axes = column.axes(HEIGHT_IN, TITLE)
+    title = TITLE if free is None else f"{TITLE}{FREE_WORDS}"
+    axes = column.axes(HEIGHT_IN, title, inset=NUMBERS_IN)
     draw_space_time(axes, shown, driven, free)
     axes.tick_params(left=True, bottom=True, labelleft=True, labelbottom=True, labelsize=SMALL_PT)
-    axes.tick_params(axis="y", direction="in", pad=-4)
-    for label in axes.get_yticklabels():
-        label.set_horizontalalignment("left")

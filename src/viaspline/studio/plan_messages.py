@@ -96,7 +96,7 @@ def ledger(planned: PlannedDocument, revision: int) -> dict[str, Any]:
             "members": entry.members,
             "items": sorted(set(items)),
             "leg": entry.leg,
-            "forceable": bool(members) and not grids.intersection(members),
+            "forceable": len(members) == len(entry.members) > 0 and not grids.intersection(members),
             "forced": entry.forced,
             "candidates": [_candidate(candidate) for candidate in entry.candidates],
         })  # fmt: skip

@@ -115,7 +115,7 @@ export class SpaceTimePanel {
     ctx.fillStyle = colours.muted;
     ctx.textAlign = "left";
     ctx.textBaseline = "middle";
-    ctx.fillText("time [s] over distance, blocked by what moves", LEFT_PX, TOP_PX - 9);
+    ctx.fillText("time [s] over distance; dashed: if nothing moved", LEFT_PX, TOP_PX - 9);
     ctx.strokeStyle = colours.gridBold;
     ctx.lineWidth = 1;
     const raw = (end - begin) / Math.max(2, (height - TOP_PX - BOTTOM_PX) / 28);
