@@ -2,6 +2,7 @@
 
 import { replaced, setClosed, setTension } from "../core/edits.js";
 import { pointsOf, tensionsOf } from "../core/mission.js";
+import { Advice } from "./advice.js";
 import { checkbox, choice, fill, h, lazily, numberField, slider } from "./dom.js";
 import { robotFields } from "./robot.js";
 
@@ -18,11 +19,12 @@ export class Settings {
       grab: () => { this.isSliding = true; },
       drop: () => {
         this.isSliding = false;
-        this.shown = [0];
-        this.render();
+        this.renderAgain();
       },
     };
+    this.advice = new Advice(app, () => this.renderAgain());
     /** @type {unknown[]} */ this.shown = [0];
+    app.store.on("plan", lazily(() => { if (app.store.plan?.ok !== this.wasOk) this.renderAgain(); }, 120));
     app.store.on("document", lazily(() => this.render(), 120));
   }
 
@@ -32,11 +34,18 @@ export class Settings {
     store.edit(replaced(store.doc, path, value ?? undefined), { merge: path.join(".") });
   }
 
+  /** What is shown has changed otherwise than by the document. */
+  renderAgain() {
+    this.shown = [0];
+    this.render();
+  }
+
   render() {
     if (this.isSliding) return;
+    this.wasOk = this.app.store.plan?.ok;
     const { doc } = this.app.store;
     const { closed, order, laps, corridor, optimise } = doc.route ?? {};
-    const shown = [doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, optimise, pointsOf(doc).length];
+    const shown = [this.advice.given && doc, doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, optimise, pointsOf(doc).length];
     if (shown.every((value, i) => value === this.shown[i])) return;
     this.shown = shown;
     fill(
@@ -45,6 +54,7 @@ export class Settings {
       ...robotFields(doc, this.app.drives ?? [], (path, value) => this.set(path, value), this.preferred()),
       h("h3", {}, "Curve"),
       this.tension(),
+      ...this.advice.rows(),
       h("div", { class: "pair" },
         choice({ label: "Knots", value: doc.spline?.knots ?? "chordal", options: [["chordal", "chordal"], ["centripetal", "centripetal"], ["uniform", "uniform"]], set: (value) => this.set(["spline", "knots"], value) }),
         choice({ label: "Tangents", value: doc.spline?.tangents ?? "", options: [["", "as the robot needs"], ["cardinal", "cardinal"], ["continuous", "continuous curvature"]], set: (value) => this.set(["spline", "tangents"], value || undefined) })),
