@@ -99,4 +99,13 @@ def encounters_data(run: Run) -> dict[str, Any]:
             }
             for contact in met.contacts
         ],
+        "passes": [
+            {
+                "time_s": one.time,
+                "obstacle": one.obstacle,
+                "clearance_m": one.clearance,
+                "robot_speed_mps": one.robot_speed,
+            }
+            for one in met.passes
+        ],
     }

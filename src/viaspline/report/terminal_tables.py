@@ -179,6 +179,8 @@ def run_tables(run: Run, name: str) -> RenderableType:
         facts.add_row("to what moves, proven", near)
         for contact in met.contacts[:MAX_LIST_LINES]:
             how = "while it stood" if contact.robot_speed == 0.0 else "under way"
+            if contact.appeared_within_braking_time:
+                how += ", too late to be seen in time"
             facts.add_row("CONTACT", f"'{contact.obstacle}' at {contact.time:.1f} s, {how}")
     if run.tracking is not None:
         cross = run.tracking.cross
