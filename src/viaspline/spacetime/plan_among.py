@@ -27,8 +27,11 @@ from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_among import law_among
 from viaspline.trajectory.yielding.waits import TrafficWait, waits
 
-MAX_PATHS = 40
+MAX_PATHS = 24
 """Paths that are timed at most."""
+
+ENOUGH_SEARCHED = 2
+"""After so many drives that were searched it is enough."""
 
 WORTH_S = 1.0
 """What has to be lost by waiting before it is looked for bays to wait in, and for drives [s]."""
@@ -99,11 +102,13 @@ class _Tried:
 
 
 def _searched(problem: TimedProblem, tried: _Tried) -> _Tried:
-    """What was timed, and the first of the paths with a law that are searched with their times."""
+    """What was timed, and paths that are searched with their times, until enough have a law."""
+    found = 0
     for taken in searched_paths(problem):
         outcome = _law(problem, taken)
         tried = tried.and_then(problem, taken, outcome)
-        if isinstance(outcome, Found):
+        found += isinstance(outcome, Found)
+        if found == ENOUGH_SEARCHED:
             break
     return tried
 

@@ -56,10 +56,11 @@ class ThrustEffort:
 
 EFFORTS = (
     ThrustEffort(0.05, 1.2, 8_000, 8, 2),
+    ThrustEffort(0.05, 1.1, 12_000, 8, 2),
     ThrustEffort(0.05, 1.2, 30_000, 4, 0),
     ThrustEffort(0.01, 1.1, 8_000, 8, 2),
 )
-"""One after the other: in the open, out of a dead end, through a gap."""
+"""One after the other: in the open, the same more closely, out of a dead end, through a gap."""
 
 
 def searched_paths(problem: TimedProblem) -> Iterator[Alternative]:
