@@ -107,7 +107,7 @@ class LegSearch:
         def found() -> tuple[Outcome[TautPath], Flags]:
             self.requirements.spend(ROUTE_S)
             met = active.copy()
-            return self.router.find(start, goal, closed, met), met
+            return self.router.find(start, goal, closed, met, self.requirements.spend), met
 
         ends = (start.tobytes(), goal.tobytes())
         asked = ("route", self.world, ends, closed.tobytes(), active.tobytes())
