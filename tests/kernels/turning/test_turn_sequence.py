@@ -7,7 +7,7 @@ from scipy.integrate import quad
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import clothoid
-from viaspline.kernels.turning.turn_sequence import (
+from viaspline.kernels.turning.settled_lines import (
     FINE,
     HEADING,
     KEPT,
@@ -17,6 +17,8 @@ from viaspline.kernels.turning.turn_sequence import (
     SIDE,
     X,
     Y,
+)
+from viaspline.kernels.turning.turn_sequence import (
     turn_sequence,
     turn_sequence_length,
     turn_sequence_spans,

@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.turning.settled_lines import FINE, LEFT_OUT
 from viaspline.kernels.turning.turn_sequence import (
-    FINE,
-    LEFT_OUT,
     turn_sequence,
     turn_sequence_length,
     turn_sequence_spans,
@@ -77,7 +76,7 @@ class NoTurnPath:
     Attributes:
         bends: The row, without those that the others make needless.
         left: Which of those that were asked for they are, (n,).
-        state: One of the states of ``kernels.turning.turn_sequence``.
+        state: One of the states of ``kernels.turning.settled_lines``.
         lines: Those at which it failed, (k,).
     """
 
