@@ -100,6 +100,36 @@ def test_a_run_tells_when_each_unseen_thing_was_first_in_reach(start: START, mis
         assert away == pytest.approx(6.0, abs=0.3)
 
 
+def test_what_moves_blocks_the_beams_that_are_shown_and_leaves_no_points_behind(
+    start: START, tmp_path: Path
+) -> None:
+    file = tmp_path / "beams.yaml"
+    file.write_text(
+        "world:\n  unseen:\n    - circle: {center: [0, 0], radius: 1}\n"
+        "      motion: {from: [9, 4], velocity_mps: [0.2, 0.1]}\n"
+        "robot: {max_speed_mps: 2, sensor: {lidar: {range_m: 8, fov_deg: 270, beams: 181}}}\n"
+        "route: {start: [0, 0], goal: [20, 0]}\n"
+    )
+    with start(file).client() as client:
+        client.edit()
+        driven = client.ask("drive", "driven", seed=0)
+    sight, samples = driven["sight"], driven["samples"]
+    assert sight["hits"] == []
+    blocked = 0
+    for time, fan in zip(sight["times"], sight["fans"], strict=True):
+        x, y, heading = (
+            np.interp(time, samples["time"], samples[k]) for k in ("x", "y", "heading")
+        )
+        dx, dy = 9 + 0.2 * time - x, 4 + 0.1 * time - y
+        bearing = np.arctan2(dy, dx) - heading
+        beam = round((bearing - sight["first"]) / sight["step"])
+        away = np.hypot(dx, dy) - 1
+        if away < 7.9 and 0 <= beam < len(fan):
+            assert fan[beam] == pytest.approx(away, abs=0.1)
+            blocked += 1
+    assert blocked > 50
+
+
 def test_a_search_that_ends_without_an_answer_is_told_apart_from_a_proof(
     start: START, mission: Path
 ) -> None:

@@ -128,22 +128,24 @@ def sight(run: Run) -> dict[str, Any] | None:
 def _beams(run: Run, spec: Lidar) -> dict[str, Any]:
     """The fan of a lidar at some moments, and the points off the map that it hit first then."""
     exact = spec.model_copy(update={"noise_m": 0.0, "beams": min(spec.beams, MAX_BEAMS_SHOWN)})
-    lidar = LidarSensor(run.world.obstacles, exact)
+    lidar = LidarSensor(run.world.obstacles, exact, moving=run.moving)
     some = np.unique(np.linspace(0, len(run.times) - 1, LIDAR_SCANS_SHOWN).round().astype(int))
     grain = spec.range_m / 150
     known: set[tuple[int, int]] = set()
     fans, hits = [], []
     for k in some.tolist():
-        scan = lidar.scan(tuple(run.positions[k].tolist()), float(run.headings[k]))
+        now = float(run.times[k])
+        scan = lidar.scan(tuple(run.positions[k].tolist()), float(run.headings[k]), time=now)
         fans.append(rounded(scan.free, 2))
         points = scan.hits
         if len(run.plan.world) and len(points):
             points = points[run.plan.world.distance(points) > ON_MAP_M]
+        points = points[run.moving.distance(points, now) > ON_MAP_M]  # those that stay
         for cell in map(tuple, np.round(points / grain).astype(int).tolist()):
             if cell not in known:
                 known.add(cell)
                 x, y = cell
-                hits.append([round(x * grain, 3), round(y * grain, 3), float(run.times[k])])
+                hits.append([round(x * grain, 3), round(y * grain, 3), now])
     return {
         "kind": "lidar",
         "reach": spec.range_m,

@@ -33,6 +33,7 @@ export class Preview extends Playback {
   /** Whether anything moves but the robot. */
   get hasMotion() {
     const { doc, plan } = this.store;
+    if (!doc) return false;
     const moves = (/** @type {any} */ list) => Array.isArray(list) && list.some((item) => item?.motion);
     return moves(doc.world?.known) || moves(doc.world?.unseen) || !!plan?.tracks?.length;
   }

@@ -119,6 +119,7 @@ export function pointsOf(doc) {
  * @property {import("../shapes/shape.js").Shape|null} shape
  * @property {import("../shapes/shape.js").Item} item
  * @property {string|null} side the only one on which it may be passed
+ * @property {boolean} [isRecorded] whether its motion stands in another file
  */
 
 /** @typedef {Obstacle & {shape: import("../shapes/shape.js").Shape}} Outlined */
@@ -154,7 +155,7 @@ export const movingOf = (obstacles) => /** @type {Outlined[]} */ (obstacles.filt
 
 /** What the server has read from recorded tracks, as obstacles. @param {any[]} tracks of its answer @returns {Outlined[]} */
 export const tracksOf = (tracks) => tracks.map(({ list, item, as }) => ({
-  id: `${list}:${item}`, list, index: item, name: as.name ?? "", given: as.name ?? null, shape: /** @type {import("../shapes/shape.js").Shape} */ (shapeOf(as)), item: as, side: null,
+  id: `${list}:${item}`, list, index: item, name: as.name ?? "", given: as.name ?? null, isRecorded: true, shape: /** @type {import("../shapes/shape.js").Shape} */ (shapeOf(as)), item: as, side: null,
 }));
 
 /**

@@ -1,6 +1,6 @@
 /** What moves, at an instant: where it goes, where it may be, its outline and its velocity. */
 
-import { errorAt, frameAt, outOf, trailOf } from "../geometry/motion.js";
+import { errorAt, frameAt, outOf, trailOf, waysOf } from "../geometry/motion.js";
 import { hatch } from "./obstacles.js";
 import { Pen } from "./pen.js";
 
@@ -10,6 +10,7 @@ import { Pen } from "./pen.js";
 
 const ARROW_S = 1; // an arrow is as long as the way in this time
 const SHORTEST_ARROW_PX = 6;
+const MOST_WHOLE = 12; // things whose whole way is drawn; of more, what they go while the robot drives
 const MOST_DOTS = 60; // keyframes of one thing that are marked
 
 /** @param {Outlined[]} moving @param {number} time [s] @returns {Placed[]} */
@@ -32,15 +33,20 @@ function outlines(pen, moving) {
 export function drawTrails(pen, moving, { begin, end }, selected) {
   const { ctx, camera, colours } = pen;
   ctx.lineJoin = ctx.lineCap = "round";
+  if (moving.length > MOST_WHOLE) {
+    drawWaysOfMany(pen, moving, begin, end);
+    moving = moving.filter((one) => one.id === selected);
+  }
   for (const one of moving) {
     const colour = one.list === "unseen" ? colours.unseen : colours.moving;
     const line = trailOf(one.item.motion, begin, end).map(([x, y]) => camera.toScreen(x, y));
-    ctx.globalAlpha = one.id === selected ? 0.9 : moving.length > 12 ? 0.3 : 0.55;
+    ctx.globalAlpha = one.id === selected ? 0.9 : 0.55;
     ctx.beginPath();
     line.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
     pen.stroke(colour, 1.3, [5, 5]);
+    if (one.isRecorded) continue;
     const dots = one.item.motion.keyframes ? line : line.slice(0, 1);
-    if (dots.length > MOST_DOTS || moving.length > 12) continue;
+    if (dots.length > MOST_DOTS) continue;
     ctx.globalAlpha = 1;
     ctx.beginPath();
     for (const [x, y] of dots) {
@@ -50,6 +56,18 @@ export function drawTrails(pen, moving, { begin, end }, selected) {
     pen.fill(colours.paper);
     pen.stroke(colour, 1.4);
   }
+  ctx.globalAlpha = 1;
+}
+
+/** @param {Pen} pen @param {Outlined[]} moving @param {number} begin @param {number} end [s] */
+function drawWaysOfMany(pen, moving, begin, end) {
+  const { ctx, camera, colours } = pen;
+  ctx.globalAlpha = 0.35;
+  ctx.beginPath();
+  for (const way of moving.flatMap((one) => waysOf(one.item.motion, begin, end))) {
+    way.map(([x, y]) => camera.toScreen(x, y)).forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
+  }
+  pen.stroke(colours.moving, 1.1, [4, 4]);
   ctx.globalAlpha = 1;
 }
 

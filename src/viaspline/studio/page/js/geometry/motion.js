@@ -3,6 +3,9 @@
  * says where things are drawn and nothing else; what is proven of them comes from the server.
  */
 
+const TRAIL_PIECES = 60;
+const JUMP_RATIO = 1.5; // a step longer than it goes in its time is a jump
+
 /** @typedef {{x: number, y: number, heading: number, vx: number, vy: number}} Frame a place [m], a heading [rad], a velocity [m/s] */
 /** @typedef {Record<string, any>} Motion */
 
@@ -81,6 +84,22 @@ export function outOf({ x, y, heading }, [px, py]) {
 export function into({ x, y, heading }, [px, py]) {
   const c = Math.cos(heading), s = Math.sin(heading);
   return [c * (px - x) + s * (py - y), -s * (px - x) + c * (py - y)];
+}
+
+/** The lines that it goes along from one time to another, cut where it jumps or isn't there. @param {Motion} motion @param {number} begin @param {number} end [s] @returns {number[][][]} */
+export function waysOf(motion, begin, end) {
+  const step = (end - begin) / TRAIL_PIECES;
+  /** @type {number[][][]} */ const ways = [[]];
+  /** @type {Frame|null} */ let before = null;
+  for (let i = 0; i <= TRAIL_PIECES; i += 1) {
+    const now = frameAt(motion, begin + i * step);
+    const reach = now && before ? JUMP_RATIO * step * Math.max(Math.hypot(now.vx, now.vy), Math.hypot(before.vx, before.vy)) : 0;
+    const isCut = !now || !before || Math.hypot(now.x - before.x, now.y - before.y) > reach + 1e-9;
+    if (isCut && ways.at(-1)?.length) ways.push([]);
+    if (now) ways.at(-1)?.push([now.x, now.y]);
+    before = now;
+  }
+  return ways.filter((way) => way.length > 1);
 }
 
 /** The line that it goes along, from one time to another if it has no keyframes. @param {Motion} motion @param {number} begin @param {number} end [s] @returns {number[][]} */

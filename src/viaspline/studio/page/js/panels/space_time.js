@@ -9,7 +9,6 @@ import { lazily } from "./dom.js";
 
 const LEFT_PX = 40, RIGHT_PX = 10, TOP_PX = 18, BOTTOM_PX = 20;
 const FONT = "10px Inter, system-ui, sans-serif";
-const SMALLEST_NAMED_PX = 26;
 
 export class SpaceTimePanel {
   /** @param {any} app */
@@ -102,7 +101,7 @@ export class SpaceTimePanel {
     this.line(shown.free, colours.loser, 1.3, [5, 4]);
     this.line(shown.law, colours.path, 2, []);
     ctx.restore();
-    for (const one of shown.blocked) this.name(one, colours);
+    this.names(shown, colours);
     ctx.globalAlpha = 1;
     this.instant(shown, colours);
   }
@@ -153,19 +152,28 @@ export class SpaceTimePanel {
     ctx.stroke();
   }
 
-  /** What blocks, in the largest of its places. @param {any} one @param {any} colours */
-  name({ obstacle, rings }, colours) {
+  /** What blocks, in the largest of its places, where names don't meet. @param {any} shown @param {any} colours */
+  names(shown, colours) {
     const { ctx } = this;
-    const boxes = rings.map((/** @type {number[]} */ ring) => this.boxOf(ring));
     const size = (/** @type {number[]} */ b) => (b[2] - b[0]) * (b[3] - b[1]);
-    const box = boxes.reduce((/** @type {number[]} */ a, /** @type {number[]} */ b) => (size(b) > size(a) ? b : a));
+    const places = shown.blocked.map((/** @type {any} */ { obstacle, rings }) => {
+      const boxes = rings.map((/** @type {number[]} */ ring) => this.boxOf(ring));
+      return { obstacle, box: boxes.reduce((/** @type {number[]} */ x, /** @type {number[]} */ y) => (size(y) > size(x) ? y : x)) };
+    });
+    places.sort((/** @type {any} */ x, /** @type {any} */ y) => size(y.box) - size(x.box));
     ctx.font = `600 ${FONT}`;
-    if (box[3] - box[1] < 13 || box[2] - box[0] < SMALLEST_NAMED_PX || ctx.measureText(obstacle).width > box[2] - box[0] + 30) return;
-    const x = Math.min(Math.max((box[0] + box[2]) / 2, LEFT_PX + 20), this.width - RIGHT_PX - 20);
     ctx.textAlign = "center";
     ctx.textBaseline = "middle";
     ctx.fillStyle = colours.ink;
-    ctx.fillText(obstacle, x, (box[1] + box[3]) / 2);
+    /** @type {number[][]} */ const taken = [];
+    for (const { obstacle, box } of places) {
+      const half = ctx.measureText(obstacle).width / 2;
+      if (box[3] - box[1] < 13 || 2 * half > box[2] - box[0] + 30) continue;
+      const x = Math.min(Math.max((box[0] + box[2]) / 2, LEFT_PX + half + 2), this.width - RIGHT_PX - half - 2), y = (box[1] + box[3]) / 2;
+      if (taken.some(([tx, ty, th]) => Math.abs(tx - x) < half + th + 4 && Math.abs(ty - y) < 13)) continue;
+      taken.push([x, y, half]);
+      ctx.fillText(obstacle, x, y);
+    }
   }
 
   /** @param {number[]} ring */
