@@ -164,3 +164,15 @@ def test_a_path_round_the_end_of_a_wall_is_one_turn_as_fast_as_two() -> None:
     assert len([via for via in path.vias if via.kind == "detour"]) == 1
     curvature = np.array([path.curvature(u) for u in np.linspace(0.0, len(path.spans), 2001)])
     assert np.abs(curvature).max() < 1.0 / 3.9  # at full speed: 2² / 1 = 4 m
+
+
+def test_no_path_winds_round_a_circle_that_its_ends_are_close_to() -> None:
+    discs = [
+        {"circle": {"center": [x, y], "radius": radius}}
+        for x, y, radius in ((25, 1, 6), (50, -2, 7), (75, 3, 5), (50, 40, 6))
+    ]
+    data = {"world": {"known": discs}, "route": {"start": [0, 0], "goal": [100, 0]}}
+    plan = vs.plan(vs.Mission.model_validate(data))
+    at = plan.path.evaluate(np.linspace(*plan.path.domain, 500))
+    assert plan.path.length < 102.5
+    assert at[:, 1].max() < 1.0

@@ -45,7 +45,7 @@ class IslandsInTheWay:
         """The islands that its straight line goes through, in its order."""
         return tuple(islands_met(self.leg))
 
-    @property
+    @cached_property
     def active(self) -> Flags:
         """See ``InTheWay``."""
         return on_the_line(self.leg.world, *self.leg.ends, self.leg.requirements.required)

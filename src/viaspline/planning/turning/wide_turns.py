@@ -102,10 +102,11 @@ class WideTurns:
         joins = joins_worth_it(narrowest.bends, self._wishes(narrowest), GENTLE_ROOM)
         while joins:
             found = self._fitted(with_joins(narrowest.bends, joins), world, requirements)
-            if isinstance(found, TurnPath):
-                return found
             rows = np.delete(np.arange(len(narrowest.bends.rows)), rest_of(joins))
-            looser = tuple(loosened(joins, set(rows[found].tolist())))
+            tight = rows[_wound_round(found) if isinstance(found, TurnPath) else found].tolist()
+            if isinstance(found, TurnPath) and not {join.first for join in joins} & set(tight):
+                return found
+            looser = tuple(loosened(joins, set(tight)))
             joins = looser if looser != joins else ()
         found = self._fitted(bends, world, requirements)
         return found if isinstance(found, TurnPath) else None
@@ -184,6 +185,15 @@ class WideTurns:
         radii[rows] = np.minimum(radii[rows], kept + swung)
         radii[rows] = np.maximum(radii[rows], self.sharpest)
         return radii
+
+
+def _wound_round(turn_path: TurnPath) -> Ints:
+    """The bends that a path turns round by more than half a circle, as rows of those asked for.
+
+    So it does round a circle that its ends lie too near to: its lines touch it in the wrong order.
+    """
+    found: Ints = turn_path.left[np.abs(turn_path.turns) > np.pi]
+    return found
 
 
 def swing_share(turns: Floats) -> Floats:
