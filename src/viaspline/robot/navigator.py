@@ -40,6 +40,7 @@ from viaspline.robot.perception.perceive import perceive, told_apart
 from viaspline.robot.replanning.decide import decide, look_again
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
+from viaspline.robot.yielding.broken_premises import broken_premises
 from viaspline.robot.yielding.foreseen import foreseen
 from viaspline.robot.yielding.give_way import give_way
 from viaspline.robot.yielding.stoppable import sight_of, stoppable
@@ -190,6 +191,9 @@ class Navigator:
                 knowledge = knowledge.with_sightings(moving, time, foreseen)
             if not progress.finished:
                 knowledge, sighting = perceive(knowledge, standing, time, foreseen)
+        log = log.with_events(
+            *broken_premises(task, progress, before.knowledge, knowledge, schedule)
+        )
         # what does it do about that?
         work = 0.0
         if sighting is not None or schedule.pending is not None or respond is look_again:
@@ -203,7 +207,7 @@ class Navigator:
             log, schedule = log.with_decision(decision, 0.0), decision.schedule
             progress, log = note_arrivals(task, progress, schedule, log)
         if task.mission.robot.moving is not None:
-            sight = sight_of(task.mission.robot, sensed, measured)
+            sight = sight_of(task.mission.robot, sensed, measured, time)
             schedule = stoppable(task, progress, knowledge, before.schedule, schedule, sight)
         # what is it to do now?
         controller = before.progress.controller

@@ -20,7 +20,11 @@ STILL_M = 1e-6  # what moves by less stands
 
 
 def standing_ghost(
-    moving: MovingObstacles, index: int, side: Side, window: tuple[float, float]
+    moving: MovingObstacles,
+    index: int,
+    side: Side,
+    window: tuple[float, float],
+    apart: float = 0.0,
 ) -> tuple[Obstacle, Passing] | None:
     """An obstacle that stands where a moving one is from a time to another.
 
@@ -29,6 +33,7 @@ def standing_ghost(
         index: Which of them.
         side: On which it is to be passed.
         window: From when to when [s].
+        apart: So much larger it is on all sides [m].
 
     Returns:
         The obstacle, and what it stands for; None where the moving one isn't there.
@@ -50,7 +55,7 @@ def standing_ghost(
         return None
     ring = moving.obstacles[index].ring
     assert ring is not None
-    error = _uncertainty(moving, index, window)
+    error = _uncertainty(moving, index, window) + apart
     name = f"{moving.name(index)} at {0.5 * sum(window):.1f} s"
     passing = Passing(moving.name(index), side, *window)
     if ring.is_disc and np.ptp(frames[:, :2], axis=0).max() < STILL_M:

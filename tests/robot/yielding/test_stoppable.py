@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -10,7 +12,7 @@ import viaspline as vs
 TOP_MPS = 1.5
 
 
-def among(seed: int, safety: str) -> vs.Mission:
+def among(seed: int, safety: str, **robot: Any) -> vs.Mission:
     """Discs that turn at will every second or two, none faster than ``TOP_MPS``."""
     random = np.random.default_rng(seed)
     unseen = []
@@ -33,6 +35,7 @@ def among(seed: int, safety: str) -> vs.Mission:
                 "clearance_m": 0.05,
                 "sensor": {"range_m": 8},
                 "moving": {"max_speed_mps": TOP_MPS, "safety": safety},
+                **robot,
             },
             "route": {"start": [0, 0], "goal": [24, 0]},
         }
@@ -45,6 +48,34 @@ def test_nothing_touches_a_robot_that_moves(seed: int) -> None:
     assert run.encounters is not None
     assert [contact for contact in run.encounters.contacts if contact.robot_speed > 0.0] == []
     assert run.speeds.max() <= 2.0 + 1e-9
+
+
+@pytest.mark.parametrize(
+    "robot",
+    [
+        {"max_jerk_mps3": 2.0},
+        {"drive": {"differential": {"track_m": 0.4}, "delay_s": 0.3}},
+    ],
+    ids=("jerk", "delay"),
+)
+def test_nothing_touches_one_with_a_limit_of_the_jerk_or_a_delay(robot: dict[str, Any]) -> None:
+    run = vs.simulate(among(1, "passive", **robot), step=0.1)
+    assert run.encounters is not None
+    assert [contact for contact in run.encounters.contacts if contact.robot_speed > 0.01] == []
+    assert float(run.positions[-1, 0]) > 3.0
+
+
+def test_who_stands_for_what_crosses_sets_off_when_it_is_gone_and_not_before() -> None:
+    """It crept into its way before: a law that waits was taken for one that goes at once."""
+    motion = {"keyframes": [[0, 1.6, -6], [12, 1.6, 6]], "after": "stay"}
+    thing = {"name": "cart", "circle": {"center": [0, 0], "radius": 1.2}, "motion": motion}
+    data = among(0, "passive").model_dump(by_alias=True, exclude_defaults=True)
+    data["world"] = {"unseen": [thing]}
+    run = vs.simulate(vs.Mission.model_validate(data), step=0.1)
+    assert run.reached
+    assert run.encounters is not None
+    assert run.encounters.contacts == ()
+    assert run.encounters.clearance > 0.0
 
 
 def test_who_does_without_drives_as_if_nothing_came_from_out_of_sight() -> None:

@@ -25,6 +25,7 @@ class DriveTask:
         limits: Of every trajectory: speeds and accelerations, with what the sensor allows.
         reaction: Longest time between two steps [s].
         model: The drive; None if the robot follows its path exactly.
+        apart: What it keeps to what moves beyond what is required [m].
     """
 
     mission: Mission
@@ -32,6 +33,12 @@ class DriveTask:
     limits: Limits
     reaction: float
     model: DriveModel | None = None
+    apart: float = 0.0
+
+    @property
+    def kept_to_moving(self) -> float:
+        """Distance from the robot's middle to everything that moves [m]."""
+        return self.requirements.around + self.apart
 
     @property
     def spot_turning(self) -> SpotTurning:

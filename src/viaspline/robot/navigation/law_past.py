@@ -49,7 +49,7 @@ def law_past(
         timed, stops = part_until(path, stops, end)
     outcome = law_among(
         timed, task.limits, stops, moving=moving,
-        required=task.requirements.around,
+        required=task.kept_to_moving,
         zones=task.mission.world.speed_zones, slow=schedule.slow,
         start=min(distance, timed.length), start_speed=motion[0], start_time=time,
         hold=task.mission.route.hold_s if end >= path.length else 0.0,

@@ -1,8 +1,9 @@
 """What a robot does about what moves: go on, slow down, pass on another side, brake.
 
 Its path is timed anew first. Where that costs much, or can't be done, it is led round what it would
-meet, on either side, and the earliest arrival wins. Where nothing is found it takes the law on
-which nothing is met for the longest time, and braking if none is better.
+meet, on either side, and the earliest arrival wins. What moves may turn: so there is room to spare
+beside it, and where that can't be, what is required. Where nothing is found the robot takes the law
+on which nothing is met for the longest time, and braking if none is better.
 """
 
 from __future__ import annotations
@@ -34,6 +35,9 @@ from viaspline.spacetime.standing_ghost import standing_ghost
 from viaspline.spacetime.timed_problem import without_lanes
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
+
+APART_M = (0.3, 0.0)
+"""What it keeps to what moves beyond what is required [m], the most that can be: that may turn."""
 
 RETRY_S = 0.3
 """A robot that gives way looks so often for something better [s]."""
@@ -69,11 +73,40 @@ def give_way(
     """
     if schedule.giving_up is not None or progress.finished:
         return Decision(schedule)
-    meeting = _meeting(task, knowledge.moving, schedule.path, schedule.trajectory, progress.time)
-    if meeting is None and not _hopes_for_more(progress, schedule):
+    kept = _kept(task, progress, knowledge, schedule)
+    if kept == 0 and not _hopes_for_more(progress, schedule):
         return Decision(schedule)
+    if 0 < kept < len(APART_M) and progress.time < schedule.timed_at + RETRY_S:
+        return Decision(schedule)
+    for apart in APART_M[: max(kept, 1)]:
+        wide = replace(task, apart=apart)
+        decision = _clear_of_all(ReplanContext.of(wide, progress, knowledge, schedule))
+        if decision is not None:
+            return decision
+    if kept < len(APART_M):
+        return Decision(replace(schedule, timed_at=progress.time))
     context = ReplanContext.of(task, progress, knowledge, schedule)
-    free = _free_law(context)
+    return _longest(context, _free_law(context))
+
+
+def _kept(task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule) -> int:
+    """Which of ``APART_M`` the robot keeps by what it means to do; their number if none.
+
+    What is on the map doesn't turn: from that it keeps what is required.
+    """
+    path, law, now = schedule.path, schedule.trajectory, progress.time
+    if _meeting(task, knowledge.moving, path, law, now) is not None:
+        return len(APART_M)
+    sensed = knowledge.sensed_moving
+    for k, apart in enumerate(APART_M[:-1]):
+        if _meeting(replace(task, apart=apart), sensed, path, law, now) is None:
+            return k
+    return len(APART_M) - 1
+
+
+def _clear_of_all(context: ReplanContext) -> Decision | None:
+    """What keeps clear of all that moves: waiting for it, or another side; None if neither does."""
+    progress, free = context.progress, _free_law(context)
     waiting = _on_path(context)
     late = math.inf if waiting is None else waiting.trajectory.end_time - free.end_time
     if waiting is not None and late <= PATIENCE_S:
@@ -84,17 +117,15 @@ def give_way(
     ):
         decision = take_over(context, other, {})
         return replace(decision, schedule=_giving_way(decision.schedule, progress, math.inf))
-    if waiting is not None:
-        return Decision(_giving_way(waiting, progress, late))
-    return _longest(context, free)
+    return None if waiting is None else Decision(_giving_way(waiting, progress, late))
 
 
 def _meeting(
     task: DriveTask, moving: MovingObstacles, path: Path, law: Trajectory, now: float
 ) -> Meeting | None:
     """What a law meets from now on, and a robot that stands at its end."""
-    required = task.requirements.around
-    return first_meeting(path, law, moving, required, (now, max(law.end_time, now + LOOK_S)))
+    span = (now, max(law.end_time, now + LOOK_S))
+    return first_meeting(path, law, moving, task.kept_to_moving, span)
 
 
 def _hopes_for_more(progress: Progress, schedule: Schedule) -> bool:
@@ -147,7 +178,8 @@ def _led_round(
     context: ReplanContext, obstacle: int, side: Side, window: tuple[float, float]
 ) -> PathCandidate | None:
     """The path on one side of where an obstacle is for a while, with its law."""
-    made = standing_ghost(context.knowledge.moving, obstacle, side, window)
+    apart = context.task.apart
+    made = standing_ghost(context.knowledge.moving, obstacle, side, window, apart)
     if made is None:
         return None
     ghost, _ = made

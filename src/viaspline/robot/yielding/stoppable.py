@@ -5,6 +5,7 @@ Tested through ``robot/yielding/test_stoppable``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -20,7 +21,14 @@ from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.foretell import Foresight, foretold
 from viaspline.robot.perception.moving.mouths import reach_and_mouths
 from viaspline.robot.state import RobotState
-from viaspline.trajectory.passive_safety import PassivePremises, passive_law, stop_of
+from viaspline.trajectory.passive_safety import (
+    SAME_PLACE_M,
+    PassivePremises,
+    passive_law,
+    stop_of,
+)
+from viaspline.trajectory.retime import braking
+from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 
 LASTING_S = 1.0
@@ -28,6 +36,9 @@ LASTING_S = 1.0
 
 NARROWEST_M = 0.2
 """Nothing that moves comes through a gap that is narrower [m]."""
+
+PIECE_S = 0.02
+"""A law with a limit of the jerk is taken in pieces of even acceleration, so long [s]."""
 
 ANY_ACCEL_MPS2 = 1e6
 """What moves may turn at will: nothing is taken for granted but its greatest speed."""
@@ -39,26 +50,30 @@ class Sight:
 
     Attributes:
         eye: Where it was taken [m].
+        time: When [s]; a robot with a delay makes up its mind about a later time.
         reach: All that is there and nearer was seen, or is behind a mouth [m].
         mouths: Lines through which what was hidden may come [m], (k, 4).
     """
 
     eye: tuple[float, ...]
+    time: float
     reach: float
     mouths: Floats = field(default_factory=lambda: np.empty((0, 4)))
 
 
-def sight_of(robot: RobotSpec, sensed: object, measured: RobotState) -> Sight:
+def sight_of(robot: RobotSpec, sensed: object, measured: RobotState, time: float) -> Sight:
     """What a look shows of the world: a scan what its beams passed, a range sensor all around.
 
     Args:
         robot: With its sensor; one without sees nothing.
         sensed: What was shown.
         measured: Where the robot is.
+        time: Of the look [s].
     """
     if isinstance(sensed, Scan):
-        return Sight(sensed.position, *reach_and_mouths(sensed, NARROWEST_M))
-    return Sight(measured.position, 0.0 if robot.sensor is None else robot.sensor.reach)
+        return Sight(sensed.position, time, *reach_and_mouths(sensed, NARROWEST_M))
+    reach = 0.0 if robot.sensor is None else robot.sensor.reach
+    return Sight(measured.position, time, reach)
 
 
 def stoppable(
@@ -73,7 +88,9 @@ def stoppable(
 
     It goes on by what it means to do as far as that is proven: nothing is faster than the mission
     says, and nothing appears inside of what its sensor sees. Where not even braking at once is, it
-    stops as was proven by an earlier look.
+    stops as was proven by an earlier look. One that follows exactly and stands until what crosses
+    is gone sets off no sooner. With a limit of the jerk it may brake more suddenly than that, and
+    the law says so.
 
     Args:
         task: What is asked of the drive.
@@ -88,25 +105,55 @@ def stoppable(
     has_law = after.giving_up is None and not progress.finished and progress.dwell is None
     if things is None or things.safety == "none" or not has_law:
         return after
-    if after.trajectory.changes is not None:
-        return after
-    speed = float(before.trajectory.state_at(progress.time)[1])
+    now, brake = progress.time, task.limits.brake
+    speed = float(before.trajectory.state_at(now)[1])
     meant = after
     if after.trajectory is before.trajectory:
         meant = rescheduled(task, progress, knowledge, after, speed)
+        meant = replace(meant, timed_at=after.timed_at)  # it is asked all the same for other ways
+    waits = progress.controller is None and _stands_until(
+        meant.trajectory, now, now + task.reaction
+    )
+    if waits:
+        stop = braking(progress.distance, 0.0, brake, now)
+        return replace(meant, trajectory=stop, gives_way=True)
     strict = Foresight(top_speed=things.max_speed_mps, accel=ANY_ACCEL_MPS2)
     premises = PassivePremises(
-        _tubes(knowledge, progress.time, strict), progress.time, things.max_speed_mps, sight.eye,
+        _tubes(knowledge, sight.time, strict), sight.time, things.max_speed_mps, sight.eye,
         sight.reach, sight.mouths,
     )  # fmt: skip
-    limits = (task.limits.max_accel, task.limits.brake)
     keep = task.requirements.outer_radius + task.requirements.tracking_error
+    upper = _in_even_pieces(meant.trajectory, now, brake)
     law, proven = passive_law(
-        meant.path, meant.trajectory, premises, keep, limits, progress.time, LASTING_S
+        meant.path, upper, premises, keep, (task.limits.max_accel, brake), now, LASTING_S
     )
     if not proven and before.path is meant.path:
-        law = stop_of(before.trajectory, progress.time, task.limits.brake)
+        law = stop_of(before.trajectory, now, brake)
+    if task.limits.max_jerk is not None:
+        law = replace(law, over_jerk_until=float(law.distances[-1]))
     return replace(meant, trajectory=law)
+
+
+def _stands_until(law: Trajectory, now: float, later: float) -> bool:
+    """Whether a robot is to stand from now until a later time [s], and to go on then."""
+    (here, there), (speed, then), _ = law.state_at(np.array((now, later)))
+    return bool(speed == then == 0.0 and here == there and here < law.distances[-1])
+
+
+def _in_even_pieces(law: Trajectory, now: float, brake: float) -> Trajectory:
+    """A law with a limit of the jerk, up to its next rest, in short pieces of even acceleration."""
+    if law.changes is None:
+        return law
+    times = np.linspace(now, law.end_time, 2 + math.ceil((law.end_time - now) / PIECE_S))
+    distances, speeds, _ = law.state_at(times)
+    rests = np.flatnonzero((speeds == 0.0) & (distances > distances[0] + SAME_PLACE_M))
+    last = int(rests[0]) + 1 if rests.size else len(times)
+    kept = np.append(np.diff(distances[:last]) > SAME_PLACE_M, True)
+    places, squares = distances[:last][kept], speeds[:last][kept] ** 2
+    if len(places) < 2:
+        return braking(float(distances[0]), 0.0, brake, now)
+    squares[-1] = 0.0
+    return Trajectory.through(places, squares, max_accel=brake, start_time=now)
 
 
 def _tubes(knowledge: Knowledge, now: float, strict: Foresight) -> MovingObstacles:

@@ -10,6 +10,7 @@ from typing import Final
 import numpy as np
 
 from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
 from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
 from viaspline.robot.perception.moving.motion_sensor import MovingSighting
 
@@ -22,6 +23,15 @@ VELOCITY_ERROR_MPS: Final = 1e-3
 SAME_HEADING_RAD: Final = 1e-9
 """Something turns that has another heading in the next look [rad]."""
 
+JUMP_RATIO: Final = 2.0
+"""What has gone so many times as far as it would by its speed now and before has jumped,"""
+
+JUMP_SIGMAS: Final = 6.0
+"""though the speeds may be wrong by so many standard deviations,"""
+
+JUMP_M: Final = 0.1
+"""and by no less than this [m]."""
+
 
 @dataclass(frozen=True, eq=False)
 class SightedTrack:
@@ -31,11 +41,13 @@ class SightedTrack:
         sighting: As it was seen last.
         estimate: Its motion then.
         turns: Whether it may be turning: it was seen only once, or with another heading before.
+        jumped: Whether it was somewhere else in the look before: it is followed anew since.
     """
 
     sighting: MovingSighting
     estimate: MotionEstimate
     turns: bool
+    jumped: bool = False
 
     @property
     def reach(self) -> float:
@@ -87,11 +99,26 @@ class TrackedSightings:
     ) -> SightedTrack:
         error = max(self.velocity_noise, VELOCITY_ERROR_MPS)
         measured = np.array((*sighting.frame[:2], *sighting.velocity))
-        if before is None:
+        jumped = before is not None and _has_jumped(before.estimate, measured, time, error)
+        if before is None or jumped:
             variances = np.array((PLACE_ERROR_M, PLACE_ERROR_M, error, error)) ** 2
             estimate = MotionEstimate(time, measured, np.diag(variances))
-            return SightedTrack(sighting, estimate, turns=True)
+            return SightedTrack(sighting, estimate, turns=True, jumped=jumped)
         estimate = before.estimate.foreseen(time, self.wander)
         estimate = estimate.with_place_and_velocity(measured, PLACE_ERROR_M, error)
         turned = abs(sighting.frame[2] - before.sighting.frame[2]) > SAME_HEADING_RAD
         return SightedTrack(sighting, estimate, turned)
+
+
+def _has_jumped(before: MotionEstimate, measured: Floats, time: float, error: float) -> bool:
+    """Whether something is farther from where it was than it can have gone.
+
+    Args:
+        before: What was believed of it at the look before.
+        measured: x, y [m], vx, vy [m/s] now, shape (4,).
+        time: [s].
+        error: Standard deviation of a velocity [m/s].
+    """
+    gone = math.dist(measured[:2], before.place)
+    speed = max(math.hypot(*measured[2:].tolist()), math.hypot(*before.velocity.tolist()))
+    return gone > JUMP_RATIO * (speed + JUMP_SIGMAS * error) * (time - before.time) + JUMP_M
