@@ -71,6 +71,7 @@ def _candidate(one: TimedCandidate) -> dict[str, Any]:
             }
             for passing in one.passings
         ],
+        "searched": one.is_searched,
         "length_m": one.length,
         "free_arrival_s": one.free_arrival,
         "arrival_s": one.arrival,
@@ -98,5 +99,14 @@ def encounters_data(run: Run) -> dict[str, Any]:
                 "appeared_within_braking_time": contact.appeared_within_braking_time,
             }
             for contact in met.contacts
+        ],
+        "passes": [
+            {
+                "time_s": one.time,
+                "obstacle": one.obstacle,
+                "clearance_m": one.clearance,
+                "robot_speed_mps": one.robot_speed,
+            }
+            for one in met.passes
         ],
     }

@@ -151,7 +151,8 @@ def _candidate(candidate: Candidate) -> tuple[str, str, str, str, str]:
     clearance = "–" if candidate.clearance is None else down(candidate.clearance)
     bend = "–" if candidate.max_curvature is None else f"{candidate.max_curvature:.3g} 1/m"
     time, length = seconds(candidate.duration), metres(candidate.length, 1)
-    return time, length, clearance, bend, "taken" if candidate.chosen else ""
+    verdict = "taken" if candidate.chosen else candidate.passed_over or ""
+    return time, length, clearance, bend, verdict
 
 
 def run_tables(run: Run, name: str) -> RenderableType:
@@ -178,6 +179,8 @@ def run_tables(run: Run, name: str) -> RenderableType:
         facts.add_row("to what moves, proven", near)
         for contact in met.contacts[:MAX_LIST_LINES]:
             how = "while it stood" if contact.robot_speed == 0.0 else "under way"
+            if contact.appeared_within_braking_time:
+                how += ", too late to be seen in time"
             facts.add_row("CONTACT", f"'{contact.obstacle}' at {contact.time:.1f} s, {how}")
     if run.tracking is not None:
         cross = run.tracking.cross

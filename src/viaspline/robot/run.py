@@ -132,6 +132,23 @@ class Contact:
 
 
 @dataclass(frozen=True)
+class Pass:
+    """Something that moves and came near to the robot without touching it.
+
+    Attributes:
+        time: When it was nearest [s].
+        obstacle: What it was.
+        clearance: Proven lower bound of its distance from the body at every instant [m].
+        robot_speed: How fast the robot was when it was nearest [m/s]; 0: it stood.
+    """
+
+    time: float
+    obstacle: str
+    clearance: float
+    robot_speed: float
+
+
+@dataclass(frozen=True)
 class Encounters:
     """How near a drive came to what moves.
 
@@ -141,12 +158,15 @@ class Encounters:
         time: When it was tightest [s]; None where nothing moved.
         obstacle: What was nearest then.
         contacts: Every touch, in order.
+        passes: What touched nothing though it came as near as the robot needs to stop from its
+            greatest speed, in the order in which it was nearest.
     """
 
     clearance: float
     time: float | None
     obstacle: str | None
     contacts: tuple[Contact, ...]
+    passes: tuple[Pass, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -112,6 +112,7 @@ def _candidate(candidate: Candidate) -> dict[str, Any]:
         "duration": candidate.duration,
         "clearance": finite(candidate.clearance),
         "impossible": candidate.impossible,
+        "passedOver": candidate.passed_over,
     }
 
 

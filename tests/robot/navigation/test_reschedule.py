@@ -118,3 +118,16 @@ def test_one_that_brakes_at_once_is_where_its_old_law_has_it_as_long_as_it_is_co
         law = braking_at_once(task, now, committed, speed)
         place, then, _ = nav.trajectory.state_at(4.0)
         assert float(law.distances[-1]) == pytest.approx(float(place + then**2 / 2.0))
+
+
+def test_a_stop_that_just_does_ends_where_the_path_ends_whatever_the_rounding_says(
+    mission_of: Make,
+) -> None:
+    """Of one in sixty the last place was beyond the path by a bit."""
+    nav = Navigator(mission_of([0, 0], [21.3, 1.7], max_accel_mps2=0.7))
+    task, state, length = nav._task, nav._state, nav.path.length
+    for speed in np.linspace(0.3, 1.9, 400).tolist():
+        left = speed**2 / (2.0 * task.limits.brake)
+        now = replace(state.progress, time=3.0, distance=length - left)
+        law = braking_at_once(task, now, state.schedule, speed)
+        assert length - 1e-9 < float(law.distances[-1]) <= length

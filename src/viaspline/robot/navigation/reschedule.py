@@ -9,6 +9,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.kernels.tracking.drive_model import DriveModel
@@ -139,15 +141,22 @@ def braking_at_once(
     """
     old, until = schedule.trajectory, schedule.committed_until
     if until <= progress.time:
-        return _harsh_stop(task, progress.distance, speed, progress.time)
+        return _harsh_stop(task, schedule.path, progress.distance, speed, progress.time)
     distance, speed, _ = (float(x) for x in old.state_at(until))
     distance = max(distance, progress.distance)
-    return old.followed_by(_harsh_stop(task, distance, speed, until), progress.time)
+    stop = _harsh_stop(task, schedule.path, distance, speed, until)
+    return old.followed_by(stop, progress.time)
 
 
-def _harsh_stop(task: DriveTask, distance: float, speed: float, time: float) -> Trajectory:
-    """Braking as hard as it goes, which says so where the jerk has a limit."""
+def _harsh_stop(
+    task: DriveTask, path: Path, distance: float, speed: float, time: float
+) -> Trajectory:
+    """Braking as hard as it goes, which says so where the jerk has a limit.
+
+    Where it just does for the end of the path, that is where it ends, whatever the rounding says.
+    """
     law = braking(distance, speed, task.limits.brake, time)
+    law = replace(law, distances=np.minimum(law.distances, path.length))
     if task.limits.max_jerk is None:
         return law
     return replace(law, over_jerk_until=float(law.distances[-1]))

@@ -13,7 +13,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.robot_parts import RobotSpec
-from viaspline.robot.run import Contact, Encounters
+from viaspline.robot.run import Contact, Encounters, Pass
 from viaspline.world.moving_obstacles import MovingObstacles
 
 RESOLUTION_S = 1e-3
@@ -24,6 +24,12 @@ AT_ONCE = 50_000
 
 STANDING_MPS = 1e-3
 """A robot that is slower stands [m/s]."""
+
+PASSING_RESOLUTION_S = 0.01
+"""Between two instants at which it is looked how near each thing is."""
+
+WasLate = Callable[[int, float], bool]
+"""Of what touched the robot, by its index, and when [s]."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +47,9 @@ class DrivenStates:
     state_at: Callable[[Floats], tuple[Floats, Floats]]
 
 
-def encounters(motion: DrivenStates, robot: RobotSpec, moving: MovingObstacles) -> Encounters:
+def encounters(
+    motion: DrivenStates, robot: RobotSpec, moving: MovingObstacles, was_late: WasLate
+) -> Encounters:
     """How near a drive came to what moves.
 
     The distance changes by no more than both can go in the time between two instants, so what is
@@ -52,6 +60,8 @@ def encounters(motion: DrivenStates, robot: RobotSpec, moving: MovingObstacles) 
         motion: Where the robot was when.
         robot: Its body.
         moving: All that moved, known or not.
+        was_late: Whether something could not be seen until the robot couldn't stand in time any
+            more before it was touched at a time; see ``Appearance``.
     """
     if not len(moving):
         return Encounters(math.inf, None, None, ())
@@ -68,10 +78,9 @@ def encounters(motion: DrivenStates, robot: RobotSpec, moving: MovingObstacles) 
     if nearest[k] < 0:
         return Encounters(math.inf, None, None, ())
     apart = 0.5 * step * (float(speeds.max()) + moving.top_speed)
-    contacts = _contacts(times, gaps, nearest, speeds, moving)
-    return Encounters(
-        float(gaps[k]) - apart, float(times[k]), moving.name(int(nearest[k])), contacts
-    )
+    contacts = _contacts(times, gaps, nearest, speeds, moving, was_late)
+    name, passes = moving.name(int(nearest[k])), _passes(motion, robot, moving)
+    return Encounters(float(gaps[k]) - apart, float(times[k]), name, contacts, passes)
 
 
 def touched_by(met: Encounters | None) -> str | None:
@@ -86,13 +95,43 @@ def touched_by(met: Encounters | None) -> str | None:
 
 
 def _contacts(
-    times: Floats, gaps: Floats, nearest: Ints, speeds: Floats, moving: MovingObstacles
+    times: Floats,
+    gaps: Floats,
+    nearest: Ints,
+    speeds: Floats,
+    moving: MovingObstacles,
+    was_late: WasLate,
 ) -> tuple[Contact, ...]:
     """Each touch, from its beginning, with how fast the robot was."""
     touching = gaps < 0.0
     begins = np.flatnonzero(touching & ~np.concatenate(([False], touching[:-1])))
     found = []
     for k in begins.tolist():
-        speed = float(speeds[k]) if speeds[k] > STANDING_MPS else 0.0
-        found.append(Contact(float(times[k]), moving.name(int(nearest[k])), speed))
+        index, time = int(nearest[k]), float(times[k])
+        late = was_late(index, time)
+        found.append(Contact(time, moving.name(index), _speed_told(float(speeds[k])), late))
     return tuple(found)
+
+
+def _passes(motion: DrivenStates, robot: RobotSpec, moving: MovingObstacles) -> tuple[Pass, ...]:
+    """What came near to the robot, each by where it was nearest."""
+    count = max(math.ceil((motion.end - motion.begin) / PASSING_RESOLUTION_S), 1)
+    times = np.linspace(motion.begin, motion.end, count + 1)
+    places, speeds = motion.state_at(times)
+    near = robot.max_speed_mps**2 / (2.0 * (robot.max_brake_mps2 or robot.max_accel_mps2))
+    half = 0.5 * float(times[1] - times[0])
+    found = []
+    for i in range(len(moving)):
+        alone = moving.alone(i)
+        gaps = alone.distance(places, times) - robot.outer_radius
+        k = int(gaps.argmin())
+        least = float(gaps[k]) - half * (float(speeds.max()) + alone.top_speed)
+        if least > 0.0 and gaps[k] <= near:
+            speed = _speed_told(float(speeds[k]))
+            found.append(Pass(float(times[k]), moving.name(i), least, speed))
+    return tuple(sorted(found, key=lambda one: one.time))
+
+
+def _speed_told(speed: float) -> float:
+    """The speed of a robot [m/s]; 0 if it stands."""
+    return speed if speed > STANDING_MPS else 0.0

@@ -10,6 +10,7 @@ import numpy as np
 from viaspline.curve.path import SEAM, Path
 from viaspline.kernels.arrays import Floats
 from viaspline.robot.run import Event, Run
+from viaspline.robot.simulation.appearance import Appearance
 from viaspline.robot.simulation.driven_motion import DrivenMotion
 from viaspline.robot.simulation.encounters import DrivenStates, encounters, touched_by
 from viaspline.robot.simulation.exact_drive import ExactDrive
@@ -44,8 +45,12 @@ def run_of_exact(drive: ExactDrive, world: World, step: float) -> Run:
     u = np.asarray(path.parameter(np.minimum(distances, path.length)))
     robot = nav.mission.robot
     certificate = proven(path, world, robot)
-    near = () if certificate.holds else near_misses(nav.mission, world, _motion(drive, path, step))
-    met = encounters(_states(drive, path), robot, moving) if len(moving) else None
+    motion = _motion(drive, path, step)
+    near = () if certificate.holds else near_misses(nav.mission, world, motion)
+    met = None
+    if len(moving):
+        appearance = Appearance(nav.mission, world, moving, motion)
+        met = encounters(_states(drive, path), robot, moving, appearance.was_late)
     reason = reason or touched_by(met)
     return Run(
         plan=nav.plan,

@@ -19,6 +19,7 @@ from viaspline.machine.trace import trace
 from viaspline.machine.travel import travel_of
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.run import Run, Visit
+from viaspline.robot.simulation.appearance import Appearance
 from viaspline.robot.simulation.driven_motion import DrivenMotion
 from viaspline.robot.simulation.encounters import DrivenStates, encounters, touched_by
 from viaspline.robot.simulation.machine_drive import MachineDrive
@@ -56,9 +57,13 @@ def run_of_machine(drive: MachineDrive, world: World, step: float) -> Run:
     rates = np.interp(times, rows[:, ROW_TIME], travel.turn_rates)
     headings = np.interp(times, rows[:, ROW_TIME], rows[:, ROW_HEADING])
     least = MIN_CURVATURE_SPEED_MPS
-    near = () if certificate.holds else near_misses(nav.mission, world, _motion(drive, step))
+    motion = _motion(drive, step)
+    near = () if certificate.holds else near_misses(nav.mission, world, motion)
     moving = MovingObstacles.everything(nav.mission)
-    met = encounters(_states(drive, travel.speeds), robot, moving) if len(moving) else None
+    met = None
+    if len(moving):
+        appearance = Appearance(nav.mission, world, moving, motion)
+        met = encounters(_states(drive, travel.speeds), robot, moving, appearance.was_late)
     reason = reason or touched_by(met)
     return Run(
         plan=nav.plan,

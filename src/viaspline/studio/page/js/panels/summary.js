@@ -108,7 +108,7 @@ export class Summary {
       const text = candidate?.length ? `${metres(candidate.length, 1)}, ${seconds(candidate.duration)}` : forced && forced !== which ? "forbidden" : candidate?.impossible ? "blocked" : "–";
       return h("button", {
         type: "button", class: "side", "aria-pressed": String(!!candidate?.chosen), disabled: !entry.forceable,
-        "aria-label": `pass ${name} on the ${which}, ${text}`, title: candidate?.impossible ?? `pass on the ${which}`,
+        "aria-label": `pass ${name} on the ${which}, ${text}`, title: candidate?.impossible ?? candidate?.passedOver ?? `pass on the ${which}`,
         onclick: () => {
           store.edit(forceSide(store.doc, entry.items, which));
           app.say(`${name}: passed on the ${which}`);
