@@ -222,3 +222,67 @@ def test_the_panel_and_the_ledger_say_what_is_waited_for(visit: Visit, crossing:
     assert page.js("studio.preview.time") == pytest.approx(
         (shown["begin"] + shown["end"]) / 2, rel=0.1
     )
+
+
+EDITS = """async ([seed, count]) => {
+  const motions = await import('/page/js/core/motion_edits.js');
+  const { setManner, setKeyframe, addKeyframe, setAfter, setError } = motions;
+  const { moveTo, remove, toggleUnseen } = await import('/page/js/core/edits.js');
+  const { fewestOf } = await import('/page/js/shapes/moving.js');
+  let state = seed;
+  const random = () => (state = (state * 48271) % 2147483647) / 2147483647;
+  const pick = (list) => list[Math.floor(random() * list.length)];
+  const afters = (count) =>
+    ['loop', 'bounce', 'stay', 'vanish'].filter((after) => count >= fewestOf({ after }));
+  const upTo = (most) => Math.round(random() * most);
+  const faults = [];
+  for (let n = 0; n < count; n += 1) {
+    const { doc } = studio.store;
+    const lists = ['known', 'unseen'].filter((list) => doc.world[list]?.length);
+    const list = pick(lists);
+    const i = Math.floor(random() * doc.world[list].length);
+    const id = `${list}:${i}`;
+    const item = doc.world[list][i];
+    const frames = item.motion?.keyframes;
+    const k = frames ? Math.floor(random() * frames.length) : -1;
+    const time = Math.round((frames?.[k]?.[0] ?? 0) * 100 + 10) / 100;
+    const deeds = [
+      () => setManner(doc, id, pick(['stands', 'keyframes', 'straight']), upTo(200) / 10),
+      () => moveTo(doc, k < 0 ? id : `${id}:${k}`, [upTo(40), upTo(30)]),
+      () => (frames ? addKeyframe(doc, id, k) : doc),
+      () => (frames ? remove(doc, `${id}:${k}`) : doc),
+      () => (frames ? setKeyframe(doc, id, k, pick([1, 2, 3]), upTo(30)) : doc),
+      () => (frames ? setKeyframe(doc, id, k, 3, null) : doc),
+      () => (item.motion ? setError(doc, id, pick(['position_m', 'growth_mps']), upTo(1)) : doc),
+      () => (frames ? setAfter(doc, id, pick(afters(frames.length))) : doc),
+      () => toggleUnseen(doc, id)[0],
+    ];
+    studio.store.edit(pick(deeds)());
+    studio.preview.seek(time);
+    await studio.settled();
+    const { plan } = studio.store;
+    if (!plan.ok) faults.push(...plan.problems.map((one) => one.text));
+  }
+  return faults;
+}"""
+
+
+@pytest.mark.parametrize("seed", [11, 2718])
+def test_whatever_is_done_to_motions_they_stay_sound_and_all_is_undone(
+    visit: Visit, tmp_path: Path, seed: int
+) -> None:
+    file = tmp_path / "many.yaml"
+    file.write_text(
+        "world:\n  known:\n"
+        "    - {name: disc, circle: {center: [10, 22], radius: 1}, pass_on: left}\n"
+        "    - {name: bar, capsule: {from: [20, 22], to: [23, 25], radius: 0.4}}\n"
+        "    - {name: box, polygon: [[30, 20], [32, 20], [32, 23], [30, 23]]}\n"
+        "robot: {sensor: {range_m: 20}}\nroute: {start: [0, -900], goal: [40, -900]}\n"
+    )
+    page = visit(file)
+    before = page.doc
+    assert page.js(EDITS, [seed, 50]) == []
+    while page.js("studio.store.undo()"):
+        pass
+    page.settle()
+    assert page.doc == before

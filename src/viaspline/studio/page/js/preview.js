@@ -2,6 +2,8 @@
 
 import { Playback } from "./playback.js";
 
+const MOST_VIAS = 60; // via points that are told one by one
+
 export class Preview extends Playback {
   /** @param {import("./core/store.js").Store} store */
   constructor(store) {
@@ -11,8 +13,9 @@ export class Preview extends Playback {
     store.on("file", () => this.follow());
   }
 
-  /** The newest plan is what is played. */
+  /** The newest plan is what is played; who draws plans hears of it by itself. */
   follow() {
+    const before = this.time;
     const plan = this.store.goodPlan;
     if (!plan) {
       this.isPlaying = false;
@@ -22,7 +25,7 @@ export class Preview extends Playback {
       this.over(times[0], plan.timing?.holds_until ?? times.at(-1));
       this.factor = Math.max(1, Math.round((this.end - this.begin) / 30));
     }
-    this.tell();
+    if (this.time !== before) this.tell();
   }
 
   /** Whether there is something to be seen that isn't on the map anyway. */
@@ -48,7 +51,8 @@ export class Preview extends Playback {
   moments() {
     const { curve, goodPlan: plan } = this.store;
     if (!plan || !curve) return [];
-    const vias = plan.vias.filter((/** @type {any} */ via) => via[3] === "user").map((/** @type {any} */ via, /** @type {number} */ i, /** @type {any[]} */ all) => ({
+    const users = plan.vias.filter((/** @type {any} */ via) => via[3] === "user");
+    const vias = (users.length > MOST_VIAS ? [users[0], users.at(-1)] : users).map((/** @type {any} */ via, /** @type {number} */ i, /** @type {any[]} */ all) => ({
       time: curve.timeAt(via[5]), kind: via[6] > 0 ? "arrived" : i === all.length - 1 ? "reached" : i ? "via" : "started", text: via[0], at: [via[1], via[2]],
     }));
     const waits = (plan.timing?.waits ?? []).map((/** @type {any} */ wait) => ({ time: wait.at_s, kind: "waits", text: waitWords(wait), at: null }));

@@ -64,6 +64,13 @@ export function setKeyframe(doc, id, index, axis, value) {
   return replaced(doc, path, frame);
 }
 
+/** Say what comes after the last keyframe; what goes on and on has no before. @param {Doc} doc @param {string} id @param {string} after */
+export function setAfter(doc, id, after) {
+  const path = [...pathOf(id), "motion"];
+  const next = replaced(doc, [...path, "after"], after);
+  return after === "loop" || after === "bounce" ? replaced(next, [...path, "before"], undefined) : next;
+}
+
 /** One keyframe more, after another. @param {Doc} doc @param {string} id @param {number} after */
 export const addKeyframe = (doc, id, after) => replaced(doc, pathOf(id), withKeyframe(part(doc, pathOf(id)), after));
 

@@ -1,8 +1,9 @@
 /** How an obstacle moves, in fields: its keyframes or its velocity, what comes after, how far it may be off. */
 
-import { addKeyframe, mannerOf, setError, setKeyframe, setManner } from "../core/motion_edits.js";
+import { addKeyframe, mannerOf, setAfter, setError, setKeyframe, setManner } from "../core/motion_edits.js";
 import { part, pathOf, replaced } from "../core/mission.js";
 import { erase } from "../input/keyboard.js";
+import { fewestOf } from "../shapes/moving.js";
 import { choice, h, icon, iconButton, numberField } from "./dom.js";
 
 const MOST_ROWS = 12; // of keyframes, about the one that is selected
@@ -58,21 +59,21 @@ function keyframes(app, owner, motion, selected) {
   return [
     h("div", { class: "keyframes", role: "table", "aria-label": "Keyframes" },
       h("div", { class: "keyframe is-head", role: "row" }, ...COLUMNS.map(([name, unit], axis) => h("span", { role: "columnheader" }, axis === 3 ? `${name} ${unit}` : `${name} [${unit}]`)), h("span", {})),
-      ...shown.map((/** @type {number[]} */ frame, /** @type {number} */ i) => row(app, owner, frame, first + i, first + i === selected, all.length))),
+      ...shown.map((/** @type {number[]} */ frame, /** @type {number} */ i) => row(app, owner, frame, first + i, first + i === selected, all.length > fewestOf(motion)))),
     all.length > shown.length ? h("p", { class: "hint" }, `${first + 1} to ${first + shown.length} of ${all.length}; select another on the map`) : null,
     h("button", {
       type: "button", class: "button",
       onclick: () => store.edit(addKeyframe(store.doc, owner, after), { select: `${owner}:${after + 1}` }),
     }, icon("plus", 14), after < all.length - 1 ? `Keyframe after ${after + 1}` : "Keyframe at the end"),
     choice({
-      label: "Then it", value: motion.after ?? "", options: motion.after ? AFTER : [["", "–"], ...AFTER],
-      set: (value) => value && store.edit(replaced(store.doc, [...pathOf(owner), "motion", "after"], value)),
+      label: "Then it", value: motion.after ?? "", options: [...(motion.after ? [] : [/** @type {[string, string]} */ (["", "–"])]), ...AFTER.filter(([key]) => all.length >= fewestOf({ after: key }))],
+      set: (value) => value && store.edit(setAfter(store.doc, owner, value)),
     }),
   ];
 }
 
-/** @param {any} app @param {string} owner @param {number[]} frame @param {number} index @param {boolean} isSelected @param {number} count */
-function row(app, owner, frame, index, isSelected, count) {
+/** @param {any} app @param {string} owner @param {number[]} frame @param {number} index @param {boolean} isSelected @param {boolean} isSpare whether it can be taken out */
+function row(app, owner, frame, index, isSelected, isSpare) {
   const { store } = app;
   const id = `${owner}:${index}`;
   const cell = (/** @type {string[]} */ [name, unit], /** @type {number} */ axis) => {
@@ -88,7 +89,7 @@ function row(app, owner, frame, index, isSelected, count) {
     return input;
   };
   return h("div", { class: `keyframe${isSelected ? " is-selected" : ""}`, role: "row" }, ...COLUMNS.map(cell),
-    count > 1 ? iconButton("trash", `Delete keyframe ${index + 1}`, () => {
+    isSpare ? iconButton("trash", `Delete keyframe ${index + 1}`, () => {
       store.select(id);
       erase(app);
       store.select(owner);

@@ -5,7 +5,7 @@
 
 import { PLAY_FACTORS } from "../replay.js";
 import { clock, metres, seconds } from "../units.js";
-import { fill, h, icon } from "./dom.js";
+import { fill, h, icon, lazily } from "./dom.js";
 
 /** Each kind of event has a sign of its own, so that colour is not all. */
 const EVENT_SIGNS = {
@@ -28,6 +28,7 @@ export class Timeline {
     this.note = find("#drive-note");
     this.factor = find("#factor");
     this.isAsked = false;
+    this.marksSoon = lazily(() => this.drawMarks(), 150);
     fill(this.factor, ...PLAY_FACTORS.map((f) => h("option", { value: String(f), selected: f === app.drive.factor }, `${f}×`)));
     this.factor.addEventListener("change", () => { app.drive.factor = Number(this.factor.value); });
     this.watch = find("#watch");
@@ -146,7 +147,8 @@ export class Timeline {
       this.shown = shown;
       this.scrub.min = String(this.played.begin);
       this.scrub.max = String(canPlay ? this.played.end : this.played.begin + 1);
-      this.drawMarks();
+      if (run) this.drawMarks();
+      else this.marksSoon(); // plans come as fast as something is dragged
       this.lastEvent = null;
     }
     if (!run) this.renderPlan();

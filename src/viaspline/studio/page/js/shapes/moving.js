@@ -19,6 +19,9 @@ const ARROW_S = 1; // an arrow is as long as the way in this time
 /** @param {Item} item @param {any} motion @returns {Item} */
 const withMotion = (item, motion) => ({ ...item, motion });
 
+/** How many keyframes a motion needs: what goes on and on needs a way. @param {any} motion */
+export const fewestOf = ({ after }) => (after === "loop" || after === "bounce" ? 2 : 1);
+
 /** A keyframe on the way after another, or beyond the last by the step before it. @param {Item} item @param {number} after @param {Place} [at] @returns {Item} */
 export function withKeyframe({ ...item }, after, at) {
   const { motion } = item;
@@ -83,7 +86,7 @@ export const movingShape = (inner) => ({
   withNewVertex: withKeyframe,
   withoutVertex(item, vertex) {
     const { keyframes } = item.motion;
-    if (keyframes.length < 2) return null;
+    if (keyframes.length <= fewestOf(item.motion)) return null;
     return withMotion(item, { ...item.motion, keyframes: keyframes.filter((/** @type {any} */ _, /** @type {number} */ i) => i !== vertex) });
   },
   handles({ motion }, scale) {
