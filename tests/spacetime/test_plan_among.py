@@ -95,6 +95,62 @@ def test_a_start_that_is_run_over_is_refused_with_a_departure_that_would_do() ->
     vs.plan(mission([truck], depart_s=later))
 
 
+def parked(times_and_places: list[list[float]], after: str) -> dict[str, Any]:
+    return {
+        "name": "van",
+        "circle": {"center": [0, 0], "radius": 0.5},
+        "motion": {"keyframes": times_and_places, "after": after},
+    }
+
+
+def test_a_goal_on_which_something_parks_for_good_is_refused_by_name() -> None:
+    van = parked([[0, 30, 0], [5, 20, 0.3]], "stay")
+    with pytest.raises(vs.NoPathError, match="the goal can't be held for 0 s: 'van' always is"):
+        vs.plan(mission([van]))
+
+
+def test_a_goal_that_is_free_only_for_a_while_is_refused_with_what_can_be_held() -> None:
+    van = parked([[0, 60, 0], [40, 60, 0], [60, 20, 0]], "stay")
+    with pytest.raises(vs.NoPathError, match=r"'van' is from 60\.0 s on") as caught:
+        vs.plan(mission([van], hold_s=120.0))
+    (change,) = caught.value.changes
+    assert change.key == "route.hold_s"
+    assert isinstance(change.value, float)
+    assert 40.0 < change.value < 60.0
+    plan = vs.plan(mission([van]))
+    assert plan.trajectory.end_time < 15.0
+
+
+def test_a_goal_round_which_something_turns_for_ever_is_refused() -> None:
+    sweeper = {
+        "name": "sweeper",
+        "polygon": [[-2, -2], [2, -2], [2, 2], [-2, 2]],
+        "motion": {
+            "keyframes": [[0, 20, 0, 0], [5, 20.2, 0, 180], [9, 20, 0, 360]],
+            "after": "loop",
+        },
+    }
+    with pytest.raises(vs.NoPathError, match="'sweeper' always is nearer"):
+        vs.plan(mission([sweeper]))
+
+
+def test_a_robot_waits_for_what_waits_on_its_goal_and_leaves() -> None:
+    van = parked([[0, 20, 0], [25, 20, 0], [35, 30, 0]], "stay")
+    plan = vs.plan(mission([van], hold_s=5.0))
+    assert plan.trajectory.end_time > 25.0
+    assert plan.timed is not None
+    assert {wait.obstacle for wait in plan.timed.waits} == {"van"}
+
+
+def test_what_jumps_off_the_goal_doesnt_stay_there() -> None:
+    jumper = parked([[0, 20, 0], [20, 20.5, 0], [20.5, 40, 0], [30, 40, 0]], "loop")
+    with pytest.warns(vs.MissionWarning, match="jumps"):
+        asked = mission([jumper], hold_s=2.0)
+    plan = vs.plan(asked)
+    assert plan.moving_certificate is not None
+    assert plan.moving_certificate.holds
+
+
 def test_two_plans_of_a_mission_are_the_same_bytes() -> None:
     crossing = [disc("a", (10, -8), (0, 1.3)), disc("b", (14, 9), (0, -1.1))]
     one, other = (plan_json(vs.plan(mission(crossing)), "x", spacing=0.5) for _ in range(2))
