@@ -37,6 +37,10 @@ MAX_APPROACH_RAD = 1.0
 ASTRAY_RAD = 0.7
 """A robot that can turn on the spot does, if its heading is off by more [rad]."""
 
+STANDING_MPS, ASTRAY_AT_REST_RAD = 0.02, 0.1
+"""One that is slower turns where it is before it sets off, if its heading is off by more: it may
+have got another time law while it turned [m/s], [rad]."""
+
 HEADING_DEADBAND_RAD = 0.004
 """An error of the heading at rest that is left as it is [rad]."""
 
@@ -104,7 +108,8 @@ def _under_way(
         note[NOTED_TURN] = clip(-model.heading_gain * error, -model.spot_rate, model.spot_rate)
         return
     if not is_steered(model):
-        if abs(error) > ASTRAY_RAD:
+        most = ASTRAY_AT_REST_RAD if now < STANDING_MPS else ASTRAY_RAD
+        if abs(error) > most:
             note[NOTED_ALONG] = 0.0
             note[NOTED_TURN] = clip(-model.heading_gain * error, -model.spot_rate, model.spot_rate)
             return

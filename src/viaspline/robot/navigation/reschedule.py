@@ -57,7 +57,7 @@ def caught_up(
         progress: How far it has come, and how far that is from where it should be.
         knowledge: All that is known.
         schedule: What the robot means to do.
-        speed: As measured [m/s].
+        speed: As measured [m/s]; below 0 where it gets back to a place on which it turns.
     """
     if progress.along_track == 0.0 and progress.time < renewed_at(task, knowledge, schedule):
         return schedule
@@ -65,7 +65,7 @@ def caught_up(
         speed = float(schedule.trajectory.state_at(progress.time)[1])
         return rescheduled(task, progress, knowledge, schedule, speed)
     allowed = float(schedule.trajectory.speed_at(progress.distance))
-    return rescheduled(task, progress, knowledge, schedule, min(speed, allowed))
+    return rescheduled(task, progress, knowledge, schedule, min(max(speed, 0.0), allowed))
 
 
 def rescheduled(
