@@ -11,9 +11,11 @@
     straight         vector worlds at 5 m/s, 1 m/s²: time over that of the straight line; 40
     sharp            random missions of four via points: how many are sharp, or turn back; 1,000
     lanes            share of lanes over a lake that the path stays within 1 m of, and of how many
-                     it is less than 1 - 4 x (island's width / lane); 20; with --detours local or
-                     short, if it isn't to be chosen
+                     it is less than 1 - 4 x (island's width / lane); 20
     times            of a plan: vector worlds, crops of the maps in FOLDER; 20
+
+With --detours local or short, lakes and vector worlds say how, else it is chosen: the best curve of
+a world in which the lane is kept is one that doesn't keep it.
 
 Times are the least under the mission's limits of speed and acceleration (across the path as along
 it, where it has none), dwells left out. All figures come from samples of the exact curve and from
@@ -62,7 +64,8 @@ def turns(asked: argparse.Namespace) -> None:
 
 
 def best_vector(asked: argparse.Namespace) -> None:
-    beside_the_best((f"vector {k}", vector_world(k)) for k in seeds(asked, 40))
+    worlds = ((f"vector {k}", vector_world(k)) for k in seeds(asked, 40))
+    beside_the_best((name, with_detours(mission, asked)) for name, mission in worlds)
 
 
 def best_maps(asked: argparse.Namespace) -> None:
@@ -127,7 +130,7 @@ def street(asked: argparse.Namespace) -> None:
 def straight(asked: argparse.Namespace) -> None:
     ratios = []
     for seed in seeds(asked, 40):
-        mission = vector_world(seed)
+        mission = with_detours(vector_world(seed), asked)
         route, limits = mission.route, DrivingLimits.of(mission.robot)
         least = straight_time(float(np.hypot(*np.subtract(route.goal.at, route.start.at))), limits)
         ratios.append(DrivenPlan.of(mission).driving_time / least)
@@ -156,10 +159,7 @@ def lanes(asked: argparse.Namespace) -> None:
     kept: list[float] = []
     times_s, beside, count = 0.0, 0, 0
     for seed in seeds(asked, 20):
-        mission = lake(seed)
-        if asked.detours is not None:
-            route = mission.route.model_copy(update={"detours": asked.detours})
-            mission = mission.model_copy(update={"route": route})
+        mission = with_detours(lake(seed), asked)
         driven = DrivenPlan.of(mission)
         shares, weights = zip(*(near_lane(leg) for leg in driven.legs), strict=True)
         taut = [near_lane(leg)[0] for leg in driven.taut_legs]
@@ -205,6 +205,14 @@ def times(asked: argparse.Namespace) -> None:
         print(
             f"{name:8s} median {np.median(found):8.2f} ms, worst {max(found):8.2f} ms", flush=True
         )
+
+
+def with_detours(mission: vs.Mission, asked: argparse.Namespace) -> vs.Mission:
+    """With the detours that are asked for, if any are."""
+    if asked.detours is None:
+        return mission
+    route = mission.route.model_copy(update={"detours": asked.detours})
+    return mission.model_copy(update={"route": route})
 
 
 def seeds(asked: argparse.Namespace, usual: int) -> range:

@@ -27,15 +27,22 @@ ARC_SEGMENTS = 64  # of a quarter of a circle
 seeds = st.integers(0, 2**32 - 1)
 
 
+OVER_THE_CORNER_PATH = 5e-4  # what a path may be longer, where the shortest is asked for
+
+
 def planned(
-    known: list[Any], bounds: tuple[float, ...], required: float, ends: list[Place]
+    known: list[Any],
+    bounds: tuple[float, ...],
+    required: float,
+    ends: list[Place],
+    optimise: str = "time",
 ) -> vs.Plan | None:
     """A plan; None for one that is refused. Giving up fails the test."""
     mission = vs.Mission.model_validate(
         {
             "world": {"bounds": bounds, "known": known},
             "robot": {"radius_m": required, "clearance_m": 0},
-            "route": {"start": ends[0], "goal": ends[1]},
+            "route": {"start": ends[0], "goal": ends[1], "optimise": optimise},
         }
     )
     try:
@@ -243,17 +250,18 @@ def test_a_gap_is_passed_if_it_is_a_millimetre_wider_than_the_robot_and_not_if_i
 def test_a_way_for_a_fat_robot_is_one_for_a_thinner_one_and_no_longer(
     seed: int, radius: float
 ) -> None:
+    """Where the shortest is asked for: the soonest way of a thinner robot may be a longer one."""
     cells = random_cells(seed, 30, 0.25)
     cells[0, 0] = cells[-1, -1] = False
     known, bounds = [vs.Obstacle(grid=vs.Grid(cells, 1.0))], (0.0, 0.0, 30.0, 30.0)
     ends = [(0.5, 0.5), (29.5, 29.5)]
-    fat = planned(known, bounds, radius, ends)
+    fat = planned(known, bounds, radius, ends, "length")
     assume(fat is not None)
     assert fat is not None
     for share in (0.2, 0.7, 0.95):
-        thin = planned(known, bounds, share * radius, ends)
+        thin = planned(known, bounds, share * radius, ends, "length")
         assert thin is not None
-        assert thin.path.length <= fat.path.length * (1.0 + 1e-4)
+        assert thin.path.length <= fat.path.length * (1.0 + OVER_THE_CORNER_PATH)
 
 
 @settings(max_examples=6)

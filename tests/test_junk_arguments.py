@@ -14,6 +14,11 @@ LIMITS = vs.Limits(max_speed=1, max_accel=1)
 CURVE = vs.CardinalSpline([[0, 0], [1, 0], [2, 1]])
 WORLD = vs.World()
 CELLS = np.zeros((2, 2), np.bool_)
+LAW = vs.retime(CURVE, LIMITS)
+CART = vs.Obstacle(
+    circle={"center": (0, 0), "radius": 1}, motion={"from": (0, 5), "velocity_mps": (1, 0)}
+)
+MOVING = vs.MovingObstacles([CART])
 NAV = vs.Navigator(MISSION)
 STATE = vs.RobotState((0.0, 0.0), 0.0, 0.0)
 
@@ -100,9 +105,26 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "certify footprint": lambda junk: vs.certify(CURVE, WORLD, 1.0, footprint=junk),
     "advise_tension tensions": lambda junk: vs.advise_tension(MISSION, junk),
     "advise_tension world": lambda junk: vs.advise_tension(MISSION, world=junk),
-    "Trajectory": vs.retime(CURVE, LIMITS).state_at,
+    "Trajectory": LAW.state_at,
+    "MovingObstacles": vs.MovingObstacles,
+    "MovingObstacles since": lambda junk: vs.MovingObstacles([CART], since=junk),
+    "MovingObstacles distance": lambda junk: MOVING.distance([(0, 0)], times=junk),
+    "MovingSighting": lambda junk: vs.MovingSighting(0, junk, (0, 0, 0), (0, 0)),
+    "MovingSighting index": lambda junk: vs.MovingSighting(junk, CART, (0, 0, 0), (0, 0)),
+    "MovingSighting frame": lambda junk: vs.MovingSighting(0, CART, junk, (0, 0)),
+    "MovingSighting velocity": lambda junk: vs.MovingSighting(0, CART, (0, 0, 0), junk),
+    "Scan": lambda junk: vs.Scan((0, 0), 0.0, 0.0, 0.1, 9.0, junk),
+    "Scan position": lambda junk: vs.Scan(junk, 0.0, 0.0, 0.1, 9.0, [1.0, 2.0]),
+    "Scan heading": lambda junk: vs.Scan((0, 0), junk, 0.0, 0.1, 9.0, [1.0, 2.0]),
+    "Scan increment": lambda junk: vs.Scan((0, 0), 0.0, 0.0, junk, 9.0, [1.0, 2.0]),
+    "Scan range_max": lambda junk: vs.Scan((0, 0), 0.0, 0.0, 0.1, junk, [1.0, 2.0]),
+    "certify_moving": lambda junk: vs.certify_moving(junk, LAW, MOVING, 1.0),
+    "certify_moving law": lambda junk: vs.certify_moving(CURVE, junk, MOVING, 1.0),
+    "certify_moving moving": lambda junk: vs.certify_moving(CURVE, LAW, junk, 1.0),
+    "certify_moving clearance": lambda junk: vs.certify_moving(CURVE, LAW, MOVING, junk),
+    "certify_moving hold": lambda junk: vs.certify_moving(CURVE, LAW, MOVING, 1.0, hold=junk),
 }
-RESULTS = {"Certificate", "Command", "Plan", "Run", "TensionAdvice"}
+RESULTS = {"Certificate", "Command", "MovingCertificate", "Plan", "Run", "TensionAdvice"}
 
 
 @pytest.mark.parametrize("verb", VERBS)

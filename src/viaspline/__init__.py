@@ -44,13 +44,17 @@ if TYPE_CHECKING:
     from viaspline.mission.world_spec import SpeedZone
     from viaspline.planner import Plan, plan
     from viaspline.robot.navigator import Navigator
+    from viaspline.robot.perception.lidar import Scan
+    from viaspline.robot.perception.moving.motion_sensor import MovingSighting
     from viaspline.robot.run import Run
     from viaspline.robot.simulator import simulate
     from viaspline.robot.state import Command, RobotState
     from viaspline.trajectory.lap import retime_lap
     from viaspline.trajectory.limits import Limits, Station
+    from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
     from viaspline.trajectory.retime import retime
     from viaspline.trajectory.trajectory import Trajectory
+    from viaspline.world.moving_obstacles import MovingObstacles
     from viaspline.world.world import World
 
 _HOMES = {
@@ -65,24 +69,29 @@ _HOMES = {
     "Mission": "mission.model",
     "MissionError": "errors",
     "MissionWarning": "errors",
+    "MovingCertificate": "trajectory.moving_certificate",
+    "MovingObstacles": "world.moving_obstacles",
+    "MovingSighting": "robot.perception.moving.motion_sensor",
     "Navigator": "robot.navigator",
     "NoPathError": "errors",
     "Obstacle": "mission.shapes.obstacle",
     "OutputError": "errors",
     "Path": "curve.path",
-    "PlanningError": "errors",
     "PiecewiseCubic": "curve.piecewise",
     "Plan": "planner",
+    "PlanningError": "errors",
     "RobotState": "robot.state",
     "Run": "robot.run",
+    "Scan": "robot.perception.lidar",
     "SpeedZone": "mission.world_spec",
     "Station": "trajectory.limits",
+    "TensionAdvice": "advice",
     "Trajectory": "trajectory.trajectory",
     "ViasplineError": "errors",
-    "TensionAdvice": "advice",
     "World": "world.world",
     "advise_tension": "advice",
     "certify": "curve.certificate",
+    "certify_moving": "trajectory.moving_certificate",
     "load": "formats.load",
     "load_map": "mission.load_map",
     "plan": "planner",

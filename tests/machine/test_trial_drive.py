@@ -70,6 +70,19 @@ def test_a_corner_is_turned_on_the_spot(robot_of: Any) -> None:
     assert np.ptp(track.headings[at_rest]) == pytest.approx(math.pi / 2, abs=0.1)
 
 
+def test_wheels_that_slip_on_the_spot_are_not_let_drift_off_it(robot_of: Any) -> None:
+    """Left alone, as far as 0.29 m: speeds off by 0.1 m/s for half a second at a time."""
+    robot = robot_of("differential", lag_s=0.1)
+    drive = robot.drive.model_copy(update={"speed_noise_mps": 0.1})
+    robot = robot.model_copy(update={"drive": drive})
+    places = [(0, 0), (3, 0), (0.5, 1), (3, 2), (0, 2.5), (3, 3.5)]
+    corners = CardinalSpline(places, tension=1.0)
+    for seed in range(12):
+        track = driven(corners, robot, seed=seed)
+        assert track.finished
+        assert np.abs(track.tracking.cross_track).max() < 0.2
+
+
 @pytest.mark.parametrize("delay", [0.0, 0.1, 0.35, 1.0])
 @pytest.mark.parametrize("lag", [0.0, 0.3])
 def test_delay_and_lag_are_foreseen(

@@ -51,6 +51,8 @@ def test_an_obstacle_moves_along_keyframes_or_straight_on() -> None:
         ({"keyframes": [[0, 1, 2], [1e-9, 2, 2]], "after": "loop"}, "too short a time"),
         ({"keyframes": [[0, 1, 2]], "after": "bounce"}, "too short a time"),
         ({"keyframes": [[0, 1, math.nan]], "after": "stay"}, "NaN"),
+        ({"keyframes": [[0, 1, 2, 1e9]], "after": "stay"}, r"[0][3]: 1e+09 is out of range"),
+        ({"keyframes": [[0, 1e20, 2]], "after": "stay"}, r"[0][1]: 1e+20 is out of range"),
         ({"keyframes": [], "after": "stay"}, "an empty list"),
         ({"keyframes": [[0, 1]], "after": "stay"}, "list of 2"),
         ({"keyframes": [[0, 1, 2]], "after": "return"}, "loop, bounce, stay or vanish"),

@@ -9,12 +9,13 @@ import pytest
 
 import viaspline as vs
 from viaspline.report.animation import frames
+from viaspline.report.moving_film import arrow_line
 from viaspline.report.moving_marks import trails
 from viaspline.report.plan_json import plan_json
 from viaspline.report.plan_picture import plan_picture
 from viaspline.report.run_json import run_json
 from viaspline.report.run_picture import run_picture
-from viaspline.report.space_time_panel import SpaceTime
+from viaspline.report.space_time import SpaceTime
 from viaspline.world.moving_obstacles import MovingObstacles
 
 
@@ -69,6 +70,21 @@ def test_a_film_shows_it_move(run: vs.Run) -> None:
     first, middle, last = frames(run, "x", 3)
     assert first.shape == middle.shape == last.shape
     assert (first != middle).any()
+
+
+def test_an_arrow_ends_in_a_head_that_is_even_and_no_longer_than_half_of_it() -> None:
+    rng = np.random.default_rng(4)
+    for _ in range(50):
+        arrow, head = rng.uniform(-3, 3, 4), float(rng.uniform(0.1, 3))
+        begin, end, left, again, right = arrow_line(arrow, head)
+        assert begin == pytest.approx(arrow[:2])
+        assert end == pytest.approx(arrow[:2] + arrow[2:])
+        assert (end == again).all()
+        length = np.hypot(*arrow[2:])
+        barbs = [np.hypot(*(end - barb)) for barb in (left, right)]
+        assert barbs == pytest.approx([min(head, length / 2)] * 2)
+        assert np.hypot(*(begin - left)) == pytest.approx(np.hypot(*(begin - right)))
+        assert np.hypot(*(begin - left)) < length
 
 
 def test_trails_end_where_something_jumps_or_goes() -> None:

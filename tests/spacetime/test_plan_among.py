@@ -95,6 +95,62 @@ def test_a_start_that_is_run_over_is_refused_with_a_departure_that_would_do() ->
     vs.plan(mission([truck], depart_s=later))
 
 
+def parked(times_and_places: list[list[float]], after: str) -> dict[str, Any]:
+    return {
+        "name": "van",
+        "circle": {"center": [0, 0], "radius": 0.5},
+        "motion": {"keyframes": times_and_places, "after": after},
+    }
+
+
+def test_a_goal_on_which_something_parks_for_good_is_refused_by_name() -> None:
+    van = parked([[0, 30, 0], [5, 20, 0.3]], "stay")
+    with pytest.raises(vs.NoPathError, match="the goal can't be held for 0 s: 'van' always is"):
+        vs.plan(mission([van]))
+
+
+def test_a_goal_that_is_free_only_for_a_while_is_refused_with_what_can_be_held() -> None:
+    van = parked([[0, 60, 0], [40, 60, 0], [60, 20, 0]], "stay")
+    with pytest.raises(vs.NoPathError, match=r"'van' is from 60\.0 s on") as caught:
+        vs.plan(mission([van], hold_s=120.0))
+    (change,) = caught.value.changes
+    assert change.key == "route.hold_s"
+    assert isinstance(change.value, float)
+    assert 40.0 < change.value < 60.0
+    plan = vs.plan(mission([van]))
+    assert plan.trajectory.end_time < 15.0
+
+
+def test_a_goal_round_which_something_turns_for_ever_is_refused() -> None:
+    sweeper = {
+        "name": "sweeper",
+        "polygon": [[-2, -2], [2, -2], [2, 2], [-2, 2]],
+        "motion": {
+            "keyframes": [[0, 20, 0, 0], [5, 20.2, 0, 180], [9, 20, 0, 360]],
+            "after": "loop",
+        },
+    }
+    with pytest.raises(vs.NoPathError, match="'sweeper' always is nearer"):
+        vs.plan(mission([sweeper]))
+
+
+def test_a_robot_waits_for_what_waits_on_its_goal_and_leaves() -> None:
+    van = parked([[0, 20, 0], [25, 20, 0], [35, 30, 0]], "stay")
+    plan = vs.plan(mission([van], hold_s=5.0))
+    assert plan.trajectory.end_time > 25.0
+    assert plan.timed is not None
+    assert {wait.obstacle for wait in plan.timed.waits} == {"van"}
+
+
+def test_what_jumps_off_the_goal_doesnt_stay_there() -> None:
+    jumper = parked([[0, 20, 0], [20, 20.5, 0], [20.5, 40, 0], [30, 40, 0]], "loop")
+    with pytest.warns(vs.MissionWarning, match="jumps"):
+        asked = mission([jumper], hold_s=2.0)
+    plan = vs.plan(asked)
+    assert plan.moving_certificate is not None
+    assert plan.moving_certificate.holds
+
+
 def test_two_plans_of_a_mission_are_the_same_bytes() -> None:
     crossing = [disc("a", (10, -8), (0, 1.3)), disc("b", (14, 9), (0, -1.1))]
     one, other = (plan_json(vs.plan(mission(crossing)), "x", spacing=0.5) for _ in range(2))
@@ -128,3 +184,90 @@ def test_no_plan_comes_nearer_than_it_proves(
     assert certificate.holds
     assert least_gap(plan, moving) >= certificate.clearance - 1e-9
     assert plan.certificate.holds
+
+
+def places_between(keyframes: list[list[float]], times: np.ndarray) -> np.ndarray:
+    """Where something is that goes from keyframe to keyframe, again and again [m], (n, 2)."""
+    frames = np.array(keyframes)
+    local = np.mod(times - frames[0, 0], frames[-1, 0] - frames[0, 0]) + frames[0, 0]
+    return np.column_stack([np.interp(local, frames[:, 0], frames[:, k]) for k in (1, 2)])
+
+
+SHUTTLE = [[0.0, 10.0, -6.0], [9.0, 10.0, 6.0], [18.0, 10.0, -6.0]]
+
+
+@pytest.mark.parametrize("laps", [1, 3])
+def test_every_lap_of_a_patrol_is_another_time(laps: int) -> None:
+    patrol = vs.Mission.model_validate(
+        {
+            "world": {"known": [parked(SHUTTLE, "loop")]},
+            "robot": {"radius_m": RADIUS, "clearance_m": CLEARANCE},
+            "route": {
+                "start": [0, 0],
+                "via": [[20, 0], {"at": [20, 8], "dwell_s": 2.0}, [0, 8]],
+                "closed": True,
+                "laps": laps,
+            },
+        }
+    )
+    plan = vs.plan(patrol)
+    law = plan.trajectory
+    times = np.arange(law.start_time, law.end_time, 1e-3)
+    along = np.minimum(law.distance_at(times), plan.path.length)
+    robot = np.asarray(plan.path.at_distance(along))
+    gap = np.hypot(*(robot - places_between(SHUTTLE, times)).T).min() - 0.5 - RADIUS
+    assert plan.moving_certificate is not None
+    assert plan.moving_certificate.holds
+    assert gap >= plan.moving_certificate.clearance - 1e-9
+    assert plan.moving_certificate.clearance >= CLEARANCE - 1e-6
+    assert law.distances[-1] == pytest.approx(plan.path.length)
+
+
+def test_what_has_parked_beside_the_way_stays_there_while_others_go_on() -> None:
+    van = parked([[0, 8, 6], [6, 8, 0.2]], "stay")
+    shuttle = {**parked([[t, x + 5.0, y] for t, x, y in SHUTTLE], "loop"), "name": "shuttle"}
+    plan = vs.plan(mission([van, shuttle], depart_s=20.0))
+    law = plan.trajectory
+    times = np.arange(law.start_time, law.end_time, 1e-3)
+    robot = np.asarray(plan.path.at_distance(np.minimum(law.distance_at(times), plan.path.length)))
+    to_van = np.hypot(*(robot - [8.0, 0.2]).T).min()
+    to_shuttle = np.hypot(*(robot - [5.0, 0.0] - places_between(SHUTTLE, times)).T).min()
+    assert min(to_van, to_shuttle) - 0.5 - RADIUS >= CLEARANCE - 1e-6
+
+
+fast_discs = st.lists(
+    st.tuples(st.floats(1.0, 6.0), st.floats(-3.1, 3.1), st.floats(1.0, 9.0), st.floats(-0.4, 0.4)),
+    min_size=1,
+    max_size=3,
+)
+
+
+@settings(max_examples=25, deadline=None)
+@given(fast_discs)
+@example([(2.0, 0.0, 9.0, 0.0)])
+def test_from_a_start_that_is_refused_no_straight_escape_is_clear(
+    drawn: list[tuple[float, float, float, float]],
+) -> None:
+    moving = []
+    for i, (far, bearing, speed, aside) in enumerate(drawn):
+        place = (far * np.cos(bearing), far * np.sin(bearing))
+        course = bearing + np.pi + aside
+        moving.append(disc(f"d{i}", place, (speed * np.cos(course), speed * np.sin(course))))
+    asked = mission(moving)
+    try:
+        vs.plan(asked)
+    except vs.NoPathError:
+        late = np.arange(0.0, 4.0, 2e-3)
+        top, accel = asked.robot.max_speed_mps, asked.robot.max_accel_mps2
+        gone = np.minimum(0.5 * accel * late**2, top * late)
+        for angle in np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False):
+            robot = gone[:, None] * [np.cos(angle), np.sin(angle)]
+            gaps = [
+                np.hypot(
+                    *(d["motion"]["from"] + np.outer(late, d["motion"]["velocity_mps"]) - robot).T
+                ).min()
+                for d in moving
+            ]
+            assert min(gaps) - 0.5 - RADIUS < CLEARANCE
+    except vs.GaveUpError:
+        pass

@@ -197,3 +197,18 @@ def test_each_side_is_listed_with_its_length_and_its_time(visit: Visit, patrol: 
         assert (
             f"{minutes} min {seconds:02d} s" if candidate["duration"] >= 100 else short
         ) in words
+
+
+def test_a_tension_is_suggested_and_taken(visit: Visit, patrol: Path) -> None:
+    page = visit(patrol)
+    page.js("studio.store.edit({...studio.store.doc, spline: {tension: -0.5}})")
+    page.settle()
+    slow = page.plan["duration"]
+    page.page.get_by_role("button", name="Suggest a tension").click()
+    page.until("document.querySelector('#settings').innerText.includes('Suggested: ')")
+    page.page.get_by_role("button", name="Take it").click()
+    page.settle()
+    assert page.doc["spline"] != {"tension": -0.5}
+    assert page.plan["duration"] < slow
+    page.press("Control+z")
+    assert page.doc["spline"] == {"tension": -0.5}

@@ -28,11 +28,14 @@ def motion_faults(partial: PartialMission) -> list[UnplacedFault]:
         fault
         for path, obstacle in partial.known + partial.unseen
         if obstacle.motion is not None
-        for fault in (
-            *_of_shape(path, obstacle),
-            *_of_motion((*path, "motion"), obstacle.motion),
-        )
+        for fault in faults_of_one(path, obstacle, obstacle.motion)
     ]
+
+
+def faults_of_one(path: Path, obstacle: Obstacle, motion: Motion) -> Iterator[UnplacedFault]:
+    """What is wrong with how one obstacle moves."""
+    yield from _of_shape(path, obstacle)
+    yield from _of_motion((*path, "motion"), motion)
 
 
 def _of_shape(path: Path, obstacle: Obstacle) -> Iterator[UnplacedFault]:

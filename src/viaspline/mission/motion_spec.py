@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Annotated, Final, Literal, TypeAlias
 
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field
+from pydantic_core import PydanticCustomError
 
 from viaspline.mission.annotations import Expects
 from viaspline.mission.fields import (
@@ -34,9 +35,12 @@ KEYFRAME_WORDS: Final = "[t, x, y] or [t, x, y, heading_deg], in seconds, metres
 def _in_range(frame: tuple[float, ...]) -> tuple[float, ...]:
     """A keyframe whose numbers are those of a place and a time."""
     limits = (MAX_DURATION_S, MAX_LENGTH_M, MAX_LENGTH_M, MAX_HEADING_DEG)
-    for value, limit, name in zip(frame, limits, ("t", "x", "y", "heading"), strict=False):
+    for place, (value, limit) in enumerate(zip(frame, limits, strict=False)):
         if not abs(value) <= limit:
-            raise ValueError(f"{name} is {value:g}, more than {limit:g}")
+            raise PydanticCustomError(
+                "item_out_of_range", "item {place} is out of range",
+                {"place": place, "found": value, "limit": limit},
+            )  # fmt: skip
     return frame
 
 

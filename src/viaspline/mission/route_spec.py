@@ -81,7 +81,7 @@ class Route(Value):
         goal: Where it ends. None: at the last via point, or at the start if the route is closed.
         closed: Whether the path comes back to its start; then there is no goal.
         order: ``given``, or ``shortest``: the via points are served in the order that makes the
-            round short.
+            round short; soon where ``optimise`` is ``time``, if there are no more than 16.
         laps: How often a closed route is driven, without a halt between laps. The path is that of
             the whole drive, and every lap visits every point.
         corridor: A strip that the path stays inside of.

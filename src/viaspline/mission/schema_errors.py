@@ -111,6 +111,12 @@ def _fault(detail: ErrorDetails, path: Path) -> UnplacedFault:
         if kind.startswith("greater") and found < 0:
             problem = f"{describe(found)} is negative"
         return UnplacedFault(path, problem, f"it should be a number {words} {limit}")
+    if kind == "item_out_of_range":
+        item = detail["ctx"]
+        limit = number(item["limit"], LIMIT_DECIMALS)
+        problem = f"{describe(item['found'])} is out of range"
+        remedy = f"it should be a number between -{limit} and {limit}"
+        return UnplacedFault((*path, item["place"]), problem, remedy)
     if kind == "too_long" and (most := detail["ctx"]["max_length"]) > MAX_LISTED:
         problem = f"has more than the {most} items that are taken"
         return UnplacedFault(path, problem, "take fewer, or make it several missions", at_key=True)

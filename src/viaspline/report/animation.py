@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.lines import Line2D
@@ -73,8 +74,8 @@ class _Stage:
         labels.place(planned, places)
         self._moving = _moving(sheet.map, sheet.pixels_per_metre, run)
         self._sight = sight_of(run, sheet)
-        self._others = MovingLayer(sheet.map, run.moving)
-        shown = (*self._moving, *self._sight.handles, *self._others.handles)
+        self._others = MovingLayer(sheet.map, run.moving, sheet.pixels_per_metre)
+        shown = (*_legend(self._moving, run), *self._sight.handles, *self._others.handles)
         SideColumn(sheet).legend([*handles, *vias, *shown])
         # the few markers of the route are drawn over the trail again
         self._over = [a for a in (*sheet.map.lines, *sheet.map.texts) if a.get_zorder() >= 11][:120]
@@ -104,7 +105,7 @@ class _Stage:
         heading = float(np.interp(time, run.times, np.unwrap(run.headings)))
         sight = self._sight.at(time, (x, y), heading)
         speed = float(np.interp(time, run.times, run.speeds))
-        self._clock.set_text(f"{time:7.1f} s   {speed:5.2f} m/s")
+        self._clock.set_text(f"{time:.1f} s   {speed:.2f} m/s")
         self._canvas.restore_region(self._still)  # type: ignore[no-untyped-call]
         others = self._others.at(time)
         for artist in (*sight, old, path, trail, *self._over, *others, robot):
@@ -113,6 +114,16 @@ class _Stage:
         pixels = np.asarray(self._canvas.buffer_rgba())[..., :3]  # type: ignore[no-untyped-call]
         height, width = (size - size % 2 for size in pixels.shape[:2])
         return pixels[:height, :width].copy()
+
+
+def _legend(moving: tuple[Line2D, Line2D, Line2D, Circle], run: Run) -> list[Artist]:
+    """What the legend says of them: nothing of an old path where there is none."""
+    old, path, trail, robot = moving
+    disc = Line2D(
+        [], [], linestyle="none", marker="o", markersize=9, color=robot.get_facecolor(),
+        markeredgecolor=style.INK, markeredgewidth=0.8, label="robot",
+    )  # fmt: skip
+    return [*([old] if run.replans else []), path, trail, disc]
 
 
 def _clock(sheet: Sheet) -> Text:

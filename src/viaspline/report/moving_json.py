@@ -71,6 +71,7 @@ def _candidate(one: TimedCandidate) -> dict[str, Any]:
             }
             for passing in one.passings
         ],
+        "searched": one.is_searched,
         "length_m": one.length,
         "free_arrival_s": one.free_arrival,
         "arrival_s": one.arrival,

@@ -108,7 +108,7 @@ def trails(moving: MovingObstacles, begin: float, end: float) -> list[Floats]:
     return found
 
 
-def shapeshapes_and_arrows(moving: MovingObstacles, index: int, frame: Floats) -> shapely.Geometry:
+def placed_shape(moving: MovingObstacles, index: int, frame: Floats) -> shapely.Geometry:
     """An obstacle's shape where its frame (x, y, heading) is."""
     x, y, heading = frame.tolist()
     c, s = np.cos(heading), np.sin(heading)
@@ -127,7 +127,7 @@ def shapes_and_arrows(
     for i, frame in enumerate(frames):
         if not np.isfinite(frame).all():
             continue
-        shapes.append(shapeshapes_and_arrows(moving, i, frame))
+        shapes.append(placed_shape(moving, i, frame))
         named.append((moving.name(i), (float(frame[0]), float(frame[1]))))
         way = (later[i, :2] - frame[:2]) * (ARROW_S / 1e-3)
         length = float(np.hypot(*way))

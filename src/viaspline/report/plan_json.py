@@ -144,6 +144,7 @@ def _entry(entry: LedgerEntry) -> dict[str, Any]:
                 "clearance_m": candidate.clearance,
                 "max_curvature_1pm": candidate.max_curvature,
                 "impossible": candidate.impossible,
+                "passed_over": candidate.passed_over,
             }
             for candidate in entry.candidates
         ],

@@ -37,7 +37,6 @@ from viaspline.report.side_column import SideColumn
 from viaspline.report.space_time_column import plan_space_time
 from viaspline.report.summary import body_words, spline_words
 from viaspline.report.units import asked_words, down, metres, seconds
-from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.world.moving_obstacles import MovingObstacles
 
 MAX_REASONS = 3  # why a path drives roughly, before the rest is only counted
@@ -63,7 +62,9 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     title = (
         f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in {seconds(trajectory.duration)}"
     )
-    proven = proof(plan.certificate, plan.tracking_error) + moving_proof(plan.moving_certificate)
+    among = plan.moving_certificate
+    moving = None if among is None else among.clearance
+    proven = proof(plan.certificate, plan.tracking_error, moving)
     lines = (proven, subtitle(plan.mission))
     sheet = new_sheet(view, strip_names(plan.path.spans[:, 0]), title, lines)
     labels = Labels(sheet.map)
@@ -105,21 +106,26 @@ def subtitle(mission: Mission) -> str:
     return f"{spline_words(mission)}; {body_words(robot)}, at most {robot.max_speed_mps:g} m/s"
 
 
-def proof(certificate: Certificate, tracking_error: float = 0.0) -> str:
-    """The proven clearance in a few words; the part that is kept for tracking said apart."""
-    if not np.isfinite(certificate.clearance):
-        return "nothing to keep clear of"
-    return (
-        f"proven: nowhere closer than {down(certificate.clearance)} to anything "
+def proof(
+    certificate: Certificate, tracking_error: float = 0.0, moving: float | None = None
+) -> str:
+    """The proven clearance in a few words.
+
+    Args:
+        certificate: Of what stands.
+        tracking_error: What is kept for it is said apart [m].
+        moving: The proven clearance to what moves [m]; None where nothing does.
+    """
+    stands = (
+        f"{down(certificate.clearance)} to anything "
         f"({asked_words(certificate.required, tracking_error)} asked)"
     )
-
-
-def moving_proof(certificate: MovingCertificate | None) -> str:
-    """The proven clearance to what moves, to follow that to what stands; nothing without."""
-    if certificate is None or not np.isfinite(certificate.clearance):
-        return ""
-    return f", nor than {down(certificate.clearance)} to what moves"
+    near = [stands] if np.isfinite(certificate.clearance) else []
+    if moving is not None and np.isfinite(moving):
+        near.append(f"{down(moving)} to what moves")
+    if not near:
+        return "nothing to keep clear of"
+    return f"proven: nowhere closer than {', nor than '.join(near)}"
 
 
 def drive_notes(drive: Drivability) -> tuple[str, list[str]]:

@@ -73,12 +73,16 @@ def draw_curvature_limit(axes: Axes, radius: float | None) -> None:
     if radius is None:
         return
     low, high = axes.get_ylim()
-    for bound in (-1.0 / radius, 1.0 / radius):
-        if 1.4 * low < bound < 1.4 * high:
-            axes.axhline(bound, color=TIGHTEST, linewidth=0.8, linestyle=(0, (4, 2)))
-            axes.set_ylim(
-                min(axes.get_ylim()[0], 1.1 * bound), max(axes.get_ylim()[1], 1.1 * bound)
-            )
+    shown = [bound for bound in (1.0 / radius, -1.0 / radius) if 1.4 * low < bound < 1.4 * high]
+    for bound in shown:
+        axes.axhline(bound, color=TIGHTEST, linewidth=0.8, linestyle=(0, (4, 2)))
+        axes.set_ylim(min(axes.get_ylim()[0], 1.1 * bound), max(axes.get_ylim()[1], 1.1 * bound))
+    for bound in shown[:1]:
+        axes.annotate(
+            "turning circle", (1.0, bound), xycoords=axes.get_yaxis_transform(),
+            xytext=(-3, -2 if bound > 0.0 else 2), textcoords="offset points", color=TIGHTEST,
+            size=SMALL_PT - 1, ha="right", va="top" if bound > 0.0 else "bottom",
+        )  # fmt: skip
 
 
 def shown_range(value: Floats) -> tuple[float, float]:

@@ -36,7 +36,7 @@ def _order(mission: Mission) -> list[str]:
     if is_surely_shortest(mission):
         return []
     count = len(mission.route.via)
-    return [f"the order of the {count} via points is a short one; it isn't proven the shortest"]
+    return [f"the order of the {count} via points is a good one; it isn't proven the best"]
 
 
 def remarks(mission: Mission) -> list[str]:

@@ -27,7 +27,7 @@ from viaspline.report.scene import Scene, nearest_on
 from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.side_column import SideColumn
 from viaspline.report.space_time_column import run_space_time
-from viaspline.report.units import down, metres, seconds
+from viaspline.report.units import metres, seconds
 from viaspline.robot.run import Event, Replan, Run
 
 CROSS_TRACK_STRIP = "left of path [m]"  # the strip of what a robot with a drive was off
@@ -120,19 +120,13 @@ def _heading(run: Run, name: str) -> tuple[str, tuple[str, str]]:
     )
     new = {0: "no new path under way", 1: "1 new path under way"}
     paths = new.get(len(run.replans), f"{len(run.replans)} new paths under way")
-    line = f"{proof(run.certificate)}{_moving_proof(run)}; {paths}"
+    moving = None if run.encounters is None else run.encounters.clearance
+    line = f"{proof(run.certificate, moving=moving)}; {paths}"
     if run.tracking is not None:
         line += f"; {metres(run.tracking.cross.p99, 3)} beside its path in 99 % of the time"
     if not run.reached:  # why is more to the point than the spline's tension
         return title, (run.reason or "", line)
     return title, (line, subtitle(run.plan.mission))
-
-
-def _moving_proof(run: Run) -> str:
-    met = run.encounters
-    if met is None or not np.isfinite(met.clearance):
-        return ""
-    return f", nor than {down(met.clearance)} to what moves"
 
 
 def has_lidar(run: Run) -> bool:

@@ -93,12 +93,15 @@ def _in_colours(patch: Patch) -> Patch:
 
 
 class _Beams(SensorView):
-    """The ground that the beams sweep, and the points off the map that they have hit."""
+    """The ground that the beams sweep, and the points off the map that they have hit.
+
+    A point on what moves leaves no trace: by the next look something else may be there.
+    """
 
     def __init__(self, run: Run, sheet: Sheet, spec: Lidar) -> None:
         exact = spec.model_copy(update={"noise_m": 0.0})
         self._map = run.plan.world
-        self._lidar = LidarSensor(run.world.obstacles, exact)
+        self._lidar = LidarSensor(run.world.obstacles, exact, moving=run.moving)
         self._grain = 1.0 / sheet.pixels_per_metre
         self._points: Floats = np.zeros((0, 2))
         self._fan = Polygon(
@@ -113,13 +116,14 @@ class _Beams(SensorView):
         self.artists = self.handles = (self._fan, self._dots)
 
     def at(self, time: float, place: tuple[float, float], heading: float) -> list[Artist]:
-        scan = self._lidar.scan(place, heading)
+        scan = self._lidar.scan(place, heading, time=time)
         angles = scan.first_direction + np.arange(len(scan.ranges)) * scan.angle_increment
         ends = place + scan.free[:, None] * np.column_stack((np.cos(angles), np.sin(angles)))
         self._fan.set_xy(np.vstack([[place], ends]))
         hits = scan.hits
         if len(self._map) and len(hits):
             hits = hits[self._map.distance(hits) > ON_MAP_M]
+        hits = hits[self._lidar.moving.distance(hits, time) > ON_MAP_M]
         dots = np.round(np.vstack([self._points, hits]) / self._grain)
         self._points = np.unique(dots, axis=0) * self._grain
         self._dots.set_data(*self._points.T)

@@ -66,10 +66,11 @@ class SideColumn:
         axes.set_title(title, size=SMALL_PT, color=INK, loc="left", pad=3)
         self._top -= 0.85
 
-    def axes(self, height: float, title: str) -> Axes:
-        """Axes without ticks, as wide as the column."""
+    def axes(self, height: float, title: str, inset: float = 0.0) -> Axes:
+        """Axes without ticks, as wide as the column but for an inset at their left [inch]."""
         head = 0.2 + 0.14 * title.count("\n")
-        box = self._sheet.fraction(self._left, self._top - head - height, self._width, height)
+        left, width = self._left + inset, self._width - inset
+        box = self._sheet.fraction(left, self._top - head - height, width, height)
         axes = self._sheet.figure.add_axes(box)
         tidy(axes)
         axes.tick_params(left=False, bottom=False, labelleft=False, labelbottom=False)

@@ -9,28 +9,24 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.planner import Plan
-from viaspline.planning.problem.requirements import Requirements
 from viaspline.report.side_column import SideColumn
-from viaspline.report.space_time_panel import SpaceTime, draw_space_time, line_of
+from viaspline.report.space_time import SpaceTime, kept_from_moving, line_of
+from viaspline.report.space_time_panel import draw_space_time
 from viaspline.report.style import SMALL_PT
 from viaspline.robot.run import Run
-from viaspline.world.moving_obstacles import MovingObstacles
 
 HEIGHT_IN = 2.2
-LATER_RATIO = 0.05  # of the drive, that is shown after its end
-TITLE = "When the path is blocked by what moves:\ntime [s] over distance [m]"
+NUMBERS_IN = 0.26
+TITLE = "Blocked by what moves: time [s] over\ndistance [m]"
+FREE_WORDS = "; dashed: if nothing moved"
 
 
 def plan_space_time(column: SideColumn, plan: Plan) -> None:
     """When a plan's path is blocked where, and how its law goes through that."""
     if plan.timed is None:
         return
-    law = plan.trajectory
-    lasts = law.end_time - law.start_time
-    end = law.end_time + LATER_RATIO * lasts + plan.mission.route.hold_s
-    moving = MovingObstacles.known(plan.mission)
-    shown = SpaceTime(plan.path, moving, _required(plan), law.start_time, end)
-    _draw(column, shown, line_of(law), line_of(plan.timed.free))
+    shown = SpaceTime.of_plan(plan)
+    _draw(column, shown, line_of(plan.trajectory), line_of(plan.timed.free))
 
 
 def run_space_time(column: SideColumn, run: Run) -> None:
@@ -40,22 +36,16 @@ def run_space_time(column: SideColumn, run: Run) -> None:
     begin, end = float(run.times[0]), float(run.times[-1])
     steps = np.hypot(*np.diff(run.positions[:, :2], axis=0).T)
     driven = np.concatenate([[0.0], np.cumsum(steps)])
-    required = _required(run.plan)
+    required = kept_from_moving(run.plan)
     shown = SpaceTime(run.path, run.moving, required, begin, max(end, begin + 1e-3))
     _draw(column, shown, np.column_stack((driven, run.times)), None)
-
-
-def _required(plan: Plan) -> float:
-    return Requirements.of(plan.mission, plan.tracking_error).around
 
 
 def _draw(column: SideColumn, shown: SpaceTime, driven: Floats, free: Floats | None) -> None:
     """The panel, if there is room for it."""
     if column.room < HEIGHT_IN + 0.8:
         return
-    axes = column.axes(HEIGHT_IN, TITLE)
+    title = TITLE if free is None else f"{TITLE}{FREE_WORDS}"
+    axes = column.axes(HEIGHT_IN, title, inset=NUMBERS_IN)
     draw_space_time(axes, shown, driven, free)
     axes.tick_params(left=True, bottom=True, labelleft=True, labelbottom=True, labelsize=SMALL_PT)
-    axes.tick_params(axis="y", direction="in", pad=-4)
-    for label in axes.get_yticklabels():
-        label.set_horizontalalignment("left")

@@ -5,46 +5,14 @@ Tested through ``report/test_moving_pictures``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from matplotlib.axes import Axes
 
-from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.report import style
-from viaspline.trajectory.trajectory import Trajectory
-from viaspline.world.moving_obstacles import MovingObstacles
+from viaspline.report.space_time import SpaceTime
 
-ACROSS, UP = 240, 240  # places and instants that are looked at
 DEEPEST_M = 1e6  # inside of something, as far as a picture cares
-
-
-@dataclass(frozen=True)
-class SpaceTime:
-    """What the panel shows.
-
-    Attributes:
-        path: What is driven.
-        moving: What moves.
-        required: Distance that the path keeps from it [m].
-        begin: The first instant [s],
-        end: and the last one [s].
-    """
-
-    path: Path
-    moving: MovingObstacles
-    required: float
-    begin: float
-    end: float
-
-    def gaps(self) -> tuple[Floats, Floats, Floats]:
-        """Distances along the path (n,), times (m,), and how much room there is (m, n) [m]."""
-        distances = np.linspace(0.0, self.path.length, ACROSS)
-        times = np.linspace(self.begin, self.end, UP)
-        places = np.asarray(self.path.at_distance(distances))[:, :2]
-        room = [self.moving.distance(places, time) - self.required for time in times]
-        return distances, times, np.array(room)
 
 
 def draw_space_time(
@@ -70,9 +38,3 @@ def draw_space_time(
     axes.plot(*driven.T, color=style.PATH, linewidth=1.6)
     axes.set_xlim(0.0, max(shown.path.length, 1e-9))
     axes.set_ylim(shown.begin, shown.end)
-
-
-def line_of(law: Trajectory) -> Floats:
-    """A law as distances along the path [m] and times [s], (n, 2)."""
-    times = np.unique(np.concatenate((law.times, np.linspace(law.start_time, law.end_time, 400))))
-    return np.column_stack((np.asarray(law.distance_at(times)), times))

@@ -151,7 +151,8 @@ def _candidate(candidate: Candidate) -> tuple[str, str, str, str, str]:
     clearance = "–" if candidate.clearance is None else down(candidate.clearance)
     bend = "–" if candidate.max_curvature is None else f"{candidate.max_curvature:.3g} 1/m"
     time, length = seconds(candidate.duration), metres(candidate.length, 1)
-    return time, length, clearance, bend, "taken" if candidate.chosen else ""
+    verdict = "taken" if candidate.chosen else candidate.passed_over or ""
+    return time, length, clearance, bend, verdict
 
 
 def run_tables(run: Run, name: str) -> RenderableType:

@@ -42,12 +42,14 @@ class Alternative:
         free: The law along it if nothing moved.
         ghosts: What it was led round,
         passings: and what that stands for.
+        is_searched: Whether it was searched together with its times; see ``searched_paths``.
     """
 
     solution: Solution
     free: Trajectory
     ghosts: tuple[Obstacle, ...] = ()
     passings: tuple[Passing, ...] = ()
+    is_searched: bool = False
 
 
 def alternatives_to(problem: TimedProblem, taken: Alternative) -> Iterator[Alternative]:

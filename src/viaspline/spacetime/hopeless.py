@@ -1,8 +1,8 @@
 """Proofs that no path and no law is clear of what moves, from what holds of all of them.
 
 From rest a robot gets no farther in a time than its limits allow. So where something that moves is
-nearer to the start than may be by more than that, nothing that the robot does helps; and a goal
-that is never free from the first possible arrival on can't be held.
+nearer to the start than may be by more than that, nothing that the robot does helps. For the goal
+see ``taken_goal``.
 
 Tested through ``spacetime/test_plan_among``.
 """
@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from viaspline.errors import NoPathError
+from viaspline.errors import Change, NoPathError
 from viaspline.kernels.arrays import Floats
 from viaspline.spacetime.timed_problem import TimedProblem
 
@@ -42,13 +42,16 @@ def check_start(problem: TimedProblem) -> None:
         None,
     )
     remedy = "move the start, or take the obstacle out of its way"
+    changes: tuple[Change, ...] = ()
     if later is not None:
         remedy = f"depart {later - route.depart_s:g} s later (route.depart_s: {later:g})"
+        changes = (Change("route.depart_s", later),)
     raise NoPathError(
         f"'{name}' runs over the start at {time:.2f} s, before the robot can get out of its way",
         where=route.start.at,
         remedy=remedy,
         obstacles=(name,),
+        changes=changes,
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,8 @@ from viaspline.spacetime.alternatives import (
 )
 from viaspline.spacetime.hopeless import check_start
 from viaspline.spacetime.meetings import first_meeting
+from viaspline.spacetime.searched_paths import is_searchable, searched_paths
+from viaspline.spacetime.taken_goal import check_goal
 from viaspline.spacetime.timed_drive import TimedCandidate, TimedDrive
 from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
@@ -26,11 +28,14 @@ from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_among import law_among
 from viaspline.trajectory.yielding.waits import TrafficWait, waits
 
-MAX_PATHS = 40
+MAX_PATHS = 24
 """Paths that are timed at most."""
 
+ENOUGH_SEARCHED = 2
+"""After so many drives that were searched it is enough."""
+
 WORTH_S = 1.0
-"""What has to be lost by waiting before it is looked for bays to wait in [s]."""
+"""What has to be lost by waiting before it is looked for bays to wait in, and for drives [s]."""
 
 
 def plan_among(problem: TimedProblem, static: Solution) -> TimedDrive:
@@ -39,6 +44,7 @@ def plan_among(problem: TimedProblem, static: Solution) -> TimedDrive:
     The path among what stands comes first. Each path is timed: the robot slows and waits where
     that is better. Then it is led round what it would meet if it didn't, as if that stood where it
     is by then, on either side; and so on, always the path with the earliest arrival it could have.
+    Where none of them has a law, or the best one loses time, places and times are searched at once.
     With ``optimise: length`` it is the shortest path that can be timed.
 
     Args:
@@ -46,38 +52,90 @@ def plan_among(problem: TimedProblem, static: Solution) -> TimedDrive:
         static: The path among what stands.
 
     Raises:
-        NoPathError: When the robot is run over whatever it does.
+        NoPathError: When the robot is run over whatever it does, or something stays on the goal.
         GaveUpError: When no path that was tried has a law, or none was found.
     """
     check_start(problem)
+    check_goal(problem)
     first = Alternative(static, problem.free_law(static.path))
-    queue = [(problem.cost(static.path, first.free), 0, first)]
-    seen = {static.path.spans.tobytes()}
+    tried = _Tried().and_then(problem, first, _law(problem, first))
+    if tried.is_late(first):
+        tried = _searched(problem, tried)
+    tried = _beside(problem, first, tried)
+    best = tried.best
+    if best is None:
+        raise _given_up(problem, tried.outcomes, static)
+    chosen = (best.solution.path.length, best.trajectory.end_time)
+    marked = tuple(
+        replace(one, chosen=(one.length, one.arrival) == chosen) for one in tried.candidates
+    )
+    return replace(best, candidates=marked, waits=_waits(problem, best))
+
+
+@dataclass(frozen=True)
+class _Tried:
+    """Paths that were timed, in the order in which they were.
+
+    Attributes:
+        outcomes: What came of each,
+        candidates: and in what is told of it.
+        best: The best of them that is proven.
+    """
+
+    outcomes: tuple[Outcome[Trajectory], ...] = ()
+    candidates: tuple[TimedCandidate, ...] = ()
     best: TimedDrive | None = None
-    tried: list[TimedCandidate] = []
-    outcomes: list[Outcome[Trajectory]] = []
-    count = 0
-    while queue and len(tried) < MAX_PATHS:
-        bound, _, taken = heapq.heappop(queue)
-        if best is not None and bound >= problem.cost(best.solution.path, best.trajectory):
-            break
-        outcome = _law(problem, taken)
-        outcomes.append(outcome)
-        tried.append(_candidate(taken, outcome))
+
+    def is_late(self, first: Alternative) -> bool:
+        """Whether nothing was found that loses little."""
+        late = first.free.end_time + WORTH_S
+        return self.best is None or self.best.trajectory.end_time > late
+
+    def and_then(
+        self, problem: TimedProblem, taken: Alternative, outcome: Outcome[Trajectory]
+    ) -> _Tried:
+        """These and one more."""
+        best = self.best
         if isinstance(outcome, Found):
             best = _better(problem, best, taken, outcome.value)
+        return _Tried(
+            (*self.outcomes, outcome), (*self.candidates, _candidate(taken, outcome)), best
+        )
+
+
+def _searched(problem: TimedProblem, tried: _Tried) -> _Tried:
+    """What was timed, and paths that are searched with their times, until enough have a law."""
+    found = 0
+    for taken in searched_paths(problem):
+        outcome = _law(problem, taken)
+        tried = tried.and_then(problem, taken, outcome)
+        found += isinstance(outcome, Found)
+        if found == ENOUGH_SEARCHED:
+            break
+    return tried
+
+
+def _beside(problem: TimedProblem, first: Alternative, tried: _Tried) -> _Tried:
+    """What was timed, the path among what stands first, and paths led round what it meets."""
+    queue: list[tuple[float, int, Alternative]] = []
+    seen = {first.solution.path.spans.tobytes()}
+    taken, outcome = first, tried.outcomes[0]
+    while len(tried.outcomes) < MAX_PATHS:
         for other in _others(problem, taken, outcome):
             key = other.solution.path.spans.tobytes()
             if key not in seen and len(seen) <= 2 * MAX_PATHS:
                 seen.add(key)
-                count += 1
                 cost = problem.cost(other.solution.path, other.free)
-                heapq.heappush(queue, (cost, count, other))
-    if best is None:
-        raise _given_up(problem, outcomes, static)
-    chosen = (best.solution.path.length, best.trajectory.end_time)
-    marked = tuple(replace(one, chosen=(one.length, one.arrival) == chosen) for one in tried)
-    return replace(best, candidates=marked, waits=_waits(problem, best))
+                heapq.heappush(queue, (cost, len(seen), other))
+        if not queue:
+            break
+        bound, _, taken = heapq.heappop(queue)
+        best = tried.best
+        if best is not None and bound >= problem.cost(best.solution.path, best.trajectory):
+            break
+        outcome = _law(problem, taken)
+        tried = tried.and_then(problem, taken, outcome)
+    return tried
 
 
 def _waits(problem: TimedProblem, best: TimedDrive) -> tuple[TrafficWait, ...]:
@@ -138,9 +196,14 @@ def _candidate(taken: Alternative, outcome: Outcome[Trajectory]) -> TimedCandida
     path = taken.solution.path
     if isinstance(outcome, Found):
         arrival = outcome.value.end_time
-        return TimedCandidate(taken.passings, path.length, taken.free.end_time, arrival)
+        return TimedCandidate(
+            taken.passings, path.length, taken.free.end_time, arrival, is_searched=taken.is_searched
+        )
     reason = outcome.reason
-    return TimedCandidate(taken.passings, path.length, taken.free.end_time, None, reason)
+    return TimedCandidate(
+        taken.passings, path.length, taken.free.end_time, None, reason,
+        is_searched=taken.is_searched,
+    )  # fmt: skip
 
 
 def _given_up(
@@ -148,6 +211,8 @@ def _given_up(
 ) -> GaveUpError:
     """The error of a search that found no path with a law."""
     tried = [f"{len(outcomes)} paths, with waits and on either side of what is met"]
+    if is_searchable(problem):
+        tried.append("a search over places, speeds and times at once")
     tried += dict.fromkeys(outcome.reason for outcome in outcomes if not isinstance(outcome, Found))
     helps = [outcome.would_help for outcome in outcomes if isinstance(outcome, GaveUp)]
     remedy = next((words for words in helps if words), "depart at another time (route.depart_s)")

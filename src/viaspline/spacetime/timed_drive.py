@@ -36,12 +36,14 @@ class TimedCandidate:
     """A path that was tried.
 
     Attributes:
-        passings: What it leads round; nothing: the path among what stands.
+        passings: What it leads round; nothing: the path among what stands, or one that was
+            searched.
         length: [m].
         free_arrival: When the robot would arrive if nothing moved [s].
         arrival: When it arrives [s]; None if no law was found on it.
         reason: Why there is none, or why it wasn't looked for; None if there is one.
         chosen: Whether the plan takes it.
+        is_searched: Whether its places and times were searched at once.
     """
 
     passings: tuple[Passing, ...]
@@ -50,6 +52,7 @@ class TimedCandidate:
     arrival: float | None
     reason: str | None = None
     chosen: bool = False
+    is_searched: bool = False
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ from viaspline.studio.stoppable_calls import Stoppable, StoppedCallError
 from viaspline.studio.worker import Worker
 
 if TYPE_CHECKING:
+    from viaspline.mission.model import Mission
     from viaspline.planner import Plan
     from viaspline.robot.run import Run
     from viaspline.studio.map_cache import MapCache
@@ -147,6 +148,37 @@ class Engine:
             return text
 
         return await self._planner.run(work)
+
+    async def space_time(self, planned: PlannedDocument, revision: int) -> str:
+        """When a plan's path is blocked where by what moves, as text."""
+
+        def work() -> str:
+            from viaspline.studio import moving_messages
+
+            return encoded(moving_messages.space_time(planned, revision))
+
+        return await self._planner.run(work)
+
+    async def advise(self, mission: Mission) -> dict[str, Any]:
+        """Which tension a mission is suggested, and why.
+
+        Raises:
+            ViasplineError: There is no plan to compare.
+        """
+
+        def work() -> dict[str, Any]:
+            from viaspline.advice import advise_tension
+            from viaspline.report.advice_words import advice_words
+
+            advice = advise_tension(mission)
+            return {
+                "type": "advised",
+                "words": advice_words(advice),
+                "tension": advice.suggested,
+                "is_new": advice.matters and advice.chosen is not advice.stands,
+            }
+
+        return await self._others.run(work)
 
     def _keep_pictures(self, planned: PlannedDocument) -> None:
         from viaspline.studio.map_cache import grid_name, grid_png

@@ -35,7 +35,7 @@ class LivePlan:
     Args:
         engine: Plans.
         current: Whose document is planned.
-        send: Hears the plan and its ledger, as text.
+        send: Hears the plan, its ledger and what it is in time, as text.
         refuse: Hears of a defect.
     """
 
@@ -83,10 +83,12 @@ class LivePlan:
             return  # overtaken
         self._latest, text = found
         await self._send(text)
-        if self._latest.plan is None:
+        plan = self._latest.plan
+        if plan is None or not (self._engine.ledgers_are_cheap or await self._is_idle()):
             return
-        if self._engine.ledgers_are_cheap or await self._is_idle():
-            await self._send(await self._engine.ledger(self._latest, revision))
+        await self._send(await self._engine.ledger(self._latest, revision))
+        if plan.timed is not None:
+            await self._send(await self._engine.space_time(self._latest, revision))
 
     async def _overtake(self, running: Stoppable) -> None:
         await asyncio.sleep(OVERTAKEN_AFTER_S)

@@ -48,6 +48,7 @@ class PlannedDocument:
         plan: If there is a path.
         problems: If there is none.
         seconds: How long it took [s].
+        gave_up: Whether it isn't known that there is no path: a budget ran out.
     """
 
     document: Document
@@ -56,6 +57,7 @@ class PlannedDocument:
     plan: Plan | None
     problems: tuple[PlanFault, ...]
     seconds: float
+    gave_up: bool = False
 
 
 def planned(document: Document, maps: MapCache, base: Path) -> PlannedDocument:
@@ -71,6 +73,7 @@ def planned(document: Document, maps: MapCache, base: Path) -> PlannedDocument:
     mission: Mission | None = None
     found: Plan | None = None
     problems: tuple[PlanFault, ...] = ()
+    gave_up = False
     try:
         unfolded = maps.unfold(document, base)
         mission = Mission.model_validate(unfolded.data)
@@ -79,10 +82,11 @@ def planned(document: Document, maps: MapCache, base: Path) -> PlannedDocument:
         problems = _faults(error, unfolded)
     except PlanningError as error:
         problems = (_blocked(error, unfolded, mission),)
+        gave_up = isinstance(error, GaveUpError)
     except ViasplineError as error:
         problems = (PlanFault(str(error)),)
     seconds = time.perf_counter() - start
-    return PlannedDocument(document, unfolded, mission, found, problems, seconds)
+    return PlannedDocument(document, unfolded, mission, found, problems, seconds, gave_up)
 
 
 def _faults(error: MissionError, unfolded: ExpandedDocument | None) -> tuple[PlanFault, ...]:

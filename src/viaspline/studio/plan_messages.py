@@ -5,29 +5,30 @@ Tested through ``studio/test_server``.
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
 from viaspline.maps.grid import Grid
 from viaspline.planner import Plan
 from viaspline.planning.problem.ledger import Candidate
 from viaspline.report.drivability_json import drivability_data
 from viaspline.report.json_text import plain
 from viaspline.studio.map_cache import grid_name
+from viaspline.studio.moving_messages import timing, tracks
+from viaspline.studio.page_numbers import finite, flat, rounded
 from viaspline.studio.plan_document import PlanFault, PlannedDocument
 
 
 def answer(planned: PlannedDocument, revision: int) -> dict[str, Any]:
     """What the page is told of a plan, or of why there is none."""
-    head = {"type": "planned", "rev": revision, "ms": round(1e3 * planned.seconds, 3)}
-    maps = grids(planned)
+    head: dict[str, Any] = {"type": "planned", "rev": revision}
+    head["ms"] = round(1e3 * planned.seconds, 3)
+    head.update(grids=grids(planned), tracks=tracks(planned))
     if planned.plan is None:
         problems = [_problem(problem) for problem in planned.problems]
-        return {**head, "ok": False, "problems": problems, "grids": maps}
-    return {**head, "ok": True, **_plan(planned.plan), "grids": maps}
+        return {**head, "ok": False, "gave_up": planned.gave_up, "problems": problems}
+    return {**head, "ok": True, **_plan(planned.plan), "timing": timing(planned)}
 
 
 def _problem(problem: PlanFault) -> dict[str, Any]:
@@ -87,13 +88,15 @@ def ledger(planned: PlannedDocument, revision: int) -> dict[str, Any]:
     entries = []
     for entry in plan.ledger:
         members = [names[name] for name in entry.members if name in names]
+        if entry.members and not members:
+            continue  # what moves, taken to stand: the timed paths say that
         listed = [plan.world.listed_at(i) for i in members]
         items = [planned.unfolded.original(("world", "known", i))[2] for i in listed]
         entries.append({
             "members": entry.members,
             "items": sorted(set(items)),
             "leg": entry.leg,
-            "forceable": bool(members) and not grids.intersection(members),
+            "forceable": len(members) == len(entry.members) > 0 and not grids.intersection(members),
             "forced": entry.forced,
             "candidates": [_candidate(candidate) for candidate in entry.candidates],
         })  # fmt: skip
@@ -109,6 +112,7 @@ def _candidate(candidate: Candidate) -> dict[str, Any]:
         "duration": candidate.duration,
         "clearance": finite(candidate.clearance),
         "impossible": candidate.impossible,
+        "passedOver": candidate.passed_over,
     }
 
 
@@ -141,20 +145,3 @@ def _grid(grid: Grid) -> dict[str, Any]:
         "height": grid.height,
         "extent": grid.extent,
     }
-
-
-def flat(spans: Floats) -> list[float]:
-    """Bézier control polygons as x, y, x, y, …, seen from above."""
-    values: list[float] = np.ascontiguousarray(spans[:, :, :2]).reshape(-1).tolist()
-    return values
-
-
-def rounded(values: Any, digits: int = 5) -> list[float]:
-    """Numbers that are only drawn: to a hundredth of a millimetre."""
-    numbers: list[float] = (np.round(np.asarray(values, np.float64), digits) + 0.0).tolist()
-    return numbers
-
-
-def finite(value: float | None) -> float | None:
-    """The number, or None where it is infinite."""
-    return None if value is None or not math.isfinite(value) else float(value)

@@ -159,6 +159,12 @@ class Session:
         self._current.document = changed(self._current.document, message.get("changes"))
         self._live.want(revision)
 
+    async def _advise(self, message: Message) -> None:
+        planned = await self._live.planned()
+        if planned.mission is None:
+            raise RefusedError("the mission isn't sound")
+        await self._answer(message, await self._engine.advise(planned.mission))
+
     async def _drive(self, message: Message) -> None:
         seed, number = count_of(message, "seed"), message.get("id")
         self._stop.set()
@@ -214,6 +220,7 @@ class Session:
 
 _HANDLERS: Final[dict[str, Callable[[Session, Message], Coroutine[Any, Any, None]]]] = {
     "edit": Session._edit,
+    "advise": Session._advise,
     "drive": Session._drive,
     "halt": Session._halt,
     "files": Session._files,

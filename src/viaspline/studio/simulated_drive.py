@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from itertools import count
 from threading import Event as Flag
 from typing import Any
 
@@ -19,7 +20,8 @@ from viaspline.robot.perception.belief import ON_MAP_M
 from viaspline.robot.perception.lidar import LidarSensor
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
-from viaspline.studio.plan_messages import finite, flat, rounded
+from viaspline.studio.page_numbers import finite, flat, rounded
+from viaspline.world.moving_obstacles import MovingObstacles
 
 MAX_TRACE_SAMPLES = 6000
 LIDAR_SCANS_SHOWN = 400  # looks of a lidar that are shown
@@ -59,8 +61,8 @@ def drive(plan: Plan, *, seed: int, stop: Flag, tell: Callable[[float], None]) -
 
 def driven(run: Run) -> dict[str, Any]:
     """What the page is told of a drive."""
-    count = len(run.times)
-    some = np.unique(np.linspace(0, count - 1, min(count, MAX_TRACE_SAMPLES)).round().astype(int))
+    last = len(run.times) - 1
+    some = np.unique(np.linspace(0, last, min(last + 1, MAX_TRACE_SAMPLES)).round().astype(int))
     return {
         "type": "driven",
         "reached": run.reached,
@@ -111,10 +113,14 @@ def sight(run: Run) -> dict[str, Any] | None:
         return None
     if sensor.lidar is not None:
         return _beams(run, sensor.lidar)
-    first = len(run.plan.world)
+    standing = count(len(run.plan.world))
     seen: list[float | None] = []
-    for i in range(first, len(run.world)):
-        near = np.flatnonzero(run.world.distances_to(i, run.positions) <= sensor.reach)
+    for obstacle in run.plan.mission.world.unseen:
+        if obstacle.motion is None:
+            away = run.world.distances_to(next(standing), run.positions)
+        else:
+            away = MovingObstacles([obstacle]).distance(run.positions, run.times)
+        near = np.flatnonzero(away <= sensor.reach)
         seen.append(float(run.times[near[0]]) if near.size else None)
     return {"kind": "range", "reach": sensor.reach, "seen": seen}
 
@@ -122,22 +128,24 @@ def sight(run: Run) -> dict[str, Any] | None:
 def _beams(run: Run, spec: Lidar) -> dict[str, Any]:
     """The fan of a lidar at some moments, and the points off the map that it hit first then."""
     exact = spec.model_copy(update={"noise_m": 0.0, "beams": min(spec.beams, MAX_BEAMS_SHOWN)})
-    lidar = LidarSensor(run.world.obstacles, exact)
+    lidar = LidarSensor(run.world.obstacles, exact, moving=run.moving)
     some = np.unique(np.linspace(0, len(run.times) - 1, LIDAR_SCANS_SHOWN).round().astype(int))
     grain = spec.range_m / 150
     known: set[tuple[int, int]] = set()
     fans, hits = [], []
     for k in some.tolist():
-        scan = lidar.scan(tuple(run.positions[k].tolist()), float(run.headings[k]))
+        now = float(run.times[k])
+        scan = lidar.scan(tuple(run.positions[k].tolist()), float(run.headings[k]), time=now)
         fans.append(rounded(scan.free, 2))
         points = scan.hits
         if len(run.plan.world) and len(points):
             points = points[run.plan.world.distance(points) > ON_MAP_M]
+        points = points[run.moving.distance(points, now) > ON_MAP_M]  # those that stay
         for cell in map(tuple, np.round(points / grain).astype(int).tolist()):
             if cell not in known:
                 known.add(cell)
                 x, y = cell
-                hits.append([round(x * grain, 3), round(y * grain, 3), float(run.times[k])])
+                hits.append([round(x * grain, 3), round(y * grain, 3), now])
     return {
         "kind": "lidar",
         "reach": spec.range_m,

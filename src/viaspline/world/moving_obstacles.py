@@ -14,6 +14,7 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.motion import moving_distance as kernels
 from viaspline.kernels.motion.packed_motion import PackedMotion
 from viaspline.mission.model import Mission
+from viaspline.mission.motion_checks import faults_of_one
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack_motion import pack_motion
 
@@ -29,7 +30,7 @@ class MovingObstacles:
             time for all, or one for each.
 
     Raises:
-        GeometryError: One has no motion, or is a map of squares.
+        GeometryError: One has no motion, or is a map of squares, or doesn't say how it moves.
 
     Example:
         >>> cart = Obstacle(
@@ -54,6 +55,8 @@ class MovingObstacles:
                     f"obstacle {i} doesn't move, or is a map of squares; give "
                     "Obstacle(circle={...}, motion={...})"
                 )
+            for fault in faults_of_one((), obstacle, obstacle.motion):
+                raise GeometryError(f"obstacle {i}: {fault.problem}; {fault.remedy}")
         times = numbers_from("since", since)
         if times.shape not in ((), (len(self.obstacles),)) or not np.isfinite(times).all():
             raise GeometryError("since is no finite time for all, nor one for each of them")

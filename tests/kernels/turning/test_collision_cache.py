@@ -13,7 +13,9 @@ def cache(world, discs, pace=0.02, barriers=NO_BARRIERS):
     frame = np.array([-20.0, -20.0, 0.1, pace])
     speeds = np.hypot(1.0 + np.abs(rows[:, 1]) / RHO, rows[:, 0] / RHO)
     rows = np.ascontiguousarray(np.column_stack((rows, speeds)))
-    return CollisionCache(world.packed, frame, np.full((400, 400), np.nan), rows, barriers)
+    return CollisionCache(
+        world.packed, frame, np.full((400, 400), np.nan), rows, barriers, np.zeros(1, np.int64)
+    )
 
 
 def test_a_clear_chain_is_clear_by_brute_force_and_a_chain_with_room_to_spare_is_clear(chained):

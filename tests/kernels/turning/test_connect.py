@@ -9,14 +9,8 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import connect, curvature_ramp
 from viaspline.kernels.turning.segment_chain import chain_spans, merged
-from viaspline.kernels.turning.turn_sequence import (
-    FINE,
-    HEADING,
-    RADIUS,
-    SIDE,
-    turn_sequence,
-    turn_sequence_length,
-)
+from viaspline.kernels.turning.settled_lines import FINE, HEADING, RADIUS, SIDE
+from viaspline.kernels.turning.turn_sequence import turn_sequence, turn_sequence_length
 
 RHO, RAMP = 4.0, 1.5
 angles = st.floats(-math.pi, math.pi)

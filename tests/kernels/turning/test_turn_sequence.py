@@ -7,7 +7,7 @@ from scipy.integrate import quad
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import clothoid
-from viaspline.kernels.turning.turn_sequence import (
+from viaspline.kernels.turning.settled_lines import (
     FINE,
     HEADING,
     KEPT,
@@ -17,6 +17,8 @@ from viaspline.kernels.turning.turn_sequence import (
     SIDE,
     X,
     Y,
+)
+from viaspline.kernels.turning.turn_sequence import (
     turn_sequence,
     turn_sequence_length,
     turn_sequence_spans,
@@ -137,8 +139,8 @@ def test_a_bend_that_the_others_make_needless_is_left_out():
         [(0, 0), (20, 10), (30, 30), (60, 0)], kept=[0, 3, 3, 0], side=[0.0, -1.0, 1.0, 0.0]
     )
     rows[:, RADIUS] = RHO
-    *_, state, where = turn_sequence(rows, False, 1.0)
-    assert (state, where) == (LEFT_OUT, 2)
+    *_, state, tight = turn_sequence(rows, False, 1.0)
+    assert (state, list(tight)) == (LEFT_OUT, [2])
 
 
 @pytest.mark.parametrize("radius", [0.4954, 0.8])
@@ -165,8 +167,8 @@ def test_random_slaloms_round_corners_of_cells_settle_or_have_no_room():
         side = np.sign(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0])
         rows = bends_through(corners, kept=[0, *(0.33 * np.abs(side)), 0], side=[0.0, *side, 0.0])
         rows[:, RADIUS] = 0.4954
-        *_, state, where = turn_sequence(rows, False, 1.0)
+        *_, state, tight = turn_sequence(rows, False, 1.0)
         assert state != RESTLESS
-        assert (where >= 0) == (state != FINE)
+        assert (tight.size > 0) == (state != FINE)
         served += state == FINE
     assert served > 50

@@ -7,7 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
-from viaspline.planning.routing.visit_order import is_surely_shortest, lengths_between, ordered
+from viaspline.planning.checking.driving_time import straight_time
+from viaspline.planning.problem.path_pace import Pace
+from viaspline.planning.routing.visit_order import is_surely_shortest, ordered, ways_between
 from viaspline.world.world import World
 
 seeds = st.integers(0, 100_000)
@@ -16,6 +18,7 @@ seeds = st.integers(0, 100_000)
 def mission(places: Any, *, closed: bool = False, **world: Any) -> vs.Mission:
     start, *via = np.asarray(places).tolist()
     route: dict[str, Any] = {"start": start, "via": via, "order": "shortest", "closed": closed}
+    route["optimise"] = "length"
     if not closed:
         route["goal"] = route["via"].pop()
     return vs.Mission.model_validate({"world": world, "route": route})
@@ -64,7 +67,7 @@ def test_among_many_no_exchange_of_two_makes_the_round_shorter(seed: int) -> Non
 def test_what_stands_between_counts() -> None:
     wall = {"polygon": [[4, -50], [6, -50], [6, 3], [4, 3]]}
     asked = mission([[0, 0], [8, 0], [2, 9], [3, 20]], known=[wall], bounds=[-60, -49, 60, 60])
-    lengths = lengths_between(asked, World.known(asked))
+    lengths = ways_between(asked, World.known(asked)).lengths
     assert lengths[0, 1] > 8.0
     assert lengths == pytest.approx(lengths.T)
     assert [via.name for via in in_order(asked).route.via] == ["via 1", "via 2"]
@@ -116,6 +119,7 @@ def past_sides(seed: int) -> dict[str, Any]:
         if min(gaps) > 2.0:
             places.append(at.tolist())
     route = {"start": places[0], "via": places[1:], "closed": True, "order": "shortest"}
+    route["optimise"] = "length"
     return {"world": {"known": discs}, "route": route}
 
 
@@ -144,5 +148,73 @@ def test_the_sides_that_are_asked_for_count_in_the_order(seed: int) -> None:
 def test_there_and_back_differ_where_sides_are_asked_for() -> None:
     post = {"circle": {"center": [20, 3], "radius": 5}, "pass_on": "left"}
     asked = mission([[0, 0], [40, 0], [60, 0]], known=[post])
-    lengths = lengths_between(asked, World.known(asked))
+    lengths = ways_between(asked, World.known(asked)).lengths
     assert abs(lengths[0, 1] - lengths[1, 0]) > 0.5
+
+
+def timed(seed: int, count: int, *, closed: bool) -> vs.Mission:
+    """Places of which some are stations, for a robot that has to slow down for turns."""
+    rng = np.random.default_rng(seed)
+    asked = mission(rng.uniform(0, 60, (count + 2 - closed, 2)), closed=closed).route
+    dwells = rng.choice([0.0, 5.0], len(asked.via), p=[0.7, 0.3]).tolist()
+    vias = [{"at": via.at, "dwell_s": dwell} for via, dwell in zip(asked.via, dwells, strict=True)]
+    data = asked.model_dump(exclude_none=True) | {"via": vias, "optimise": "time"}
+    robot = {"max_speed_mps": 4.0, "max_accel_mps2": 1.0}
+    return vs.Mission.model_validate({"robot": robot, "route": data})
+
+
+def reckoned(asked: vs.Mission, order: Any) -> float:
+    """The time of a round from halt to halt, its turns at no more than full stops [s]."""
+    route, pace = asked.route, Pace.of(asked.robot)
+    ends = [route.start, *order, route.start if route.goal is None else route.goal]
+    at = np.array([point.at for point in ends])
+    steps = np.diff(at, axis=0)
+    headings = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
+    total, run = 0.0, 0.0
+    for k, step in enumerate(np.hypot(*steps.T).tolist()):
+        run += step
+        if k == len(steps) - 1 or order[k].dwell_s > 0.0:
+            total, run = total + straight_time(run, pace), 0.0
+        else:
+            total += float(pace.corner_times(headings[k + 1 : k + 2] - headings[k])[0])
+    return total
+
+
+@settings(max_examples=20)
+@given(seeds, st.integers(1, 5), st.booleans())
+def test_where_time_counts_few_via_points_come_in_the_soonest_order(
+    seed: int, count: int, closed: bool
+) -> None:
+    asked = timed(seed, count, closed=closed)
+    found = reckoned(asked, in_order(asked).route.via)
+    best = min(reckoned(asked, order) for order in permutations(asked.route.via))
+    assert found == pytest.approx(best, abs=0.15 * count)  # turns are looked up by whole degrees
+
+
+def test_a_longer_round_is_taken_that_turns_less() -> None:
+    places = [[5, 54], [38, 54], [3, 4], [14, 78], [24, 47], [79, 56]]
+    robot = {"max_speed_mps": 4.0, "max_accel_mps2": 1.0}
+    plans = {}
+    for optimise in ("length", "time"):
+        route = {"start": places[0], "via": places[1:-1], "goal": places[-1]}
+        route |= {"order": "shortest", "optimise": optimise}
+        data = {"robot": robot, "route": route}
+        plans[optimise] = in_order(vs.Mission.model_validate(data)).route
+    taken = {name: [via.name for via in route.via] for name, route in plans.items()}
+    assert taken["length"] != taken["time"]
+    given = [
+        vs.plan(vs.Mission.model_validate({
+            "robot": robot,
+            "route": route.model_dump(exclude_none=True) | {"optimise": "time"},
+        }))
+        for route in plans.values()
+    ]  # fmt: skip
+    assert given[1].trajectory.duration < 0.98 * given[0].trajectory.duration
+
+
+def test_a_turn_costs_more_the_sharper_it_is_and_no_more_than_a_halt() -> None:
+    pace = Pace(speed=4.0, accel=1.0, brake=2.0, lateral=1.0)
+    times = pace.corner_times(np.linspace(0.0, np.pi, 50))
+    assert times[0] == pytest.approx(0.0, abs=1e-9)
+    assert (np.diff(times) >= -1e-12).all()
+    assert times[-1] <= 0.5 * 4.0 * (1.0 + 0.5) + 1e-12

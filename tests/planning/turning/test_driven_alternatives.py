@@ -79,19 +79,20 @@ def test_every_side_that_is_offered_could_be_driven_and_costs_what_it_says(seed:
 @given(st.integers(0, 2**32 - 1))
 @example(11)  # for a point the other sides are shorter, for this robot by 3.1 m longer
 @settings(max_examples=12)
-def test_the_side_that_is_taken_is_the_one_that_is_driven_and_no_other_makes_the_whole_shorter(
+def test_the_side_that_is_taken_is_the_one_that_is_driven_and_no_other_makes_the_whole_sooner(
     seed: int,
 ) -> None:
     asked = mission(seed)
     plan = None if asked is None else planned(asked)
     if asked is None or plan is None:
         return
+    takes = plan.trajectory.duration
     for entry in plan.ledger:
         assert entry.chosen is not None
         for other in ("left", "right"):
             forced = plan_on_side(asked, entry.members, other)
             if forced is not None:
-                assert plan.path.length <= forced.path.length * (1 + 1e-3)
+                assert takes <= forced.trajectory.duration * (1 + 2e-3)
 
 
 def plan_on_side(asked: vs.Mission, members: tuple[str, ...], side: str) -> vs.Plan | None:

@@ -29,7 +29,7 @@ from viaspline.kernels.motion.packed_motion import (
 from viaspline.kernels.world.shape import obstacle_signed
 
 
-@inner
+@inlined
 def piece_at(motion: PackedMotion, i: int, instant: float) -> tuple[int, float, float]:
     """The piece of obstacle i at an instant [s].
 
@@ -70,7 +70,7 @@ def uncertainty(motion: PackedMotion, i: int, instant: float) -> float:
     return errors[UNCERTAIN] + errors[GROWTH] * max(0.0, instant - errors[SINCE])
 
 
-@inner
+@inlined
 def piece_distance(
     motion: PackedMotion, i: int, row: int, shift: float, instant: float,
     x: float, y: float, limit: float,

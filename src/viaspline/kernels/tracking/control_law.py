@@ -40,6 +40,9 @@ ASTRAY_RAD = 0.7
 HEADING_DEADBAND_RAD = 0.004
 """An error of the heading at rest that is left as it is [rad]."""
 
+MAX_SPOT_SPEED_MPS = 0.2
+"""With which a robot that turns on the spot gets back to it, at most [m/s]."""
+
 # what is noted at every step of the controller
 (
     TIME, PLACE, SPEED, LOW, HIGH, REST, NOTED_ALONG, NOTED_TURN, PROGRESS, CROSS_TRACK,
@@ -114,8 +117,12 @@ def _under_way(
 
 
 @inner
-def _resting(model: DriveModel, reference: ReferencePath, note: Floats) -> None:
-    """The command for a robot that should stand: it turns to where it goes on."""
+def _resting(model: DriveModel, reference: ReferencePath, note: Floats, pose: Floats) -> None:
+    """The command for a robot that should stand: it turns to where it goes on.
+
+    While it turns it gets to where it should stand: what it stopped short of it, and what its
+    wheels slip as it turns, it would be beside its path by.
+    """
     note[NOTED_ALONG], note[NOTED_ACROSS] = 0.0, 0.0
     if is_steered(model):
         bend = on_reference(reference, note[PROGRESS])[3]
@@ -125,6 +132,13 @@ def _resting(model: DriveModel, reference: ReferencePath, note: Floats) -> None:
     note[NOTED_TURN] = 0.0
     if abs(error) > HEADING_DEADBAND_RAD:
         note[NOTED_TURN] = clip(-model.heading_gain * error, -model.spot_rate, model.spot_rate)
+        x, y, _, _ = on_reference(reference, note[PROGRESS])
+        dx, dy = x - pose[X], y - pose[Y]
+        c, s = math.cos(pose[HEADING]), math.sin(pose[HEADING])
+        gain, most = model.heading_gain, min(MAX_SPOT_SPEED_MPS, model.max_speed)
+        note[NOTED_ALONG] = clip(gain * (c * dx + s * dy), -most, most)
+        if moves_across(model):
+            note[NOTED_ACROSS] = clip(gain * (c * dy - s * dx), -most, most)
 
 
 @inner
@@ -169,7 +183,7 @@ def decide_into(
     note[CROSS_TRACK], tangent = beside(reference, s, pose[X], pose[Y])
     note[HEADING_ERROR] = heading_error(pose[HEADING], wanted_heading(model, tangent))
     if rests:
-        _resting(model, reference, note)
+        _resting(model, reference, note, pose)
     else:
         _, soon, push = profile_at(profile, now + 0.5 * period - memory[LATE])
         _under_way(model, reference, note, pose, soon, push, period)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.curvature_ramp import along_bend
 from viaspline.kernels.world.distance import nearest
@@ -38,6 +38,7 @@ class CollisionCache(NamedTuple):
         discs: See the columns above; the first one holds the whole body, the others together
             cover it, (d, 4).
         barriers: Segments x0, y0, x1, y1 that the reference point must not cross [m], (b, 4).
+        reckoned: How many distances were, so far, (1,).
     """
 
     world: PackedWorld
@@ -45,6 +46,7 @@ class CollisionCache(NamedTuple):
     known: Floats
     discs: Floats
     barriers: Floats
+    reckoned: Ints
 
 
 @inner
@@ -61,6 +63,7 @@ def about(cache: CollisionCache, x: float, y: float) -> float:
         middle_y = cache.frame[1] + (row + 0.5) * side
         value, _ = nearest(cache.world, middle_x, middle_y, np.inf)
         cache.known[row, column] = value
+        cache.reckoned[0] += 1
     return value
 
 
@@ -77,6 +80,7 @@ def _distance(cache: CollisionCache, x: float, y: float, need: float) -> float:
         gap = math.hypot(x - middle_x, y - middle_y)
         if value - gap >= need or value + gap < need:
             return value - gap
+    cache.reckoned[0] += 1
     value, _ = nearest(cache.world, x, y, need + 4.0 * side)
     return value
 

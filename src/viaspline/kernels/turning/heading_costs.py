@@ -11,13 +11,8 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import kernel
-from viaspline.kernels.turning.turn_sequence import (
-    FINE,
-    HEADING,
-    SIDE,
-    turn_sequence,
-    turn_sequence_length,
-)
+from viaspline.kernels.turning.settled_lines import FINE, HEADING, SIDE
+from viaspline.kernels.turning.turn_sequence import turn_sequence, turn_sequence_length
 
 
 @kernel
@@ -25,7 +20,7 @@ def leg_lengths(bends: Floats, starts: Floats, goals: Floats, ramp: float) -> Fl
     """Lengths of a leg from every heading at its start to every heading at its goal.
 
     Args:
-        bends: The leg's row of bends, see ``kernels.turning.turn_sequence``, (n, 6).
+        bends: The leg's row of bends, see ``kernels.turning.settled_lines``, (n, 6).
         starts: Headings at its start [rad], (k,); NaN: it is free.
         goals: Headings at its goal [rad], (l,); NaN: it is free.
         ramp: Length of the ramps, in least radii.

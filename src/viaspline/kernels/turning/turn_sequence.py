@@ -11,216 +11,34 @@ import math
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.turning.clothoid import (
     MAX_SPAN_TURN_RAD,
     MIN_TURN_RAD,
     arc_and_ramp,
-    shape_of,
     spans_between,
     turn_length,
     turn_nodes,
 )
+from viaspline.kernels.turning.settled_lines import (
+    FINE,
+    LEFT_OUT,
+    NO_ROOM,
+    RADIUS,
+    ROUGHLY_SETTLED_RAD,
+    SETTLED_RAD,
+    X,
+    Y,
+    guess_lines,
+    settle,
+    turn_radius,
+)
 
-# Columns of a bend: its middle, the radius that is kept from it, the side to which it turns (1
-# left, -1 right, 0 whichever comes), the heading that is given at an end (NaN: it is free), and
-# the least radius of its turn.
-X, Y, KEPT, SIDE, HEADING, RADIUS = range(6)
-FINE, NO_TANGENT, NO_ROOM, RESTLESS, LEFT_OUT = range(5)
-MAX_HEADING_ROUNDS = 400
-SETTLED_RAD = 1e-13  # change of a heading in the last round [rad]
-HOPELESS_ROUNDS = 40  # in which the least change isn't halved: they go round and round
-ACCELERATED_RAD = 0.05  # change of a heading from which on the next changes are foreseen [rad]
-MAX_OVERSHOOT = 20.0  # of such a change
-GENTLE_TURN_RAD = 1.2  # turns up to this are reckoned from where their lines meet [rad]
 MIN_RAMP_RADII = 0.08  # of the radius
 RAMP_SHRINK = 0.6
 MAX_TURN_NODES = 64  # of one turn, at most
 MIN_STRAIGHT_M = 1e-3  # straight piece that is laid by itself [m]
-
-
-@inner
-def _wrapped(angle: float, about: float) -> float:
-    """The angle plus whole turns, within half a turn of ``about``."""
-    return angle - 2.0 * math.pi * math.floor((angle - about + math.pi) / (2.0 * math.pi))
-
-
-@inner
-def _line(circles: Floats, i: int, j: int) -> float:
-    """Heading of the line that touches circle i and then circle j; NaN where there is none."""
-    dx = circles[j, 0] - circles[i, 0]
-    dy = circles[j, 1] - circles[i, 1]
-    gap = math.hypot(dx, dy)
-    offset = circles[j, 2] - circles[i, 2]
-    if gap <= abs(offset) or gap == 0.0:
-        return np.nan
-    return math.atan2(dy, dx) - math.asin(offset / gap)
-
-
-@inner
-def _turn_at(bend: Floats, before: float, after: float, last: float) -> float:
-    """By how much the path turns at a bend, left positive; ``last`` is what it was."""
-    turn = _wrapped(after - before, last)
-    if not math.isnan(bend[HEADING]) and bend[SIDE] * turn < 0.0:
-        turn += bend[SIDE] * 2.0 * math.pi  # from a given heading, to the given side
-        if abs(turn) > 2.0 * math.pi - 1e-9:
-            turn = 0.0
-    return turn
-
-
-@inner
-def _turn_radius(bend: Floats) -> float:
-    """The radius of its turn [m]: no less than what is kept from its middle."""
-    return max(bend[RADIUS], bend[KEPT])
-
-
-@inner
-def _settle(bend: Floats, kind: int, turn: float, heading: float, ramp: float, circle: Floats,
-            apex: Floats) -> None:  # fmt: skip
-    """Where the turn of a bend lies: the circle that its lines touch, and its apex.
-
-    Args:
-        bend: Its row.
-        kind: -1 where the path starts at it, 1 where it ends, 0 in between.
-        turn: [rad], left is positive.
-        heading: At the apex [rad].
-        ramp: [m].
-        circle: x, y, signed radius; filled. A radius of 0 is the point where the lines meet.
-        apex: x, y; filled.
-    """
-    theta = abs(turn)
-    if theta < MIN_TURN_RAD or (kind == 0 and bend[SIDE] * turn < 0.0):
-        off = bend[SIDE] * bend[KEPT]  # what may prove needless is touched without a turn
-        apex[0], apex[1] = bend[X] + off * math.sin(heading), bend[Y] - off * math.cos(heading)
-        circle[0], circle[1], circle[2] = apex[0], apex[1], 0.0
-        return
-    side = 1.0 if turn > 0.0 else -1.0
-    radius, shift, lead = shape_of(theta, _turn_radius(bend), ramp)
-    touch = radius + shift
-    out_x, out_y = side * math.sin(heading), -side * math.cos(heading)
-    if kind == 0:
-        apex[0], apex[1] = bend[X] + bend[KEPT] * out_x, bend[Y] + bend[KEPT] * out_y
-        center_x, center_y = apex[0] - radius * out_x, apex[1] - radius * out_y
-    else:
-        given = heading + kind * 0.5 * turn
-        c, s = math.cos(given), math.sin(given)
-        if theta < GENTLE_TURN_RAD:
-            reach = -kind * (lead + touch * math.tan(0.5 * theta))
-            meet_x, meet_y = bend[X] + reach * c, bend[Y] + reach * s
-            height = touch / math.cos(0.5 * theta)
-            center_x, center_y = meet_x - height * out_x, meet_y - height * out_y
-        else:
-            center_x = bend[X] - kind * lead * c - side * touch * s
-            center_y = bend[Y] - kind * lead * s + side * touch * c
-        apex[0], apex[1] = center_x + radius * out_x, center_y + radius * out_y
-    if theta < GENTLE_TURN_RAD:
-        height = touch / math.cos(0.5 * theta)
-        circle[0], circle[1] = center_x + height * out_x, center_y + height * out_y
-        circle[2] = 0.0
-    else:
-        circle[0], circle[1], circle[2] = center_x, center_y, side * touch
-
-
-@inner
-def _failed(bends: Floats, closed: bool, turns: Floats, state: int, where: int) -> tuple[int, int]:
-    """A state and where, unless a bend is turned at to the wrong side: the others make it needless.
-
-    Only the last round tells: before the turns have settled, one may seem so that is needed.
-    """
-    worst, count = -1e-9, bends.shape[0]
-    for k in range(0 if closed else 1, count if closed else count - 1):
-        if bends[k, SIDE] * turns[k] < worst:
-            worst = bends[k, SIDE] * turns[k]
-            state, where = LEFT_OUT, k
-    return state, where
-
-
-@inner
-def _overshoot(steps: Floats, before: Floats) -> float:
-    """How much of the last change is taken back, so that what is left to go is least.
-
-    D. G. Anderson, Iterative procedures for nonlinear integral equations (1965), with one step of
-    memory.
-    """
-    both, square = 0.0, 0.0
-    for k in range(steps.shape[0]):
-        change = steps[k] - before[k]
-        both += steps[k] * change
-        square += change * change
-    return max(min(both / square, 1.0), -MAX_OVERSHOOT) if square > 0.0 else 0.0
-
-
-@inner
-def _relaxed(
-    bends: Floats, closed: bool, ramps: Floats, lines: Floats, turns: Floats,
-    circles: Floats, apexes: Floats,
-) -> tuple[int, int]:  # fmt: skip
-    """Let lines and turns settle; both have the values of a first guess.
-
-    Returns:
-        What came of it, and at which line or bend.
-    """
-    count = bends.shape[0]
-    last = count if closed else count - 1
-    came_from, steps, steps_before = lines.copy(), np.zeros(last), np.zeros(last)
-    moved, least, least_before = 0.0, math.inf, math.inf
-    for round_ in range(MAX_HEADING_ROUNDS):
-        if round_ % HOPELESS_ROUNDS == 0 and round_ > 0:
-            if least > 0.5 * least_before:
-                break
-            least, least_before = math.inf, least
-        moved = 0.0
-        for k in range(last):
-            line = _line(circles, k, (k + 1) % count)
-            if math.isnan(line):
-                return _failed(bends, closed, turns, NO_TANGENT, k)
-            steps_before[k], steps[k] = steps[k], _wrapped(line, lines[k]) - lines[k]
-            moved = max(moved, abs(steps[k]))
-        least = min(least, moved)
-        share = _overshoot(steps, steps_before) if round_ > 1 and moved < ACCELERATED_RAD else 0.0
-        for k in range(last):
-            here, line = lines[k], lines[k] + steps[k]
-            lines[k] = line - share * (line - came_from[k] - steps_before[k])
-            came_from[k] = here
-        if round_ > 0 and moved < SETTLED_RAD:
-            return _failed(bends, closed, turns, FINE, -1)
-        for k in range(count):
-            kind = 0
-            before, after = 0.0, 0.0
-            if not closed and k == 0:
-                kind, after = -1, lines[0]
-                before = after if math.isnan(bends[k, HEADING]) else bends[k, HEADING]
-            elif not closed and k == count - 1:
-                kind, before = 1, lines[last - 1]
-                after = before if math.isnan(bends[k, HEADING]) else bends[k, HEADING]
-            else:
-                before, after = lines[(k - 1) % last], lines[k]
-            turns[k] = _turn_at(bends[k], before, after, turns[k])
-            middle = before + 0.5 * turns[k] if kind >= 0 else after - 0.5 * turns[k]
-            _settle(bends[k], kind, turns[k], middle, ramps[k], circles[k], apexes[k])
-    if moved < 1e-10:
-        return _failed(bends, closed, turns, FINE, -1)
-    return _failed(bends, closed, turns, RESTLESS, int(np.argmax(np.abs(steps))))
-
-
-@inner
-def _guess(bends: Floats, closed: bool, lines: Floats, turns: Floats, circles: Floats) -> None:
-    """Begin with the polyline through the bends' middles, and circles of what is kept."""
-    count = bends.shape[0]
-    last = count if closed else count - 1
-    for k in range(last):
-        after = (k + 1) % count
-        lines[k] = math.atan2(bends[after, Y] - bends[k, Y], bends[after, X] - bends[k, X])
-    for k in range(count):
-        circles[k, 0], circles[k, 1] = bends[k, X], bends[k, Y]
-        circles[k, 2] = bends[k, SIDE] * bends[k, KEPT]
-        turns[k] = 0.0
-        if closed or 0 < k < count - 1:
-            about = bends[k, SIDE]
-            turns[k] = _wrapped(lines[k % last] - lines[(k - 1) % last], about)
-        elif bends[k, SIDE] != 0.0:
-            turns[k] = bends[k, SIDE]
 
 
 @inner
@@ -243,7 +61,7 @@ def _nodes_of(
         nodes[0, 0], nodes[0, 1] = bends[k, X], bends[k, Y]
         nodes[0, 2], nodes[0, 3] = heading, 0.0
         return 1
-    radius = _turn_radius(bends[k])
+    radius = turn_radius(bends[k])
     return turn_nodes(apexes[k, 0], apexes[k, 1], heading, turns[k], radius, ramps[k], nodes)
 
 
@@ -261,42 +79,45 @@ def _fill_ends(
 
 
 @inner
-def _shortened(lines: Floats, ends: Floats, ramps: Floats, shortest: Floats) -> tuple[int, int]:
-    """Shorten the ramps of turns that overlap on a line.
-
-    Of two such lines behind each other only the first's: that may make room on the other.
-
-    Returns:
-        The first line on which turns overlap, and the first whose ramps can't be shorter; -1 if
-        there is none.
-    """
-    count = ends.shape[0]
-    crowded, eased = -1, -1
+def _overlapping(lines: Floats, ends: Floats, tight: Flags) -> bool:
+    """Tell the lines on which turns overlap, and whether there are any."""
+    found = False
     for k in range(lines.size):
-        after = (k + 1) % count
+        after = (k + 1) % ends.shape[0]
         dx, dy = ends[after, 0] - ends[k, 2], ends[after, 1] - ends[k, 3]
-        if dx * math.cos(lines[k]) + dy * math.sin(lines[k]) >= -1e-9:
-            continue
-        crowded = k if crowded < 0 else crowded
-        if ramps[k] <= shortest[k] and ramps[after] <= shortest[after]:
-            return crowded, k
-        if eased < 0 or k > eased + 1:
-            _shorten(ramps, shortest, k, after)
-            eased = k
-    return crowded, -1
+        tight[k] = dx * math.cos(lines[k]) + dy * math.sin(lines[k]) < -1e-9
+        found = found or tight[k]
+    return found
 
 
 @inner
-def _shorten(ramps: Floats, shortest: Floats, k: int, after: int) -> None:
-    """Shorten the ramps of two turns."""
-    ramps[k] = max(RAMP_SHRINK * ramps[k], shortest[k])
-    ramps[after] = max(RAMP_SHRINK * ramps[after], shortest[after])
+def _shortened(ramps: Floats, shortest: Floats, tight: Flags) -> bool:
+    """Shorten the ramps of the turns at tight lines, if all of them can be shorter.
+
+    Of two such lines behind each other only the first's: that may make room on the other. If not
+    all can be, ``tight`` is left with those that can't, of two behind each other the first.
+    """
+    count, stuck = ramps.size, np.zeros(tight.size, np.bool_)
+    for k in range(tight.size):
+        after = (k + 1) % count
+        least = ramps[k] <= shortest[k] and ramps[after] <= shortest[after]
+        stuck[k] = tight[k] and least and not (k > 0 and stuck[k - 1])
+    if stuck.any():
+        tight[:] = stuck
+        return False
+    eased = -2
+    for k in range(tight.size):
+        if tight[k] and k > eased + 1:
+            for end in (k, (k + 1) % count):
+                ramps[end] = max(RAMP_SHRINK * ramps[end], shortest[end])
+            eased = k
+    return True
 
 
 @kernel
 def turn_sequence(
     bends: Floats, closed: bool, ramp: float
-) -> tuple[Floats, Floats, Floats, Floats, int, int]:
+) -> tuple[Floats, Floats, Floats, Floats, int, Ints]:
     """Lay lines and turns round a row of bends.
 
     Args:
@@ -306,31 +127,33 @@ def turn_sequence(
 
     Returns:
         Headings of the lines (n - 1,) or (n,), turns (n,) [rad], apexes (n, 2) [m] and ramps
-        (n,) [m]; what came of it, and the line or bend where it failed.
+        (n,) [m]; what came of it, and every line at which it failed (k,), or the bend that is
+        turned at most to the wrong side, (1,).
     """
     count = bends.shape[0]
     lines, turns = np.zeros(count if closed else count - 1), np.zeros(count)
     circles, apexes = np.zeros((count, 3)), np.zeros((count, 2))
     ends, ramps = np.empty((count, 4)), ramp * bends[:, RADIUS]
     shortest = MIN_RAMP_RADII * bends[:, RADIUS]
-    _guess(bends, closed, lines, turns, circles)
+    tight = np.zeros(lines.size, np.bool_)
+    guess_lines(bends, closed, lines, turns, circles)
+    settled = ROUGHLY_SETTLED_RAD
     while True:
-        state, where = _relaxed(bends, closed, ramps, lines, turns, circles, apexes)
-        if state == FINE:
+        tight[:] = False
+        state = settle(bends, closed, ramps, lines, turns, circles, apexes, tight, settled)
+        found = state == FINE
+        if found:
             _fill_ends(bends, closed, ramps, lines, turns, apexes, ends)
-            crowded, where = _shortened(lines, ends, ramps, shortest)
-            if crowded < 0:
-                return lines, turns, apexes, ramps, FINE, -1
-            if where >= 0:
-                return lines, turns, apexes, ramps, NO_ROOM, where
-            continue
-        if state == LEFT_OUT:
-            return lines, turns, apexes, ramps, state, where
-        after = (where + 1) % count
-        if ramps[where] <= shortest[where] and ramps[after] <= shortest[after]:
-            return lines, turns, apexes, ramps, state, where
-        _shorten(ramps, shortest, where, after)  # restless: ramps and arcs that come and go
-        _guess(bends, closed, lines, turns, circles)
+            if _overlapping(lines, ends, tight):
+                state = NO_ROOM
+            elif settled > SETTLED_RAD:
+                settled = SETTLED_RAD
+                continue
+        if state in (FINE, LEFT_OUT) or not _shortened(ramps, shortest, tight):
+            return lines, turns, apexes, ramps, state, np.flatnonzero(tight)
+        settled = ROUGHLY_SETTLED_RAD
+        if not found:  # restless: ramps and arcs that come and go
+            guess_lines(bends, closed, lines, turns, circles)
 
 
 @inner
@@ -369,7 +192,7 @@ def turn_sequence_spans(
         k = row % count
         number = _nodes_of(bends, closed, lines, turns, apexes, ramps, k, nodes[1:])
         if number > 1:
-            _lengths(abs(turns[k]), _turn_radius(bends[k]), ramps[k], number, lengths)
+            _lengths(abs(turns[k]), turn_radius(bends[k]), ramps[k], number, lengths)
         first, end, middle = 1, number, 1 + number // 2
         if closed and row == 0:
             first = middle
@@ -427,7 +250,7 @@ def turn_sequence_length(
     _fill_ends(bends, closed, ramps, lines, turns, apexes, ends)
     length = 0.0
     for k in range(count):
-        length += turn_length(turns[k], _turn_radius(bends[k]), ramps[k])
+        length += turn_length(turns[k], turn_radius(bends[k]), ramps[k])
         if closed or k < count - 1:
             after = (k + 1) % count
             length += math.hypot(ends[after, 0] - ends[k, 2], ends[after, 1] - ends[k, 3])

@@ -16,6 +16,7 @@ from viaspline.planning.routing.side_barrier import Barriers
 from viaspline.planning.routing.taut_path import TautPath
 
 SIDES: tuple[Side, Side] = ("left", "right")
+NOT_WEIGHED = "where much stands around, the shortest way is taken if it loses little to its bends"
 
 
 @dataclass(frozen=True)
@@ -99,6 +100,7 @@ class Comparison:
         objective = self.leg.requirements.objective
         best = min(passing, key=lambda curve: curve.measured.of(objective))
         curve = self.winner if chosen else best
+        is_cheaper = curve.measured.of(objective) < self.winner.measured.of(objective)
         return Candidate(
             side=side,
             vias=curve.vias,
@@ -108,4 +110,13 @@ class Comparison:
             clearance=curve.measured.clearance,
             max_curvature=curve.measured.max_curvature,
             chosen=chosen,
+            passed_over=self._why_passed_over(curve) if is_cheaper else None,
         )
+
+    def _why_passed_over(self, curve: Curve) -> str:
+        """Why a curve isn't taken that costs less than the one that is."""
+        whole, taken = curve.whole_cost, self.winner.whole_cost
+        if whole is None or taken is None or whole < taken:
+            return f"found for the ledger alone: {NOT_WEIGHED}"
+        what = "sooner" if self.leg.requirements.objective.is_time else "shorter"
+        return f"the whole path is no {what} with it"

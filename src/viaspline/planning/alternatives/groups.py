@@ -19,7 +19,7 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.comparison import Met
-from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite, reason_of
+from viaspline.planning.alternatives.leg_search import LegSearch, opposite
 from viaspline.planning.problem.method import Found, Outcome
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.side_barrier import barriers_of
@@ -55,22 +55,17 @@ class GroupsInTheWay:
     met: tuple[Group, ...]
     active: Flags
 
-    def other_side(self, met: Met, side: Side, best: Spline) -> tuple[Spline | None, str]:
+    def other_way(self, met: Met, side: Side, best: TautPath) -> Outcome[TautPath]:
         """See ``InTheWay``.
 
         On a leg with many groups the taut path changes only near the group: there are then as
         many other sides as groups, and each would be a search of the whole leg.
         """
         group = next(group for group in self.met if group is met)
-        forbidden = group.forbidden(side)
-        if forbidden is not None:
-            return None, forbidden
         closed = group.barriers.closing(opposite(side))
         if len(self.met) <= MAX_GROUPS_SOUGHT_WHOLE:
-            outcome, _ = self.leg.shortest_allowed(self.active, closed)
-        else:
-            outcome = _nearby(self.leg, group, closed, best.taut_path)
-        return self.leg.curve(outcome.value, self.active), reason_of(outcome, side)
+            return self.leg.shortest_allowed(self.active, closed)[0]
+        return _nearby(self.leg, group, closed, best)
 
 
 def groups_met(leg: LegSearch, labels: NDArray[np.int64], active: Flags) -> tuple[Group, ...]:

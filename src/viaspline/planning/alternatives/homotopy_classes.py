@@ -150,17 +150,16 @@ def cheapest_laid(
         tried += 1
         try:
             made = attempt(heapq.heappop(open_)[2], bound)
+            if made.laid is not None:
+                cost = price.of(made.laid)
+                if not cost < bound * (1.0 - LEAST_GAIN):
+                    continue
+                best, bound = made.laid, cost
+            add(made.then)
         except SpentBudgetError:
             if best is None:
                 raise
             break
-        if made.laid is None:
-            add(made.then)
-            continue
-        cost = price.of(made.laid)
-        if cost < bound * (1.0 - LEAST_GAIN):
-            best, bound = made.laid, cost
-            add(made.then)
     return best
 
 

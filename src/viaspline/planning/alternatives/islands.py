@@ -1,7 +1,7 @@
 """Clutter and maps: what stands together is an island of blocked cells, with two sides.
 
 The taut path that was taken is the shortest of all, whatever stands around it. The other side of
-an island is sought when the ledger is read.
+an island is sought when the ledger is read, or where that path loses much to its bends.
 
 Tested through ``test_map_promises``.
 """
@@ -16,13 +16,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.comparison import Met
 from viaspline.planning.alternatives.groups import asked_of
-from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite, reason_of
+from viaspline.planning.alternatives.leg_search import LegSearch, opposite
+from viaspline.planning.problem.method import Outcome
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.side_barrier import barriers_at
+from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
 MAX_ISLAND_NAMES = 12  # that an island is given
@@ -43,15 +45,15 @@ class IslandsInTheWay:
         """The islands that its straight line goes through, in its order."""
         return tuple(islands_met(self.leg))
 
-    def other_side(self, met: Met, side: Side, best: Spline) -> tuple[Spline | None, str]:
+    @cached_property
+    def active(self) -> Flags:
         """See ``InTheWay``."""
-        forbidden = met.forbidden(side)
-        if forbidden is not None:
-            return None, forbidden
+        return on_the_line(self.leg.world, *self.leg.ends, self.leg.requirements.required)
+
+    def other_way(self, met: Met, side: Side, best: TautPath) -> Outcome[TautPath]:
+        """See ``InTheWay``."""
         closed = met.barriers.closing(opposite(side))
-        active = on_the_line(self.leg.world, *self.leg.ends, self.leg.requirements.required)
-        outcome, _ = self.leg.shortest_allowed(active, closed)
-        return self.leg.curve(outcome.value, active), reason_of(outcome, side)
+        return self.leg.shortest_allowed(self.active, closed)[0]
 
 
 def islands_met(leg: LegSearch) -> Iterator[Met]:

@@ -32,15 +32,17 @@ class Curve:
         vias: Its detour via points [m], shape (k, d).
         spans: Bézier control polygons of the whole leg [m], shape (m, 4, d).
         measured: What it costs.
+        whole_cost: What the whole path costs with it [s or m]; None where that wasn't laid.
     """
 
     taut_path: TautPath
     vias: Floats
     spans: Floats
     measured: CandidateCost
+    whole_cost: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Spline(Curve):
     """The spline that was fitted to a taut path.
 
@@ -105,7 +107,7 @@ class LegSearch:
         def found() -> tuple[Outcome[TautPath], Flags]:
             self.requirements.spend(ROUTE_S)
             met = active.copy()
-            return self.router.find(start, goal, closed, met), met
+            return self.router.find(start, goal, closed, met, self.requirements.spend), met
 
         ends = (start.tobytes(), goal.tobytes())
         asked = ("route", self.world, ends, closed.tobytes(), active.tobytes())
@@ -127,7 +129,7 @@ class LegSearch:
             return None
         vias = fitted.sequence.legs[self.index].points
         cost = measure(fitted.spans, self.world, self.requirements, self.stands)
-        return Spline(taut_path, vias, fitted.spans, cost, fitted)
+        return Spline(taut_path, vias, fitted.spans, cost, fitted=fitted)
 
 
 def opposite(side: Side) -> Side:

@@ -9,9 +9,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
+from viaspline.kernels.arrays import Flags
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning.alternatives.comparison import Comparison, Met
-from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite
+from viaspline.planning.alternatives.leg_search import LegSearch, Spline, opposite, reason_of
+from viaspline.planning.problem.method import Outcome
+from viaspline.planning.routing.taut_path import TautPath
 
 
 class InTheWay(Protocol):
@@ -27,15 +30,33 @@ class InTheWay(Protocol):
         """What is passed as one, in the order of the leg."""
         ...
 
-    def other_side(self, met: Met, side: Side, best: Spline) -> tuple[Spline | None, str]:
-        """The shortest curve on a side of one of them, or why there is none.
+    @property
+    def active(self) -> Flags:
+        """(n,): the obstacles that the leg's shortest taut path was found with."""
+        ...
+
+    def other_way(self, met: Met, side: Side, best: TautPath) -> Outcome[TautPath]:
+        """The shortest taut path on a side of one of them, if the mission allows it.
 
         Args:
             met: One of those in the way.
             side: On which it is to be passed.
-            best: The curve along the shortest taut path of all, which passes it on the other.
+            best: The shortest taut path of all, which passes it on the other.
         """
         ...
+
+
+@dataclass(frozen=True)
+class OtherWay:
+    """The other side of what is in the way.
+
+    Attributes:
+        taut_path: The shortest there; None where there is none.
+        reason: Why there might be no curve.
+    """
+
+    taut_path: TautPath | None
+    reason: str
 
 
 @dataclass(frozen=True)
@@ -44,7 +65,7 @@ class PassedLeg:
 
     Where little is in the way, the curves on the other sides are weighed at once, and the shortest
     is taken. Where much is, the shortest taut path is taken whatever the other sides cost; they
-    are looked at when the ledger is read.
+    are looked at when the ledger is read, or where what was laid along it loses much to its bends.
 
     Attributes:
         in_the_way: What the leg was led round.
@@ -57,19 +78,39 @@ class PassedLeg:
     is_weighed: bool
 
     @cached_property
+    def other_ways(self) -> tuple[OtherWay, ...]:
+        """The other side of each that is in the way."""
+        return tuple(self._other_way(met) for met in self.in_the_way.met)
+
+    def _other_way(self, met: Met) -> OtherWay:
+        side = opposite(met.side_of(self.best.taut_path))
+        forbidden = met.forbidden(side)
+        if forbidden is not None:
+            return OtherWay(None, forbidden)
+        outcome = self.in_the_way.other_way(met, side, self.best.taut_path)
+        return OtherWay(outcome.value, reason_of(outcome, side))
+
+    @cached_property
     def comparison(self) -> Comparison:
         """The curves on either side of all that is in the way."""
-        curves, reasons = [self.best], []
-        met = self.in_the_way.met
-        for one in met:
-            side = opposite(one.side_of(self.best.taut_path))
-            other, reason = self.in_the_way.other_side(one, side, self.best)
-            curves += [] if other is None else [other]
-            reasons.append(reason)
+        leg, active = self.in_the_way.leg, self.in_the_way.active
+        others = (leg.curve(way.taut_path, active) for way in self.other_ways)
+        curves = [self.best, *(other for other in others if other is not None)]
         rivals = curves if self.is_weighed else curves[:1]
-        objective = self.in_the_way.leg.requirements.objective
-        winner = min(rivals, key=lambda curve: curve.measured.of(objective))
-        return Comparison(self.in_the_way.leg, met, tuple(curves), winner, tuple(reasons))
+        winner = min(rivals, key=lambda curve: curve.measured.of(leg.requirements.objective))
+        reasons = tuple(way.reason for way in self.other_ways)
+        return Comparison(leg, self.in_the_way.met, tuple(curves), winner, reasons)
+
+    @property
+    def rivals(self) -> tuple[TautPath, ...]:
+        """Taut paths on other sides of what is in the way; those along which splines fit, if known.
+
+        Among much else only the paths are sought: splines take their time there.
+        """
+        if self.is_weighed:
+            curves = self.comparison.curves
+            return tuple(curve.taut_path for curve in curves if curve is not self.best)
+        return tuple(way.taut_path for way in self.other_ways if way.taut_path is not None)
 
     @property
     def taken(self) -> Spline:

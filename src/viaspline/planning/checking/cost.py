@@ -7,14 +7,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import STILL, tightest
 from viaspline.kernels.curve.measure import length_and_curvature
 from viaspline.planning.checking.conflicts import proven
-from viaspline.planning.checking.driving_time import driving_time
+from viaspline.planning.checking.driving_time import leg_time
 from viaspline.planning.problem.objective import Objective
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import PROOF_S, PROOF_SPAN_S
@@ -59,7 +57,7 @@ def measure(
     lower = float(tightest(world.packed, spans, STILL, CLEARANCE_TOLERANCE_M)[0])
     length, sharpest = length_and_curvature(spans)
     clearance = max(lower - requirements.radius, requirements.kept)
-    duration = _duration(spans, requirements, ends)
+    duration = leg_time(spans, requirements.objective.pace, ends)
     return CandidateCost(float(length), duration, clearance, float(sharpest))
 
 
@@ -69,11 +67,5 @@ def measure_body(
     """What a curve costs that a body drives, whether it keeps what is required or not."""
     length, sharpest = length_and_curvature(spans)
     clearance = proven(PiecewiseCubic(spans), world, requirements).clearance
-    duration = _duration(spans, requirements, ends)
+    duration = leg_time(spans, requirements.objective.pace, ends)
     return CandidateCost(float(length), duration, clearance, float(sharpest))
-
-
-def _duration(spans: Floats, requirements: Requirements, ends: tuple[bool, bool]) -> float:
-    rests = np.zeros(len(spans) + 1, np.bool_)
-    rests[[0, -1]] = ends
-    return driving_time(spans, requirements.objective.pace, rests)

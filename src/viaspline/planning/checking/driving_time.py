@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.timing.path_time import path_time
 from viaspline.planning.problem.path_pace import Pace
@@ -22,6 +24,19 @@ def driving_time(spans: Floats, pace: Pace, rests: Flags) -> float:
             spans, rests, pace.speed, pace.accel, pace.brake, pace.lateral, pace.yaw_rate
         )
     )  # fmt: skip
+
+
+def leg_time(spans: Floats, pace: Pace, ends: tuple[bool, bool]) -> float:
+    """The time in which a part of a path is driven [s].
+
+    Args:
+        spans: Bézier control polygons [m], (m, 4, d).
+        pace: How fast it may be driven.
+        ends: Whether the robot stands still where it begins, and where it ends.
+    """
+    rests = np.zeros(len(spans) + 1, np.bool_)
+    rests[[0, -1]] = ends
+    return driving_time(spans, pace, rests)
 
 
 def straight_time(length: float, pace: Pace) -> float:

@@ -41,10 +41,10 @@ class OtherSides:
             if not problem.is_promising(first, bound):
                 return Attempt(None)
             laid = problem.turns_along(row.taut_paths, chain((first,), choices))
-            return Attempt(laid, () if laid is None else _other_rows(problem, row))
+            return Attempt(laid, () if laid is None else _other_rows(problem, row, laid))
 
         try:
-            rows = list(_other_rows(problem, problem.shortest_row))
+            rows = list(_other_rows(problem, problem.shortest_row, outcome.value))
         except SpentBudgetError:  # there is a path, and no time left to look for another
             return outcome
         best = cheapest_laid(rows, attempt, DrivenPrice(problem), best=outcome.value)
@@ -52,12 +52,16 @@ class OtherSides:
         return Found(best, problem.cost(best))
 
 
-def _other_rows(problem: DrivenProblem, row: TautRow) -> Iterator[TautRow]:
-    """The rows that pass a group on another side, of those legs that don't yet."""
+def _other_rows(problem: DrivenProblem, row: TautRow, laid: SplinePath) -> Iterator[TautRow]:
+    """The rows that pass a group on another side, of those legs that don't yet.
+
+    Args:
+        problem: What is to be driven.
+        row: The row.
+        laid: What was laid along it.
+    """
     for leg, passed in problem.cleared.passed.items():
         is_shortest = row.taut_paths[leg] is problem.shortest_row.taut_paths[leg]
-        if not passed.is_weighed or not is_shortest:
-            continue
-        for curve in passed.comparison.curves:
-            if curve is not passed.best:
-                yield row.with_leg(leg, curve.taut_path)
+        if is_shortest and (passed.is_weighed or problem.loses_much(laid, leg)):
+            for taut_path in passed.rivals:
+                yield row.with_leg(leg, taut_path)

@@ -24,6 +24,7 @@ class Candidate:
         max_curvature: Largest curvature of the leg's curve [1/m].
         chosen: Whether the plan takes it.
         impossible: Why it can't be taken; None when it can.
+        passed_over: Why it isn't taken though it costs less than what is; None where it doesn't.
     """
 
     side: Literal["left", "right"]
@@ -35,6 +36,7 @@ class Candidate:
     max_curvature: float | None = None
     chosen: bool = False
     impossible: str | None = None
+    passed_over: str | None = None
 
 
 @dataclass(frozen=True)

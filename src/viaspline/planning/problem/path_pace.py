@@ -74,6 +74,27 @@ class Pace:
         """
         if self.widest_radius <= 0.0:
             return kept.copy()
+        radii, time = self._corners(turns, kept)
+        found: Floats = np.take_along_axis(radii, time.argmin(axis=1)[:, None], axis=1)[:, 0]
+        return found
+
+    def corner_times(self, turns: Floats) -> Floats:
+        """How much later a robot is for turning at places that it runs through [s], (n,).
+
+        No later than for a halt.
+
+        Args:
+            turns: By how much the path turns at each [rad], (n,).
+        """
+        halt = 0.5 * self.speed * (1.0 / self.accel + 1.0 / self.brake)
+        if self.widest_radius <= 0.0:
+            return np.zeros(len(turns))
+        _, time = self._corners(turns, np.zeros(len(turns)))
+        found: Floats = np.minimum(time.min(axis=1), halt)
+        return found
+
+    def _corners(self, turns: Floats, kept: Floats) -> tuple[Floats, Floats]:
+        """Radii that are tried at each corner [m], and what time they cost [s], (n, r) both."""
         theta, least = np.abs(turns)[:, None], kept[:, None]
         widest = np.maximum(least, self.widest_radius)
         lowest = np.maximum(least, 1e-3 * widest)
@@ -83,10 +104,9 @@ class Pace:
         driven = np.minimum(driven, self.speed)
         longer = (radii - least) * (theta - 2.0 * np.sin(0.5 * theta))
         slowed = (self.speed - driven) ** 2 / (2.0 * self.speed)
-        time = (
+        time: Floats = (
             longer / self.speed
             + slowed * (1.0 / self.accel + 1.0 / self.brake)
             + radii * theta * (1.0 / driven - 1.0 / self.speed)
         )
-        found: Floats = np.take_along_axis(radii, time.argmin(axis=1)[:, None], axis=1)[:, 0]
-        return found
+        return radii, time

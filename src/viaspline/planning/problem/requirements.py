@@ -15,7 +15,7 @@ from viaspline.mission.route_spec import Detours
 from viaspline.mission.spline_spec import SplineSpec, Tangents
 from viaspline.planning.problem.objective import Objective
 from viaspline.planning.problem.path_pace import Pace
-from viaspline.planning.problem.work_budget import Value, WorkBudget
+from viaspline.planning.problem.work_budget import Progress, Value, WorkBudget
 
 LEAST_KEPT_M = 1e-5  # even by a point without clearance, so that touching is not crossing
 
@@ -76,6 +76,22 @@ class Requirements:
         if self.budget is None:
             return part()
         return self.budget.once((replace(self, budget=None), asked), part)
+
+    def taken_up(self, asked: Hashable, begin: Callable[[], Progress]) -> Progress:
+        """A part of a search that is stopped and goes on; see ``WorkBudget``.
+
+        Args:
+            asked: All that it depends on besides these requirements.
+            begin: Begins it.
+        """
+        if self.budget is None:
+            return begin()
+        return self.budget.taken_up((replace(self, budget=None), asked), begin)
+
+    def spend_on_part(self, cost: float) -> None:
+        """Take off what a step costs of a part that is taken up again; see ``WorkBudget``."""
+        if self.budget is not None:
+            self.budget.spend_on_part(cost)
 
     @property
     def is_free_disc(self) -> bool:

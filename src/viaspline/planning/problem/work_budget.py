@@ -9,30 +9,31 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import Any, Protocol, Self, TypeVar
 
 from viaspline.errors import GaveUpError
 
 LAY_S = 2e-3
 """What every path that is laid costs besides what it is made of [s]."""
 
-ROUTE_S = 5e-4
-"""Of a route between two places [s]."""
+ROUTE_S, LATTICE_S, GUIDE_S = 5e-4, 4e-3, 1e-3
+"""Of a route between two places; of each lattice and each guide through one that it takes [s]."""
 
-CONFLICTS_S, CONFLICTS_SPAN_S, CONFLICTS_BODY_SPAN_S = 3e-5, 1e-6, 7e-6
+CONFLICTS_S, CONFLICTS_SPAN_S, CONFLICTS_BODY_SPAN_S = 3e-5, 1e-6, 9e-6
 """Of looking for conflicts: in all, for each span, and for each span if a polygon drives [s]."""
 
-PROOF_S, PROOF_SPAN_S, PROOF_BODY_S = 3e-4, 2e-6, 3e-3
+PROOF_S, PROOF_SPAN_S, PROOF_BODY_S = 3e-4, 2e-6, 1.5e-3
 """Of a certificate: in all, for each span, and more if a polygon drives [s]."""
 
 TURN_PATH_S, TURN_PATH_BEND_S = 5e-5, 2e-5
 """Of a turn path: in all, and for each bend [s]."""
 
-HEADING_PAIR_BEND_S = 1.7e-5
+HEADING_PAIR_BEND_S = 7e-6
 """Of the length of a leg between two headings, for each bend [s]."""
 
-TREE_S, POSE_S = 2e-3, 4e-5
-"""Of a search among poses: to begin one, and for each pose [s]."""
+TREE_S, POSES_EFFORT_S = 2e-3, 4e-6
+"""Of a search among poses: to begin one, and for each distance to the world that is reckoned in it,
+each connection that is tried and each move that is done [s]."""
 
 CHAIN_SEGMENT_S = 1e-4
 """Of the shortcuts of what such a search has found, for each segment [s]."""
@@ -41,11 +42,22 @@ CHAIN_SEGMENT_S = 1e-4
 TIME_LAW_S, JERK_LAW_S = 1e-3, 1.5e-2
 """Of a time law, and of one with a limit of the jerk [s]."""
 
-DRIVE_AHEAD_S, DRIVE_AHEAD_SECOND_S = 5e-4, 1e-4
+DRIVE_AHEAD_S, DRIVE_AHEAD_SECOND_S = 5e-4, 7e-5
 """Of a drive ahead along a new path: to begin one, and for each second that it takes [s]."""
 
 
 Value = TypeVar("Value")
+
+
+class Part(Protocol):
+    """A part of a search that is stopped and goes on, and changes as it does."""
+
+    def copy(self) -> Self:
+        """As far as it came."""
+        ...
+
+
+Progress = TypeVar("Progress", bound=Part)
 
 
 class SpentBudgetError(GaveUpError):
@@ -89,6 +101,29 @@ class WorkBudget:
             self.has_gained = True
         found: Value = self.finished[asked]
         return found
+
+    def taken_up(self, asked: Hashable, begin: Callable[[], Progress]) -> Progress:
+        """A part of the search that is stopped and goes on: as far as it came in the step before.
+
+        It changes as it goes on, so that what the step before has of it is left as it was.
+
+        Args:
+            asked: All that the part depends on.
+            begin: Begins it, if the step before has not.
+        """
+        part = self.finished[asked].copy() if asked in self.finished else begin()
+        self.finished[asked] = part
+        taken: Progress = part
+        return taken
+
+    def spend_on_part(self, cost: float) -> None:
+        """Take off what a step costs of a part that the search takes up again [s].
+
+        Raises:
+            SpentBudgetError: When less is left.
+        """
+        self.spend(cost)
+        self.has_gained = True
 
     def spend(self, cost: float) -> None:
         """Take off what the next step costs [s].

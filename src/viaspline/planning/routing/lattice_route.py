@@ -13,6 +13,7 @@ from viaspline.kernels.routing.string_pulling.pull import pulled_taut
 from viaspline.kernels.routing.tangent_arcs import taut_length
 from viaspline.kernels.world.segment import nearest_to_segment
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
+from viaspline.planning.problem.work_budget import GUIDE_S, LATTICE_S
 from viaspline.planning.routing.lattice import Lattice
 from viaspline.planning.routing.route_problem import (
     TURN_MARGINS_M,
@@ -59,36 +60,36 @@ class LatticeRoute:
     def lay(self, problem: RouteProblem, bound: float = math.inf) -> Outcome[TautPath]:
         """See ``Method``."""
         closed, count = problem.barriers, 0
+        if not problem.space.has_lattice:
+            problem.spend(LATTICE_S)
         for lattice in problem.space.ever_finer():
             count += 1
-            found = self.followed(problem.space, lattice, problem.start, problem.goal, closed)
+            found = self.followed(problem, lattice, closed)
             if found.taut_path is not None:
                 return _if_shorter(found.taut_path, problem, bound)
             is_shut = lattice.is_open and found.is_proof
             if is_shut and len(found.closed) == len(problem.barriers):
                 return Refusal("no free cells of a lattice lead there")
             closed = found.closed
+            problem.spend(LATTICE_S)
         if is_shut:
             return Refusal("every gap on the way there is too narrow")
         return self._gave_up(lattice, count, is_open=lattice.is_open)
 
-    def followed(
-        self, space: SearchSpace, lattice: Lattice, start: Floats, goal: Floats, closed: Floats
-    ) -> Followed:
+    def followed(self, problem: RouteProblem, lattice: Lattice, closed: Floats) -> Followed:
         """Follow the guides of a lattice, each but the last through a gap that is closed then.
 
         Args:
-            space: That the lattice is of.
+            problem: What is asked for.
             lattice: Of free cells.
-            start: [m], at least (2,).
-            goal: [m], at least (2,).
             closed: Segments that no route crosses, (n, 4).
         """
-        begun = len(closed)
+        begun, space = len(closed), problem.space
         if begun:
             lattice = lattice.without(closed)
         for _ in range(self.max_gaps):
-            guide = _guide(space, lattice, start, goal)
+            problem.spend(GUIDE_S)
+            guide = _guide(space, lattice, problem.start, problem.goal)
             if guide is None:
                 return Followed(None, closed, lattice.is_fine or len(closed) == begun)
             bends, corners, stuck = pulled_taut(

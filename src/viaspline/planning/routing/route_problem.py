@@ -5,7 +5,7 @@ Tested through ``planning/routing/test_router``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, islice, pairwise
@@ -28,6 +28,10 @@ TURN_MARGINS_M = (1e-3, 1e-4, -0.25 * PROOF_SLACK_M)
 TURN_STEPS_RAD = (np.pi / 6, np.pi / 32, np.pi / 200)  # largest turn at one corner
 NO_BARRIERS = np.empty((0, 4))
 MAX_DISC_PAIRS = 200_000  # near enough to each other that their gaps are looked at all at once
+
+
+def for_nothing(cost: float) -> None:
+    """Work that nobody counts costs nothing."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +62,11 @@ class SearchSpace:
     def lattice(self) -> Lattice:
         """The coarsest lattice."""
         return next(self._all_lattices())
+
+    @property
+    def has_lattice(self) -> bool:
+        """Whether the coarsest lattice is made already."""
+        return "lattice" in vars(self)
 
     @cached_property
     def narrow_disc_gaps(self) -> Floats:
@@ -102,6 +111,7 @@ class RouteProblem:
         barriers: Segments that it must not cross, (b, 4).
         active: (n,): obstacles that are known to be met; methods add those that they meet, in
             place.
+        spend: Takes off what work costs; see ``Requirements``.
     """
 
     space: SearchSpace
@@ -109,6 +119,7 @@ class RouteProblem:
     goal: Floats
     barriers: Floats
     active: Flags
+    spend: Callable[[float], None] = for_nothing
 
     @property
     def active_count(self) -> int:

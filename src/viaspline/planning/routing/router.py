@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.planning.problem.method import Method, Outcome, first_settled
 from viaspline.planning.routing.exact_route import ExactRoute
 from viaspline.planning.routing.lattice_route import LatticeRoute
-from viaspline.planning.routing.route_problem import RouteProblem, SearchSpace
+from viaspline.planning.routing.route_problem import RouteProblem, SearchSpace, for_nothing
 from viaspline.planning.routing.taut_path import TautPath
 
 RouteMethod = Method[RouteProblem, TautPath]
@@ -41,7 +42,12 @@ class Router(SearchSpace):
     methods: tuple[RouteMethod, ...] = ROUTE_METHODS
 
     def find(
-        self, start: Floats, goal: Floats, barriers: Floats, active: Flags
+        self,
+        start: Floats,
+        goal: Floats,
+        barriers: Floats,
+        active: Flags,
+        spend: Callable[[float], None] = for_nothing,
     ) -> Outcome[TautPath]:
         """The shortest route that keeps the distance from everything and crosses no barrier.
 
@@ -50,8 +56,10 @@ class Router(SearchSpace):
             goal: [m], at least (2,).
             barriers: Segments not to cross, (b, 4).
             active: (n,): obstacles to begin with; those met are added in place.
+            spend: Takes off what work costs; see ``Requirements``.
         """
-        return first_settled(self.methods, RouteProblem(self, start, goal, barriers, active))
+        problem = RouteProblem(self, start, goal, barriers, active, spend)
+        return first_settled(self.methods, problem)
 
     def is_dense(self, active: Flags) -> bool:
         """Whether routes are sought on a lattice first: on maps, and among many obstacles."""

@@ -1,15 +1,19 @@
-"""The order of the via points of a round, improved: shorter in all, start and goal where they are.
+"""The order of the via points of a round, improved: less in all, start and goal where they are.
 
 The travelling salesman's problem over the lengths of the ways between all points, round what stands
 between them: exact for few via points (Held and Karp, "A Dynamic Programming Approach to Sequencing
 Problems", 1962), else by exchanges until none makes the round shorter (2-opt and Or-opt). Among
 very many only exchanges with near neighbours are looked at, and lengths are straight: neither what
 stands between nor the sides that are asked for count there.
+
+Where time counts, the shortest order is exchanged on until nothing is sooner, by the time of
+``round_cost``: for a few via points it is the soonest of all; of many the shortest is taken.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import combinations, permutations
 
@@ -18,12 +22,14 @@ import numpy as np
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.routing.tour import shortened_tour
 from viaspline.kernels.world.clusters import group_labels
+from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import ViaPoint
 from viaspline.planning.problem.method import Outcome
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import WholeLeg
 from viaspline.planning.routing.asked_sides import AskedSides, sided
+from viaspline.planning.routing.round_cost import RoundLength, RoundTime, WaysBetween
 from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import NO_BARRIERS, on_the_line
 from viaspline.planning.routing.router import Router
@@ -34,7 +40,11 @@ MAX_VIAS_ALL_ORDERS = 9  # up to which all orders are compared
 MAX_VIAS_ROUTED = 50  # up to which every two have a way between them laid
 NEAR = 10  # neighbours of each point that exchanges are looked for among
 MAX_EXCHANGES_EACH = 50  # for each point, beyond which the rest is left
-LEAST_GAIN_M = 1e-9  # shorter by less is not shorter
+MAX_VIAS_ALL_TIMES = 5  # up to which all orders are compared by their time
+MAX_VIAS_TIMED = 16  # up to which exchanges are looked for by their time
+LEAST_GAIN = 1e-9  # less by less is not less [m or s]
+
+Cost = Callable[[tuple[int, ...]], float]  # of a round past points in their order
 
 
 def ordered(mission: Mission, world: World) -> Mission:
@@ -62,29 +72,58 @@ def ordered(mission: Mission, world: World) -> Mission:
     if len(vias) > MAX_VIAS_ROUTED:
         order = _among_near(np.array([point.at[:2] for _, point in route.points()]), len(vias))
     else:
-        order = _shortest_order(lengths_between(mission, world), len(vias), closed=route.closed)
+        order = _order_of_few(mission, world)
     changed = {"via": tuple(vias[i] for i in order), "order": "given"}
     return mission.model_copy(update={"route": route.model_copy(update=changed)})
 
 
 def is_surely_shortest(mission: Mission) -> bool:
-    """Whether the order that is taken is the shortest of all, proven.
+    """Whether the order that is taken is the shortest of all, or the soonest, as was asked for.
 
     >>> is_surely_shortest(Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}}))
     True
     """
     route = mission.route
-    return route.order == "given" or len(route.via) <= MAX_VIAS_ALL_ORDERS
+    most = MAX_VIAS_ALL_TIMES if route.optimise == "time" else MAX_VIAS_ALL_ORDERS
+    return route.order == "given" or len(route.via) <= most
+
+
+def _order_of_few(mission: Mission, world: World) -> tuple[int, ...]:
+    """The order of via points between which ways are laid."""
+    route, objective = mission.route, Requirements.of(mission).objective
+    ways, count = ways_between(mission, world), len(mission.route.via)
+    last = _last_stop(len(ways.lengths), count, closed=route.closed)
+    order = _shortest_order(ways.lengths, count, last)
+    if not objective.is_time or count > MAX_VIAS_TIMED or not np.isfinite(ways.lengths).all():
+        return order
+    stands = np.array([True, *(via.dwell_s > 0.0 for via in route.via), True])
+    time = _of_order(RoundTime.of_pace(ways, stands, objective.pace).of, last)
+    if count <= MAX_VIAS_ALL_TIMES:
+        return min(permutations(order), key=time)
+    return _exchanged(time, order)
+
+
+def _of_order(cost: Cost, last: int | None) -> Cost:
+    """What an order of via points, from 0, costs between the first point and the last."""
+    ends = () if last is None else (last,)
+    return lambda order: cost((0, *(k + 1 for k in order), *ends))
+
+
+def _last_stop(points: int, count: int, *, closed: bool) -> int | None:
+    """The point at which a round ends, if it isn't one of its via points."""
+    if closed:
+        return 0
+    return count + 1 if points > count + 1 else None
 
 
 def _named(via: ViaPoint, place: int) -> ViaPoint:
     return via if via.name else via.model_copy(update={"name": f"via {place + 1}"})
 
 
-def lengths_between(mission: Mission, world: World) -> Floats:
-    """Lengths of the shortest ways between all points of the route [m], shape (n, n).
+def ways_between(mission: Mission, world: World) -> WaysBetween:
+    """The shortest ways between all points of the route.
 
-    Start first, then the via points, then the goal if there is one; infinite where there is none.
+    Start first, then the via points, then the goal if there is one.
     Each passes obstacles on the sides that the mission asks for, so that there and back may differ.
     A curve through more than two points swings out, and may meet sides that these ways don't.
     """
@@ -93,18 +132,24 @@ def lengths_between(mission: Mission, world: World) -> Floats:
     router = Router(world, requirements.required, at)
     indices = sided(world)
     labels = group_labels(world.packed, 2.0 * requirements.required) if indices.size else indices
-    lengths = np.zeros((len(at), len(at)))
+    lengths, leaving, arriving = (np.zeros((len(at), len(at))) for _ in range(3))
     for i, j in permutations(range(len(at)), 2):
         if i > j and not indices.size:
             lengths[i, j] = lengths[j, i]
+            leaving[i, j], arriving[i, j] = arriving[j, i] + math.pi, leaving[j, i] + math.pi
             continue
         sides = AskedSides.of(
             WholeLeg(at[i], at[j]), indices, world, requirements.required, lambda: labels
         )
         active = on_the_line(world, at[i], at[j], requirements.required)
         found, _ = route_on_sides(partial(_found, router, at[i], at[j]), sides, active, NO_BARRIERS)
-        lengths[i, j] = np.inf if found.value is None else found.value.length
-    return lengths
+        if found.value is None:
+            lengths[i, j] = np.inf
+            continue
+        first, last = np.diff(found.value.corners[[0, 1, -2, -1], X : Y + 1], axis=0)[::2].tolist()
+        lengths[i, j] = found.value.length
+        leaving[i, j], arriving[i, j] = math.atan2(*first[::-1]), math.atan2(*last[::-1])
+    return WaysBetween(lengths, leaving, arriving)
 
 
 def _found(
@@ -150,12 +195,11 @@ def _nearest_places(xy: Floats) -> list[int]:
     return order
 
 
-def _shortest_order(lengths: Floats, count: int, *, closed: bool) -> tuple[int, ...]:
+def _shortest_order(lengths: Floats, count: int, last: int | None) -> tuple[int, ...]:
     """The order of the via points, from 0, between the first point and the last."""
-    last = 0 if closed else (count + 1 if len(lengths) > count + 1 else None)
     if count <= MAX_VIAS_ALL_ORDERS:
         return _held_karp(lengths, count, last)
-    return _exchanged(lengths, _nearest_first(lengths, count), last)
+    return _exchanged(_of_order(RoundLength(lengths).of, last), _nearest_first(lengths, count))
 
 
 def _held_karp(lengths: Floats, count: int, last: int | None) -> tuple[int, ...]:
@@ -193,16 +237,16 @@ def _nearest_first(lengths: Floats, count: int) -> tuple[int, ...]:
     return tuple(order)
 
 
-def _exchanged(lengths: Floats, order: tuple[int, ...], last: int | None) -> tuple[int, ...]:
-    """Take the first exchange that makes the round shorter, until there is none."""
-    best = _round(lengths, order, last)
+def _exchanged(cost: Cost, order: tuple[int, ...]) -> tuple[int, ...]:
+    """Take the first exchange that makes the round cost less, until there is none."""
+    best = cost(order)
     improved = True
     while improved:
         improved = False
         for candidate in _neighbours(order):
-            length = _round(lengths, candidate, last)
-            if length < best - LEAST_GAIN_M:
-                order, best, improved = candidate, length, True
+            its = cost(candidate)
+            if its < best - LEAST_GAIN:
+                order, best, improved = candidate, its, True
                 break
     return order
 
@@ -220,8 +264,3 @@ def _neighbours(order: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
                 if j != i:
                     yield rest[:j] + part + rest[j:]
                     yield rest[:j] + part[::-1] + rest[j:]
-
-
-def _round(lengths: Floats, order: tuple[int, ...], last: int | None) -> float:
-    stops = [0, *(k + 1 for k in order), *([] if last is None else [last])]
-    return float(lengths[stops[:-1], stops[1:]].sum())

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.routing.tangent_arcs import BEND_RADIUS, BEND_X, BEND_Y
 from viaspline.kernels.routing.tangent_arcs import SIDE as BEND_SIDE
-from viaspline.kernels.turning.turn_sequence import HEADING, KEPT, RADIUS, SIDE, X, Y
+from viaspline.kernels.turning.settled_lines import HEADING, KEPT, RADIUS, SIDE, X, Y
 from viaspline.kernels.world.corner_fans import X as CORNER_X
 from viaspline.kernels.world.corner_fans import Y as CORNER_Y
 from viaspline.planning.problem.via_sequence import ViaSequence
@@ -29,7 +29,7 @@ class Bends:
     """Bends in the order of the path.
 
     Attributes:
-        rows: See ``kernels.turning.turn_sequence``, shape (n, 6).
+        rows: See ``kernels.turning.settled_lines``, shape (n, 6).
         vias: Index of each one's via point in the sequence, or ``DETOUR``, shape (n,).
         swings: How far each one's turn may swing out beyond what is kept [m], (n,); infinite
             where it may be as wide as is fast.

@@ -70,7 +70,8 @@ def _curve(problem: DrivenProblem, leg: int, spline_path: SplinePath) -> Curve:
     spans = spline_path.leg(leg)
     stands = problem.legs[leg].stands
     cost = measure_body(spans, problem.world, problem.requirements, stands)
-    return Curve(_path_along(spans), spline_path.detours(leg), spans, cost)
+    vias, whole = spline_path.detours(leg), problem.cost(spline_path)
+    return Curve(_path_along(spans), vias, spans, cost, whole)
 
 
 def _reason(requirements: Requirements, refused: Sequence[str]) -> str | None:

@@ -19,7 +19,7 @@ from viaspline.planning.alternatives.cleared_spline import ClearedSpline
 from viaspline.planning.alternatives.homotopy_classes import TautRow
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.checking.conflicts import is_clear
-from viaspline.planning.checking.driving_time import driving_time, straight_time
+from viaspline.planning.checking.driving_time import driving_time, leg_time, straight_time
 from viaspline.planning.problem.heights import with_heights
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
@@ -40,6 +40,7 @@ from viaspline.world.world import World
 FREE_TURN_RADII = (3.0, 1.5)
 LEAST_FREE_TURN_RADIUS = 0.5
 ROOMY_TURN_RADIUS = 2.0  # of turns where there is room, even if sharper ones are as fast
+MUCH_LOST = 1.07  # time of a leg, over that of a straight line
 LEAST_REQUIRED_M = 1e-3  # that these are of
 
 RowBends = tuple[LegBends, ...]
@@ -152,6 +153,19 @@ class DrivenProblem(PathProblem):
             return spline_path.length
         rests = spline_path.rests(self.sequence)
         return driving_time(spline_path.spans, objective.pace, rests)
+
+    def loses_much(self, spline_path: SplinePath, leg: int) -> bool:
+        """Whether a leg takes much longer than a straight line as long as its shortest taut path.
+
+        So much that ways on other sides are worth the search among many obstacles.
+        """
+        if not self.requirements.objective.is_time:
+            return False
+        pace, stands = self.requirements.objective.pace, self.legs[leg].stands
+        line = np.zeros((1, 4, 2))
+        line[0, :, 0] = np.linspace(0.0, self.shortest_row.taut_paths[leg].length, 4)
+        least = leg_time(line, pace, stands)
+        return leg_time(spline_path.leg(leg), pace, stands) > MUCH_LOST * least
 
     def turns_along(
         self, taut_paths: Sequence[TautPath], choices: Iterable[RowBends] | None = None

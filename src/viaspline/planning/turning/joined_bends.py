@@ -1,7 +1,8 @@
-"""Two bends close behind each other that one turn goes round.
+"""Bends close behind each other that one turn goes round.
 
-Where two corners stand so close that a turn at each has no room to be wide, a good driver takes
-them as one. The two bends become one that a circle about both is kept from: its turn touches both.
+Where corners stand so close that a turn at each has no room to be wide, a good driver takes them
+as one. Such bends become one that a circle about them is kept from: its turn touches the first and
+the last of them. Two are joined at a time, those first by which the whole row bends less.
 
 Tested through ``planning/turning/test_joined_bends``.
 """
@@ -11,37 +12,42 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.turning.gentle_lengths import LONGER
+from viaspline.kernels.turning.gentle_lengths import gentle_lengths
 from viaspline.planning.turning.bend_row import DETOUR, KEPT, SIDE, Bends, X, Y
 
-GENTLER = 0.75  # bending of one turn, over that of the two, at most
-LEAST_LONGER = 1.2  # length of one turn, over the way between the two
-LEAST_WIDER = 1.01  # its radius over what is kept from either
+LEAST_GENTLER = 0.1  # of the bending of two turns, that one in their place saves at least
+LEAST_LONGER = 1.2  # length of one turn, over the way from its first bend to its last
+LEAST_WIDER = 1.01  # its radius over what is kept from any of them
 SMALLER = 0.7  # a radius without room, over the next one
 MAX_TURN_RAD = 2.5  # of one turn
-LEAST_TURN_RAD = 1e-6  # of either of the two
+LEAST_PART = 0.2  # of what the circle turns by on half of the way, that either turns by alone
+LEAST_TURN_RAD = 1e-6  # of each that is joined
 LEAST_LENGTH_M = 1e-9
+CROWDED = 0.4  # of a line, that two turns take which may be one
 
 
 @dataclass(frozen=True)
 class Join:
-    """Two bends of a row that one turn goes round.
+    """Bends of a row that one turn goes round.
 
     Attributes:
         first: The first of them.
+        last: The last of them.
         radius: Of the circle that is kept from both [m].
         least: What the radius has to be, so that it is worth it [m].
-        bending: Of the one turn, over that of the two.
+        inner: Those of its bends that were joined before the others; None if there are none.
     """
 
     first: int
+    last: int
     radius: float
     least: float
-    bending: float
+    inner: Join | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,59 +69,120 @@ class TurnWishes:
     spent: float
 
 
-def joins_worth_it(bends: Bends, wishes: TurnWishes) -> tuple[Join, ...]:
-    """Pairs of bends of a row that one turn goes round more gently, none of them in two pairs.
+@dataclass(frozen=True, eq=False)
+class _Runs:
+    """A row of bends, some of them joined: the turns that are left.
+
+    Attributes:
+        ends: The first and the last bend of each turn, (k, 2).
+        turns: [rad], (k,).
+        ways: From the first bend of each to its last [m], (k,).
+        gaps: From the last bend of each to the first of the next [m], one for each line.
+        lengths: [m], (k,).
+        spent: By how much the path may be longer than its corners [m].
+        joins: For each that is joined what it is, else None.
+    """
+
+    ends: Ints
+    turns: Floats
+    ways: Floats
+    gaps: Floats
+    lengths: Floats
+    spent: float
+    joins: tuple[Join | None, ...]
+
+    @property
+    def bending(self) -> Floats:
+        """The squared curvature along each turn, ramps alone [1/m], (k,)."""
+        found: Floats = 4.0 / 3.0 * self.turns**2 / np.maximum(self.lengths, LEAST_LENGTH_M)
+        return found
+
+
+def joins_worth_it(bends: Bends, wishes: TurnWishes, room_share: float) -> tuple[Join, ...]:
+    """Bends of a row that one turn goes round more gently, each in one join at most.
 
     Args:
         bends: The row, without needless ones.
         wishes: Of their turns.
+        room_share: Of the way between two turns, that they may take.
     """
-    tried = (_joined_at(k, bends, wishes) for k in range(len(bends.rows) - 1))
-    taken: set[int] = set()
-    chosen = []
-    for join in sorted((join for join in tried if join), key=lambda join: join.bending):
-        if not taken & {join.first, join.first + 1}:
-            taken |= {join.first, join.first + 1}
-            chosen.append(join)
-    return tuple(sorted(chosen, key=lambda join: join.first))
+    count = len(bends.rows)
+    ends = np.repeat(np.arange(count), 2).reshape(-1, 2)
+    runs = _Runs(
+        ends, wishes.turns, np.zeros(count), wishes.gaps, wishes.lengths, wishes.spent,
+        (None,) * count,
+    )  # fmt: skip
+    while True:
+        tried = (_joined_at(k, runs, bends, wishes, room_share) for k in _crowded(runs, bends))
+        found = [runs_and_saved for runs_and_saved in tried if runs_and_saved is not None]
+        if not found:
+            return tuple(join for join in runs.joins if join is not None)
+        runs = max(found, key=lambda joined: joined[1])[0]
 
 
-def _joined_at(k: int, bends: Bends, wishes: TurnWishes) -> Join | None:
-    """The join of bends k and k + 1, if it is worth it.
+def _crowded(runs: _Runs, bends: Bends) -> Iterator[int]:
+    """The turns that can be one with the next: to one side, free, with hardly a line between."""
+    free = (bends.vias == DETOUR) & np.isinf(bends.swings)
+    for k, ((_, before), (after, _)) in enumerate(pairwise(runs.ends.tolist())):
+        is_alike = (
+            free[before] and free[after] and bends.rows[before, SIDE] == bends.rows[after, SIDE]
+        )
+        turns = runs.turns[k : k + 2]
+        if not is_alike or turns.min() <= LEAST_TURN_RAD or turns.sum() > MAX_TURN_RAD:
+            continue
+        if runs.lengths[k : k + 2].sum() >= CROWDED * 2.0 * runs.gaps[k]:
+            yield k
 
-    The one turn, of length l, has its arc between the two, a way d long, and ramps before and
-    after it: its radius is (l + d) / 2 t, and it bends by (l + 2 d) / 3 radius².
+
+def _joined_at(
+    k: int, runs: _Runs, bends: Bends, wishes: TurnWishes, room_share: float
+) -> tuple[_Runs, float] | None:
+    """The row with turns k and k + 1 as one and what it bends less by [1/m], if it is worth it.
+
+    The one turn, of length l, has its arc between its bends, a way d long, and ramps before and
+    after it: its radius is (l + d) / 2 t. It is nearly as gentle as one of ramps alone, as long,
+    in the middle of that way.
     """
-    pair = slice(k, k + 2)
-    rows, turns, lengths = bends.rows[pair], wishes.turns[pair], wishes.lengths[pair]
-    free = (bends.vias[pair] == DETOUR).all() and np.isinf(bends.swings[pair]).all()
-    if not free or rows[0, SIDE] != rows[1, SIDE] or turns.min() <= LEAST_TURN_RAD:
+    first, last = int(runs.ends[k, 0]), int(runs.ends[k + 1, 1])
+    turn = float(runs.turns[k : k + 2].sum())
+    way = float(runs.ways[k] + runs.gaps[k] + runs.ways[k + 1])
+    turns, ways = _merged(runs.turns, k, turn), _merged(runs.ways, k, way)
+    gaps = np.delete(runs.gaps, k)
+    fast = turn * float(wishes.fast[first : last + 1].max())
+    spent = runs.spent * float((turns**2).sum() / (runs.turns**2).sum())  # as much for each turn
+    rooms = 2.0 * room_share * (gaps + 0.5 * (ways + np.roll(ways, -1))[: len(gaps)])
+    lengths = gentle_lengths(turns, rooms, bends.closed, spent)
+    lengths[k] = _no_shorter(lengths, rooms, k, fast)
+    radius = 0.5 * (float(lengths[k]) + way) / turn
+    kept = float(bends.rows[first : last + 1, KEPT].max())
+    part = 0.5 * way / float(runs.turns[k : k + 2].min())
+    least = max(way / turn, LEAST_WIDER * kept, LEAST_PART * part)
+    if lengths[k] < LEAST_LONGER * way or radius < least:
         return None
-    turn, way = float(turns.sum()), float(wishes.gaps[k])
-    length = _length_of_one(k, turn, wishes)
-    if turn > MAX_TURN_RAD or length < LEAST_LONGER * way:
-        return None
-    radius = 0.5 * (length + way) / turn
-    least = max(way / turn, LEAST_WIDER * float(rows[:, KEPT].max()))
-    one = (length + 2.0 * way) / (3.0 * radius * radius)
-    two = 4.0 / 3.0 * float((turns * turns / np.maximum(lengths, LEAST_LENGTH_M)).sum())
-    if radius < least or one > GENTLER * two:
-        return None
-    return Join(k, radius, least, one / two)
+    inner = next((join for join in runs.joins[k : k + 2] if join is not None), None)
+    joins = (*runs.joins[:k], Join(first, last, radius, least, inner), *runs.joins[k + 2 :])
+    ends = np.vstack((runs.ends[:k], [[first, last]], runs.ends[k + 2 :]))
+    joined = _Runs(ends, turns, ways, gaps, lengths, spent, joins)
+    saved = float(runs.bending.sum() - joined.bending.sum())
+    return (joined, saved) if saved > LEAST_GENTLER * runs.bending[k : k + 2].sum() else None
 
 
-def _length_of_one(k: int, turn: float, wishes: TurnWishes) -> float:
-    """How long one turn at bends k and k + 1 should be, as far as its neighbours leave room [m]."""
-    gaps, lengths = wishes.gaps, wishes.lengths
-    after = (k + 2) % len(lengths)
-    beside = min(gaps[k - 1] - 0.5 * lengths[k - 1], gaps[k + 1] - 0.5 * lengths[after])
-    gentle = min(float(lengths.max()), LONGER * wishes.spent / turn**2)
-    fast = turn * float(wishes.fast[k : k + 2].max())
-    return float(min(max(gentle, fast), wishes.gaps[k] + 2.0 * beside))
+def _no_shorter(lengths: Floats, rooms: Floats, k: int, wanted: float) -> float:
+    """The length of turn k, at least what is wanted if the turns before and after it let it [m]."""
+    after = np.roll(lengths, -1)[: len(rooms)]
+    left = rooms - lengths[: len(rooms)] - after
+    return float(max(lengths[k], min(wanted, lengths[k] + min(left[k - 1], left[k]))))
+
+
+def _merged(values: Floats, k: int, both: float) -> Floats:
+    """Values with one in the place of k and k + 1."""
+    found = np.delete(values, k + 1)
+    found[k] = both
+    return found
 
 
 def with_joins(bends: Bends, joins: Collection[Join]) -> Bends:
-    """A row with one bend for the two of each join: the first of them is in its place.
+    """A row with one bend for those of each join: the first of them is in its place.
 
     Args:
         bends: The row.
@@ -125,35 +192,37 @@ def with_joins(bends: Bends, joins: Collection[Join]) -> Bends:
         >>> from viaspline.planning.turning.bend_row import bend
         >>> row = np.array([bend(-9, 0), bend(-3, 0, 1, -1), bend(3, 0, 1, -1), bend(9, 0)])
         >>> bends = Bends.free(row, np.array([0, DETOUR, DETOUR, 1]))
-        >>> with_joins(bends, [Join(1, 6.0, 3.0, 0.5)]).rows[1, :4]
+        >>> with_joins(bends, [Join(1, 2, 6.0, 3.0)]).rows[1, :4]
         array([ 0., -4.,  6., -1.])
     """
     rows = bends.rows.copy()
     for join in joins:
-        first, second = bends.rows[join.first : join.first + 2]
-        rows[join.first, [X, Y]] = _middle(first, second, join.radius)
+        first, last = bends.rows[[join.first, join.last]]
+        rows[join.first, [X, Y]] = _middle(first, last, join.radius)
         rows[join.first, KEPT] = join.radius
-    return replace(bends, rows=rows).without(seconds_of(joins))
+    return replace(bends, rows=rows).without(rest_of(joins))
 
 
-def seconds_of(joins: Collection[Join]) -> Ints:
-    """The second bend of each join, which has no row of its own, (k,)."""
-    return np.array([join.first + 1 for join in joins], np.int64)
+def rest_of(joins: Collection[Join]) -> Ints:
+    """The bends of joins but for the first of each: they have no rows of their own, (k,)."""
+    rest = [k for join in joins for k in range(join.first + 1, join.last + 1)]
+    return np.array(rest, np.int64)
 
 
 def loosened(joins: Collection[Join], tight: Collection[int]) -> Iterator[Join]:
-    """The joins with smaller radii where there is no room, but those that are too small then.
+    """The joins with smaller radii where there is no room; of those too small then, the inner ones.
 
     Args:
         joins: Those of a row.
         tight: Bends of the row where there is no room.
     """
     for join in joins:
-        smaller = join
-        if join.first in tight:
-            smaller = replace(join, radius=SMALLER * join.radius)
-        if smaller.radius >= join.least:
-            yield smaller
+        if join.first not in tight:
+            yield join
+        elif SMALLER * join.radius >= join.least:
+            yield replace(join, radius=SMALLER * join.radius)
+        elif join.inner is not None:
+            yield join.inner
 
 
 def _middle(first: Floats, second: Floats, radius: float) -> Floats:

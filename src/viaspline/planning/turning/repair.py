@@ -130,7 +130,8 @@ def _turn_path_cost(bends: Bends) -> float:
 
 def _stuck_between(failed: NoTurnPath) -> Stuck:
     """Where two bends leave no room for their turns."""
-    rows = (failed.where, (failed.where + 1) % len(failed.bends.rows))
+    line = int(failed.lines[0])
+    rows = (line, (line + 1) % len(failed.bends.rows))
     return Stuck(tuple(
         (failed.bends.leg_of(row), failed.bends.rows[row, :2])
         for row in rows

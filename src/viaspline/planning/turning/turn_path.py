@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.turning.settled_lines import FINE, LEFT_OUT
 from viaspline.kernels.turning.turn_sequence import (
-    FINE,
-    LEFT_OUT,
     turn_sequence,
     turn_sequence_length,
     turn_sequence_spans,
@@ -77,14 +76,14 @@ class NoTurnPath:
     Attributes:
         bends: The row, without those that the others make needless.
         left: Which of those that were asked for they are, (n,).
-        state: One of the states of ``kernels.turning.turn_sequence``.
-        where: The line at which it failed.
+        state: One of the states of ``kernels.turning.settled_lines``.
+        lines: Those at which it failed, (k,).
     """
 
     bends: Bends
     left: Ints
     state: int
-    where: int
+    lines: Ints
 
 
 def turn_path_round(bends: Bends) -> TurnPath | NoTurnPath:
@@ -133,13 +132,13 @@ def settled_turns(bends: Bends, ramp: float = RAMP) -> SettledTurns | NoTurnPath
     """
     left = np.arange(len(bends.rows))
     while True:
-        *lines_and_turns, state, where = turn_sequence(bends.rows, bends.closed, ramp)
+        *lines_and_turns, state, tight = turn_sequence(bends.rows, bends.closed, ramp)
         if state != LEFT_OUT:
             break
-        needless = _needless(bends, lines_and_turns[1], int(where))
+        needless = _needless(bends, lines_and_turns[1], int(tight[0]))
         bends, left = bends.without(needless), np.delete(left, needless)
     if state != FINE:
-        return NoTurnPath(bends, left, int(state), int(where))
+        return NoTurnPath(bends, left, int(state), tight)
     return SettledTurns(bends, left, tuple(lines_and_turns))
 
 

@@ -25,7 +25,7 @@ from viaspline.planning.turning.joined_bends import (
     TurnWishes,
     joins_worth_it,
     loosened,
-    seconds_of,
+    rest_of,
     with_joins,
 )
 from viaspline.planning.turning.repair import clear_turn_path
@@ -44,6 +44,7 @@ MOST_NARROWED = 0.5  # of the widest swing of those between which it is too tigh
 MAX_NARROWINGS = 40
 GENTLE_SHARE = 2e-3  # of the length, that may be spent on gentle bends
 GENTLE_ROOM = 0.97  # of a line, that its turns may take
+MOST_SHARED = 2.5  # of a line, for the turns at its ends as they are wished; laying them tells more
 ARC_LONGER = 24.0  # an arc of radius R by t is longer than its corner by R t³ over this
 LEAST_ROOM_M = 1e-6  # of a line between two bends at the same place
 LEAST_SHARE = 1e-12  # of its radius that a turn swings out
@@ -98,13 +99,14 @@ class WideTurns:
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None
-        joins = joins_worth_it(narrowest.bends, self._wishes(narrowest))
+        joins = joins_worth_it(narrowest.bends, self._wishes(narrowest), GENTLE_ROOM)
         while joins:
             found = self._fitted(with_joins(narrowest.bends, joins), world, requirements)
-            if isinstance(found, TurnPath):
+            rows = np.delete(np.arange(len(narrowest.bends.rows)), rest_of(joins))
+            tight = rows[_wound_round(found) if isinstance(found, TurnPath) else found].tolist()
+            if isinstance(found, TurnPath) and not {join.first for join in joins} & set(tight):
                 return found
-            rows = np.delete(np.arange(len(narrowest.bends.rows)), seconds_of(joins))
-            looser = tuple(loosened(joins, set(rows[found].tolist())))
+            looser = tuple(loosened(joins, set(tight)))
             joins = looser if looser != joins else ()
         found = self._fitted(bends, world, requirements)
         return found if isinstance(found, TurnPath) else None
@@ -122,10 +124,7 @@ class WideTurns:
             requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
             turn_path = turn_path_on_sides(bends.turning(radii))
             if isinstance(turn_path, NoTurnPath):
-                left = turn_path.left
-                count = len(left)
-                pair = left[[turn_path.where % count, (turn_path.where + 1) % count]]
-                tight = [pair]
+                tight = _pairs(turn_path.left, turn_path.lines)
                 swings = radii
             else:
                 close = body_conflicts(world, turn_path.spans, requirements)
@@ -172,17 +171,29 @@ class WideTurns:
         rows, angles, lengths = narrowest.left, wishes.turns, wishes.lengths
         kept = bends.rows[rows, KEPT]
         radii = np.full(len(bends.rows), max(self.roomy, self.least))
-        gentle = lengths / np.maximum(2.0, 1.0 + angles)
+        per = np.maximum(2.0, 1.0 + angles)  # length of a turn, over its radius
+        gentle = lengths / per
         wide = np.maximum(wishes.fast * np.minimum(angles, 1.0), gentle)
+        shares = _shares(wide * per, MOST_SHARED * wishes.gaps)
+        wide = np.minimum(wide, shares / per)
         ramps = np.maximum(lengths - kept * angles, 0.0)  # beside an arc round what is kept
         wide = np.where(gentle < kept * angles, ramps, wide)
         radii[rows] = np.maximum(radii[rows], wide)
         given = np.isfinite(bends.rows[rows, HEADING])
-        shares = np.where(given, np.minimum(angles, 1.0), swing_share(angles))
-        swung = bends.swings[rows] / np.maximum(shares, LEAST_SHARE)
+        swing = np.where(given, np.minimum(angles, 1.0), swing_share(angles))
+        swung = bends.swings[rows] / np.maximum(swing, LEAST_SHARE)
         radii[rows] = np.minimum(radii[rows], kept + swung)
         radii[rows] = np.maximum(radii[rows], self.sharpest)
         return radii
+
+
+def _wound_round(turn_path: TurnPath) -> Ints:
+    """The bends that a path turns round by more than half a circle, as rows of those asked for.
+
+    So it does round a circle that its ends lie too near to: its lines touch it in the wrong order.
+    """
+    found: Ints = turn_path.left[np.abs(turn_path.turns) > np.pi]
+    return found
 
 
 def swing_share(turns: Floats) -> Floats:
@@ -207,6 +218,20 @@ def _gaps(settled: SettledTurns) -> Floats:
     return found
 
 
+def _shares(lengths: Floats, gaps: Floats) -> Floats:
+    """How long turns may be that share the lines between them [m], (n,).
+
+    Of each line a turn has half, or what the other one leaves.
+    """
+    rooms = 2.0 * gaps
+    before, after = lengths[: len(gaps)], np.roll(lengths, -1)[: len(gaps)]
+    shares = np.full(len(lengths), np.inf)
+    shares[: len(gaps)] = np.maximum(gaps, rooms - after)
+    ends = np.arange(1, len(gaps) + 1) % len(lengths)
+    shares[ends] = np.minimum(shares[ends], np.maximum(gaps, rooms - before))
+    return shares
+
+
 def _swings(turn_path: TurnPath) -> Floats:
     """How far each turn moves the lines before and after it out, beyond what is kept [m], (n,)."""
     rows = turn_path.bends.rows
@@ -216,9 +241,13 @@ def _swings(turn_path: TurnPath) -> Floats:
 
 def _pairs_between(turn_path: TurnPath, left: Ints, spans: NDArray[np.intp]) -> list[Ints]:
     """The bends before and after each of some spans, as rows of the bends asked for."""
-    count = len(left)
-    before = np.searchsorted(turn_path.begins[:count], spans, side="right") - 1
-    return [left[[k % count, (k + 1) % count]] for k in np.unique(before)]
+    before = np.searchsorted(turn_path.begins[: len(left)], spans, side="right") - 1
+    return _pairs(left, np.unique(before))
+
+
+def _pairs(left: Ints, lines: Ints) -> list[Ints]:
+    """The bends before and after each of some lines, as rows of the bends asked for."""
+    return [left[[k % len(left), (k + 1) % len(left)]] for k in lines]
 
 
 def _narrowed(radii: Floats, tight: list[Ints], swings: Floats, least: float) -> Floats:

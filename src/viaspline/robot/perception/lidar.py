@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from viaspline.errors import GeometryError
+from viaspline.handed_in import number_from, numbers_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.sensing.raycast import cast
 from viaspline.kernels.world.packed import PackedWorld
@@ -53,7 +54,11 @@ class Scan:
     ranges: Floats
 
     def __post_init__(self) -> None:
-        ranges: Floats = np.array(self.ranges, np.float64)
+        ranges = numbers_from("ranges", self.ranges).copy()
+        position = tuple(np.atleast_1d(numbers_from("position", self.position)).ravel().tolist())
+        object.__setattr__(self, "position", position)
+        for name in ("heading", "angle_min", "angle_increment", "range_max"):
+            object.__setattr__(self, name, number_from(name, getattr(self, name)))
         if ranges.ndim != 1 or not ranges.size:
             raise GeometryError(f"ranges have shape {ranges.shape}; give one for each beam")
         numbers = (*self.position, self.heading, self.angle_min, self.range_max)

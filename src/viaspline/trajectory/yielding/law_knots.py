@@ -52,6 +52,8 @@ class LawKnots:
     def merged(self) -> LawKnots:
         """Those that are needed: neither twice, nor in the middle of standing."""
         times, places, _ = self.fields
+        if (times[1:] > times[:-1] + NO_TIME_S).all() and (places[1:] > places[:-1]).all():
+            return self
         once = np.flatnonzero(np.append(True, np.diff(times) > NO_TIME_S))
         if once.size > 1:
             once[-1] = len(times) - 1  # where it ends is kept to the bit

@@ -1,3 +1,4 @@
+import dataclasses
 import math
 
 import numpy as np
@@ -11,7 +12,7 @@ from viaspline.kernels.jit import kernel
 from viaspline.kernels.turning import dubins
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import WorkBudget
+from viaspline.planning.problem.work_budget import SpentBudgetError, WorkBudget
 from viaspline.planning.turning.hybrid_astar.pose_search import find_poses
 from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
@@ -234,3 +235,39 @@ def test_what_is_refused_is_out_of_reach_even_with_sudden_turns(width):
     else:
         is_sound(found, world, DISC, start, goal)
     assert isinstance(found, Chain) == (width > 10.0)
+
+
+def row_in_steps(limit, finished):
+    """What a row of places comes to in steps that may spend so much, and how many those were."""
+    start, goals = Pose(-10, 0, 0), [Goal(5.5, 3.8), Goal(14.5, -3.2), Goal(22, 5, (1.0,))]
+    for step in range(1, 500):
+        needs = dataclasses.replace(DISC, budget=WorkBudget(limit, finished=dict(finished)))
+        try:
+            return find_row(WALLS, needs, RHO, RAMP, [start], goals, WorkBudget(9.0)), step
+        except SpentBudgetError:
+            assert needs.budget.spent <= limit
+            assert needs.budget.has_gained
+            finished = needs.budget.finished
+    raise AssertionError("it doesn't end")
+
+
+def test_a_search_that_is_stopped_and_taken_up_comes_to_what_it_comes_to_at_once():
+    at_once, one = row_in_steps(math.inf, {})
+    in_steps, several = row_in_steps(0.05, {})
+    assert one == 1
+    assert several > 2
+    for chain, other in zip(at_once, in_steps, strict=True):
+        assert other.length == pytest.approx(chain.length, rel=1e-3)
+
+
+def test_a_step_leaves_what_the_step_before_had_of_a_search_as_it_was():
+    needs = dataclasses.replace(DISC, budget=WorkBudget(0.05))
+    start, goals = Pose(-10, 0, 0), [Goal(5.5, 3.8), Goal(14.5, -3.2), Goal(22, 5, (1.0,))]
+    with pytest.raises(SpentBudgetError):
+        find_row(WALLS, needs, RHO, RAMP, [start], goals, WorkBudget(9.0))
+    before = needs.budget.finished
+    rows = [row_in_steps(0.05, before) for _ in range(2)]
+    (first, steps), (second, again) = rows
+    assert steps == again
+    for chain, other in zip(first, second, strict=True):
+        np.testing.assert_array_equal(chain.spans, other.spans)

@@ -115,7 +115,7 @@ def _add_stretch(grid: PlaceGrid, row: int, low: float, high: float, rows: Words
     add_places(rows, row, first, last)
 
 
-@inner
+@inlined
 def _block_by_disc(
     tree: PathTree, leaf: int, x: float, y: float, reach: float, grid: PlaceGrid, row: int,
     rows: Words,

@@ -15,6 +15,7 @@ from viaspline.kernels.motion.moving_distance import piece_at, piece_distance
 from viaspline.kernels.motion.packed_motion import GROWTH, PRESENT, PackedMotion
 from viaspline.kernels.timing.yielding.path_tree import PathTree
 
+JUST_M = 1e-4  # what is nearer than required by less than this may count as clear [m]
 TOUCH = 1e-6  # what lies nearer than this to being too near is [m]
 
 
@@ -118,3 +119,42 @@ def standing_conflicts(
 ) -> tuple[float, int]:
     """``standing_conflict``, for Python."""
     return standing_conflict(motion, required, x, y, begin, end)
+
+
+@kernel
+def standing_taken(
+    motion: PackedMotion, required: float, x: float, y: float, begin: float, end: float, looks: int
+) -> float:
+    """Until when something is nearer than required to (x, y) all the time [s].
+
+    Args:
+        motion: What moves.
+        required: To every shape [m]; what is nearer by less than ``JUST_M`` doesn't count.
+        x: [m].
+        y: [m].
+        begin: From when on [s].
+        end: Until when it is looked at [s].
+        looks: So often at most.
+
+    Returns:
+        A time up to which it is proven; begin if it isn't taken then.
+    """
+    t = begin
+    for _ in range(looks):
+        if t >= end:
+            break
+        later = t
+        for i in range(motion.first_piece.size - 1):
+            row, shift, until = piece_at(motion, i, t)
+            if motion.pieces[row, PRESENT] == 0.0:
+                continue
+            deep = required - JUST_M - piece_distance(motion, i, row, shift, t, x, y, np.inf)
+            if deep > 0.0:
+                leaves = (
+                    np.inf if motion.speeds[i] == 0.0 else t + (deep + JUST_M) / motion.speeds[i]
+                )
+                later = max(later, min(leaves, until))
+        if later == t:
+            break
+        t = later
+    return min(t, end)

@@ -35,6 +35,7 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     SCALE,
     SLOT,
     STILL,
+    TRIED,
     Ahead,
     PoseSearch,
     add,
@@ -132,10 +133,16 @@ def _expand(
             add(search, ahead, key, to_x, to_y, to, level + way - 1, to_scale, more, still, node)
 
 
+@inner
+def _done(cache: CollisionCache, search: PoseSearch) -> int:
+    """What was done so far, in what takes about the same time: see ``effort``."""
+    return cache.reckoned[0] + search.counts[TRIED] + WAYS * search.counts[EXPANDED]
+
+
 @kernel
 def go_on(
     cache: CollisionCache, moves: MotionPrimitives, search: PoseSearch, other: PoseSearch,
-    ahead: Ahead, quota: int, bound: float,
+    ahead: Ahead, quota: int, effort: int, bound: float,
 ) -> int:  # fmt: skip
     """Expand some nodes.
 
@@ -146,6 +153,8 @@ def go_on(
         other: One that comes the other way.
         ahead: Ahead.
         quota: How many nodes at most; it also ends with an arrival or a meeting.
+        effort: How many distances are reckoned, connections tried and moves done in all: it ends
+            with the node in which that becomes more.
         bound: Arrivals as long as this don't count [m].
 
     Returns:
@@ -153,9 +162,12 @@ def go_on(
         reached has been; BEATEN: what is left is no better than the bound.
     """
     segments = np.empty((MAX_SEGMENTS, 3))
+    last = _done(cache, search) + effort
     for _ in range(quota):
         if search.heap.size[0] == 0:
             return EMPTY
+        if _done(cache, search) >= last:
+            return RUNNING
         if search.counts[NODES] + WAYS > search.nodes.shape[0]:
             return FULL
         key = search.heap.keys[0]

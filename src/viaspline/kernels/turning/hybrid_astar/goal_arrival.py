@@ -23,6 +23,7 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
     SECOND,
     STILL,
     THERE,
+    TRIED,
     PoseSearch,
     key_of,
     scale_at,
@@ -57,6 +58,7 @@ def arrive(
             for s2 in (1.0, -1.0):
                 if math.isnan(goal) and s2 < 0.0:
                     continue
+                search.counts[TRIED] += 1
                 count, length = connection(dx, dy, heading, goal, s1, s2, rho, ramp, segments)
                 if length < best and is_clear(cache, x, y, heading, segments, count):
                     best = length
@@ -98,6 +100,7 @@ def meet(
         dx, dy, goal = to_x - x, to_y - y, turned + math.pi
         for s1 in (1.0, -1.0):
             for s2 in (1.0, -1.0):
+                search.counts[TRIED] += 1
                 count, length = connection(dx, dy, heading, goal, s1, s2, rho, ramp, segments)
                 whole = cost + length + rest
                 if whole < search.meeting[LENGTH] - MIN_GAIN_M and is_clear(

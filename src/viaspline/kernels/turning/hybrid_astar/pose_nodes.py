@@ -27,8 +27,8 @@ SIDE, AROUND, ROOM = range(3)
 WITHIN, MORE = range(2)
 # columns of an arrival, and of its links
 LENGTH, FIRST, SECOND, HERE, THERE = range(5)
-# counters: nodes, expanded ones, moves that left the window
-NODES, EXPANDED, OUTSIDE = range(3)
+# counters: nodes, expanded ones, moves that left the window, connections that were tried
+NODES, EXPANDED, OUTSIDE, TRIED = range(4)
 
 
 class PoseSearch(NamedTuple):
@@ -46,7 +46,7 @@ class PoseSearch(NamedTuple):
         keys: Cells of the nodes in a table with open addressing, 0 where it is empty.
         cells: The best node in each, the same shape.
         heap: Those not expanded.
-        counts: See the counters above, (3,).
+        counts: See the counters above, (4,).
         goal: x, y of the goal [m], (2,).
         headings: Those that are allowed there [rad], NaN for whichever comes straight, (h,).
         arrivals: The best with each heading: whole length, sides of the two turns, (h, 3).

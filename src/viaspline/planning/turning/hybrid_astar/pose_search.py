@@ -8,7 +8,7 @@ that it can reach. What is found is shortened and laid as spans.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,7 +19,7 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL_SHARE
 from viaspline.kernels.turning.hybrid_astar.primitives import MotionPrimitives, primitives_of
 from viaspline.kernels.turning.segment_chain import chain_spans, merged, shortened
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import CHAIN_SEGMENT_S, POSE_S, TREE_S
+from viaspline.planning.problem.work_budget import CHAIN_SEGMENT_S, POSES_EFFORT_S, TREE_S
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
@@ -78,24 +78,37 @@ class PoseProblem:
         search_window: Where.
         moves: What the robot can do.
         room: States that are kept, at most.
-        spend: Takes off what work costs; see ``Requirements``.
+        requirements: With what may be spent.
     """
 
     search_window: SearchWindow
     moves: MotionPrimitives
     room: int
-    spend: Callable[[float], None]
+    requirements: Requirements
 
     def closed_by(self, barriers: Floats) -> PoseProblem:
         """This problem with segments that the reference point must not cross [m], (b, 4)."""
         return replace(self, search_window=self.search_window.closed_by(barriers))
+
+    def go_on(self, tree: SearchTree, other: SearchTree | None = None) -> None:
+        """Let a search look at some more states, when what they cost has been taken off.
+
+        Args:
+            tree: The search.
+            other: One that comes the other way.
+
+        Raises:
+            SpentBudgetError: When less is left.
+        """
+        self.requirements.spend_on_part(POSES_EFFORT_S * tree.effort)
+        tree.go_on(other)
 
     def forwards(
         self, starts: Floats, goal: Goal, headings: Floats, after: float = SHARE_AFTER_ARRIVAL
     ) -> SearchTree:
         """A search from some poses to the goal."""
         place = np.array([goal.x, goal.y])
-        self.spend(TREE_S)
+        self.requirements.spend(TREE_S)
         return SearchTree(
             self.search_window,
             self.search_window.cache,
@@ -111,7 +124,7 @@ class PoseProblem:
         """A search from the goal to the start, as of a robot that drives backwards."""
         starts = np.zeros((len(headings), 4))
         starts[:, 0], starts[:, 1], starts[:, 2] = goal.x, goal.y, headings + math.pi
-        self.spend(TREE_S)
+        self.requirements.spend(TREE_S)
         place, back = np.array([start.x, start.y]), np.array([start.heading + math.pi])
         return SearchTree(
             self.search_window,
@@ -194,7 +207,7 @@ def pose_problems(
             search_window,
             primitives_of(rho, bent, steps, search_window.pace),
             effort.room,
-            requirements.spend,
+            requirements,
         )
 
 
@@ -211,8 +224,7 @@ def _one_way(problem: PoseProblem, start: Pose, goal: Goal) -> tuple[Chain | Not
     bridge, due = None, FIRST_BRIDGE_STATES
     while bridge is None and not any(tree.is_over for tree in both):
         for tree, other in (both, both[::-1]):
-            problem.spend(POSE_S * tree.quota)
-            tree.go_on(other)
+            problem.go_on(tree, other)
         if both[0].expanded >= due and not any(tree.has_arrived for tree in both):
             bridge, due = bridged(*both, BRIDGE_ENDS), 2 * due
     expanded = sum(tree.expanded for tree in both)
@@ -273,7 +285,7 @@ def finished(
     for _ in range(MAX_SHORTCUT_PASSES):
         spacing = max(SHORTCUT_SPACING * rho, float(segments[:, 2].sum()) / MAX_SHORTCUT_STATES)
         segments = merged(segments, rho)
-        problem.spend(CHAIN_SEGMENT_S * len(segments))
+        problem.requirements.spend(CHAIN_SEGMENT_S * len(segments))
         segments = shortened(problem.search_window.cache, begin, goal, segments, rho, ramp, spacing)
         before, length = length, float(segments[:, 2].sum())
         if length > (1.0 - LEAST_PASS_GAIN) * before:

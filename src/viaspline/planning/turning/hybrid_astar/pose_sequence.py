@@ -6,7 +6,7 @@ Tested through ``planning/turning/hybrid_astar/test_pose_search``.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -15,7 +15,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.hybrid_astar.expand_poses import EMPTY
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import POSE_S, WorkBudget
+from viaspline.planning.problem.work_budget import POSES_EFFORT_S, WorkBudget
 from viaspline.planning.turning.hybrid_astar.pose_search import (
     HEADING_SECTORS,
     SEARCH_EFFORTS,
@@ -98,9 +98,9 @@ def find_row(
         for window, problem in enumerate(problems):
             closed = [problem.closed_by(each) for each in barriers] or [problem] * len(goals)
             lines = tuple(each.tobytes() for each in barriers)
+            asked = (world, rho, ramp, tuple(starts), tuple(goals), effort, window, lines)
             found, is_cut = requirements.once(
-                ("poses", world, rho, ramp, tuple(starts), tuple(goals), effort, window, lines),
-                partial(_through, closed, starts, goals, budget),
+                ("poses", *asked), partial(_through, closed, starts, goals, budget, asked)
             )
             if not isinstance(found, NotFound):
                 return found
@@ -116,6 +116,7 @@ def _through(
     starts: Sequence[Pose],
     goals: Sequence[Goal],
     budget: WorkBudget,
+    asked: tuple[Hashable, ...],
 ) -> tuple[tuple[Chain, ...] | NotFound, bool]:
     """The chains in one window, or why there are none and whether a greater one may have some."""
     has_room = problems[0].search_window.has_room
@@ -134,8 +135,11 @@ def _through(
         if not len(headings):
             return NotFound(Reason.GOAL_TAKEN, number, expanded), False
         to = headings if goal.headings else np.append(headings, math.nan)
-        tree = problem.forwards(np.array([a.pose for a in layers[-1]]), goal, to, SHARE_AFTER_FIRST)
-        is_shut_in, seen = _grown(problem, tree, layers[-1][0].pose, goal, budget)
+        begin = np.array([arrival.pose for arrival in layers[-1]])
+        tree = problem.requirements.taken_up(
+            (*asked, number), partial(problem.forwards, begin, goal, to, SHARE_AFTER_FIRST)
+        )
+        is_shut_in, seen = _grown(problem, tree, layers[-1][0].pose, goal, budget, (*asked, number))
         expanded += seen
         if is_shut_in:
             return NotFound(Reason.GOAL_SHUT_IN, number, expanded), False
@@ -164,36 +168,49 @@ def _is_shut_in(problem: PoseProblem, start: Pose, goal: Goal, budget: WorkBudge
     if not goal.headings or not len(headings) or not problem.search_window.area.is_whole:
         return False
     back = problem.backwards(start, goal, headings)
-    if not budget.affords(POSE_S * back.quota):
+    if not budget.affords(POSES_EFFORT_S * back.effort):
         return False
-    problem.spend(POSE_S * back.quota)
-    back.go_on()
+    problem.go_on(back)
     return back.state == EMPTY
 
 
 def _grown(
-    problem: PoseProblem, tree: SearchTree, start: Floats, goal: Goal, budget: WorkBudget
+    problem: PoseProblem,
+    tree: SearchTree,
+    start: Floats,
+    goal: Goal,
+    budget: WorkBudget,
+    asked: tuple[Hashable, ...],
 ) -> tuple[bool, int]:
     """Let a search grow to its end, and in doubt another one from its goal.
 
     It ends earlier when the budget is spent.
 
+    Args:
+        problem: Where.
+        tree: The search.
+        start: The pose from which it begins, and the cost so far.
+        goal: Where it ends.
+        budget: What may be spent on poses.
+        asked: All that the searches depend on.
+
     Returns:
         Whether the goal can't be come to from anywhere, and how many states were looked at.
     """
     back: SearchTree | None = None
-    while not tree.is_over and budget.affords(POSE_S * tree.quota):
-        problem.spend(POSE_S * tree.quota)
-        tree.go_on()
+    while not tree.is_over and budget.affords(POSES_EFFORT_S * tree.effort):
+        problem.go_on(tree)
         if tree.has_arrived or tree.expanded < DOUBT_STATES:
             continue
         if back is None:
             from_all = headings_at(problem, goal, PROOF_SECTORS)
-            back = problem.backwards(Pose(*start[:3].tolist()), goal, from_all)
-        if not budget.affords(POSE_S * back.quota):
+            back = problem.requirements.taken_up(
+                ("back", *asked),
+                partial(problem.backwards, Pose(*start[:3].tolist()), goal, from_all),
+            )
+        if not budget.affords(POSES_EFFORT_S * back.effort):
             break
-        problem.spend(POSE_S * back.quota)
-        back.go_on()
+        problem.go_on(back)
         if back.state == EMPTY and problem.search_window.area.is_whole:
             return True, tree.expanded + back.expanded
     return False, tree.expanded + (0 if back is None else back.expanded)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,7 +30,8 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import (
 from viaspline.kernels.turning.hybrid_astar.primitives import LEVELS, STEP, MotionPrimitives
 from viaspline.planning.turning.hybrid_astar.search_window import SearchWindow
 
-FIRST_SLICE_STATES, SLICE_STATES = 64, 4000  # between which a search can be stopped
+FIRST_SLICE, SLICE = 1000, 5000  # efforts between which a search can be stopped
+MOST_STATES = 1 << 40  # more than any search has
 LEAST_STATES_BEFORE = 800  # that count as those before the first arrival
 MAX_SPREAD_STATES = 3000  # of which some are chosen
 
@@ -52,7 +54,16 @@ class Arrival:
 
 
 class SearchTree:
-    """A search that is stopped and goes on."""
+    """A search that is stopped and goes on.
+
+    Attributes:
+        cache: Where the body may be.
+        moves: What the robot can do.
+        ahead: How far it is to the goal.
+        search: What it has found.
+        state: Whether there is more to be done; see ``expand_poses``.
+        effort: What it does next, at most; see ``expand_poses.go_on``.
+    """
 
     def __init__(
         self, search_window: SearchWindow, cache: CollisionCache, moves: MotionPrimitives,
@@ -76,10 +87,24 @@ class SearchTree:
         self.search = _empty(search_window, moves, starts, goal, headings, room)
         self._nobody = _empty(search_window, moves, starts, goal, headings, 1)
         self.state = kernels.RUNNING
-        self._slice = FIRST_SLICE_STATES
+        self.effort = FIRST_SLICE
         self._until = math.inf
         self._after = after
         kernels.set_off(cache, self.search, self.ahead, float(moves.sizes[0]), starts)
+
+    def copy(self) -> SearchTree:
+        """As far as it came: it and this one go on each by itself."""
+        tree = copy(self)
+        tree.cache = self.cache._replace(
+            known=self.cache.known.copy(), reckoned=self.cache.reckoned.copy()
+        )
+        keys, nodes, size = self.search.heap
+        heap = Heap(keys.copy(), nodes.copy(), size.copy())
+        fields = self.search._asdict() | {"heap": heap}
+        changing = ("nodes", "links", "keys", "cells", "counts", "arrivals", "ends", "meeting")
+        fields |= {name: fields[name].copy() for name in changing}
+        tree.search = PoseSearch(**fields)
+        return tree
 
     @property
     def expanded(self) -> int:
@@ -96,11 +121,6 @@ class SearchTree:
         """Whether it has come to the goal, or to what another search has found."""
         return bool((self.search.ends >= 0).any() or math.isfinite(self.search.meeting[0]))
 
-    @property
-    def quota(self) -> int:
-        """How many states are looked at next, at most."""
-        return max(int(min(self._slice, self._until - self.expanded)), 0)
-
     def go_on(self, other: SearchTree | None = None, bound: float = math.inf) -> None:
         """Look at some more states.
 
@@ -108,12 +128,12 @@ class SearchTree:
             other: A search that comes the other way.
             bound: Only shorter arrivals count [m].
         """
-        quota = self.quota
-        self._slice = min(2 * self._slice, SLICE_STATES)
+        effort, quota = self.effort, int(min(self._until, MOST_STATES)) - self.expanded
+        self.effort = min(2 * effort, SLICE)
         had = self.has_arrived
         opposite = self._nobody if other is None else other.search
         self.state = kernels.go_on(
-            self.cache, self.moves, self.search, opposite, self.ahead, quota, float(bound)
+            self.cache, self.moves, self.search, opposite, self.ahead, quota, effort, float(bound)
         )
         if self.has_arrived and not had:
             self._until = self.expanded + math.ceil(
@@ -231,7 +251,7 @@ def _empty(
         keys=np.zeros(table, np.int64),
         cells=np.zeros(table, np.int64),
         heap=Heap(np.zeros(nodes), np.zeros(nodes, np.int64), np.zeros(1, np.int64)),
-        counts=np.zeros(3, np.int64),
+        counts=np.zeros(4, np.int64),
         goal=np.ascontiguousarray(goal, np.float64),
         headings=np.ascontiguousarray(headings, np.float64),
         arrivals=np.zeros((len(headings), 3)),

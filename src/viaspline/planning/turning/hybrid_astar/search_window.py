@@ -220,6 +220,7 @@ class SearchWindow:
             np.full(shape, np.nan),
             self.body.rows(self.rho, 1.0),
             self.barriers,
+            np.zeros(1, np.int64),
         )
 
     @cached_property

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viaspline.errors import GeometryError
+from viaspline.handed_in import check_kind, numbers_from, seed_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.motion.moving_rates import rates_at
 from viaspline.kernels.world.distance import obstacle_distances
@@ -26,12 +27,29 @@ class MovingSighting:
         obstacle: Its shape, in its own frame.
         frame: Where that frame is: x, y [m], heading [rad anticlockwise from x].
         velocity: Of the frame's origin as measured, (vx, vy) [m/s].
+
+    Raises:
+        GeometryError: When a number is none, or not finite.
+
+    Example:
+        >>> cart = Obstacle(circle={"center": (0, 0), "radius": 0.5})
+        >>> MovingSighting(3, cart, frame=(4, 2, 0), velocity=(0.8, 0)).frame
+        (4.0, 2.0, 0.0)
     """
 
     index: int
     obstacle: Obstacle
     frame: tuple[float, float, float]
     velocity: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "index", seed_from("index", self.index))
+        check_kind("obstacle", self.obstacle, Obstacle, "give Obstacle(circle={...})")
+        for name, size in (("frame", 3), ("velocity", 2)):
+            numbers = numbers_from(name, getattr(self, name))
+            if numbers.shape != (size,) or not np.isfinite(numbers).all():
+                raise GeometryError(f"{name} is {numbers.tolist()}; give {size} finite numbers")
+            object.__setattr__(self, name, tuple(numbers.tolist()))
 
 
 class MotionSensor:

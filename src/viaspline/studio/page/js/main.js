@@ -4,6 +4,7 @@ import { replaced, toggleUnseen } from "./core/edits.js";
 import { Link } from "./core/link.js";
 import { areasOf, exists, isObstacle, obstaclesOf, pointsOf, refOf, shapedAt, whole } from "./core/mission.js";
 import { Store } from "./core/store.js";
+import { Preview } from "./preview.js";
 import { Drive } from "./replay.js";
 import { onTheme } from "./draw/theme.js";
 import { Scene } from "./draw/scene.js";
@@ -18,6 +19,7 @@ import { Pointer } from "./input/pointer.js";
 import { Inspector } from "./panels/inspector.js";
 import { Lists } from "./panels/lists.js";
 import { Plots } from "./panels/plots.js";
+import { SpaceTimePanel } from "./panels/space_time.js";
 import { Settings } from "./panels/settings.js";
 import { Summary } from "./panels/summary.js";
 import { Timeline } from "./panels/timeline.js";
@@ -32,7 +34,8 @@ const app = {};
 app.store = new Store();
 app.camera = new Camera();
 app.drive = new Drive(app.store);
-app.scene = new Scene(/** @type {HTMLCanvasElement} */ (document.querySelector("#map")), app.store, app.camera, app.drive);
+app.preview = new Preview(app.store);
+app.scene = new Scene(/** @type {HTMLCanvasElement} */ (document.querySelector("#map")), app.store, app.camera, app.drive, app.preview);
 /** How long each drag took from the hand to the screen [ms]. @type {number[]} */ app.latencies = [];
 app.ready = false;
 
@@ -75,6 +78,8 @@ function hear(message) {
   else if (message.type === "planned") planned(message);
   else if (message.type === "ledger") {
     if (message.rev === store.plan?.rev) putLedger(message.entries);
+  } else if (message.type === "space_time") {
+    if (message.rev === store.plan?.rev) putSpaceTime(message);
   } else if (message.type === "compiling") {
     summary.busy = message.done ? "" : `compiling the planner, once on this machine: ${message.count} parts so far`;
     store.tell("status");
@@ -163,6 +168,12 @@ function putLedger(entries) {
   app.store.ledger = entries;
   app.scene.afterwards();
   app.store.tell("ledger");
+}
+
+/** @param {any} message */
+function putSpaceTime(message) {
+  app.store.spaceTime = message;
+  app.store.tell("space-time");
 }
 
 /** Wait until the server has planned what is on the screen. @returns {Promise<void>} */
@@ -257,6 +268,7 @@ app.inspector = new Inspector(app);
 app.settings = new Settings(app);
 app.summary = new Summary(app);
 app.plots = new Plots(app);
+app.spaceTime = new SpaceTimePanel(app);
 app.timeline = new Timeline(app);
 listenToKeys(app);
 listenToBars(app);
@@ -279,6 +291,7 @@ app.store.on("document", () => {
 });
 app.store.on("selection view hover run", () => app.scene.later());
 app.drive.on(() => app.scene.later());
+app.preview.on(() => app.scene.later());
 onTheme(() => app.scene.later());
 app.exists = exists;
 new ResizeObserver(() => {

@@ -1,71 +1,29 @@
 /** A drive that is played: where the robot is at a time, what it has seen, what it is doing. */
 
+import { Playback } from "./playback.js";
+
 export const PLAY_FACTORS = [0.5, 1, 2, 5, 10, 20, 50];
 
-export class Drive {
+export class Drive extends Playback {
   /** @param {import("./core/store.js").Store} store */
   constructor(store) {
+    super();
     this.store = store;
     /** @type {any} */ this.run = null;
-    this.time = 0;
     this.factor = 10;
-    this.isPlaying = false;
-    this.last = 0;
-    /** @type {(() => void)[]} */ this.listeners = [];
     store.on("run", () => {
       if (store.run === this.run) return;
       this.run = store.run;
-      this.time = 0;
+      this.begin = this.time = this.run?.samples.time[0] ?? 0;
+      this.end = this.run?.duration ?? 0;
       this.isPlaying = false;
       this.tell();
     });
   }
 
-  /** @param {() => void} listener */
-  on(listener) {
-    this.listeners.push(listener);
-  }
-
-  tell() {
-    this.listeners.forEach((listener) => listener());
-  }
-
-  play() {
-    if (!this.run) return;
-    if (this.time >= this.run.duration) this.time = 0;
-    this.isPlaying = true;
-    this.last = performance.now();
-    const frame = (/** @type {number} */ now) => {
-      if (!this.isPlaying || !this.run) return;
-      this.time = Math.min(this.run.duration, this.time + (Math.max(0, now - this.last) / 1000) * this.factor);
-      this.last = now;
-      if (this.time >= this.run.duration) this.isPlaying = false;
-      this.tell();
-      if (this.isPlaying) requestAnimationFrame(frame);
-    };
-    requestAnimationFrame(frame);
-    this.tell();
-  }
-
-  pause() {
-    this.isPlaying = false;
-    this.tell();
-  }
-
-  /** @param {number} time [s] */
-  seek(time) {
-    if (!this.run) return;
-    this.time = Math.min(this.run.duration, Math.max(0, time));
-    this.tell();
-  }
-
   /** To the event before or after. @param {1|-1} way */
   step(way) {
-    if (!this.run) return;
-    this.pause();
-    const times = this.run.events.map((/** @type {any} */ event) => event.time);
-    const next = way > 0 ? times.find((/** @type {number} */ t) => t > this.time + 1e-6) : times.filter((/** @type {number} */ t) => t < this.time - 1e-6).at(-1);
-    this.seek(next ?? (way > 0 ? this.run.duration : 0));
+    if (this.run) this.stepTo(way, this.run.events.map((/** @type {any} */ event) => event.time));
   }
 
   /** The last sample that is not later than now. */

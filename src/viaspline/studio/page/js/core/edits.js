@@ -151,6 +151,13 @@ export function setTension(doc, span, tension) {
   return replaced(doc, ["spline", key], list);
 }
 
+/** Set the tension of all spans or of each; null states none. @param {Doc} doc @param {number|number[]|null} tension */
+export function withSpline(doc, tension) {
+  const { tension: _, slack: __, ...spline } = doc.spline ?? {};
+  const next = tension === null ? spline : { ...spline, tension };
+  return replaced(doc, ["spline"], Object.keys(next).length ? next : undefined);
+}
+
 /** Force a side of some obstacles, or free them (null). @param {Doc} doc @param {number[]} items @param {string|null} side */
 export function forceSide(doc, items, side) {
   let next = doc;

@@ -119,6 +119,7 @@ export function pointsOf(doc) {
  * @property {import("../shapes/shape.js").Shape|null} shape
  * @property {import("../shapes/shape.js").Item} item
  * @property {string|null} side the only one on which it may be passed
+ * @property {boolean} [isRecorded] whether its motion stands in another file
  */
 
 /** @typedef {Obstacle & {shape: import("../shapes/shape.js").Shape}} Outlined */
@@ -146,8 +147,16 @@ export function obstaclesOf(doc) {
   return found;
 }
 
-/** Those that the page draws; the shape of what moves stands in a frame of its own, nowhere on the map. @param {Obstacle[]} obstacles */
-export const outlined = (obstacles) => /** @type {Outlined[]} */ (obstacles.filter((one) => one.shape?.hasOutline && !one.item?.motion));
+/** Those that have an outline on the map; that of what moves stands in a frame of its own. @param {Obstacle[]} obstacles */
+export const outlined = (obstacles) => /** @type {Outlined[]} */ (obstacles.filter((one) => one.shape?.hasOutline));
+
+/** Those that move. @param {Obstacle[]} obstacles */
+export const movingOf = (obstacles) => /** @type {Outlined[]} */ (obstacles.filter((one) => one.shape && one.item.motion));
+
+/** What the server has read from recorded tracks, as obstacles. @param {any[]} tracks of its answer @returns {Outlined[]} */
+export const tracksOf = (tracks) => tracks.map(({ list, item, as }) => ({
+  id: `${list}:${item}`, list, index: item, name: as.name ?? "", given: as.name ?? null, isRecorded: true, shape: /** @type {import("../shapes/shape.js").Shape} */ (shapeOf(as)), item: as, side: null,
+}));
 
 /**
  * Fences and speed zones.

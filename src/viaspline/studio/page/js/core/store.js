@@ -2,7 +2,7 @@
  * The state of the page: the document and its history, what is selected, the newest plan.
  *
  * Whoever wants to know of changes listens for a topic: `document`, `selection`, `plan`, `ledger`,
- * `run`, `view`, `file`, `tool`, `hover`, `status`.
+ * `space-time`, `run`, `view`, `file`, `tool`, `hover`, `status`.
  */
 
 import { exists } from "./mission.js";
@@ -30,6 +30,7 @@ export class Store {
     /** @type {import("../geometry/curve.js").Curve|null} */ this.curve = null;
     /** @type {any} */ this.goodPlan = null; // the newest answer with a path
     /** @type {any[]} */ this.ledger = [];
+    /** @type {any} */ this.spaceTime = null; // when the path is blocked by what moves, of the newest plan that said it
     this.isLate = false; // the newest plan is of another document than the one on the screen
     /** @type {any} */ this.run = null;
     /** @type {number|null} */ this.cursor = null; // distance along the path that is looked at [m]
@@ -120,6 +121,7 @@ export class Store {
     this.selection = null;
     this.goodPlan = this.plan = this.curve = null;
     this.ledger = [];
+    this.spaceTime = null;
     this.put(doc);
     this.tell("selection");
     this.tell("file");

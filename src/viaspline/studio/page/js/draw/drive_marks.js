@@ -89,17 +89,20 @@ export function drawTrail(pen, drive, maxSpeed) {
   });
 }
 
-/** @param {Pen} pen @param {Drive} drive @param {import("./body.js").Body} body */
-export function drawRobot(pen, drive, body) {
+/**
+ * The robot with its heading, and what is left of a stay.
+ * @param {Pen} pen @param {{x: number, y: number, heading: number}} state @param {import("./body.js").Body} body
+ * @param {{colour: string, stop: {left: number, part: number}|null}} look
+ */
+export function drawRobot(pen, state, body, { colour, stop }) {
   const { ctx, camera, colours } = pen;
-  const state = drive.state();
   const [x, y] = camera.toScreen(state.x, state.y);
   const size = sizeOf(pen, body);
   const r = Math.max(body.footprint ? Math.min(innerRadius(body) * camera.scale, size) : size, 9);
   ctx.beginPath();
   if (body.footprint && size > 12) outline(pen, body, state);
   else ctx.arc(x, y, r, 0, 2 * Math.PI);
-  pen.fill(colours.robot);
+  pen.fill(colour);
   pen.stroke(colours.paper, 2);
   ctx.save();
   ctx.translate(x, y);
@@ -112,7 +115,6 @@ export function drawRobot(pen, drive, body) {
   ctx.closePath();
   pen.fill(colours.paper);
   ctx.restore();
-  const stop = drive.stay();
   if (stop) { // a station counts down as a ring that closes
     ctx.beginPath();
     ctx.arc(x, y, r + 6, -Math.PI / 2, -Math.PI / 2 + 2 * Math.PI * stop.part);

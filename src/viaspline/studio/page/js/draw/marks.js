@@ -28,6 +28,20 @@ export function drawTightest(pen, certificate, known) {
   pen.stroke(colours.paper, 1.5);
 }
 
+/** Where the robot comes nearest to what moves: the triangle, hollow. @param {Pen} pen @param {any} certificate */
+export function drawTightestInTime(pen, certificate) {
+  const { ctx, camera, colours } = pen;
+  if (!certificate?.obstacle || !certificate.tightest_at) return;
+  const [x, y] = camera.toScreen(certificate.tightest_at[0], certificate.tightest_at[1]);
+  ctx.beginPath();
+  ctx.moveTo(x, y - 8);
+  ctx.lineTo(x + 7, y + 5);
+  ctx.lineTo(x - 7, y + 5);
+  ctx.closePath();
+  pen.fill(colours.paper);
+  pen.stroke(colours.moving, 2);
+}
+
 /** Where the path doesn't drive well: squares. @param {Pen} pen @param {any[]} reasons */
 export function drawRough(pen, reasons) {
   const { ctx, camera, colours } = pen;

@@ -56,7 +56,7 @@ export function drawUnseen(pen, unseen, isFound, hover) {
     pen.fill(found ? colours.unseenFill : colours.paper, "evenodd");
     ctx.save();
     ctx.clip("evenodd");
-    hatch(pen, obstacle, found ? colours.unseen : colours.unseenFill);
+    hatch(pen, screenBox(pen.camera, obstacle), found ? colours.unseen : colours.unseenFill);
     ctx.restore();
     ctx.beginPath();
     pen.shape(obstacle);
@@ -65,10 +65,9 @@ export function drawUnseen(pen, unseen, isFound, hover) {
   }
 }
 
-/** @param {Pen} pen @param {Outlined} obstacle @param {string} colour */
-function hatch(pen, obstacle, colour) {
+/** Lines across a box. @param {Pen} pen @param {number[]} box [CSS pixel] @param {string} colour */
+export function hatch(pen, box, colour) {
   const { ctx, camera } = pen;
-  const box = screenBox(camera, obstacle);
   const [x0, y0, x1, y1] = [Math.max(box[0], -9), Math.max(box[1], -9), Math.min(box[2], camera.width + 9), Math.min(box[3], camera.height + 9)];
   if (x1 <= x0 || y1 <= y0) return;
   ctx.beginPath();

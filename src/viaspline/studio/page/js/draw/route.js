@@ -114,7 +114,7 @@ export function handlesOf(doc, selection, camera) {
 export function drawHandles(pen, doc, selection) {
   const { ctx, colours, camera } = pen;
   const shaped = shapedAt(doc, selection);
-  if (shaped) {
+  if (shaped?.shape.hasOutline) {
     ctx.beginPath();
     shaped.shape.trace(pen, shaped.item);
     pen.stroke(colours.select, 2);

@@ -1,6 +1,6 @@
 /** The whole picture, layer by layer; it is drawn at most once a frame, when something has changed. */
 
-import { areasOf, bodyOf, obstaclesOf, outlined, pointsOf, requiredOf } from "../core/mission.js";
+import { areasOf, bodyOf, movingOf, obstaclesOf, outlined, pointsOf, requiredOf, tracksOf, whole } from "../core/mission.js";
 import { polygon } from "../shapes/polygon.js";
 import { down, metres, seconds } from "../units.js";
 import { drawCorridor, drawZones, wordsOf } from "./areas.js";
@@ -8,7 +8,8 @@ import { drawBody, drawSwept } from "./body.js";
 import { drawFollowed, drawRobot, drawSight, drawTrail } from "./drive_marks.js";
 import { drawGrid, drawLimits, drawOutside, MapPictures } from "./ground.js";
 import { drawLabels } from "./labels.js";
-import { drawCross, drawCursor, drawDraft, drawProblem, drawRough, drawScale, drawTightest } from "./marks.js";
+import { drawCross, drawCursor, drawDraft, drawProblem, drawRough, drawScale, drawTightest, drawTightestInTime } from "./marks.js";
+import { boxOnScreen, drawMoving, drawTrails, placedAt } from "./moving.js";
 import { drawHalos, drawHovered, drawKnown, drawPierced, drawUnseen, screenBox } from "./obstacles.js";
 import { drawArrows, drawComb, drawLeg, drawLosers, drawPath } from "./path.js";
 import { Pen } from "./pen.js";
@@ -18,6 +19,7 @@ import { theme } from "./theme.js";
 /** @typedef {import("../core/mission.js").Outlined} Outlined */
 
 const PATIENCE_MS = 30;
+const MOST_NAMED = 12; // things that move with their names beside them
 
 export class Scene {
   /**
@@ -25,12 +27,14 @@ export class Scene {
    * @param {import("../core/store.js").Store} store
    * @param {import("../geometry/camera.js").Camera} camera
    * @param {import("../replay.js").Drive} drive
+   * @param {import("../preview.js").Preview} preview
    */
-  constructor(canvas, store, camera, drive) {
+  constructor(canvas, store, camera, drive, preview) {
     this.canvas = canvas;
     this.store = store;
     this.camera = camera;
     this.drive = drive;
+    this.preview = preview;
     this.ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
     this.maps = new MapPictures(() => this.later());
     this.isDue = false;
@@ -152,9 +156,15 @@ export class Scene {
     drawCorridor(pen, store.goodPlan?.corridor ?? []);
     drawHovered(pen, known, store.hover);
     const isDriving = !!drive.run;
+    const moving = placedAt([...movingOf(obstacles), ...tracksOf(store.plan?.tracks ?? [])], this.time);
+    drawTrails(pen, moving, this.preview, store.selection && whole(store.selection));
     if (isDriving) drawSight(pen, drive);
     drawUnseen(pen, unseen, ({ index }) => isDriving && drive.hasSeen(index), store.hover);
     this.drawWays(pen, isDriving, maxSpeed);
+    drawMoving(pen, moving, {
+      time: this.time, required: show.rings ? requiredOf(doc) : null, marked: [store.hover, store.selection].map((id) => id && whole(id)),
+      isFound: ({ index }) => isDriving && drive.hasSeen(index),
+    });
     if (show.detours && store.curve && store.plan?.ok && !isDriving) drawDetours(pen, store.curve.vias);
     const body = bodyOf(doc);
     if (show.body && store.curve && store.plan?.ok && !store.isLate && !isDriving) this.drawBodies(pen, body);
@@ -163,6 +173,7 @@ export class Scene {
     drawHandles(pen, doc, store.selection);
     if (!isDriving && store.plan?.ok && !store.isLate) {
       drawTightest(pen, store.plan.certificate, known);
+      drawTightestInTime(pen, store.plan.timing?.certificate);
       drawRough(pen, store.plan.drivability.reasons);
     }
     for (const problem of store.plan?.ok === false ? store.plan.problems : []) {
@@ -170,11 +181,23 @@ export class Scene {
       if (where) drawProblem(pen, where);
     }
     if (store.cursor !== null && store.curve && !isDriving) drawCursor(pen, store.curve.at(store.cursor), body);
-    if (isDriving) drawRobot(pen, drive, body);
+    if (isDriving) drawRobot(pen, drive.state(), body, { colour: colours.robot, stop: drive.stay() });
+    else if (this.preview.isOn && !store.isLate && store.plan?.ok) this.drawPreviewed(pen, body);
     if (this.draft) drawDraft(pen, this.draft);
     if (this.cross) drawCross(pen, this.cross);
-    this.drawNames(pen, points, obstacles, isDriving);
+    this.drawNames(pen, points, obstacles, isDriving, moving);
     drawScale(pen, 16, 16, show.speed ? maxSpeed : null);
+  }
+
+  /** The instant that is drawn, by the mission's clock [s]. */
+  get time() {
+    return this.drive.run ? this.drive.time : this.preview.time;
+  }
+
+  /** The robot where the plan has it at the instant. @param {Pen} pen @param {import("./body.js").Body} body */
+  drawPreviewed(pen, body) {
+    const state = this.preview.state();
+    if (state) drawRobot(pen, state, body, { colour: pen.colours.path, stop: null });
   }
 
   /** The body at the start, and where it comes closest. @param {Pen} pen @param {import("./body.js").Body} body */
@@ -212,8 +235,8 @@ export class Scene {
     return pointsOf(this.store.doc).find((point) => point.id === id)?.at ?? null;
   }
 
-  /** @param {Pen} pen @param {any[]} points @param {import("../core/mission.js").Obstacle[]} obstacles @param {boolean} isDriving */
-  drawNames(pen, points, obstacles, isDriving) {
+  /** @param {Pen} pen @param {any[]} points @param {import("../core/mission.js").Obstacle[]} obstacles @param {boolean} isDriving @param {import("./moving.js").Placed[]} moving */
+  drawNames(pen, points, obstacles, isDriving, moving) {
     const { camera, store } = this;
     const { colours } = pen;
     /** @type {import("./labels.js").Label[]} */ const labels = [];
@@ -245,6 +268,13 @@ export class Scene {
         if (box[2] < 0 || box[3] < 0 || box[0] > camera.width || box[1] > camera.height || w < 10) continue;
         const away = Math.min(w, box[3] - box[1]) / 2 + 4;
         labels.push({ text: obstacle.name, x: (box[0] + box[2]) / 2, y: (box[1] + box[3]) / 2, away: obstacle.side || w < 70 ? away : 0, colour: obstacle.list === "unseen" ? colours.unseen : colours.muted, rank: store.selection === obstacle.id ? 1 : 4 });
+      }
+    }
+    if (store.show.names && moving.length <= MOST_NAMED) {
+      for (const one of moving) {
+        if (!one.given || !one.frame) continue;
+        const box = boxOnScreen(pen, one);
+        labels.push({ text: one.name, x: (box[0] + box[2]) / 2, y: (box[1] + box[3]) / 2, away: (box[3] - box[1]) / 2 + 4, colour: one.list === "unseen" ? colours.unseen : colours.moving, rank: store.selection === one.id ? 1 : 3 });
       }
     }
     if (store.show.names) {

@@ -13,6 +13,7 @@ const LIGHT = {
   select: "#0b63ce", selectSoft: "rgba(11,99,206,0.16)", plate: "rgba(255,255,255,0.86)", comb: "#7d6590",
   problem: "#b3261e", driven: "#0072b2", zone: "#8a6200", zoneFill: "rgba(230,159,0,0.13)",
   corridor: "#00795a", corridorFill: "rgba(0,158,115,0.06)", swept: "rgba(0,114,178,0.13)",
+  moving: "#c2410c", movingFill: "#f6c7a8", movingTube: "#fbe6d8",
 };
 
 const DARK = {
@@ -25,6 +26,7 @@ const DARK = {
   select: "#7ab8ff", selectSoft: "rgba(122,184,255,0.2)", plate: "rgba(18,22,27,0.82)", comb: "#b69cd0",
   problem: "#ff8a80", driven: "#56b4e9", zone: "#f0b429", zoneFill: "rgba(240,180,41,0.12)",
   corridor: "#2ed3a2", corridorFill: "rgba(46,211,162,0.06)", swept: "rgba(86,180,233,0.15)",
+  moving: "#ff9a5c", movingFill: "#7a3f1d", movingTube: "#3a2a20",
 };
 
 /** @typedef {typeof LIGHT} Theme */

@@ -1,6 +1,6 @@
 /** The scene as SVG: the path as the very Bézier curves that were proven, in metres. */
 
-import { areasOf, obstaclesOf, outlined, pointsOf, requiredOf } from "../core/mission.js";
+import { areasOf, obstaclesOf, outlined, pointsOf, requiredOf, tracksOf } from "../core/mission.js";
 import { boxOf } from "../geometry/rings.js";
 import { polygon } from "../shapes/polygon.js";
 
@@ -59,7 +59,7 @@ export function boxOfInterest(store) {
 export function boxAll(store, what = { bounds: true }) {
   const { doc } = store;
   const points = pointsOf(doc).flatMap((p) => (p.at ? [p.at] : []));
-  for (const { shape, item } of obstaclesOf(doc)) {
+  for (const { shape, item } of [...obstaclesOf(doc), ...tracksOf(store.plan?.tracks ?? [])]) {
     const box = shape?.box(item);
     if (box) points.push(box.slice(0, 2), box.slice(2));
   }

@@ -104,6 +104,16 @@ export class Curve {
     return Math.min(t[i] + (sum > 0 ? (2 * (s - d[i])) / sum : 0), t[i + 1]);
   }
 
+  /** How far it gets by a time [m]: speed is linear in time between the points of the law. @param {number} time [s] */
+  distanceAt(time) {
+    const { distances: d, speeds: v, times: t } = this.law;
+    const i = lower(t, time);
+    const lasts = t[i + 1] - t[i];
+    const late = Math.min(Math.max(time - t[i], 0), lasts);
+    const accel = lasts > 0 ? (v[i + 1] - v[i]) / lasts : 0;
+    return Math.min(d[i] + late * (v[i] + (accel * late) / 2), d[i + 1]);
+  }
+
   /** The nearest place on the path. @param {number} x @param {number} y @returns {{s: number, away: number, span: number, x: number, y: number}} */
   nearest(x, y) {
     const list = this.samples;
@@ -147,7 +157,7 @@ function search(list, s) {
   return low;
 }
 
-/** The stretch of a law that a distance lies in. @param {number[]} d @param {number} s */
+/** The stretch of a law that a distance, or a time, lies in. @param {number[]} d @param {number} s */
 function lower(d, s) {
   let low = 0, high = d.length - 2;
   while (low < high) {

@@ -99,7 +99,7 @@ function single(app, event, onSlider) {
     scene.later();
   } else if (event.key === " ") {
     if (isButton && !onSlider) return false;
-    drive.run ? (drive.isPlaying ? drive.pause() : drive.play()) : app.timeline.drive();
+    drive.run ? app.timeline.toggle() : app.timeline.drive();
   } else if (tool) {
     store.setTool(tool.name);
     scene.canvas.focus();
@@ -111,8 +111,9 @@ function single(app, event, onSlider) {
   else if (key === "+" || key === "=") zoom(app, 1.25);
   else if (key === "-") zoom(app, 0.8);
   else if (key === "t") tension(app, event.shiftKey ? -0.1 : 0.1);
-  else if (key === ".") drive.step(1);
-  else if (key === ",") drive.step(-1);
+  else if (key === ".") app.timeline.played.step(1);
+  else if (key === ",") app.timeline.played.step(-1);
+  else if (key === "w") app.timeline.toggle();
   else return false;
   return true;
 }

@@ -1,6 +1,7 @@
 /** What lies under a pixel. */
 
-import { areasOf, obstaclesOf, outlined, pointsOf, spanCount } from "../core/mission.js";
+import { areasOf, movingOf, obstaclesOf, outlined, pointsOf, spanCount } from "../core/mission.js";
+import { frameAt, into, outOf } from "../geometry/motion.js";
 import { HEADING_REACH_PX, handlesOf } from "../draw/route.js";
 import { toRing } from "../geometry/rings.js";
 
@@ -16,9 +17,10 @@ import { toRing } from "../geometry/rings.js";
  * @param {import("../geometry/camera.js").Camera} camera
  * @param {number} px @param {number} py [CSS pixel]
  * @param {number} reach how far a finger or a mouse may be off [CSS pixel]
+ * @param {number} time the instant that is drawn [s]
  * @returns {Picked|null}
  */
-export function pick(store, camera, px, py, reach) {
+export function pick(store, camera, px, py, reach, time) {
   const at = camera.toWorld(px, py);
   const near = (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ r) => Math.hypot(x - px, y - py) <= r;
   const handles = handlesOf(store.doc, store.selection, camera);
@@ -43,6 +45,11 @@ export function pick(store, camera, px, py, reach) {
     }
   }
   if (found) return found;
+  const moving = movingOf(obstaclesOf(store.doc)).reverse();
+  const keyframe = pickKeyframe(moving, camera, px, py, reach * 0.8);
+  if (keyframe) return { kind: "item", id: keyframe };
+  const body = pickBody(moving, camera, at, reach * 0.6, time);
+  if (body) return { kind: "item", id: body };
   const { curve } = store;
   const onPath = curve && store.plan?.ok ? curve.nearest(at[0], at[1]) : null;
   const pathAway = onPath ? onPath.away * camera.scale : Infinity;
@@ -58,6 +65,39 @@ export function pick(store, camera, px, py, reach) {
   }
   for (const area of areasOf(store.doc).reverse()) { // by their edges: the map within can be moved
     if (area.ring.length && toRing(at, area.ring).away * camera.scale < reach * 0.6) return { kind: "item", id: area.id };
+  }
+  return null;
+}
+
+/**
+ * The keyframe under a pixel, by its id.
+ * @param {import("../core/mission.js").Outlined[]} moving @param {import("../geometry/camera.js").Camera} camera
+ * @param {number} px @param {number} py @param {number} reach [CSS pixel]
+ */
+function pickKeyframe(moving, camera, px, py, reach) {
+  for (const { id, shape, item } of moving) {
+    const vertex = shape.vertices(item).findIndex(([vx, vy]) => {
+      const [x, y] = camera.toScreen(vx, vy);
+      return Math.hypot(x - px, y - py) <= reach;
+    });
+    if (vertex >= 0) return `${id}:${vertex}`;
+  }
+  return null;
+}
+
+/**
+ * What is at a place at an instant, by its id.
+ * @param {import("../core/mission.js").Outlined[]} moving @param {import("../geometry/camera.js").Camera} camera
+ * @param {number[]} at [m] @param {number} reach [CSS pixel] @param {number} time [s]
+ */
+function pickBody(moving, camera, at, reach, time) {
+  for (const { id, shape, item } of moving) {
+    const frame = frameAt(item.motion, time);
+    if (!frame) continue;
+    const there = into(frame, at);
+    const edge = shape.covers(there, item) ? there : shape.edgeNear(there, item);
+    const [x, y] = outOf(frame, edge ?? [Infinity, Infinity]);
+    if (Math.hypot(x - at[0], y - at[1]) * camera.scale < reach) return id;
   }
   return null;
 }

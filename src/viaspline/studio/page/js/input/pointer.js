@@ -141,7 +141,7 @@ export class Pointer {
     const [px, py] = this.place(event);
     if (goesByCorners(store.tool)) this.drawing.close();
     if (store.tool !== "select") return;
-    const found = pick(store, this.camera, px, py, 10);
+    const found = pick(store, this.camera, px, py, 10, this.scene.time);
     if (found?.kind === "path") this.dragging.addVia(this.camera.toWorld(px, py), found.leg);
   }
 
@@ -161,11 +161,11 @@ export class Pointer {
 
   /** What a press begins. @param {number} px @param {number} py @param {number} reach @returns {Gesture} */
   begin(px, py, reach) {
-    const { store, camera } = this;
+    const { store, camera, scene } = this;
     const at = camera.toWorld(px, py);
     if (goesByCorners(store.tool)) return this.drawing.corner(px, py);
     if (shapeToolOf(store.tool)) return this.drawing.drag(at);
-    const found = pick(store, camera, px, py, reach);
+    const found = pick(store, camera, px, py, reach, scene.time);
     if (store.tool === "via" && found?.kind !== "item" && found?.kind !== "handle") {
       const id = this.dragging.addVia(at, found?.kind === "path" ? found.leg : null);
       return this.dragging.item(id, at);
@@ -195,7 +195,7 @@ export class Pointer {
   /** @param {number} px @param {number} py */
   hoverAt(px, py) {
     const { store, camera, scene } = this;
-    const found = pick(store, camera, px, py, 10);
+    const found = pick(store, camera, px, py, 10, scene.time);
     if (scene.draft?.corners) {
       scene.draft = { ...scene.draft, at: this.snapped(camera.toWorld(px, py)) };
       scene.later();

@@ -13,6 +13,7 @@ export function h(tag, props = {}, ...children) {
     if (value === undefined || value === null || value === false) continue;
     if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
     else if (key === "class") element.className = value;
+    else if (key === "value" && tag === "input") /** @type {any} */ (element).defaultValue = value; // what is typed can be told from it
     else if (key === "value" || key === "checked" || key === "indeterminate") /** @type {any} */ (element)[key] = value;
     else element.setAttribute(key, value === true ? "" : String(value));
   }
@@ -33,6 +34,7 @@ const ICONS = {
   fit: "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5",
   play: "M7 4l13 8-13 8z",
   pause: "M7 4h4v16H7zM14 4h4v16h-4z",
+  watch: "M12 4a8 8 0 1 0 0 16 8 8 0 0 0 0-16zM10 8.500l5.500 3.500-5.500 3.500z",
   next: "M5 4l10 8-10 8zM18 4v16",
   prev: "M19 4L9 12l10 8zM6 4v16",
   stop: "M6 6h12v12H6z",
@@ -94,7 +96,7 @@ export function numberField({ label, value, unit = "", step = 0.1, min, max, pla
       if (!way || input.value === "") return;
       event.preventDefault();
       const next = Number(input.value) + way * step * (event.shiftKey ? 10 : 1);
-      input.value = String(Number(Math.min(max ?? Infinity, Math.max(min ?? -Infinity, next)).toFixed(6)));
+      input.value = input.defaultValue = String(Number(Math.min(max ?? Infinity, Math.max(min ?? -Infinity, next)).toFixed(6)));
       set(Number(input.value));
     },
   });
@@ -150,7 +152,16 @@ export function fill(element, ...children) {
   const active = document.activeElement;
   const label = active && element.contains(active) ? active.getAttribute("aria-label") : null;
   element.replaceChildren(...children.filter((c) => c !== null && c !== undefined && c !== false).map((c) => /** @type {Node|string} */ (c)));
-  if (label) /** @type {HTMLElement|null} */ (element.querySelector(`[aria-label="${CSS.escape(label)}"]`))?.focus({ preventScroll: true });
+  if (!label) return;
+  const again = /** @type {HTMLElement|null} */ (element.querySelector(`[aria-label="${CSS.escape(label)}"]`));
+  again?.focus({ preventScroll: true });
+  if (again instanceof HTMLInputElement && again.type !== "range") again.select(); // as if it had been tabbed to
+}
+
+/** Whether somebody is typing into a field of a panel, and nothing has heard of it yet. @param {HTMLElement} panel */
+export function isTypedInto(panel) {
+  const active = document.activeElement;
+  return active instanceof HTMLInputElement && panel.contains(active) && active.value !== active.defaultValue;
 }
 
 /** Do something soon, once for many calls: panels need not keep up with every drag. @param {() => void} work @param {number} ms */

@@ -4,7 +4,8 @@ import { forceSide, moveTo, reshaped, setKey, setOnPoint, setTension } from "../
 import { anchorOf, areasOf, isArea, isPoint, obstaclesOf, pointsOf, refOf, tensionsOf, whole } from "../core/mission.js";
 import { erase } from "../input/keyboard.js";
 import { metres } from "../units.js";
-import { checkbox, choice, fill, h, icon, lazily, numberField, slider, textField } from "./dom.js";
+import { motionFields } from "./motion.js";
+import { checkbox, choice, fill, h, icon, isTypedInto, lazily, numberField, slider, textField } from "./dom.js";
 
 export class Inspector {
   /** @param {any} app */
@@ -12,7 +13,12 @@ export class Inspector {
     this.app = app;
     this.panel = /** @type {HTMLElement} */ (document.querySelector("#inspector"));
     this.isSliding = false;
+    this.isOwed = false; // what has changed while somebody was typing
     const render = lazily(() => this.render(), 100);
+    this.panel.addEventListener("change", ({ target }) => {
+      if (target instanceof HTMLInputElement) target.defaultValue = target.value;
+    });
+    this.panel.addEventListener("focusout", () => { if (this.isOwed) render(); });
     app.store.on("document selection", render);
     app.store.on("plan", () => { if (app.store.selection?.startsWith("span:")) render(); });
   }
@@ -26,7 +32,8 @@ export class Inspector {
   }
 
   render() {
-    if (this.isSliding) return;
+    this.isOwed = isTypedInto(this.panel);
+    if (this.isSliding || this.isOwed) return;
     const { store } = this.app;
     const id = store.selection;
     if (!id) fill(this.panel, h("p", { class: "hint" }, "Nothing is selected. Click a point, an obstacle or a span of the path; or press Tab on the map."));
@@ -83,6 +90,7 @@ export class Inspector {
       textField({ label: "Name", value: one.given ?? "", placeholder: one.name, set: (value) => store.edit(setKey(store.doc, owner, "name", value || undefined)) }),
       at ? this.placeFields(id, at) : null,
       ...(shape?.fields(item) ?? []).map((field) => this.shapeField(owner, field)),
+      ...motionFields(app, owner, item.motion ? ref.vertex : -1),
       checkbox({ label: "Unseen: only the sensor finds it", value: isUnseen, set: () => app.toggleUnseen() }),
       !isUnseen && (shape?.hasSides ?? true) ? choice({
         label: "Pass on", value: one.side ?? "", options: [["", "either side"], ["left", "left"], ["right", "right"]],

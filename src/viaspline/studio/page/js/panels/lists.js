@@ -51,7 +51,7 @@ export class Lists {
     // Rows say nothing of places, so while something is dragged they stay as they are.
     const signature = JSON.stringify([
       store.selection, store.doc.route?.order, points.map((p) => [p.id, p.name, p.dwell]),
-      obstacles.map((o) => [o.id, o.name, o.side, o.shape?.key]), areas.map((a) => [a.id, a.name, a.speed]),
+      obstacles.map((o) => [o.id, o.name, o.side, o.shape?.key, !!o.item?.motion]), areas.map((a) => [a.id, a.name, a.speed]),
     ]);
     if (signature === this.signature) return;
     this.signature = signature;
@@ -152,6 +152,7 @@ export class Lists {
         "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${one.shape?.name ?? "no shape"}${isUnseen ? ", unseen" : ""}`, onclick: () => store.select(one.id) },
         h("span", { class: `glyph${isUnseen ? " is-unseen" : ""}` }, icon(one.shape?.key ?? "warn", 16)),
         h("span", { class: "row-name" }, one.name),
+        one.item?.motion ? h("span", { class: "row-note" }, "moves") : null,
         one.side ? h("span", { class: "row-note" }, `pass ${one.side}`) : null,
         isUnseen ? h("span", { class: "row-note is-unseen" }, "unseen") : null,
       ),

@@ -163,7 +163,7 @@ export class Plots {
     ctx.lineWidth = 1.2;
     ctx.stroke();
     const speed = this.app.drive.run ? this.app.drive.state().speed : at.speed;
-    const texts = [[`${at.curvature.toFixed(3)}`, TOP_PX + tall * (0.5 - at.curvature / most / 2)], [`${speed.toFixed(2)} m/s`, TOP_PX + tall + GAP_PX + 10], [`${s.toFixed(1)} m · ${(this.app.drive.run ? this.app.drive.time : curve.timeAt(s)).toFixed(1)} s`, height - 9]];
+    const texts = [[at.curvature.toFixed(3).replace(/^-(0\.0+)$/, "$1"), TOP_PX + tall * (0.5 - at.curvature / most / 2)], [`${speed.toFixed(2)} m/s`, TOP_PX + tall + GAP_PX + 10], [`${s.toFixed(1)} m · ${(this.app.drive.run ? this.app.drive.time : curve.timeAt(s)).toFixed(1)} s`, height - 9]];
     ctx.font = "600 11px Inter, system-ui, sans-serif";
     for (const [text, y] of /** @type {[string, number][]} */ (texts)) {
       const w = ctx.measureText(text).width + 8;

@@ -2,6 +2,7 @@
 
 import { replaced, setClosed, setTension } from "../core/edits.js";
 import { pointsOf, tensionsOf } from "../core/mission.js";
+import { Advice } from "./advice.js";
 import { checkbox, choice, fill, h, lazily, numberField, slider } from "./dom.js";
 import { robotFields } from "./robot.js";
 
@@ -18,11 +19,12 @@ export class Settings {
       grab: () => { this.isSliding = true; },
       drop: () => {
         this.isSliding = false;
-        this.shown = [0];
-        this.render();
+        this.renderAgain();
       },
     };
+    this.advice = new Advice(app, () => this.renderAgain());
     /** @type {unknown[]} */ this.shown = [0];
+    app.store.on("plan", lazily(() => { if (app.store.plan?.ok !== this.wasOk) this.renderAgain(); }, 120));
     app.store.on("document", lazily(() => this.render(), 120));
   }
 
@@ -32,11 +34,18 @@ export class Settings {
     store.edit(replaced(store.doc, path, value ?? undefined), { merge: path.join(".") });
   }
 
+  /** What is shown has changed otherwise than by the document. */
+  renderAgain() {
+    this.shown = [0];
+    this.render();
+  }
+
   render() {
     if (this.isSliding) return;
+    this.wasOk = this.app.store.plan?.ok;
     const { doc } = this.app.store;
-    const { closed, order, laps, corridor, optimise } = doc.route ?? {};
-    const shown = [doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, optimise, pointsOf(doc).length];
+    const { closed, order, laps, corridor, optimise, depart_s: depart, hold_s: hold } = doc.route ?? {};
+    const shown = [this.advice.given && doc, doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, optimise, depart, hold, this.app.preview.hasMotion, pointsOf(doc).length];
     if (shown.every((value, i) => value === this.shown[i])) return;
     this.shown = shown;
     fill(
@@ -45,6 +54,7 @@ export class Settings {
       ...robotFields(doc, this.app.drives ?? [], (path, value) => this.set(path, value), this.preferred()),
       h("h3", {}, "Curve"),
       this.tension(),
+      ...this.advice.rows(),
       h("div", { class: "pair" },
         choice({ label: "Knots", value: doc.spline?.knots ?? "chordal", options: [["chordal", "chordal"], ["centripetal", "centripetal"], ["uniform", "uniform"]], set: (value) => this.set(["spline", "knots"], value) }),
         choice({ label: "Tangents", value: doc.spline?.tangents ?? "", options: [["", "as the robot needs"], ["cardinal", "cardinal"], ["continuous", "continuous curvature"]], set: (value) => this.set(["spline", "tangents"], value || undefined) })),
@@ -53,9 +63,21 @@ export class Settings {
       checkbox({ label: "Closed: back to the start", value: !!doc.route?.closed, set: (value) => this.app.store.edit(setClosed(this.app.store.doc, value)) }),
       checkbox({ label: "Via points in the shortest order", value: doc.route?.order === "shortest", set: (value) => this.set(["route", "order"], value ? "shortest" : undefined) }),
       closed ? numberField({ label: "Laps", value: laps ?? null, step: 1, min: 1, max: 1000, placeholder: "1", set: (value) => this.set(["route", "laps"], value === null ? undefined : Math.round(value)) }) : null,
+      ...this.timing(),
       ...this.corridor(),
       ...this.bounds(),
     );
+  }
+
+  /** When it sets out, and for how long the goal stays free: of use where something moves. */
+  timing() {
+    const { preview, store } = this.app;
+    if (!preview.hasMotion) return [];
+    const one = (/** @type {string} */ label, /** @type {string} */ key) => numberField({
+      label, unit: "s", value: typeof store.doc.route?.[key] === "number" ? store.doc.route[key] : null, min: 0, step: 1, placeholder: "0",
+      set: (value) => this.set(["route", key], value),
+    });
+    return [h("div", { class: "pair" }, one("Sets out at", "depart_s"), one("Goal stays free for", "hold_s"))];
   }
 
   /** How far the path may lie beside the straight lines between the points. */

@@ -2,6 +2,7 @@
 
 import { forceSide, replaced } from "../core/edits.js";
 import { idAt, obstaclesOf, part, pointsOf } from "../core/mission.js";
+import { timingRows } from "./timing.js";
 import { bend, down, metres, number, place, seconds } from "../units.js";
 import { fill, h, icon, lazily } from "./dom.js";
 
@@ -24,7 +25,7 @@ export class Summary {
     const { plan } = this.app.store;
     if (!plan || plan.ok === this.wasOk) return;
     this.wasOk = plan.ok;
-    this.app.say(plan.ok ? `there is a path again, ${metres(plan.length, 1)}` : `no path: ${plan.problems[0]?.text ?? ""}`);
+    this.app.say(plan.ok ? `there is a path again, ${metres(plan.length, 1)}` : `${plan.gave_up ? "" : "no path: "}${plan.problems[0]?.text ?? ""}`);
   }
 
   render() {
@@ -32,6 +33,7 @@ export class Summary {
     if (this.busy) this.pill("is-busy", "…", this.busy);
     else if (!plan) this.pill("is-busy", "…", "planning");
     else if (plan.ok) this.pill("is-good", "check", `proven clear · ${metres(plan.length, 1)} · ${seconds(plan.duration)}`);
+    else if (plan.gave_up) this.pill("is-bad", "warn", plan.problems[0]?.text ?? "gave up");
     else this.pill("is-bad", "warn", `no path: ${plan.problems[0]?.text ?? ""}`);
     if (!plan) return;
     if (plan.ok) fill(this.panel, ...this.good(plan));
@@ -58,6 +60,7 @@ export class Summary {
       h("dl", { class: "figures" },
         ...row("Length", metres(plan.length, 1)), ...row("Duration", seconds(plan.duration)),
         ...row("Sharpest", bend(plan.curvature)), ...row("Planned in", plan.ms < 1000 ? `${plan.ms.toFixed(1)} ms` : seconds(plan.ms / 1000))),
+      ...timingRows(this.app, plan),
       ...this.groups(),
     ];
   }
@@ -105,7 +108,7 @@ export class Summary {
       const text = candidate?.length ? `${metres(candidate.length, 1)}, ${seconds(candidate.duration)}` : forced && forced !== which ? "forbidden" : candidate?.impossible ? "blocked" : "–";
       return h("button", {
         type: "button", class: "side", "aria-pressed": String(!!candidate?.chosen), disabled: !entry.forceable,
-        "aria-label": `pass ${name} on the ${which}, ${text}`, title: candidate?.impossible ?? `pass on the ${which}`,
+        "aria-label": `pass ${name} on the ${which}, ${text}`, title: candidate?.impossible ?? candidate?.passedOver ?? `pass on the ${which}`,
         onclick: () => {
           store.edit(forceSide(store.doc, entry.items, which));
           app.say(`${name}: passed on the ${which}`);
@@ -123,7 +126,7 @@ export class Summary {
     const { store } = this.app;
     const shown = plan.problems.slice(0, 6);
     return [
-      h("div", { class: "problem-head" }, icon("warn", 18), h("span", {}, plan.problems.length > 1 ? `No path: ${plan.problems.length} faults` : "No path")),
+      h("div", { class: "problem-head" }, icon("warn", 18), h("span", {}, plan.gave_up ? "Not known whether there is a path" : plan.problems.length > 1 ? `No path: ${plan.problems.length} faults` : "No path")),
       ...shown.map((/** @type {any} */ problem) => {
         const id = idAt(problem.path);
         const key = problem.path.length ? this.nameOf(problem.path) : null;

@@ -1,14 +1,18 @@
-/** Drive: play, pause, step, scrub, how fast; every event is a mark on the line of time. */
+/**
+ * The line of time: of the plan, or of a drive while one is played. Play, pause, step, scrub, how
+ * fast; every event is a mark on it.
+ */
 
 import { PLAY_FACTORS } from "../replay.js";
 import { clock, metres, seconds } from "../units.js";
-import { fill, h, icon } from "./dom.js";
+import { fill, h, icon, lazily } from "./dom.js";
 
 /** Each kind of event has a sign of its own, so that colour is not all. */
 const EVENT_SIGNS = {
   started: ["▶", "is-plain"], detected: ["◉", "is-seen"], replanned: ["↝", "is-replan"], via: ["•", "is-plain"],
   arrived: ["■", "is-stop"], dwell: ["□", "is-stop"], skipped: ["✕", "is-bad"], braked: ["▼", "is-seen"],
-  stopped: ["■", "is-bad"], reached: ["⚑", "is-good"], contact: ["✕", "is-bad"],
+  stopped: ["■", "is-bad"], reached: ["⚑", "is-good"], contact: ["✕", "is-bad"], waits: ["▼", "is-seen"],
+  tightest: ["△", "is-seen"],
 };
 
 export class Timeline {
@@ -24,21 +28,51 @@ export class Timeline {
     this.note = find("#drive-note");
     this.factor = find("#factor");
     this.isAsked = false;
+    this.marksSoon = lazily(() => this.drawMarks(), 150);
     fill(this.factor, ...PLAY_FACTORS.map((f) => h("option", { value: String(f), selected: f === app.drive.factor }, `${f}×`)));
     this.factor.addEventListener("change", () => { app.drive.factor = Number(this.factor.value); });
-    this.button.addEventListener("click", () => (app.drive.run ? (app.drive.isPlaying ? app.drive.pause() : app.drive.play()) : this.drive()));
+    this.watch = find("#watch");
+    this.button.addEventListener("click", () => (app.drive.run ? this.toggle() : this.drive()));
+    this.watch.addEventListener("click", () => this.toggle());
     this.scrub.addEventListener("input", () => {
-      app.drive.pause();
-      app.drive.seek(Number(this.scrub.value));
+      this.played.pause();
+      this.played.seek(Number(this.scrub.value));
     });
-    find("#step-back").addEventListener("click", () => app.drive.step(-1));
-    find("#step-on").addEventListener("click", () => app.drive.step(1));
+    this.scrub.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
+      const way = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+      if (!way) return;
+      this.nudge(way, event.shiftKey);
+      event.preventDefault();
+    });
+    find("#step-back").addEventListener("click", () => this.played.step(-1));
+    find("#step-on").addEventListener("click", () => this.played.step(1));
     find("#leave-drive").addEventListener("click", () => this.leave());
     app.drive.on(() => this.render());
+    app.preview.on(() => this.render());
     app.store.on("run plan", () => this.render());
     this.shown = null;
     this.lastEvent = null;
     this.render();
+  }
+
+  /** What is played: the drive, or the plan. */
+  get played() {
+    const { drive, preview } = this.app;
+    return drive.run ? drive : preview;
+  }
+
+  toggle() {
+    if (this.played.isPlaying) this.played.pause();
+    else this.played.play();
+  }
+
+  /** A little later or earlier. @param {number} way 1 or -1 @param {boolean} far */
+  nudge(way, far) {
+    const { played } = this;
+    const step = (played.end - played.begin) / (far ? 20 : 200);
+    played.pause();
+    played.seek(played.time + way * step);
+    this.app.say(seconds(played.time));
   }
 
   /** Drive the mission as it is now, then play it. */
@@ -53,6 +87,7 @@ export class Timeline {
       return;
     }
     this.isAsked = true;
+    this.app.preview.pause();
     this.progress(0);
     this.app.say("driving");
     try {
@@ -94,29 +129,55 @@ export class Timeline {
   }
 
   render() {
-    const { drive, store } = this.app;
+    const { drive, store, preview } = this.app;
     const { run } = drive;
     this.panel.classList.toggle("is-driving", !!run);
     document.body.classList.toggle("is-driving", !!run);
     const verb = this.isAsked ? "Stop" : run ? (drive.isPlaying ? "Pause" : "Play") : "Drive";
-    if (this.button.dataset.verb !== verb) {
-      this.button.dataset.verb = verb;
-      fill(this.button, icon(verb === "Pause" ? "pause" : verb === "Stop" ? "stop" : "play", 16), verb);
-    }
+    this.dress(this.button, verb, icon(verb === "Pause" ? "pause" : verb === "Stop" ? "stop" : "play", 16), verb);
     this.button.disabled = !run && !this.isAsked && !store.plan?.ok;
-    this.scrub.disabled = !run;
-    if (run !== this.shown) {
-      this.shown = run;
-      this.scrub.max = String(run?.duration ?? 1);
-      this.drawMarks();
+    const canPlay = this.played.end > this.played.begin;
+    const watch = preview.isPlaying ? "Pause the plan" : "Play the plan";
+    this.dress(this.watch, watch, icon(preview.isPlaying ? "pause" : "watch"));
+    this.watch.setAttribute("aria-label", watch);
+    this.watch.title = `${watch} (W)`;
+    this.watch.disabled = this.scrub.disabled = !canPlay;
+    const shown = run ?? store.goodPlan;
+    if (shown !== this.shown) {
+      this.shown = shown;
+      this.scrub.min = String(this.played.begin);
+      this.scrub.max = String(canPlay ? this.played.end : this.played.begin + 1);
+      if (run) this.drawMarks();
+      else this.marksSoon(); // plans come as fast as something is dragged
       this.lastEvent = null;
     }
-    if (!run) {
-      this.clock.textContent = store.plan?.ok ? seconds(store.plan.duration) : "–";
-      this.scrub.value = "0";
-      if (!this.isAsked) this.note.textContent = "Drive the mission in simulation, with what is not on the map.";
-      return;
-    }
+    if (!run) this.renderPlan();
+    else this.renderDrive();
+    for (const mark of this.marks.children) mark.classList.toggle("is-past", Number(mark.dataset.time) <= this.played.time);
+  }
+
+  /** @param {HTMLElement} button @param {string} verb what it does now @param {...(Node|string)} children */
+  dress(button, verb, ...children) {
+    if (button.dataset.verb === verb) return;
+    button.dataset.verb = verb;
+    fill(button, ...children);
+  }
+
+  renderPlan() {
+    const { store, preview } = this.app;
+    const isMoved = preview.isPlaying || preview.time > preview.begin;
+    this.scrub.value = String(preview.time);
+    this.scrub.setAttribute("aria-valuetext", seconds(preview.time));
+    const speed = store.curve?.speedAt(store.curve.distanceAt(preview.time)) ?? 0;
+    this.clock.textContent = !store.plan?.ok ? "–" : isMoved ? `${clock(preview.time)} · ${speed.toFixed(2)} m/s` : seconds(store.plan.duration);
+    if (this.isAsked) return;
+    const last = preview.moments().filter(({ time }) => time <= preview.time + 1e-6).at(-1);
+    this.note.textContent = isMoved && last ? `${clock(last.time)} ${last.text}` : "Drive the mission in simulation, with what is not on the map.";
+  }
+
+  renderDrive() {
+    const { drive } = this.app;
+    const { run } = drive;
     this.scrub.value = String(drive.time);
     this.scrub.setAttribute("aria-valuetext", clock(drive.time));
     const state = drive.state();
@@ -133,18 +194,24 @@ export class Timeline {
         ? `reached the goal in ${seconds(run.duration)}, ${metres(run.distance, 1)}, never closer than ${metres(run.clearance)} · ${run.replans.length} re-plan${run.replans.length === 1 ? "" : "s"}`
         : `did not reach the goal: ${run.reason}`;
     }
-    for (const mark of this.marks.children) mark.classList.toggle("is-past", Number(mark.dataset.time) <= drive.time);
+  }
+
+  /** What happens on the line of time. @returns {{time: number, kind: string, words: string}[]} */
+  events() {
+    const { drive, preview } = this.app;
+    if (!drive.run) return preview.moments().map((/** @type {any} */ moment) => ({ time: moment.time, kind: moment.kind, words: moment.text }));
+    return drive.run.events.map((/** @type {any} */ event) => ({ time: event.time, kind: event.kind, words: event.message }));
   }
 
   drawMarks() {
-    const { drive } = this.app;
-    const { run } = drive;
+    const { played } = this;
+    const lasts = played.end - played.begin || 1;
     const wide = this.marks.clientWidth || 400;
     let free = -Infinity; // events at the same time stand side by side
-    fill(this.marks, ...(run?.events ?? []).map((/** @type {any} */ event) => {
+    fill(this.marks, ...this.events().map((event) => {
       const [sign, kind] = /** @type {any} */ (EVENT_SIGNS)[event.kind] ?? ["•", "is-plain"];
-      const mark = h("button", { type: "button", class: `mark ${kind}`, tabindex: "-1", title: `${clock(event.time)} ${event.message}`, "aria-label": `${clock(event.time)} ${event.message}`, "data-time": event.time, onclick: () => { drive.pause(); drive.seek(event.time); } }, sign);
-      const left = Math.max((wide * event.time) / run.duration, free);
+      const mark = h("button", { type: "button", class: `mark ${kind}`, tabindex: "-1", title: `${clock(event.time)} ${event.words}`, "aria-label": `${clock(event.time)} ${event.words}`, "data-time": event.time, onclick: () => { this.played.pause(); this.played.seek(event.time); } }, sign);
+      const left = Math.max((wide * (event.time - played.begin)) / lasts, free);
       free = left + 15;
       mark.style.left = `${(100 * left) / wide}%`;
       return mark;

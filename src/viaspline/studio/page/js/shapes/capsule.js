@@ -76,6 +76,8 @@ export const capsule = {
     const move = (/** @type {Place} */ p) => [tidy(p[0] + at[0] - from[0]), tidy(p[1] + at[1] - from[1])];
     return { ...item, capsule: { ...item.capsule, from: move(item.capsule.from), to: move(item.capsule.to) } };
   },
+  mapped: (item, move) => ({ ...item, capsule: { ...item.capsule, from: move(item.capsule.from), to: move(item.capsule.to) } }),
+  reach: ({ capsule: { from, to, radius } }) => Math.max(Math.hypot(from[0], from[1]), Math.hypot(to[0], to[1])) + radius,
   vertices: ({ capsule: { from, to } }) => [from, to],
   vertexAt: ([key, end]) => (key === "capsule" ? ENDS.indexOf(String(end)) : -1),
   withVertex: (item, vertex, at) => ({ ...item, capsule: { ...item.capsule, [ENDS[vertex]]: at } }),

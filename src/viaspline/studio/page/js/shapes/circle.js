@@ -47,6 +47,8 @@ export const circle = {
   },
   anchor: (item) => item.circle.center,
   movedTo: (item, at) => ({ ...item, circle: { ...item.circle, center: at } }),
+  mapped: (item, move) => ({ ...item, circle: { ...item.circle, center: move(item.circle.center) } }),
+  reach: ({ circle: { center, radius } }) => Math.hypot(center[0], center[1]) + radius,
   handles: ({ circle: { center: [x, y], radius } }) => [{ role: "radius", at: [x + radius, y], vertex: -1 }],
   dragged: (item, _, at, snapped) => withRadius(item, radiusTo(item.circle.center, at, snapped)),
   fields: (item) => [{

@@ -13,6 +13,13 @@ const SHORTEST_SPLIT_PX = 44; // of an edge that has a handle for a new corner
 /** @param {Item} item @returns {Place[][]} the outer ring first */
 const ringsOf = (item) => [item.polygon, ...(Array.isArray(item.holes) ? item.holes : [])];
 
+/** @param {Item} item @param {(at: Place) => Place} move @returns {Item} */
+function mapped(item, move) {
+  /** @type {Item} */ const moved = { ...item, polygon: item.polygon.map(move) };
+  if (Array.isArray(item.holes)) moved.holes = item.holes.map((/** @type {Place[]} */ ring) => ring.map(move));
+  return moved;
+}
+
 /** @type {import("./shape.js").Shape} */
 export const polygon = {
   key: "polygon",
@@ -43,11 +50,10 @@ export const polygon = {
   movedTo(item, at) {
     const from = middle(item.polygon);
     const [dx, dy] = [at[0] - from[0], at[1] - from[1]];
-    const move = (/** @type {Place[]} */ ring) => ring.map(([x, y]) => [tidy(x + dx), tidy(y + dy)]);
-    /** @type {Item} */ const moved = { ...item, polygon: move(item.polygon) };
-    if (Array.isArray(item.holes)) moved.holes = item.holes.map(move);
-    return moved;
+    return mapped(item, ([x, y]) => [tidy(x + dx), tidy(y + dy)]);
   },
+  mapped,
+  reach: (item) => Math.max(...item.polygon.map((/** @type {Place} */ [x, y]) => Math.hypot(x, y))),
   vertices: (item) => item.polygon,
   vertexAt: ([key, index]) => (key === "polygon" && typeof index === "number" ? index : -1),
   withVertex: (item, vertex, at) => ({ ...item, polygon: item.polygon.map((/** @type {Place} */ p, /** @type {number} */ i) => (i === vertex ? at : p)) }),

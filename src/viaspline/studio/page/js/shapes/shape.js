@@ -51,10 +51,12 @@
  * @property {(item: Item) => boolean} isPierced whether it has holes: then it is filled alone
  * @property {(item: Item, look: string) => string} svg an element with these attributes
  * @property {(item: Item) => number[]|null} box x_min, y_min, x_max, y_max [m]
+ * @property {(item: Item) => number} reach how far it extends from the origin of its frame if it moves [m]
  * @property {(p: Place, item: Item) => boolean} covers
  * @property {(p: Place, item: Item) => Place|null} edgeNear the nearest place on its edge
  * @property {(item: Item) => Place|null} anchor the place that its coordinates tell; null if it can't be moved
  * @property {(item: Item, at: Place) => Item} movedTo with its anchor there
+ * @property {(item: Item, move: (at: Place) => Place) => Item} mapped with all of its places moved or turned
  * @property {(item: Item) => Place[]} vertices what can be selected and moved on its own
  * @property {(path: (string|number)[]) => number} vertexAt the vertex that a path within an item leads to, or -1
  * @property {(item: Item, vertex: number, at: Place) => Item} withVertex
@@ -73,4 +75,6 @@ export const NO_VERTICES = {
   withVertex: (/** @type {Item} */ item) => item,
   withNewVertex: (/** @type {Item} */ item) => item,
   withoutVertex: () => null,
+  mapped: (/** @type {Item} */ item) => item,
+  reach: () => 0,
 };

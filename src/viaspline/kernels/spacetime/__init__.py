@@ -1,0 +1,1 @@
+"""Places and times searched together: where a robot can be when, past what moves."""

@@ -1,0 +1,68 @@
+"""Other sides among much else: which of them are weighed, and what the ledger says of the rest."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.ndimage import distance_transform_edt, label
+
+import viaspline as vs
+
+CELL = 0.5
+
+
+def on_map(blocked: np.ndarray, start: list[float], goal: list[float]) -> vs.Mission:
+    """From one place on a map to another, at 3 m/s with 1 m/s² both ways."""
+    grid = vs.Obstacle(grid=vs.Grid(blocked, CELL))
+    robot = {"radius_m": 0.3, "clearance_m": 0.1, "max_speed_mps": 3.0, "max_accel_mps2": 1.0}
+    return vs.Mission.model_validate(
+        {"world": {"known": [grid]}, "robot": robot, "route": {"start": start, "goal": goal}}
+    )
+
+
+def two_doors() -> np.ndarray:
+    """Two walls close behind each other, their doors apart, and room at the far end of both."""
+    blocked = np.zeros((60, 60), bool)
+    blocked[:38, 30] = blocked[:38, 33] = True
+    blocked[24:28, 30] = blocked[12:16, 33] = False
+    return blocked
+
+
+def test_a_longer_way_is_taken_where_the_shortest_one_loses_more_to_its_bends() -> None:
+    mission = on_map(two_doors(), [2.0, 10.0], [28.0, 10.0])
+    paths = {}
+    for optimise in ("length", "time"):
+        route = mission.route.model_copy(update={"optimise": optimise})
+        paths[optimise] = vs.plan(mission.model_copy(update={"route": route}))
+    u = np.linspace(*paths["time"].path.domain, 4000)
+    assert paths["time"].path.evaluate(u)[:, 1].max() > 19.0
+    assert paths["time"].path.length > 1.05 * paths["length"].path.length
+    assert paths["time"].trajectory.duration < paths["length"].trajectory.duration
+
+
+@settings(max_examples=15)
+@given(st.integers(0, 100_000))
+def test_the_ledger_says_why_what_costs_less_than_the_chosen_is_passed_over(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    blocked = rng.random((50, 50)) < 0.01
+    blocked[10:40, [15, 33]] = True
+    for column in (15, 33):
+        for door in rng.integers(10, 36, 2):
+            blocked[door : door + 4, column] = False
+    room = CELL * (distance_transform_edt(np.pad(~blocked, 1))[1:-1, 1:-1] - 0.5)
+    areas, _ = label(room > 1.0)
+    (left, right) = (np.argwhere(areas[:, cut] > 0) for cut in (slice(0, 8), slice(42, 50)))
+    start = CELL * (rng.choice(left)[::-1] + 0.5)
+    goal = CELL * (rng.choice(right)[::-1] + np.array((42.5, 0.5)))
+    assume(areas[tuple((start[::-1] / CELL).astype(int))]
+           == areas[tuple((goal[::-1] / CELL).astype(int))])  # fmt: skip
+    plan = vs.plan(on_map(blocked, start.tolist(), goal.tolist()))
+    for entry in plan.ledger:
+        assert entry.chosen is not None
+        assert entry.chosen.passed_over is None
+        for candidate in entry.candidates:
+            if candidate.duration is None or entry.chosen.duration is None:
+                continue
+            is_sooner = candidate.duration < entry.chosen.duration
+            assert (candidate.passed_over is not None) == is_sooner
