@@ -272,6 +272,16 @@ def test_what_stands_on_the_path_for_good_is_no_law_and_says_so() -> None:
     assert "'cart'" in outcome.reason
 
 
+def test_a_robot_that_is_at_the_end_has_no_law_past_what_runs_it_over() -> None:
+    cart = Obstacle(
+        circle={"center": (0, 0), "radius": 0.6}, motion={"from": (30, 8), "velocity_mps": (0, -1)}
+    )
+    found = law_among(
+        line(), LIMITS, moving=MovingObstacles([cart]), required=0.3, start=30.0, hold=20.0
+    )
+    assert isinstance(found, Refusal | GaveUp)
+
+
 def test_a_spent_budget_is_no_refusal() -> None:
     moving = MovingObstacles([cart(15, -8, 1)])
     outcome = law_among(line(), LIMITS, moving=moving, required=0.5, budget=WorkBudget(1e-9))
