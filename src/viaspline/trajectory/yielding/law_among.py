@@ -9,7 +9,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind
 from viaspline.mission.world_spec import SpeedZone
-from viaspline.planning.problem.method import Found, Outcome
+from viaspline.planning.problem.method import Found, Outcome, Refusal
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.trajectory.coupled import is_coupled
 from viaspline.trajectory.limits import Limits, Station
@@ -104,6 +104,12 @@ def law_among(
     conflict = traffic.conflict(road, static)
     if conflict is None:
         return Found(static, static.end_time)
+    if float(static.speeds.max()) == 0.0:
+        time, index = conflict
+        return Refusal(
+            f"there is no law: the robot is at the end of its path, where '{moving.name(index)}' "
+            f"comes nearer than {required:g} m at {time:.1f} s"
+        )
     if limits.max_jerk is not None or is_coupled(limits, path.dimension):
         return waiting_at_rests(road, traffic, static)
     course = Course.of(path, limits, stations, zones, slow, speed_cap, static)

@@ -26,7 +26,6 @@ HALVINGS = 1
 """How often the step is halved where nothing was found."""
 SPARE_S, SPARE_SHARE = 60.0, 3.0
 """A leg may take so much longer than where nothing moves, and so many times as long, at first."""
-STILL_M = 1e-9  # a leg that is no longer is none
 LONGER = 4.0
 """By how much more it may take then."""
 MOST = 64
@@ -145,8 +144,6 @@ class LegsSearch:
         chain: list[tuple[LegArrival, ...]] = []
         is_closed = True
         for i, (rest, until) in enumerate(zip(self.rests, latest, strict=True)):
-            if rest - place <= STILL_M:  # nothing is left to be driven otherwise
-                return chain, False
             last = i == len(self.rests) - 1
             stay = self.traffic.hold if last else self.course.dwell(rest)
             leg = DrivenLeg(place, rest, stay, begins[0], speed)
