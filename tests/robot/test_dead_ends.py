@@ -119,7 +119,7 @@ def test_a_robot_gets_out_of_a_cup_unless_it_is_shut(
 def test_each_drive_gets_out_of_a_spiral_and_of_the_pockets_of_a_comb(kind: str) -> None:
     keys = DRIVES[kind]
     assert_it_goes_where_the_flood_goes(spiral(2, 1.4), drive(spiral(2, 1.4), keys, 0.01))
-    keys = {**keys, "tracking_error_m": 0.05}  # at a stop it is that far beyond a corner
+    keys = {**keys, "tracking_error_m": 0.1}  # at a stop it is that far beyond a corner
     assert_it_goes_where_the_flood_goes(comb(2, 2.0, 1.4), drive(comb(2, 2.0, 1.4), keys, 0.01))
 
 

@@ -130,7 +130,7 @@ def test_what_moves_blocks_the_beams_that_are_shown_and_leaves_no_points_behind(
     assert blocked > 50
 
 
-def test_a_search_that_ends_without_an_answer_is_told_apart_from_a_proof(
+def test_a_goal_that_is_taken_for_good_is_told_as_a_proof_and_not_as_given_up(
     start: START, mission: Path
 ) -> None:
     parked = {
@@ -141,4 +141,5 @@ def test_a_search_that_ends_without_an_answer_is_told_apart_from_a_proof(
     with start(mission).client() as client:
         answer = client.edit([["world", "known", 3], parked])
     assert not answer["ok"]
-    assert answer["gave_up"]
+    assert not answer["gave_up"]
+    assert "van" in str(answer["problems"])

@@ -31,7 +31,7 @@ TURN_PATH_S, TURN_PATH_BEND_S = 5e-5, 2e-5
 HEADING_PAIR_BEND_S = 7e-6
 """Of the length of a leg between two headings, for each bend [s]."""
 
-TREE_S, POSES_EFFORT_S = 2e-3, 4e-6
+TREE_S, POSES_EFFORT_S = 2e-3, 2e-6
 """Of a search among poses: to begin one, and for each distance to the world that is reckoned in it,
 each connection that is tried and each move that is done [s]."""
 

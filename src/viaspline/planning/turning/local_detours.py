@@ -30,6 +30,7 @@ from viaspline.planning.turning.wide_turns import swing_share
 
 LANE_REACHES = (1.0, 1.6)  # how long turns off and onto a lane are made, over what they need
 LONGEST_S = 1.25  # of such a turn with its counter-turn, over what is gone round
+MOST_OFF_LANE = 0.5  # of a line, that a path may leave so that it is kept unasked
 END_SWING = 0.35  # of a turn at an end of a lane, in required distances
 NEXT_TO = 1.001  # from an end of a leg, at which there is room just so for a turn, in radii
 CLEAR_OF_RUN = 0.25  # before a blocked place, at which the line is left at the latest; the same
@@ -119,6 +120,7 @@ def local_bends(leg_lane: LegLane, taut_path: TautPath, turns: LaneTurns) -> Leg
     Returns:
         None where the leg takes the shortest way: that is asked for, its line is short beside what
         stands in it, too little of it is left between that, or it begins or ends right beside that.
+        Too little is less than half, where it isn't said that lines are kept.
     """
     leg, lane = leg_lane.leg, leg_lane.lane
     stays = leg_lane.stays(taut_path)
@@ -138,6 +140,8 @@ def local_bends(leg_lane: LegLane, taut_path: TautPath, turns: LaneTurns) -> Leg
                 return None
             found.append((stay, aside))
         pieces = _joined(found)
+    if needs.detours is None and _off_lane(leg_lane, pieces) > MOST_OFF_LANE:
+        return None
     rows, swings = [np.empty((0, 6))], [np.empty(0)]
     for _, aside in pieces:
         assert aside is not None
@@ -145,6 +149,17 @@ def local_bends(leg_lane: LegLane, taut_path: TautPath, turns: LaneTurns) -> Leg
         rows.append(bends[0])
         swings.append(bends[1])
     return LegBends(np.vstack(rows), np.concatenate(swings), END_SWING * needs.required)
+
+
+def _off_lane(leg_lane: LegLane, pieces: Sequence[tuple[Stay, Aside | None]]) -> float:
+    """The share of what is left of a lane on which a path goes round something."""
+    first, last = leg_lane.ends[:, 0].tolist()
+    off = 0.0
+    for _, aside in pieces:
+        if aside is not None:
+            begin = first if aside.leave is None else aside.leave
+            off += (last if aside.meet is None else aside.meet) - begin
+    return float(off / max(last - first, 1e-9))
 
 
 def _aside(leg_lane: LegLane, stay: Stay, turns: LaneTurns) -> Aside | None:
