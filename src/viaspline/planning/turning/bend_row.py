@@ -109,11 +109,6 @@ class LegBends:
     swings: Floats
     end_swing: float = math.inf
 
-    @property
-    def keeps_a_lane(self) -> bool:
-        """Whether they keep the leg to its line, where it may be left only so far."""
-        return math.isfinite(self.end_swing)
-
     @classmethod
     def along(cls, taut_path: TautPath) -> LegBends:
         """What a taut path goes round."""

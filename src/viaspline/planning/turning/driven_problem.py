@@ -41,7 +41,6 @@ FREE_TURN_RADII = (3.0, 1.5)
 LEAST_FREE_TURN_RADIUS = 0.5
 ROOMY_TURN_RADIUS = 2.0  # of turns where there is room, even if sharper ones are as fast
 MUCH_LOST = 1.07  # time of a leg, over that of a straight line
-MOST_FOR_LANES = 1.17  # of a path that keeps lines unasked, over the shortest way's cost
 LEAST_REQUIRED_M = 1e-3  # that these are of
 
 RowBends = tuple[LegBends, ...]
@@ -191,20 +190,8 @@ class DrivenProblem(PathProblem):
                 continue
             spline_path = self.through_turns([turn_path])
             if self.keeps_sides(spline_path):
-                return self._unless_dear(spline_path, legs, taut_paths)
+                return spline_path
         return None
-
-    def _unless_dear(
-        self, spline_path: SplinePath, legs: RowBends, taut_paths: Sequence[TautPath]
-    ) -> SplinePath:
-        """A path, or that along the shortest ways if lines are kept unasked at too high a cost."""
-        if self.requirements.detours is not None or not any(leg.keeps_a_lane for leg in legs):
-            return spline_path
-        short = tuple(LegBends.along(taut_path) for taut_path in taut_paths)
-        shorter = self.turns_along(taut_paths, (short,))
-        if shorter is None or self.cost(spline_path) <= MOST_FOR_LANES * self.cost(shorter):
-            return spline_path
-        return shorter
 
     def _at_radii(self, choices: Iterable[RowBends]) -> Iterator[tuple[RowBends, float]]:
         """Each choice of bends with every least radius of turns [m]."""

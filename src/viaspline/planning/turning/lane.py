@@ -5,7 +5,6 @@ Tested through ``planning/turning/test_local_detours``.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,28 +19,29 @@ class Lane:
 
     Attributes:
         start: [m], (2,).
-        frame: Its direction, and the one across it to the left, as columns, (2, 2).
+        along: Its direction, (2,).
         length: [m].
     """
 
     start: Floats
-    frame: Floats
+    along: Floats
     length: float
 
     @classmethod
     def of(cls, leg: WholeLeg) -> Lane:
         """The line of a leg of the route; one without length points along x."""
         way = leg.goal[:2] - leg.start[:2]
-        length = math.hypot(way[0], way[1])
-        x, y = (way / length).tolist() if length > 0.0 else (1.0, 0.0)
-        return cls(leg.start[:2], np.array(((x, -y), (y, x))), length)
+        length = float(np.hypot(*way))
+        return cls(leg.start[:2], way / length if length > 0.0 else np.array((1.0, 0.0)), length)
 
     def seen(self, places: Floats) -> Floats:
         """Places (..., 2) as distances along the line and to the left of it [m], (..., 2)."""
-        found: Floats = (places[..., :2] - self.start) @ self.frame
-        return found
+        off = places[..., :2] - self.start
+        left = self.along[0] * off[..., 1] - self.along[1] * off[..., 0]
+        return np.stack((off @ self.along, left), axis=-1)
 
     def at(self, along: float, left: float = 0.0) -> Floats:
         """The place so far along the line and to the left of it [m], (2,)."""
-        place: Floats = self.start + self.frame @ (along, left)
+        across = np.array((-self.along[1], self.along[0]))
+        place: Floats = self.start + along * self.along + left * across
         return place

@@ -7,11 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
-from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.world.corner_fans import X as CORNER_X
 from viaspline.kernels.world.corner_fans import Y as CORNER_Y
 from viaspline.planning.alternatives.leg_search import LegSearch
@@ -35,7 +34,6 @@ class Stay:
         end: Where it ends [m].
         aside: How far beside the lane the path gets there [m].
         size: Of the largest thing that stands in the way there [m].
-        corners: Of the taut path there: along the lane and to its left [m], (k, 2).
         barriers: What closes the sides on which the path doesn't pass what stands there, (b, 4).
     """
 
@@ -43,34 +41,7 @@ class Stay:
     end: float
     aside: float
     size: float
-    corners: Floats
     barriers: Floats
-
-    def and_next(self, other: Stay) -> Stay:
-        """This one and the one after it as one."""
-        return Stay(
-            self.begin,
-            other.end,
-            max(self.aside, other.aside),
-            max(self.size, other.size),
-            np.vstack((self.corners, other.corners)),
-            np.vstack((self.barriers, other.barriers)),
-        )
-
-
-@dataclass(frozen=True)
-class BlockedRun:
-    """A piece of a lane that something stands in.
-
-    Attributes:
-        begin: Where it begins, along the lane [m].
-        end: Where it ends [m].
-        barriers: What closes either side of what stands there.
-    """
-
-    begin: float
-    end: float
-    barriers: Barriers
 
 
 @dataclass(frozen=True)
@@ -80,27 +51,27 @@ class LegLane:
     Attributes:
         leg: The leg.
         lane: The line of all of the leg of the route that it is or is the rest of.
-        ends: Where the leg begins and ends: along the line and to its left [m], (2, 2).
-        is_off: Whether it does so beside the line, (2,).
         runs: Where that is blocked, along it [m], (k, 2).
     """
 
     leg: LegSearch
     lane: Lane
-    ends: Floats
-    is_off: Flags
     runs: Floats
 
     @classmethod
     def of(cls, leg: LegSearch) -> LegLane:
         """The line of a leg."""
         lane = Lane.of(leg.sequence.whole_leg(leg.index))
-        ends = lane.seen(np.array([end[:2] for end in leg.ends]))
-        first, last = min(0.0, *ends[:, 0]), max(lane.length, *ends[:, 0])
-        required = leg.requirements.required
-        runs = first + blocked_runs(leg.world, lane.at(first), lane.at(last), required)
-        is_off = np.abs(ends[:, 1]) > OFF_LANE * required
-        return cls(leg, lane, ends, is_off, runs)
+        along = [0.0, lane.length, *(float(lane.seen(end)[0]) for end in leg.ends)]
+        first, last = min(along), max(along)
+        ends = lane.at(first), lane.at(last)
+        return cls(leg, lane, first + blocked_runs(leg.world, *ends, leg.requirements.required))
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """How far along the line the leg begins and ends [m]."""
+        first, last = (float(self.lane.seen(end)[0]) for end in self.leg.ends)
+        return first, last
 
     def is_long_beside(self, stays: Sequence[Stay]) -> bool:
         """Whether it is long beside what stands in it: all along it, and to the side ahead."""
@@ -110,45 +81,47 @@ class LegLane:
         ahead = np.maximum(sizes, 0.0).sum()
         return bool(self.lane.length > LONG_LANE * max(along, ahead))
 
+    def is_off(self, place: Floats) -> bool:
+        """Whether a place lies beside the line [m], (d,)."""
+        off = abs(float(self.lane.seen(place)[1]))
+        return off > OFF_LANE * self.leg.requirements.required
+
     def stays(self, taut_path: TautPath) -> list[Stay]:
         """Where the path can't stay on it: beside it at the leg's ends, and where it is blocked.
 
         A taut path says on which side what stands there is passed, and how far aside.
         """
+        first, last = self.ends
+        runs = np.clip(self.runs, first, max(first, last))
         places = self.lane.seen(taut_path.corners[:, [CORNER_X, CORNER_Y]])
-        stays = [_blocked(taut_path, places, run) for run in self.blocked]
-        for at, left in self.ends[self.is_off].tolist():
-            stays.append(Stay(at, at, abs(left), 0.0, np.empty((0, 2)), NO_BARRIERS))
+        stays = [
+            _blocked(self.leg, self.lane, taut_path, places, run)
+            for run in runs[runs[:, 1] > runs[:, 0]]
+        ]
+        for end, at in zip(self.leg.ends, (first, last), strict=True):
+            if self.is_off(end):
+                off = abs(float(self.lane.seen(end)[1]))
+                stays.append(Stay(at, at, off, 0.0, NO_BARRIERS))
         return sorted(stays, key=lambda stay: stay.begin)
 
-    @cached_property
-    def blocked(self) -> tuple[BlockedRun, ...]:
-        """Where it is blocked between the ends of the leg, in its order."""
-        first, last = self.ends[:, 0].tolist()
-        runs = np.clip(self.runs, first, max(first, last))
-        return tuple(
-            BlockedRun(begin, end, _barriers(self.leg.world, self.lane, 0.5 * (begin + end)))
-            for begin, end in runs[runs[:, 1] > runs[:, 0]].tolist()
-        )
 
-
-def _blocked(taut_path: TautPath, places: Floats, run: BlockedRun) -> Stay:
+def _blocked(leg: LegSearch, lane: Lane, taut_path: TautPath, places: Floats, run: Floats) -> Stay:
     """A blocked piece of a lane, as a taut path with corners at places (k, 2) [m] passes it."""
-    begin, end = run.begin, run.end
-    corners = places[(places[:, 0] > begin) & (places[:, 0] < end)]
+    begin, end = run.tolist()
+    within = places[(places[:, 0] > begin) & (places[:, 0] < end), 1]
     at_ends = np.interp([begin, end], places[:, 0], places[:, 1])
-    aside = float(np.abs(np.append(corners[:, 1], at_ends)).max())
-    is_left = taut_path.crosses(run.barriers.left)
-    closed = run.barriers.right if is_left else run.barriers.left
-    return Stay(begin, end, aside, max(end - begin, 2.0 * aside), corners, closed)
+    aside = float(np.abs(np.append(within, at_ends)).max())
+    barriers = _barriers(leg.world, lane, lane.at(0.5 * (begin + end)))
+    passed = barriers.left if taut_path.crosses(barriers.left) else barriers.right
+    closed = barriers.right if passed is barriers.left else barriers.left
+    return Stay(begin, end, aside, max(end - begin, 2.0 * aside), closed)
 
 
-def _barriers(world: World, lane: Lane, along: float) -> Barriers:
-    """What closes either side of what blocks a lane at a distance from its start [m].
+def _barriers(world: World, lane: Lane, place: Floats) -> Barriers:
+    """What closes either side of what blocks a lane at a place [m], (2,).
 
     They begin inside of it: a path may pass between it and a lane that it blocks only just.
     """
-    place = lane.at(along)
     index = int(world.nearest(place)[1])
     ends = lane.start, lane.at(lane.length)
     if index >= 0 and world.obstacles[index].ring is not None:

@@ -30,7 +30,6 @@ from viaspline.planning.turning.wide_turns import swing_share
 
 LANE_REACHES = (1.0, 1.6)  # how long turns off and onto a lane are made, over what they need
 LONGEST_S = 1.25  # of such a turn with its counter-turn, over what is gone round
-MOST_OFF_LANE = 0.5  # of a line, that a path may leave so that it is kept unasked
 END_SWING = 0.35  # of a turn at an end of a lane, in required distances
 NEXT_TO = 1.001  # from an end of a leg, at which there is room just so for a turn, in radii
 CLEAR_OF_RUN = 0.25  # before a blocked place, at which the line is left at the latest; the same
@@ -55,10 +54,9 @@ class LaneTurns:
         fitting = (LONGEST_S * size) ** 2 / (8.0 * max(aside, 1e-9 * size))
         return float(np.clip(fitting, self.least, self.widest))
 
-    def lengths(self, asides: Floats, radius: float) -> Floats:
-        """Along the lane, of turns and counter-turns that lead so far aside [m], (n,)."""
-        found: Floats = self.reach * np.sqrt(8.0 * radius * np.minimum(asides, 2.0 * radius))
-        return found
+    def length(self, aside: float, radius: float) -> float:
+        """Along the lane, of a turn and a counter-turn that lead so far aside [m]."""
+        return self.reach * math.sqrt(8.0 * radius * min(aside, 2.0 * radius))
 
 
 @dataclass(frozen=True)
@@ -120,28 +118,25 @@ def local_bends(leg_lane: LegLane, taut_path: TautPath, turns: LaneTurns) -> Leg
     Returns:
         None where the leg takes the shortest way: that is asked for, its line is short beside what
         stands in it, too little of it is left between that, or it begins or ends right beside that.
-        Too little is less than half, where it isn't said that lines are kept.
     """
     leg, lane = leg_lane.leg, leg_lane.lane
     stays = leg_lane.stays(taut_path)
     needs = leg.requirements
     if needs.detours is None and not (stays and leg_lane.is_long_beside(stays)):
         return None
-    on_lane = np.array([end[:2] for end in leg.ends])[~leg_lane.is_off]
-    room = leg.world.distance(on_lane)
+    on_lane = [end[:2] for end in leg.ends if not leg_lane.is_off(end)]
+    room = leg.world.distance(np.array(on_lane).reshape(-1, 2))
     if room.min(initial=math.inf) < (1.0 + CLEAR_OF_RUN) * needs.required and stays:
         return None  # it begins or ends beside what it has to go round: no lane is left there
     pieces: list[tuple[Stay, Aside | None]] = [(stay, None) for stay in stays]
     while any(aside is None for _, aside in pieces):
         found: list[tuple[Stay, Aside]] = []
         for stay, known in pieces:
-            aside = known or _aside(leg_lane, stay, turns)
+            aside = known or _aside(leg, lane, stay, turns)
             if aside is None:
                 return None
             found.append((stay, aside))
         pieces = _joined(found)
-    if needs.detours is None and _off_lane(leg_lane, pieces) > MOST_OFF_LANE:
-        return None
     rows, swings = [np.empty((0, 6))], [np.empty(0)]
     for _, aside in pieces:
         assert aside is not None
@@ -151,74 +146,40 @@ def local_bends(leg_lane: LegLane, taut_path: TautPath, turns: LaneTurns) -> Leg
     return LegBends(np.vstack(rows), np.concatenate(swings), END_SWING * needs.required)
 
 
-def _off_lane(leg_lane: LegLane, pieces: Sequence[tuple[Stay, Aside | None]]) -> float:
-    """The share of what is left of a lane on which a path goes round something."""
-    first, last = leg_lane.ends[:, 0].tolist()
-    off = 0.0
-    for _, aside in pieces:
-        if aside is not None:
-            begin = first if aside.leave is None else aside.leave
-            off += (last if aside.meet is None else aside.meet) - begin
-    return float(off / max(last - first, 1e-9))
-
-
-def _aside(leg_lane: LegLane, stay: Stay, turns: LaneTurns) -> Aside | None:
+def _aside(leg: LegSearch, lane: Lane, stay: Stay, turns: LaneTurns) -> Aside | None:
     """How the path goes round what stands on a piece of a lane.
 
-    It is routed from where the taut path says that the lane has to be left; from farther away where
-    nothing leads there, as something else stands on the lane.
+    It is routed from where the lane may have to be left, and once more from where it has to be.
 
     Returns:
         None where no way was found, or nothing of the lane is left before and after it.
     """
     radius = turns.radius(stay.aside, stay.size) if stay.size > 0.0 else turns.widest
-    found = None
-    for corners in (stay.corners, stay.corners[:0]):
-        span = _left_and_met(
-            leg_lane, stay, _needed(leg_lane, stay, corners, radius, turns), radius
+    first, last = (float(lane.seen(end)[0]) for end in leg.ends)
+    clear = CLEAR_OF_RUN * leg.requirements.required
+    along = turns.length(stay.aside, radius)
+    leave = max(stay.begin - along, min(stay.begin - clear, first + NEXT_TO * radius))
+    meet = min(stay.end + along, max(stay.end + clear, last - NEXT_TO * radius))
+    found: Aside | None = None
+    for _ in range(2):
+        span = (
+            leave if leave > first + radius else None,
+            meet if meet < last - radius else None,
         )
-        if span != (None, None):
-            found = _routed(leg_lane.leg, leg_lane.lane, span, stay.barriers, radius)
-        if found is not None:
+        found = None if span == (None, None) else _routed(leg, lane, span, stay.barriers, radius)
+        if found is None or not len(found.places):
             break
+        needed = np.array([turns.length(off, radius) for off in np.abs(found.off)])
+        before, after = found.off * found.off[0] > 0.0, found.off * found.off[-1] > 0.0
+        leave = min(float((found.places[:, 0] - needed)[before].min()), stay.begin - clear)
+        meet = max(float((found.places[:, 0] + needed)[after].max()), stay.end + clear)
     if found is None:
         return None
-    leave, meet = _needed(leg_lane, stay, found.places, radius, turns)
     return replace(
         found,
         leave=None if found.leave is None else leave,
         meet=None if found.meet is None else meet,
     )
-
-
-def _left_and_met(
-    leg_lane: LegLane, stay: Stay, needed: tuple[float, float], radius: float
-) -> tuple[float | None, float | None]:
-    """Where the lane is left and met again, if it is so between the ends of the leg."""
-    first, last = leg_lane.ends[:, 0].tolist()
-    clear = CLEAR_OF_RUN * leg_lane.leg.requirements.required
-    leave = max(needed[0], min(stay.begin - clear, first + NEXT_TO * radius))
-    meet = min(needed[1], max(stay.end + clear, last - NEXT_TO * radius))
-    return leave if leave > first + radius else None, meet if meet < last - radius else None
-
-
-def _needed(
-    leg_lane: LegLane, stay: Stay, places: Floats, radius: float, turns: LaneTurns
-) -> tuple[float, float]:
-    """Where the lane has to be left and can be met again for places beside it (k, 2) [m].
-
-    Without any, for the farthest of them at the ends of what blocks the lane.
-    """
-    if not len(places):
-        along = float(turns.lengths(np.array([stay.aside]), radius)[0])
-        return stay.begin - along, stay.end + along
-    clear = CLEAR_OF_RUN * leg_lane.leg.requirements.required
-    off = places[:, 1]
-    needed = turns.lengths(np.abs(off), radius)
-    before, after = off * off[0] > 0.0, off * off[-1] > 0.0
-    leave = (places[:, 0] - needed)[before].min(initial=stay.begin - clear)
-    meet = (places[:, 0] + needed)[after].max(initial=stay.end + clear)
-    return float(leave), float(meet)
 
 
 def _routed(
@@ -236,7 +197,7 @@ def _routed(
     def find(closed: Floats, met: Flags) -> tuple[Outcome[TautPath], Flags]:
         needs.spend(ROUTE_S)
         known = met.copy()
-        return leg.router.find(*ends, closed, known, needs.spend), known
+        return leg.router.find(*ends, closed, known), known
 
     outcome, _ = route_on_sides(find, leg.sides, active, barriers)
     if outcome.value is None:
@@ -244,7 +205,7 @@ def _routed(
     rows = rows_along(outcome.value)
     apexes = lane.seen(rows[:, [X, Y]])
     apexes[:, 1] -= rows[:, SIDE] * rows[:, KEPT]
-    seen = lane.seen(np.array([end[:2] for end in ends]))[:, None]
+    seen = [lane.seen(end)[None] for end in ends]
     start, goal = (end[np.abs(end[:, 1]) > OFF_LANE * needs.required] for end in seen)
     return Aside(leave, meet, rows, np.vstack((start, apexes, goal)), radius)
 
@@ -268,7 +229,15 @@ def _joined(pieces: Sequence[tuple[Stay, Aside]]) -> list[tuple[Stay, Aside | No
     for stay, aside in pieces:
         leaves = -math.inf if aside.leave is None else aside.leave
         if found and leaves < meets:
-            found[-1] = found[-1][0].and_next(stay), None
+            last = found[-1][0]
+            both = Stay(
+                last.begin,
+                stay.end,
+                max(last.aside, stay.aside),
+                max(last.size, stay.size),
+                np.vstack((last.barriers, stay.barriers)),
+            )
+            found[-1] = both, None
         else:
             found.append((stay, aside))
         meets = max(meets, math.inf if aside.meet is None else aside.meet)
