@@ -178,3 +178,21 @@ export function lazily(work, ms) {
     }, wait);
   };
 }
+
+/**
+ * Keeps a panel's canvas as fine as the screen, and the panel's size in CSS pixels, and draws it then.
+ * @param {{canvas: HTMLCanvasElement, width: number, height: number, draw: () => void}} panel
+ */
+export function fitted(panel) {
+  const { canvas } = panel;
+  new ResizeObserver(() => {
+    const { width, height } = canvas.getBoundingClientRect();
+    if (!width) return;
+    const ratio = Math.min(devicePixelRatio || 1, 3);
+    panel.width = width;
+    panel.height = height;
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+    panel.draw();
+  }).observe(canvas);
+}

@@ -2,7 +2,7 @@
 
 import { pointsOf } from "../core/mission.js";
 import { onTheme, theme } from "../draw/theme.js";
-import { lazily } from "./dom.js";
+import { fitted, lazily } from "./dom.js";
 
 const LEFT_PX = 58, RIGHT_PX = 14, TOP_PX = 18, GAP_PX = 24, BOTTOM_PX = 20;
 
@@ -16,22 +16,11 @@ export class Plots {
     app.store.on("plan hover run document", draw);
     app.drive.on(draw);
     onTheme(draw);
-    new ResizeObserver(() => this.resize()).observe(this.canvas);
+    fitted(this);
     this.canvas.addEventListener("pointermove", (event) => this.follow(event));
     this.canvas.addEventListener("pointerdown", (event) => this.follow(event));
     this.canvas.addEventListener("pointerleave", () => app.store.lookAt(null));
     this.canvas.addEventListener("keydown", (event) => this.key(event));
-  }
-
-  resize() {
-    const { width, height } = this.canvas.getBoundingClientRect();
-    if (!width) return;
-    const ratio = Math.min(devicePixelRatio || 1, 3);
-    this.width = width;
-    this.height = height;
-    this.canvas.width = Math.round(width * ratio);
-    this.canvas.height = Math.round(height * ratio);
-    this.draw();
   }
 
   /** @param {PointerEvent} event */

@@ -5,7 +5,7 @@
 
 import { onTheme, theme } from "../draw/theme.js";
 import { seconds } from "../units.js";
-import { lazily } from "./dom.js";
+import { fitted, lazily } from "./dom.js";
 
 const LEFT_PX = 40, RIGHT_PX = 10, TOP_PX = 18, BOTTOM_PX = 20;
 const FONT = "10px Inter, system-ui, sans-serif";
@@ -22,7 +22,7 @@ export class SpaceTimePanel {
     app.drive.on(draw);
     app.preview.on(draw);
     onTheme(draw);
-    new ResizeObserver(() => this.resize()).observe(this.canvas);
+    fitted(this);
     const scrub = (/** @type {PointerEvent} */ event) => this.follow(event, event.buttons > 0);
     this.canvas.addEventListener("pointerdown", (event) => {
       this.canvas.setPointerCapture(event.pointerId);
@@ -37,17 +37,6 @@ export class SpaceTimePanel {
   get shown() {
     const { store } = this.app;
     return store.goodPlan?.timing ? store.spaceTime : null;
-  }
-
-  resize() {
-    const { width, height } = this.canvas.getBoundingClientRect();
-    if (!width) return;
-    const ratio = Math.min(devicePixelRatio || 1, 3);
-    this.width = width;
-    this.height = height;
-    this.canvas.width = Math.round(width * ratio);
-    this.canvas.height = Math.round(height * ratio);
-    this.draw();
   }
 
   /** Where on the panel a distance and a time are [CSS pixel]. @param {number} s [m] @param {number} t [s] @returns {[number, number]} */

@@ -1,29 +1,16 @@
 /** Maps from files: they come from the server, as pictures or as rings. */
 
-import { NO_VERTICES } from "./shape.js";
+import { FROM_A_FILE } from "./shape.js";
 
 /** @type {import("./shape.js").Shape} */
 export const map = {
-  ...NO_VERTICES,
+  ...FROM_A_FILE,
   key: "map",
   name: "map",
   icon: "M9 4L3 6.500v14L9 18l6 2.500 6-2.500v-14L15 6.500zM9 4v14M15 6.500v14",
-  hasOutline: false,
-  hasSides: false,
-  tool: null,
   isSound: (item) => typeof item.map === "string",
   title: () => "map",
   usualName: (item) => item.map.replace(/^.*\//, ""),
-  trace: () => {},
-  isPierced: () => false,
-  svg: () => "",
-  box: () => null,
-  covers: () => false,
-  edgeNear: () => null,
-  anchor: () => null,
-  movedTo: (item) => item,
-  handles: () => [],
-  dragged: (item) => item,
   fields: (item) => [
     { type: "note", text: item.map },
     {

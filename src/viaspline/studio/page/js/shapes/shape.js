@@ -78,3 +78,21 @@ export const NO_VERTICES = {
   mapped: (/** @type {Item} */ item) => item,
   reach: () => 0,
 };
+
+/** What a kind answers that comes from a file through the server: it is drawn from there, and stays where it is. */
+export const FROM_A_FILE = {
+  ...NO_VERTICES,
+  hasOutline: false,
+  hasSides: false,
+  tool: null,
+  trace: () => {},
+  isPierced: () => false,
+  svg: () => "",
+  box: () => null,
+  covers: () => false,
+  edgeNear: () => null,
+  anchor: () => null,
+  movedTo: (/** @type {Item} */ item) => item,
+  handles: () => [],
+  dragged: (/** @type {Item} */ item) => item,
+};

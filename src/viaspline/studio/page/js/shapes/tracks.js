@@ -1,31 +1,18 @@
 /** Recorded motions from files: a disc for each id in it, which come from the server. */
 
-import { NO_VERTICES } from "./shape.js";
+import { FROM_A_FILE } from "./shape.js";
 
 const SMALLEST_M = 0.01;
 
 /** @type {import("./shape.js").Shape} */
 export const tracks = {
-  ...NO_VERTICES,
+  ...FROM_A_FILE,
   key: "tracks",
   name: "recorded tracks",
   icon: "M4 18c4 0 4-6 8-6s4-6 8-6M4 18h.01M12 12h.01M20 6h.01",
-  hasOutline: false,
-  hasSides: false,
-  tool: null,
   isSound: (item) => typeof item.tracks === "string",
   title: () => "recorded tracks",
   usualName: (item) => item.tracks.replace(/^.*\//, ""),
-  trace: () => {},
-  isPierced: () => false,
-  svg: () => "",
-  box: () => null,
-  covers: () => false,
-  edgeNear: () => null,
-  anchor: () => null,
-  movedTo: (item) => item,
-  handles: () => [],
-  dragged: (item) => item,
   fields: (item) => [
     { type: "note", text: item.tracks },
     { type: "number", label: "Radius of the discs", unit: "m", min: SMALLEST_M, value: Number(item.radius_m), put: (now, value) => ({ ...now, radius_m: value }) },
