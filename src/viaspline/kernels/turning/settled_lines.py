@@ -237,10 +237,12 @@ def settle(
         if round_ > 0 and moved < settled:
             return _outcome(bends, closed, turns, FINE, tight, settled)
         _lay(bends, closed, ramps, lines, turns, circles, apexes, laid, fresh, UNMOVED * settled)
-    state = NO_TANGENT if missing else FINE
-    if moved >= (ROUGHLY_SETTLED_RAD if missing else max(RESTING_RAD, settled)):
-        state = NO_TANGENT if missing else RESTLESS
+    is_restless = moved >= (ROUGHLY_SETTLED_RAD if missing else max(RESTING_RAD, settled))
+    if is_restless:
         _add_restless(steps, tight)
+    state = RESTLESS if is_restless else FINE
+    if missing:
+        state = NO_TANGENT
     return _outcome(bends, closed, turns, state, tight, max(settled, moved))
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.turning.settled_lines import FINE, LEFT_OUT
+from viaspline.kernels.turning.settled_lines import FINE, LEFT_OUT, WRONG_TURN_RAD
 from viaspline.kernels.turning.turn_sequence import (
     turn_sequence,
     turn_sequence_length,
@@ -24,7 +24,6 @@ from viaspline.planning.turning.bend_row import HEADING, SIDE, Bends
 
 OVERSHOOT = 1.0035  # of the least radius over the turning circle: cubics bend a little more
 RAMP = 1.0  # length of a ramp, in radii
-WRONG_TURN_RAD = 1e-9  # by which a bend is turned at to the wrong side
 
 
 @dataclass(frozen=True, eq=False)
