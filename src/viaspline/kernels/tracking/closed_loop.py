@@ -19,6 +19,7 @@ from viaspline.kernels.tracking.control_law import (
     NOTED_ALONG,
     NOTED_TURN,
     NOTES,
+    PAST_CORNER_M,
     PLACE,
     REST,
     SPEED,
@@ -142,7 +143,8 @@ def deviations(model: DriveModel, reference: ReferencePath, notes: Floats, track
             rests = notes[k, REST] > 0.0
         high = should
         if not rests:
-            low, high = notes[k, LOW], max(notes[k, HIGH] - 1e-9, notes[k, LOW])
+            low = notes[k, LOW] + PAST_CORNER_M
+            high = max(notes[k, HIGH] - 1e-9, low)
             should = min(should, high)
         s = nearest_on(reference, clip(should, s - 0.5, s + 0.5), x, y, low, high)
         px, py, _, _ = on_reference(reference, s)

@@ -44,6 +44,14 @@ have got another time law while it turned [m/s], [rad]."""
 HEADING_DEADBAND_RAD = 0.004
 """An error of the heading at rest that is left as it is [rad]."""
 
+PAST_CORNER_M = 1e-6
+"""A robot that rests looks along its path so far beyond the rest: the corner at which it turns may
+lie behind the rest by what sums of lengths are rounded by [m]."""
+
+PAST_CORNER_M = 1e-6
+"""A robot looks along its path so far behind a rest: the corner at which it turns there may lie
+behind the rest by what sums of lengths are rounded by [m]."""
+
 MAX_SPOT_SPEED_MPS = 0.2
 """With which a robot that turns on the spot gets back to it, at most [m/s]."""
 
@@ -175,7 +183,7 @@ def decide_into(
     rests = speed == 0.0 and accel == 0.0
     s = should
     if not rests:
-        least, most = low, max(high - 1e-9, low)
+        least, most = low + PAST_CORNER_M, max(high - 1e-9, low + PAST_CORNER_M)
         s = nearest_on(reference, clip(should, memory[AT] - 0.5, memory[AT] + 1.0), pose[X],
                      pose[Y], least, most)  # fmt: skip
         if should - s > model.slack + model.slack_time * speed:
@@ -185,7 +193,8 @@ def decide_into(
     note[TIME], note[PLACE], note[SPEED], note[LOW], note[HIGH] = now, should, speed, low, high
     note[REST] = 1.0 if rests else 0.0
     note[PROGRESS], note[ALONG_TRACK] = s, should - s
-    note[CROSS_TRACK], tangent = beside(reference, s, pose[X], pose[Y])
+    looked = s + PAST_CORNER_M if rests else s
+    note[CROSS_TRACK], tangent = beside(reference, looked, pose[X], pose[Y])
     note[HEADING_ERROR] = heading_error(pose[HEADING], wanted_heading(model, tangent))
     if rests:
         _resting(model, reference, note, pose)
