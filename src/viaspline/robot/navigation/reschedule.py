@@ -13,7 +13,7 @@ import numpy as np
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.kernels.tracking.drive_model import DriveModel
+from viaspline.kernels.tracking.control_law import HEADING_DEADBAND_RAD
 from viaspline.kernels.tracking.drive_motion import HEADING
 from viaspline.machine.turns_on_spot import SpotTurning, turns_where_it_stands, with_turns
 from viaspline.robot.navigation.drive_task import DriveTask
@@ -40,8 +40,9 @@ RENEWAL_S = 0.5
 STANDING_MPS = 1e-3
 """A robot that is slower stands [m/s]."""
 
-MAX_LEAVING_RAD = 0.05
-"""A robot that stands leaves when it looks along its path so far [rad]."""
+MAX_LEAVING_RAD, MAX_LEAVING_SHARE = 0.05, 0.4
+"""A robot that stands leaves when it looks along its path so far [rad], and its body is off by no
+more than this share of what is kept for the tracking error."""
 
 DRIVEN_RATIO = 0.5
 """On a round without such a limit one is found anew when so much of it is driven."""
@@ -251,9 +252,7 @@ def trajectory_within_sight(
     if end < path.length:
         stops = [*(stop for stop in stops if stop.distance < end), Station(end)]
     stops = with_turns(path, task.spot_turning, stops, distance)
-    turn = None
-    if task.model is not None:
-        turn = _turn_before_leaving(task.model, progress, path, distance)
+    turn = _turn_before_leaving(task, progress, path, distance)
     if turn is not None and speed < STANDING_MPS and distance < end:
         stops, speed = [turn, *stops], 0.0
     part, motion = (distance, end), (speed, accel)
@@ -267,18 +266,29 @@ def trajectory_within_sight(
 
 
 def _turn_before_leaving(
-    model: DriveModel, progress: Progress, path: Path, distance: float
+    task: DriveTask, progress: Progress, path: Path, distance: float
 ) -> Station | None:
     """The stay of a robot that stands, if it looks another way than its path leads on."""
-    controller = progress.controller
-    if controller is None or controller.believed is None or not turns_where_it_stands(model):
+    model, controller = task.model, progress.controller
+    if model is None or controller is None or controller.believed is None:
+        return None
+    if not turns_where_it_stands(model):
         return None
     ahead = min(distance + 2.0 * SAME_PLACE_M, path.length)  # beyond a corner at which it stands
     way = float(path.heading(float(path.parameter(ahead))))
     angle = math.remainder(way - float(controller.believed[HEADING]), math.tau)
-    if abs(angle) <= MAX_LEAVING_RAD:
+    if abs(angle) <= _leaving_angle(task):
         return None
     return Station(distance, SpotTurning.of_model(model).time(angle), "turn")
+
+
+def _leaving_angle(task: DriveTask) -> float:
+    """How far beside its path's heading a robot may look when it sets off [rad]."""
+    robot, kept = task.mission.robot, task.requirements.tracking_error
+    if robot.footprint is None or kept == 0.0:
+        return MAX_LEAVING_RAD
+    angle = max(MAX_LEAVING_SHARE * kept / robot.outer_radius, 2.0 * HEADING_DEADBAND_RAD)
+    return min(angle, MAX_LEAVING_RAD)
 
 
 def _timed(

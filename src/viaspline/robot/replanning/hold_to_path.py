@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.tracking.drive_motion import ACROSS, ALONG
 from viaspline.kernels.tracking.reference_path import ReferencePath
 from viaspline.machine.allowance import TRIAL_SEEDS
 from viaspline.machine.drive_ahead import DriveState, drive_ahead, is_random
@@ -130,10 +131,20 @@ def _too_far(
         if errors is None:
             return None
         needed = MARGIN * errors.body_deviations(reach)
-        far = errors.progress[needed > _allowed(context, errors.progress, float(needed[0]))]
+        first = float(needed[0]) + MARGIN * _coasting(context, state)
+        far = errors.progress[needed > _allowed(context, errors.progress, first)]
         if far.size:
             return far
     return np.empty(0)
+
+
+def _coasting(context: ReplanContext, state: DriveState) -> float:
+    """How far a robot that is to stand still moves before it does as it is told now [m]."""
+    model = context.task.model
+    assert model is not None
+    if context.speed > 0.0:
+        return 0.0
+    return float(np.hypot(state.pose[ALONG], state.pose[ACROSS])) * (model.delay + model.lag)
 
 
 def _allowed(context: ReplanContext, places: Floats, first: float) -> Floats:
