@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -68,6 +69,21 @@ def test_a_corner_is_turned_on_the_spot(robot_of: Any) -> None:
     assert np.abs(track.tracking.cross_track).max() < 0.05
     at_rest = ~track.tracking.moving & (track.times > 1.0) & (track.times < track.times[-1] - 3.0)
     assert np.ptp(track.headings[at_rest]) == pytest.approx(math.pi / 2, abs=0.1)
+
+
+@pytest.mark.parametrize("rounding", [1e-14, 1e-9])
+def test_a_corner_that_lies_a_rounding_behind_its_rest_is_turned_all_the_same(
+    robot_of: Any, rounding: float
+) -> None:
+    """It was waited for without turning: rest and corner are sums of the same lengths."""
+    corner = CardinalSpline([(0, 0), (10, 0), (10, 10)], tension=1.0)
+    robot = robot_of("differential", noise=False)
+    law = retime(corner, limits_of(robot), with_turns(corner, SpotTurning.of(robot), []))
+    before = np.where(np.abs(law.distances - 10.0) < 1e-6, law.distances - rounding, law.distances)
+    track = follow(corner, replace(law, distances=before), robot)
+    assert track.finished
+    assert np.abs(track.tracking.cross_track).max() < 0.05
+    assert np.abs(track.tracking.heading_error[track.tracking.moving]).max() < 0.1
 
 
 def test_wheels_that_slip_on_the_spot_are_not_let_drift_off_it(robot_of: Any) -> None:

@@ -16,7 +16,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.splice import run_out
-from viaspline.planning.replan import from_rest, planned, reflex
+from viaspline.planning.replan import from_rest, from_rest_nearby, planned, reflex
 
 Oracle = Callable[..., Any]
 MODES = [reflex, planned, from_rest]
@@ -89,6 +89,35 @@ def test_a_reflex_changes_only_what_is_near(shapely_distance: Oracle) -> None:
     np.testing.assert_array_equal(found.path.spans[:3], path.spans[:3])
     np.testing.assert_array_equal(found.path.spans[-4:], path.spans[-4:])
     assert served(found.path) == list(range(9))
+
+
+LAP = [[0, 0], [60, 0], [60, 40], [0, 40]]
+
+
+@pytest.mark.parametrize("mode", [reflex, from_rest_nearby])
+def test_what_is_in_the_way_in_every_lap_changes_every_lap_there_and_nothing_else(
+    mode: Any, shapely_distance: Oracle
+) -> None:
+    path, world, requirements = start(*3 * LAP, [0, 0])
+    world = world.with_obstacles([disc(30, 0, 3)])
+    found = mode(path, 5.0, world, requirements)
+    check(found, path, 5.0, world, shapely_distance)
+    assert found.rejoins_at is not None
+    left = path.length - path.via_distances[9]  # of the third lap, from its first via point on
+    assert found.path.length - found.rejoins_at == pytest.approx(left, abs=1e-6)
+    assert served(found.path) == list(range(13))
+    old = {span.tobytes() for span in path.spans.round(9)}
+    same = [span.tobytes() in old for span in found.path.spans.round(9)]
+    assert sum(same) >= 9  # of twelve legs three are blocked
+
+
+def test_from_rest_nearby_leaves_a_path_that_is_clear_or_blocked_to_its_goal_to_others() -> None:
+    path, world, requirements = start(*LAP)
+    with pytest.raises(vs.NoPathError, match="nothing is in the way"):
+        from_rest_nearby(path, 5.0, world, requirements)
+    last = world.with_obstacles([disc(30, 40, 3)])
+    with pytest.raises(vs.NoPathError, match="nothing of the path would stay"):
+        from_rest_nearby(path, 5.0, last, requirements)
 
 
 @pytest.mark.parametrize("mode", MODES)

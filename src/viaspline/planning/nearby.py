@@ -5,6 +5,8 @@ Tested through ``planning/test_replan`` and ``robot/navigation/test_rounds``.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from viaspline.errors import PlanningError
@@ -31,7 +33,8 @@ def lay_nearby(
     low, high = places.min(axis=0), places.max(axis=0)
     margin = NEAR_SIZES * float(np.max(high - low)) + NEAR_WIDTHS * requirements.required
     (x0, y0), (x1, y1) = (low - margin).tolist(), (high + margin).tolist()
-    near = world.near((x0, y0, x1, y1))
+    box = (x0, y0, x1, y1)
+    near = requirements.once(("near", world, box), partial(world.near, box))
     if len(near) < len(world):
         try:
             laid = lay_path(sequence, near, requirements)

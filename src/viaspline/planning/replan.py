@@ -1,4 +1,4 @@
-"""New paths under way: three ways to leave the old one, from the least change to the greatest.
+"""New paths under way: four ways to leave the old one, from the least change to the greatest.
 
 Each takes the path that is being driven and a distance along it before which nothing may change;
 each returns a path that begins with exactly what was driven, so that distances along it stay
@@ -8,8 +8,9 @@ valid.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Hashable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,14 +18,13 @@ from numpy.typing import NDArray
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path, PathVia
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import PlanningError
+from viaspline.errors import NoPathError, PlanningError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
 from viaspline.planning.departure import (
     BlockedTurnError,
-    Departure,
     Leave,
     refuse_blocked,
     refuse_blocked_turn,
@@ -44,6 +44,7 @@ from viaspline.planning.sides_ahead import refuse_wrong_side, spans_on_wrong_sid
 from viaspline.planning.stretch import (
     PASSED_M,
     Stretch,
+    blocked_runs,
     is_round,
     leaving_place,
     refuse_the_end,
@@ -56,6 +57,8 @@ from viaspline.planning.stretch import (
 )
 from viaspline.world.world import World
 
+LeadRound = Callable[[Path, float, NDArray[np.intp], World, Requirements, float], Solution]
+
 RUN_OUT_LENGTHS = (2.0, 1.0, 0.3)  # that are tried, in required distances
 
 
@@ -66,7 +69,8 @@ def reflex(
 
     The stretch from the last via point before them to the first one after them is laid anew,
     detour via points of the old path counting too; where that can't be done, the legs between
-    the user via points.
+    the user via points. Blocked spans with a free leg between them, such as those of one place in
+    several laps, are stretches by themselves, with a ledger of the first.
 
     Args:
         path: What is being driven.
@@ -85,6 +89,51 @@ def reflex(
     if not blocked.size:
         certificate = proven(ahead, world, requirements)
         return replace(_result(path, at, certificate, None), rejoins_at=at)
+    return _each_led_round(path, u, blocked, world, requirements, until, _led_round)
+
+
+def _each_led_round(
+    path: Path,
+    u: float,
+    blocked: NDArray[np.intp],
+    world: World,
+    requirements: Requirements,
+    until: float,
+    lead_first: LeadRound,
+) -> Solution:
+    """A path with each run of blocked spans led round what stands in its way, the last one first.
+
+    Args:
+        path: What is being driven.
+        u: From where on it may be left.
+        blocked: The spans, in order.
+        world: What is known now.
+        requirements: What to keep.
+        until: Distance along it from which it is not looked at yet [m].
+        lead_first: Leads the first run round, which the robot comes to next.
+    """
+    *later, first = reversed(blocked_runs(vias_to_serve(path, world, requirements), blocked))
+    rest: float | None = None  # of the old path that stays at its end
+    for run in later:
+        solution = _led_round(path, u, run, world, requirements, until)
+        path, rejoins = solution.path, solution.rejoins_at
+        if run is later[0] and rejoins is not None:
+            rest = path.length - rejoins
+    solution = lead_first(path, u, first, world, requirements, until)
+    if not later:
+        return solution
+    return replace(solution, rejoins_at=None if rest is None else solution.path.length - rest)
+
+
+def _led_round(
+    path: Path,
+    u: float,
+    blocked: NDArray[np.intp],
+    world: World,
+    requirements: Requirements,
+    until: float,
+) -> Solution:
+    """A path with some blocked spans led round what stands in their way; see ``reflex``."""
     users = vias_to_serve(path, world, requirements)
     narrow = stretch_round(path.vias, users, u, blocked)
     wide = stretch_round(users, users, u, blocked)
@@ -143,6 +192,47 @@ def from_rest(
         return _left(path, at, world, requirements, skip, until, straight_on)
 
 
+def from_rest_nearby(
+    path: Path, at: float, world: World, requirements: Requirements, until: float = math.inf
+) -> Solution:
+    """Lay the path anew from a standstill at ``at`` as far as something is in its way.
+
+    Up to the next via point of the user behind that; more of it as ``reflex`` does.
+
+    Raises:
+        NoPathError: When there is no way, nothing is in the way, or nothing of the path would stay.
+    """
+    u = float(path.parameter(at)) if requirements.turns_at_rest else leaving_place(path, at)[1]
+    blocked = _blocked_spans(path, u, world, requirements, until)
+    if not blocked.size:
+        raise NoPathError(
+            "nothing is in the way", where=np.asarray(path.evaluate(u)), remedy="go on as it is"
+        )
+    return _each_led_round(path, u, blocked, world, requirements, until, _left_nearby)
+
+
+def _left_nearby(
+    path: Path,
+    u: float,
+    blocked: NDArray[np.intp],
+    world: World,
+    requirements: Requirements,
+    until: float,
+) -> Solution:
+    """The path from a standstill past some blocked spans; see ``from_rest_nearby``."""
+    users = vias_to_serve(path, world, requirements)
+    behind = stretch_round(users, users, u, blocked)
+    ahead = tuple(via for via in users if u + PASSED_M < via.u < behind.u + PASSED_M)
+    stretch = replace(behind, u=u, ahead=(*ahead, *behind.ahead))
+    if stretch.tail is None:
+        where = np.asarray(path.evaluate(u))
+        raise NoPathError("nothing of the path would stay", where=where, remedy="lay it all anew")
+    try:
+        return _joined(path, stretch, world, requirements, until, standing)
+    except BlockedTurnError:
+        return _joined(path, stretch, world, requirements, until, straight_on)
+
+
 def _left(
     path: Path,
     at: float,
@@ -198,9 +288,9 @@ def _joined(
     refuse_the_end(path, stretch)
     problem: PlanningError | None = None
     for reach in _run_outs(stretch, requirements, leave):
+        lay = partial(_join, path, stretch, leave, world, requirements, reach, until)
         try:
-            departure = leave(path, stretch, world, requirements, reach)
-            return _join(path, stretch, departure, world, requirements, reach, until)
+            return _once(requirements, (path, stretch, leave, world, reach, until), lay)
         except (BlockedLegError, BlockedTurnError):
             raise  # a run-out is clear: where none leads on from one, none does from another
         except SpentBudgetError:
@@ -209,6 +299,23 @@ def _joined(
             problem = error
     assert problem is not None  # there is a length at least
     raise problem
+
+
+def _once(requirements: Requirements, asked: Hashable, lay: Callable[[], Solution]) -> Solution:
+    """What a way to lay a path comes to, a refusal too, which later steps find done."""
+
+    def tried() -> Solution | PlanningError:
+        try:
+            return lay()
+        except SpentBudgetError:
+            raise
+        except PlanningError as error:
+            return error
+
+    found = requirements.once(("joined", asked), tried)
+    if isinstance(found, PlanningError):
+        raise found.with_traceback(None)
+    return found
 
 
 def _run_outs(stretch: Stretch, requirements: Requirements, leave: Leave) -> tuple[float, ...]:
@@ -221,12 +328,13 @@ def _run_outs(stretch: Stretch, requirements: Requirements, leave: Leave) -> tup
 def _join(
     path: Path,
     stretch: Stretch,
-    departure: Departure,
+    leave: Leave,
     world: World,
     requirements: Requirements,
     reach: float,
     until: float,
 ) -> Solution:
+    departure = leave(path, stretch, world, requirements, reach)
     tail, back = stretch.tail, None
     if tail is not None:
         last_room = room_to_run_out(path, stretch)[1]

@@ -47,6 +47,17 @@ class Stretch:
     tail: PathVia | None
 
 
+def blocked_runs(users: Sequence[PathVia], blocked: NDArray[np.intp]) -> list[NDArray[np.intp]]:
+    """Blocked spans, parted where a whole leg between via points of the user is free.
+
+    Args:
+        users: Via points that have to be served.
+        blocked: Indices of spans, in order, (k,).
+    """
+    legs = np.searchsorted([via.u for via in users], blocked + 0.5)
+    return np.split(blocked, 1 + np.flatnonzero(np.diff(legs) > 1))
+
+
 def stretch_round(
     joints: Sequence[PathVia], users: Sequence[PathVia], u: float, blocked: NDArray[np.intp]
 ) -> Stretch:

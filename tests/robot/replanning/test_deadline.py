@@ -152,3 +152,39 @@ def test_a_robot_with_a_drive_searches_no_longer_than_until_its_next_command(
         limits.clear()
         simulate(mission_of([0, 0], [9, 0], drive=wheels), pace=pace, step=step)
         assert max(limits) == pytest.approx(step)
+
+
+def rounds(seed: int) -> Mission:
+    """Three laps of a boxy robot with wheels and a short sight, and three things not on its map."""
+    random = np.random.default_rng(seed)
+    angles = np.linspace(0.0, 2.0 * np.pi, 6)[:-1] + random.uniform(-0.2, 0.2, 5)
+    corners = random.uniform(9.0, 14.0, (5, 1)) * np.stack((np.cos(angles), np.sin(angles)), 1)
+    legs = random.choice(5, 3, replace=False)
+    middles = corners[legs] + random.uniform(0.4, 0.6, (3, 1)) * (
+        corners[(legs + 1) % 5] - corners[legs]
+    )
+    rocks = zip(middles.tolist(), random.uniform(0.3, 0.9, 3).tolist(), strict=True)
+    return Mission.model_validate(
+        {
+            "world": {"unseen": [{"circle": {"center": at, "radius": r}} for at, r in rocks]},
+            "robot": {
+                "footprint": [[-0.35, -0.25], [0.35, -0.25], [0.35, 0.25], [-0.35, 0.25]],
+                "clearance_m": 0.1, "max_lateral_accel_mps2": 0.6, "sensor": {"range_m": 2.0},
+                "drive": {"differential": {"track_m": 0.4, "max_wheel_speed_mps": 2},
+                          "delay_s": 0.1, "lag_s": 0.1},
+                "max_speed_mps": float(random.uniform(0.8, 2.0)),
+            },
+            "route": {
+                "start": corners[0].tolist(), "via": corners[1:].tolist(),
+                "closed": True, "laps": 3,
+            },
+        }
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_three_laps_past_what_a_short_sight_finds_are_driven_to_their_end(seed: int) -> None:
+    """Once 8 of 12 such robots stood for ever: askew, or short of time for all the laps to come."""
+    run = simulate(rounds(seed))
+    assert run.reached, run.reason
+    assert run.replans

@@ -102,7 +102,19 @@ class LegSearch:
 
     def _route(self, closed: Floats, active: Flags) -> tuple[Outcome[TautPath], Flags]:
         """The shortest taut path past segments, and the obstacles that were met, (n,)."""
-        start, goal = self.ends
+        return self.route_between(*self.ends, closed, active)
+
+    def route_between(
+        self, start: Floats, goal: Floats, closed: Floats, active: Flags
+    ) -> tuple[Outcome[TautPath], Flags]:
+        """The shortest taut path from one place to another, and the obstacles that were met, (n,).
+
+        Args:
+            start: [m], (d,).
+            goal: [m], (d,).
+            closed: Segments not to cross, (b, 4).
+            active: (n,): obstacles to begin with.
+        """
 
         def found() -> tuple[Outcome[TautPath], Flags]:
             self.requirements.spend(ROUTE_S)

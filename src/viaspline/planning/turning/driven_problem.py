@@ -295,14 +295,19 @@ class DrivenProblem(PathProblem):
         """
         if not self.requirements.objective.is_time:
             return True
-        bends = bends_of_legs(self.sequence, legs)
+        bends, stands = bends_of_legs(self.sequence, legs), tuple(leg.stands for leg in self.legs)
+        asked = ("ideal time", self.least_radii[-1], bends.key, stands)
+        return self.requirements.once(asked, partial(self._ideal_time, bends)) < bound
+
+    def _ideal_time(self, bends: Bends) -> float:
+        """The driven time of turns with nothing else beside them; 0 where there are none [s]."""
         ideal = self._wide_turns(self.least_radii[-1]).ideal(bends, self.requirements)
         if ideal is None:
-            return True
+            return 0.0
         at_vias = ideal.bends.vias != DETOUR
         joints = ideal.begins[: len(at_vias)][at_vias]
         rests = self.sequence.rests(joints, len(ideal.spans))
-        return driving_time(ideal.spans, self.requirements.objective.pace, rests) < bound
+        return driving_time(ideal.spans, self.requirements.objective.pace, rests)
 
     def _wide_turns(self, rho: float) -> WideTurns:
         pace = self.requirements.objective.pace

@@ -13,13 +13,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.leg_search import LegSearch
-from viaspline.planning.problem.method import Outcome
-from viaspline.planning.problem.work_budget import ROUTE_S
 from viaspline.planning.routing.route_on_sides import route_on_sides
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
@@ -194,11 +193,7 @@ def _routed(
     )
     active = on_the_line(leg.world, *ends, needs.required)
 
-    def find(closed: Floats, met: Flags) -> tuple[Outcome[TautPath], Flags]:
-        needs.spend(ROUTE_S)
-        known = met.copy()
-        return leg.router.find(*ends, closed, known), known
-
+    find = partial(leg.route_between, *ends)
     outcome, _ = route_on_sides(find, leg.sides, active, barriers)
     if outcome.value is None:
         return None

@@ -15,7 +15,7 @@ from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
-FIRST_STAGE, NO_STAGE = (0, 0), (3, 0)
+FIRST_STAGE, NO_STAGE = (0, 0), (4, 0)
 """With which stage a search begins, and what comes after the last one."""
 
 

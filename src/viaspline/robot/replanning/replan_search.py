@@ -34,10 +34,20 @@ TURN_BACK_SAMPLES = 129
 """Places along a path at which it is seen whether it leads back."""
 
 Stage: TypeAlias = tuple[int, int]
-"""A part of a search: which mode, and which place at which the path so far is left."""
+"""A part of a search: which of the order, and which place at which the path so far is left."""
 
-ORDER: tuple[Mode, ...] = (*MODES, "from_rest")
-"""The modes, from the least change to the greatest."""
+ORDER: tuple[Mode, ...] = (*MODES, "from_rest", "from_rest")
+"""The modes, from the least change to the greatest. From rest the path is laid anew nearby first,
+as far as something is in its way, then all of it."""
+
+NEARBY = 2
+"""The first of the latter."""
+
+NEARBY_WORK_S = 3.2
+"""What a robot that stands spends before it lays all of its path anew [s of the reference machine],
+if a search nearby comes on."""
+
+LAST_STAGE: Stage = (len(ORDER) - 1, 0)
 
 MAX_SHARE_BEFORE = 0.2
 """A part of a search that was stopped had a step for itself if no more was spent before."""
@@ -149,29 +159,36 @@ def first_candidate(
     """
     forced = any(obstacle.forced_side for obstacle in context.knowledge.world.obstacles)
     laid_anew = set()  # from there a reflex has laid all that a planned path would
-    closed = set()  # modes by which nothing leads on, wherever the path is left
+    closed = set()  # parts of the order by which nothing leads on, wherever the path is left
     for stage, mode, leave in _stages(context, ("planned",) if skip else modes):
-        if mode in closed or (mode == "planned" and leave in laid_anew):
+        if stage[0] in closed or (mode == "planned" and leave in laid_anew):
             continue
+        if stage[0] == NEARBY and skip:
+            continue  # what would stay leads to them
         before = context.work
         try:
-            solution = _laid(context, mode, leave, world, skip)
+            solution = context.requirements.once(
+                ("laid", stage[0], leave, world, context.schedule.path, frozenset(skip)),
+                partial(_laid, context, stage[0], leave, world, skip),
+            )
             candidate = timed(context, mode, solution)
         except SpentBudgetError as error:
             raise UnfinishedSearchError(error, _next(stage, before, context)) from error
         except BlockedLegError:
-            if mode == "from_rest" or (mode == "planned" and not forced):
+            if stage == LAST_STAGE or (mode == "planned" and not forced):
                 raise  # nor does anything lead on from rest: a clear path joins the places
-            closed.add(mode)
+            closed.add(stage[0])
             continue
         except PlanningError:
-            if mode == "from_rest":
+            if stage == LAST_STAGE:
                 raise
             continue  # a robot that leaves later, or that stands, may find a way
         if mode == "from_rest":
-            if candidate is None:
+            if candidate is not None:
+                return candidate
+            if stage == LAST_STAGE:
                 raise _not_followed(context)
-            return candidate
+            continue
         if solution.rejoins_at is None and solution.changed_from <= leave + SAME_PLACE_M:
             laid_anew.add(leave)
         if candidate is not None and not _turns_back(context, solution):
@@ -193,18 +210,22 @@ def _stages(context: ReplanContext, modes: tuple[Mode, ...]) -> Iterator[tuple[S
             stage = (ORDER.index(mode), k)
             if stage >= first:
                 yield stage, mode, leave
-    yield (ORDER.index("from_rest"), 0), "from_rest", context.stop
+    for k in (NEARBY, LAST_STAGE[0]):
+        if (k, 0) >= first and not (k == NEARBY and context.schedule.is_round):
+            yield (k, 0), "from_rest", context.stop
 
 
 def _laid(
-    context: ReplanContext, mode: Mode, leave: float, world: World, skip: Collection[int]
+    context: ReplanContext, order: int, leave: float, world: World, skip: Collection[int]
 ) -> Solution:
-    """The path of one stage."""
+    """The path of one stage, by its part of the order."""
     path, requirements = context.schedule.path, context.requirements
     until = context.schedule.looked_at
-    if mode == "reflex":
+    if ORDER[order] == "reflex":
         return replan.reflex(path, leave, world, requirements, until)
-    lay = replan.planned if mode == "planned" else replan.from_rest
+    if order == NEARBY:
+        return replan.from_rest_nearby(path, leave, world, requirements, until)
+    lay = replan.planned if ORDER[order] == "planned" else replan.from_rest
     return lay(path, leave, world, requirements, skip, until)
 
 
@@ -221,11 +242,20 @@ def _next(stage: Stage, before: float, context: ReplanContext) -> Stage:
     budget = context.requirements.budget
     assert budget is not None  # it has been spent
     had_most = before <= MAX_SHARE_BEFORE * budget.limit and budget.limit > 0.0
-    if not had_most:
+    if not had_most or (stage[0] == NEARBY and _comes_on_nearby(context)):
         return stage
-    if stage[0] < len(ORDER) - 1:
+    if stage < LAST_STAGE:
         return (stage[0], stage[1] + 1)
     return NO_STAGE if context.speed > 0.0 else stage
+
+
+def _comes_on_nearby(context: ReplanContext) -> bool:
+    """Whether a robot that stands has found out more, and may spend more on its first search."""
+    budget, pending = context.requirements.budget, context.schedule.pending
+    if context.speed > 0.0 or budget is None or not budget.has_gained:
+        return False
+    standing = None if pending is None else pending.standing
+    return budget.spent + (0.0 if standing is None else standing.spent) < NEARBY_WORK_S
 
 
 def _not_followed(context: ReplanContext) -> GaveUpError:
