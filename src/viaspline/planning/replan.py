@@ -8,48 +8,34 @@ valid.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Hashable, Sequence
+from collections.abc import Callable, Collection
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from viaspline.curve.certificate import Certificate
-from viaspline.curve.path import Path, PathVia
+from viaspline.curve.path import Path
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import NoPathError, PlanningError
-from viaspline.kernels.arrays import Floats
-from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import CLEAR, body_conflicts, proven
 from viaspline.planning.departure import (
     BlockedTurnError,
     Leave,
-    refuse_blocked,
-    refuse_blocked_turn,
-    refuse_no_room,
     rolling,
     standing,
     straight_on,
 )
-from viaspline.planning.nearby import lay_nearby
-from viaspline.planning.plan_path import lay_path
+from viaspline.planning.joined_stretch import joined, solution_from
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.splice import run_out
-from viaspline.planning.problem.via_sequence import RouteVia
 from viaspline.planning.problem.work_budget import SpentBudgetError
-from viaspline.planning.routing.leg_errors import BlockedLegError
-from viaspline.planning.sides_ahead import refuse_wrong_side, spans_on_wrong_side
+from viaspline.planning.sides_ahead import spans_on_wrong_side
 from viaspline.planning.stretch import (
     PASSED_M,
     Stretch,
     blocked_runs,
     is_round,
     leaving_place,
-    refuse_the_end,
-    room_to_run_out,
-    sequence_through,
     stretch_round,
     stretches_on_round,
     vias_remaining,
@@ -58,8 +44,6 @@ from viaspline.planning.stretch import (
 from viaspline.world.world import World
 
 LeadRound = Callable[[Path, float, NDArray[np.intp], World, Requirements, float], Solution]
-
-RUN_OUT_LENGTHS = (2.0, 1.0, 0.3)  # that are tried, in required distances
 
 
 def reflex(
@@ -88,7 +72,7 @@ def reflex(
     blocked = _blocked_spans(path, u, world, requirements, until)
     if not blocked.size:
         certificate = proven(ahead, world, requirements)
-        return replace(_result(path, at, certificate, None), rejoins_at=at)
+        return replace(solution_from(path, at, certificate, None), rejoins_at=at)
     return _each_led_round(path, u, blocked, world, requirements, until, _led_round)
 
 
@@ -138,13 +122,13 @@ def _led_round(
     narrow = stretch_round(path.vias, users, u, blocked)
     wide = stretch_round(users, users, u, blocked)
     try:
-        return _joined(path, narrow, world, requirements, until)
+        return joined(path, narrow, world, requirements, until)
     except SpentBudgetError:
         raise
     except PlanningError:
         if wide == narrow:
             raise
-    return _joined(path, wide, world, requirements, until)
+    return joined(path, wide, world, requirements, until)
 
 
 def planned(
@@ -167,7 +151,7 @@ def planned(
     if is_round(path):
         return _on_round(path, at, world, requirements, skip, until, rolling)
     stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
-    return _joined(path, stretch, world, requirements, until)
+    return joined(path, stretch, world, requirements, until)
 
 
 def from_rest(
@@ -228,9 +212,9 @@ def _left_nearby(
         where = np.asarray(path.evaluate(u))
         raise NoPathError("nothing of the path would stay", where=where, remedy="lay it all anew")
     try:
-        return _joined(path, stretch, world, requirements, until, standing)
+        return joined(path, stretch, world, requirements, until, standing)
     except BlockedTurnError:
-        return _joined(path, stretch, world, requirements, until, straight_on)
+        return joined(path, stretch, world, requirements, until, straight_on)
 
 
 def _left(
@@ -250,7 +234,7 @@ def _left(
     if is_round(path):
         return _on_round(path, at, world, requirements, skip, until, leave)
     stretch = Stretch(u, vias_remaining(path, at, world, requirements, skip), None)
-    return _joined(path, stretch, world, requirements, until, leave)
+    return joined(path, stretch, world, requirements, until, leave)
 
 
 def _on_round(
@@ -267,132 +251,13 @@ def _on_round(
     blocked = _blocked_until(path, at, world, requirements, skip, until)
     for stretch in stretches_on_round(path, at, world, requirements, skip, blocked, until):
         try:
-            return _joined(path, stretch, world, requirements, until, leave)
+            return joined(path, stretch, world, requirements, until, leave)
         except (SpentBudgetError, BlockedTurnError):
             raise
         except PlanningError as error:
             problem = error
     assert problem is not None  # there is a stretch at least
     raise problem
-
-
-def _joined(
-    path: Path,
-    stretch: Stretch,
-    world: World,
-    requirements: Requirements,
-    until: float,
-    leave: Leave = rolling,
-) -> Solution:
-    """The new path with the first run-out, from long to short, that lets it be clear."""
-    refuse_the_end(path, stretch)
-    problem: PlanningError | None = None
-    for reach in _run_outs(stretch, requirements, leave):
-        lay = partial(_join, path, stretch, leave, world, requirements, reach, until)
-        try:
-            return _once(requirements, (path, stretch, leave, world, reach, until), lay)
-        except (BlockedLegError, BlockedTurnError):
-            raise  # a run-out is clear: where none leads on from one, none does from another
-        except SpentBudgetError:
-            raise
-        except PlanningError as error:
-            problem = error
-    assert problem is not None  # there is a length at least
-    raise problem
-
-
-def _once(requirements: Requirements, asked: Hashable, lay: Callable[[], Solution]) -> Solution:
-    """What a way to lay a path comes to, a refusal too, which later steps find done."""
-
-    def tried() -> Solution | PlanningError:
-        try:
-            return lay()
-        except SpentBudgetError:
-            raise
-        except PlanningError as error:
-            return error
-
-    found = requirements.once(("joined", asked), tried)
-    if isinstance(found, PlanningError):
-        raise found.with_traceback(None)
-    return found
-
-
-def _run_outs(stretch: Stretch, requirements: Requirements, leave: Leave) -> tuple[float, ...]:
-    """The lengths of run-outs that are tried [m]; nothing where there are none."""
-    if leave is not rolling and requirements.turns_at_rest and stretch.tail is None:
-        return (0.0,)
-    return tuple(length * max(requirements.required, 0.1) for length in RUN_OUT_LENGTHS)
-
-
-def _join(
-    path: Path,
-    stretch: Stretch,
-    leave: Leave,
-    world: World,
-    requirements: Requirements,
-    reach: float,
-    until: float,
-) -> Solution:
-    departure = leave(path, stretch, world, requirements, reach)
-    tail, back = stretch.tail, None
-    if tail is not None:
-        last_room = room_to_run_out(path, stretch)[1]
-        refuse_no_room(path, tail.u, last_room)
-        back = run_out(path, tail.u, min(reach, last_room), sense=-1).reversed()
-        refuse_blocked(back, world, requirements)
-    meet = None if back is None else RouteVia("the old path", back.span[0], None)
-    sequence = replace(
-        sequence_through(path, departure.start, stretch, requirements, meet),
-        start_tangent=departure.tangent,
-    )
-    if len(departure.spans):
-        refuse_wrong_side(departure.spans, sequence.whole_leg(0), world, requirements)
-    if back is not None:
-        last_leg = sequence.whole_leg(len(sequence.legs) - 1)
-        refuse_wrong_side(back.span[None], last_leg, world, requirements)
-        sequence = replace(sequence, end_tangent=back.tangent)
-    if tail is None:
-        spline_path, account = lay_path(sequence, world, requirements)
-    else:
-        old = path.spans[int(stretch.u) : math.ceil(tail.u)]
-        spline_path, account = lay_nearby(sequence, old, world, requirements)
-    spans = spline_path.spans
-    if not len(departure.spans):
-        refuse_blocked_turn(path, stretch.u, spans[0], world, requirements)
-    head = _head(path, stretch.u)
-    first = len(head) + len(departure.spans)
-    pieces = [head, departure.spans, spans]
-    vias = [*_vias_until(path, stretch.u, len(head)), *spline_path.vias_from(first)]
-    ahead = first + len(spans)
-    rejoin = None
-    if tail is not None and back is not None:
-        pieces += [back.span[None], path.spans[round(tail.u) :]]
-        rejoin = ahead + 1
-        vias += [replace(via, u=via.u - tail.u + rejoin) for via in path.vias if via.u >= tail.u]
-    new = Path(np.concatenate(pieces), vias)
-    leaving = float(new.distance(float(len(head))))
-    last = len(new.spans)
-    if rejoin is not None and until < path.length:
-        last = rejoin  # what stays was proven, and is clear of what is known now
-    certificate = proven(PiecewiseCubic(new.spans[len(head) : last]), world, requirements)
-    back_at = None if rejoin is None else float(new.distance(float(rejoin)))
-    return _result(new, leaving, certificate, account, back_at)
-
-
-def _result(
-    new: Path,
-    certificate_from: float,
-    certificate: Certificate,
-    account: Account | None,
-    rejoins_at: float | None = None,
-) -> Solution:
-    """A path whose certificate speaks of what lies ahead of ``certificate_from`` [m]."""
-    distance = min(certificate.tightest_distance + certificate_from, new.length)
-    moved = replace(
-        certificate, tightest_distance=distance, tightest_u=float(new.parameter(distance))
-    )
-    return Solution(new, moved, account, certificate_from, rejoins_at)
 
 
 def _blocked_spans(
@@ -426,14 +291,3 @@ def _blocked_until(
     blocked = 1.0 + _blocked_spans(path, u, world, requirements, until)
     left_out = [via.u for via in path.vias if via.index in skip and via.u > u]
     return float(path.distance(max([u, *blocked.tolist(), *left_out])))
-
-
-def _head(path: Path, u: float) -> Floats:
-    """The spans before u, the last of them cut there."""
-    if u <= 0:
-        return np.empty((0, 4, path.dimension))
-    return np.asarray(path.section(0.0, u).spans)
-
-
-def _vias_until(path: Path, u: float, spans: int) -> Sequence[PathVia]:
-    return [via for via in path.vias if via.u <= min(u + PASSED_M, spans)]

@@ -1,0 +1,191 @@
+"""A stretch of a path laid anew, and joined to what stays of it on either side.
+
+Tested through ``planning/test_replan``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from viaspline.curve.certificate import Certificate
+from viaspline.curve.path import Path, PathVia
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import PlanningError
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.alternatives.record import Account
+from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.checking.conflicts import proven
+from viaspline.planning.departure import (
+    BlockedTurnError,
+    Leave,
+    refuse_blocked,
+    refuse_blocked_turn,
+    refuse_no_room,
+    rolling,
+)
+from viaspline.planning.nearby import lay_nearby
+from viaspline.planning.plan_path import lay_path
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.splice import run_out
+from viaspline.planning.problem.via_sequence import RouteVia
+from viaspline.planning.problem.work_budget import SpentBudgetError
+from viaspline.planning.routing.leg_errors import BlockedLegError
+from viaspline.planning.sides_ahead import refuse_wrong_side
+from viaspline.planning.stretch import (
+    PASSED_M,
+    Stretch,
+    refuse_the_end,
+    room_to_run_out,
+    sequence_through,
+)
+from viaspline.world.world import World
+
+RUN_OUT_LENGTHS = (2.0, 1.0, 0.3)  # that are tried, in required distances
+
+
+def joined(
+    path: Path,
+    stretch: Stretch,
+    world: World,
+    requirements: Requirements,
+    until: float,
+    leave: Leave = rolling,
+) -> Solution:
+    """The new path with the first run-out, from long to short, that lets it be clear.
+
+    Args:
+        path: What is being driven.
+        stretch: What of it is laid anew.
+        world: What is known now.
+        requirements: What to keep.
+        until: Distance along the path from which it is not looked at yet [m].
+        leave: How it is left.
+
+    Raises:
+        NoPathError: When there is no way.
+        SpentBudgetError: When there is no time left to look for one.
+    """
+    refuse_the_end(path, stretch)
+    problem: PlanningError | None = None
+    for reach in _run_outs(stretch, requirements, leave):
+        lay = partial(_join, path, stretch, leave, world, requirements, reach, until)
+        try:
+            return _once(requirements, (path, stretch, leave, world, reach, until), lay)
+        except (BlockedLegError, BlockedTurnError):
+            raise  # a run-out is clear: where none leads on from one, none does from another
+        except SpentBudgetError:
+            raise
+        except PlanningError as error:
+            problem = error
+    assert problem is not None  # there is a length at least
+    raise problem
+
+
+def _once(requirements: Requirements, asked: Hashable, lay: Callable[[], Solution]) -> Solution:
+    """What a way to lay a path comes to, a refusal too, which later steps find done."""
+
+    def tried() -> Solution | PlanningError:
+        try:
+            return lay()
+        except SpentBudgetError:
+            raise
+        except PlanningError as error:
+            return error
+
+    found = requirements.once(("joined", asked), tried)
+    if isinstance(found, PlanningError):
+        raise found.with_traceback(None)
+    return found
+
+
+def _run_outs(stretch: Stretch, requirements: Requirements, leave: Leave) -> tuple[float, ...]:
+    """The lengths of run-outs that are tried [m]; nothing where there are none."""
+    if leave is not rolling and requirements.turns_at_rest and stretch.tail is None:
+        return (0.0,)
+    return tuple(length * max(requirements.required, 0.1) for length in RUN_OUT_LENGTHS)
+
+
+def _join(
+    path: Path,
+    stretch: Stretch,
+    leave: Leave,
+    world: World,
+    requirements: Requirements,
+    reach: float,
+    until: float,
+) -> Solution:
+    departure = leave(path, stretch, world, requirements, reach)
+    tail, back = stretch.tail, None
+    if tail is not None:
+        last_room = room_to_run_out(path, stretch)[1]
+        refuse_no_room(path, tail.u, last_room)
+        back = run_out(path, tail.u, min(reach, last_room), sense=-1).reversed()
+        refuse_blocked(back, world, requirements)
+    meet = None if back is None else RouteVia("the old path", back.span[0], None)
+    sequence = replace(
+        sequence_through(path, departure.start, stretch, requirements, meet),
+        start_tangent=departure.tangent,
+    )
+    if len(departure.spans):
+        refuse_wrong_side(departure.spans, sequence.whole_leg(0), world, requirements)
+    if back is not None:
+        last_leg = sequence.whole_leg(len(sequence.legs) - 1)
+        refuse_wrong_side(back.span[None], last_leg, world, requirements)
+        sequence = replace(sequence, end_tangent=back.tangent)
+    if tail is None:
+        spline_path, account = lay_path(sequence, world, requirements)
+    else:
+        old = path.spans[int(stretch.u) : math.ceil(tail.u)]
+        spline_path, account = lay_nearby(sequence, old, world, requirements)
+    spans = spline_path.spans
+    if not len(departure.spans):
+        refuse_blocked_turn(path, stretch.u, spans[0], world, requirements)
+    head = _head(path, stretch.u)
+    first = len(head) + len(departure.spans)
+    pieces = [head, departure.spans, spans]
+    vias = [*_vias_until(path, stretch.u, len(head)), *spline_path.vias_from(first)]
+    ahead = first + len(spans)
+    rejoin = None
+    if tail is not None and back is not None:
+        pieces += [back.span[None], path.spans[round(tail.u) :]]
+        rejoin = ahead + 1
+        vias += [replace(via, u=via.u - tail.u + rejoin) for via in path.vias if via.u >= tail.u]
+    new = Path(np.concatenate(pieces), vias)
+    leaving = float(new.distance(float(len(head))))
+    last = len(new.spans)
+    if rejoin is not None and until < path.length:
+        last = rejoin  # what stays was proven, and is clear of what is known now
+    certificate = proven(PiecewiseCubic(new.spans[len(head) : last]), world, requirements)
+    back_at = None if rejoin is None else float(new.distance(float(rejoin)))
+    return solution_from(new, leaving, certificate, account, back_at)
+
+
+def solution_from(
+    new: Path,
+    certificate_from: float,
+    certificate: Certificate,
+    account: Account | None,
+    rejoins_at: float | None = None,
+) -> Solution:
+    """A path whose certificate speaks of what lies ahead of ``certificate_from`` [m]."""
+    distance = min(certificate.tightest_distance + certificate_from, new.length)
+    moved = replace(
+        certificate, tightest_distance=distance, tightest_u=float(new.parameter(distance))
+    )
+    return Solution(new, moved, account, certificate_from, rejoins_at)
+
+
+def _head(path: Path, u: float) -> Floats:
+    """The spans before u, the last of them cut there."""
+    if u <= 0:
+        return np.empty((0, 4, path.dimension))
+    return np.asarray(path.section(0.0, u).spans)
+
+
+def _vias_until(path: Path, u: float, spans: int) -> Sequence[PathVia]:
+    return [via for via in path.vias if via.u <= min(u + PASSED_M, spans)]
