@@ -99,7 +99,7 @@ def test_what_is_in_the_way_in_every_lap_changes_every_lap_there_and_nothing_els
     mode: Any, shapely_distance: Oracle
 ) -> None:
     path, world, requirements = start(*3 * LAP, [0, 0])
-    world = world.with_obstacles([disc(30, 0, 3)])
+    world = world.with_obstacles([disc(*path.evaluate([0.5, 4.5, 8.5]).mean(axis=0).tolist(), 4)])
     found = mode(path, 5.0, world, requirements)
     check(found, path, 5.0, world, shapely_distance)
     assert found.rejoins_at is not None
@@ -115,7 +115,7 @@ def test_from_rest_nearby_leaves_a_path_that_is_clear_or_blocked_to_its_goal_to_
     path, world, requirements = start(*LAP)
     with pytest.raises(vs.NoPathError, match="nothing is in the way"):
         from_rest_nearby(path, 5.0, world, requirements)
-    last = world.with_obstacles([disc(30, 40, 3)])
+    last = world.with_obstacles([disc(*path.evaluate(2.5).tolist(), 3)])
     with pytest.raises(vs.NoPathError, match="nothing of the path would stay"):
         from_rest_nearby(path, 5.0, last, requirements)
 

@@ -35,12 +35,12 @@ class Wait:
 
 
 @dataclass(frozen=True)
-class StandingSearch:
-    """What a search of a robot that stands has come to.
+class SearchSoFar:
+    """What a search has come to, as its next step takes it on.
 
     Attributes:
-        limit: What its next step may spend [s of the reference machine].
-        spent: What it has spent in all [s of the reference machine].
+        limit: What the next step of a robot that stands may spend [s of the reference machine].
+        spent: What it has spent in all since it stands [s of the reference machine].
         world: What it is to keep clear of.
         finished: What the parts of the search came to that are over; see ``WorkBudget``.
     """
@@ -62,16 +62,16 @@ class PendingSearch:
         begin_with: The stage with which it goes on.
         again: Under way it waits until then: it has tried all that it has time for [s].
         free_until: Up to this distance along the path it was certainly clear then [m].
-        standing: What a robot that stands takes on to its next step, if it does.
+        so_far: What it takes on to its next step.
     """
 
     since: float
     obstacles: World
     names: tuple[str, ...]
     begin_with: tuple[int, int]
+    so_far: SearchSoFar
     again: float = -math.inf
     free_until: float = math.inf
-    standing: StandingSearch | None = None
 
 
 @dataclass(frozen=True)

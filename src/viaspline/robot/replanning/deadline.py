@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from viaspline.robot.navigation.schedule import FIRST_STAGE, NO_STAGE, PendingSearch, StandingSearch
+from viaspline.robot.navigation.schedule import FIRST_STAGE, NO_STAGE, PendingSearch, SearchSoFar
 from viaspline.robot.replanning.replan_context import NOTHING, ReplanContext
 
 STEP_WORK_S = 0.1
@@ -42,22 +42,22 @@ def with_time_to_search(context: ReplanContext) -> ReplanContext:
     Args:
         context: The robot, with what is in its way.
     """
-    pending = context.schedule.pending
+    pending, found = context.schedule.pending, NOTHING
+    if pending is not None and pending.so_far.world is context.knowledge.world:
+        found = pending.so_far.finished
     if context.speed == 0.0:
-        before = None if pending is None else pending.standing
-        limit = STEP_WORK_S if before is None else before.limit
-        is_known = before is not None and before.world is context.knowledge.world
-        standing = context.searching(limit, before.finished if before and is_known else NOTHING)
+        limit = STEP_WORK_S if pending is None else pending.so_far.limit
+        standing = context.searching(limit, found)
         if standing.speed == 0.0:
             return standing
     longest = min(STEP_WORK_S, _until_next_command(context), _left(context))
     for share in SHARES if longest > 0.0 else ():
-        committed = context.searching(share * longest)
+        committed = context.searching(share * longest, found)
         if committed.is_clear(committed.stop):
             return committed
     # who is guided by a lidar may be too close already, and slow: it leaves as soon as it can
     is_late = context.knowledge.belief is not None and not context.is_clear(context.stop)
-    return context.searching(SHARES[-1] * STEP_WORK_S if is_late else 0.0)
+    return context.searching(SHARES[-1] * STEP_WORK_S if is_late else 0.0, found)
 
 
 def gone_on(
@@ -73,24 +73,24 @@ def gone_on(
     before, obstacles = context.schedule.pending, context.obstruction.world
     names = context.obstruction.names
     since = context.progress.time if before is None else before.since
+    budget, world = context.requirements.budget, context.knowledge.world
+    assert budget is not None
     if context.speed > 0.0:
         again = -math.inf
         if begin_with == NO_STAGE:
             left = (held_at - context.progress.distance) / context.speed
             pause = max(RETRY_INTERVAL_S, PAUSE_RATIO * left)
             begin_with, again = FIRST_STAGE, context.progress.time + pause
+        so_far = SearchSoFar(STEP_WORK_S, 0.0, world, budget.finished)
         free = context.obstruction.free_until
-        return PendingSearch(since, obstacles, names, begin_with, again, free)
-    budget, world = context.requirements.budget, context.knowledge.world
-    assert budget is not None
-    standing = None if before is None else before.standing
-    spent = budget.spent + (0.0 if standing is None else standing.spent)
-    is_further = budget.has_gained and (standing is None or standing.world is world)
+        return PendingSearch(since, obstacles, names, begin_with, so_far, again, free)
+    spent = budget.spent + (0.0 if before is None else before.so_far.spent)
+    is_further = budget.has_gained and (before is None or before.so_far.world is world)
     limit = max(budget.limit if is_further else 2.0 * budget.limit, STEP_WORK_S)
     if spent + limit > MAX_STANDING_WORK_S:
         return None
-    goes_on = StandingSearch(limit, spent, world, budget.finished)
-    return PendingSearch(since, obstacles, names, begin_with, standing=goes_on)
+    so_far = SearchSoFar(limit, spent, world, budget.finished)
+    return PendingSearch(since, obstacles, names, begin_with, so_far)
 
 
 def is_paused(context: ReplanContext, free: float) -> bool:

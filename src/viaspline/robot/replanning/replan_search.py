@@ -254,8 +254,7 @@ def _comes_on_nearby(context: ReplanContext) -> bool:
     budget, pending = context.requirements.budget, context.schedule.pending
     if context.speed > 0.0 or budget is None or not budget.has_gained:
         return False
-    standing = None if pending is None else pending.standing
-    return budget.spent + (0.0 if standing is None else standing.spent) < NEARBY_WORK_S
+    return budget.spent + (0.0 if pending is None else pending.so_far.spent) < NEARBY_WORK_S
 
 
 def _not_followed(context: ReplanContext) -> GaveUpError:
