@@ -197,7 +197,7 @@ def _routed(
     def find(closed: Floats, met: Flags) -> tuple[Outcome[TautPath], Flags]:
         needs.spend(ROUTE_S)
         known = met.copy()
-        return leg.router.find(*ends, closed, known), known
+        return leg.router.find(*ends, closed, known, needs.spend), known
 
     outcome, _ = route_on_sides(find, leg.sides, active, barriers)
     if outcome.value is None:
