@@ -130,6 +130,28 @@ def test_adding_obstacles_again_and_again_equals_building_anew(
         np.testing.assert_array_equal(grown.distances_to(i, xy), anew.distances_to(i, xy))
 
 
+@given(seeds, st.integers(0, 20), st.integers(0, 5))
+def test_discs_as_arrays_make_the_same_world(seed: int, count: int, before: int) -> None:
+    rng = np.random.default_rng(seed)
+    rows = np.column_stack((rng.uniform(0, 30, (count, 2)), rng.uniform(0.01, 2.0, count)))
+    discs = tuple(disc(x, y, radius) for x, y, radius in rows.tolist())
+    world = World(random_obstacles(seed, before), **random_frame(seed))
+    one, other = world.with_obstacles(discs), world.with_discs(discs, rows)
+    assert one.obstacles == other.obstacles
+    for mine, its in zip(one.packed, other.packed, strict=True):
+        assert mine.dtype == its.dtype
+        np.testing.assert_array_equal(mine, its)
+
+
+def test_a_world_knows_its_discs_and_who_asks_for_a_side() -> None:
+    post = Obstacle(capsule={"from": (0, 0), "to": (1, 0), "radius": 1}, never_pass_on="left")
+    world = World([post, disc(5, 5, 2)]).with_obstacles([disc(9, 9, 1, pass_on="left")])
+    assert world.discs.tolist() == [[5, 5, 2], [9, 9, 1]]
+    assert world.sided.tolist() == [0, 2]
+    assert world.with_side(1, "right").sided.tolist() == [0, 1, 2]
+    assert world.with_discs((disc(1, 1, 1),), np.ones((1, 3))).sided.tolist() == [0, 2]
+
+
 def test_a_thousand_obstacles_seen_one_by_one_are_no_problem() -> None:
     obstacles = random_obstacles(5, 1000)
     world = World(bounds=(0, 0, 100, 100))

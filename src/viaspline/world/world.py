@@ -19,7 +19,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle, Side
 from viaspline.mission.strip import corridor_rings
 from viaspline.world.outline import outline
-from viaspline.world.pack import Rings, join, pack
+from viaspline.world.pack import Rings, join, pack, pack_discs
 from viaspline.world.tree_growth import leaf_boxes
 
 Bounds = tuple[float, float, float, float]
@@ -69,6 +69,7 @@ class World:
         self.packed: PackedWorld = pack(self.obstacles, self.bounds, areas)
         self._settled = len(self.obstacles)
         self._listed: tuple[int, ...] = ()
+        self._sided = _sided(self.obstacles)
 
     @classmethod
     def known(cls, mission: Mission) -> World:
@@ -87,12 +88,27 @@ class World:
     def with_obstacles(self, obstacles: Iterable[Obstacle]) -> World:
         """A world that has these obstacles too; they come after those that it has."""
         new = tuple(obstacles)
+        more = tuple(len(self.obstacles) + i for i in _sided(new))
+        return self._with(new, pack(new, None, ()), self._sided + more)
+
+    def with_discs(self, discs: tuple[Obstacle, ...], rows: Floats) -> World:
+        """As ``with_obstacles``, for discs without a side of their own that are arrays as well.
+
+        Args:
+            discs: They come after the obstacles that it has.
+            rows: x, y and radius of each [m], shape (n, 3).
+        """
+        return self._with(discs, pack_discs(rows), self._sided)
+
+    def _with(
+        self, new: tuple[Obstacle, ...], packed: PackedWorld, sided: tuple[int, ...]
+    ) -> World:
         world = object.__new__(World)
         world.obstacles = self.obstacles + new
         world.bounds = self.bounds
         world.fences, world.corridor = self.fences, self.corridor
-        world._listed = self._listed
-        world.packed, world._settled = join(self.packed, pack(new, None, ()), self._settled)
+        world._listed, world._sided = self._listed, sided
+        world.packed, world._settled = join(self.packed, packed, self._settled)
         return world
 
     def with_side(self, index: int, side: Side) -> World:
@@ -102,7 +118,7 @@ class World:
         world.obstacles = (*self.obstacles[:index], asked, *self.obstacles[index + 1 :])
         world.bounds, world.fences, world.packed = self.bounds, self.fences, self.packed
         world.corridor, world._settled = self.corridor, self._settled
-        world._listed = self._listed
+        world._listed, world._sided = self._listed, tuple(sorted({*self._sided, index}))
         return world
 
     def listed_at(self, index: int) -> int:
@@ -137,6 +153,17 @@ class World:
             fences=self.fences,
             corridor=self.corridor,
         )
+
+    @property
+    def sided(self) -> Ints:
+        """Indices of the obstacles that ask for a side, (k,)."""
+        return np.array(self._sided, np.int64)
+
+    @property
+    def discs(self) -> Floats:
+        """The obstacles that are round about one place: x, y and radius [m], shape (k, 3)."""
+        heads = self.packed.heads
+        return np.ascontiguousarray(heads[heads[:, 3] == 1.0, :3])
 
     @property
     def are_maps(self) -> NDArray[np.bool_]:
@@ -287,6 +314,11 @@ def _checked(bounds: Sequence[float]) -> Bounds:
     if not (-math.inf < x0 < x1 < math.inf and -math.inf < y0 < y1 < math.inf):
         raise GeometryError(f"bounds {tuple(bounds)} are empty; give x_min, y_min, x_max, y_max")
     return x0, y0, x1, y1
+
+
+def _sided(obstacles: Iterable[Obstacle]) -> tuple[int, ...]:
+    """Indices of those that ask for a side."""
+    return tuple(i for i, one in enumerate(obstacles) if one.forced_side is not None)
 
 
 def _rings(name: str, rings: Iterable[Any]) -> tuple[tuple[tuple[float, float], ...], ...]:

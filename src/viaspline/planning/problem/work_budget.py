@@ -16,8 +16,9 @@ from viaspline.errors import GaveUpError
 LAY_S = 2e-3
 """What every path that is laid costs besides what it is made of [s]."""
 
-ROUTE_S, LATTICE_S, GUIDE_S = 5e-4, 4e-3, 1e-3
-"""Of a route between two places; of each lattice and each guide through one that it takes [s]."""
+ROUTE_S, LATTICE_S, GUIDE_S, GUIDE_OBSTACLE_S = 5e-4, 4e-3, 1e-3, 2e-6
+"""Of a route between two places; of each lattice and each guide through one that it takes, and of
+pulling that taut for each obstacle of the world [s]."""
 
 CONFLICTS_S, CONFLICTS_SPAN_S, CONFLICTS_BODY_SPAN_S = 3e-5, 1e-6, 9e-6
 """Of looking for conflicts: in all, for each span, and for each span if a polygon drives [s]."""

@@ -137,8 +137,7 @@ class AskedSides:
 
 def sided(world: World) -> Ints:
     """Indices of the obstacles that ask for a side, (k,)."""
-    asked = [i for i, obstacle in enumerate(world.obstacles) if obstacle.forced_side is not None]
-    return np.array(asked, np.int64)
+    return world.sided
 
 
 def _crossed_by(places: Floats, barriers: Floats) -> NDArray[np.bool_]:

@@ -13,7 +13,7 @@ from viaspline.kernels.routing.string_pulling.pull import pulled_taut
 from viaspline.kernels.routing.tangent_arcs import taut_length
 from viaspline.kernels.world.segment import nearest_to_segment
 from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
-from viaspline.planning.problem.work_budget import GUIDE_S, LATTICE_S
+from viaspline.planning.problem.work_budget import GUIDE_OBSTACLE_S, GUIDE_S, LATTICE_S
 from viaspline.planning.routing.lattice import Lattice
 from viaspline.planning.routing.route_problem import (
     TURN_MARGINS_M,
@@ -88,7 +88,7 @@ class LatticeRoute:
         if begun:
             lattice = lattice.without(closed)
         for _ in range(self.max_gaps):
-            problem.spend(GUIDE_S)
+            problem.spend(GUIDE_S + GUIDE_OBSTACLE_S * len(space.world))
             guide = _guide(space, lattice, problem.start, problem.goal)
             if guide is None:
                 return Followed(None, closed, lattice.is_fine or len(closed) == begun)

@@ -76,13 +76,9 @@ class SearchSpace:
         """
         from scipy.spatial import cKDTree
 
-        rings = [obstacle.ring for obstacle in self.world.obstacles]
-        discs = [
-            (*ring.vertices[0], ring.radius) for ring in rings if ring is not None and ring.is_disc
-        ]
-        if len(discs) < 2:
+        table = self.world.discs
+        if len(table) < 2:
             return NO_BARRIERS
-        table = np.array(discs)
         tree, reach = cKDTree(table[:, :2]), 2.0 * (self.floor + float(table[:, 2].max()))
         if tree.count_neighbors(tree, reach) > MAX_DISC_PAIRS:
             return NO_BARRIERS

@@ -99,27 +99,35 @@ class WideTurns:
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None
-        joins = joins_worth_it(narrowest.bends, self._wishes(narrowest), GENTLE_ROOM)
+        wishes = self._wishes(narrowest)
+        joins = joins_worth_it(narrowest.bends, wishes, GENTLE_ROOM)
         while joins:
-            found = self._fitted(with_joins(narrowest.bends, joins), world, requirements)
+            found = self._joined(with_joins(narrowest.bends, joins), world, requirements)
             rows = np.delete(np.arange(len(narrowest.bends.rows)), rest_of(joins))
             tight = rows[_wound_round(found) if isinstance(found, TurnPath) else found].tolist()
             if isinstance(found, TurnPath) and not {join.first for join in joins} & set(tight):
                 return found
             looser = tuple(loosened(joins, set(tight)))
             joins = looser if looser != joins else ()
-        found = self._fitted(bends, world, requirements)
+        radii = self._wished(bends, narrowest, wishes)
+        found = self._fitted(bends, radii, world, requirements)
         return found if isinstance(found, TurnPath) else None
 
-    def _fitted(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | Ints:
-        """The widest turns round a row, narrowed until they are clear, or where there is no room.
-
-        Where the least have none, these are the bends before and after it and between them, (k,).
-        """
+    def _joined(self, bends: Bends, world: World, requirements: Requirements) -> TurnPath | Ints:
+        """The widest turns round a row of bends some of which are joined; see ``_fitted``."""
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return np.arange(len(bends.rows))
-        radii = self._wished(bends, narrowest)
+        radii = self._wished(bends, narrowest, self._wishes(narrowest))
+        return self._fitted(bends, radii, world, requirements)
+
+    def _fitted(
+        self, bends: Bends, radii: Floats, world: World, requirements: Requirements
+    ) -> TurnPath | Ints:
+        """Turns round a row, narrowed from radii (n,) [m] until they are clear.
+
+        Where the least have no room, these are the bends before, after and between them, (k,).
+        """
         for _ in range(MAX_NARROWINGS):
             requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
             turn_path = turn_path_on_sides(bends.turning(radii))
@@ -146,7 +154,8 @@ class WideTurns:
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None
-        found = turn_path_on_sides(bends.turning(self._wished(bends, narrowest)))
+        radii = self._wished(bends, narrowest, self._wishes(narrowest))
+        found = turn_path_on_sides(bends.turning(radii))
         return found if isinstance(found, TurnPath) else None
 
     def _wishes(self, narrowest: SettledTurns) -> TurnWishes:
@@ -162,12 +171,11 @@ class WideTurns:
         lengths = gentle_lengths(angles, rooms, narrowest.bends.closed, spent)
         return TurnWishes(angles, gaps, lengths, fast, spent)
 
-    def _wished(self, bends: Bends, narrowest: SettledTurns) -> Floats:
+    def _wished(self, bends: Bends, narrowest: SettledTurns, wishes: TurnWishes) -> Floats:
         """The radius that each turn should have [m], (n,).
 
         A turn into a heading that is given swings out by all of its angle: its line leads there.
         """
-        wishes = self._wishes(narrowest)
         rows, angles, lengths = narrowest.left, wishes.turns, wishes.lengths
         kept = bends.rows[rows, KEPT]
         radii = np.full(len(bends.rows), max(self.roomy, self.least))

@@ -142,7 +142,8 @@ class Belief:
             belief = belief._packed()
         elif new:
             loose = surfaces.obstacles[-latest:]
-            belief = replace(belief, world=self.settled.with_obstacles(loose))
+            world = self.settled.with_discs(loose, surfaces.discs[-latest:])
+            belief = replace(belief, world=world)
         return belief, News(moved + new, gone)
 
     def seen_until(self, path: Path, start: float, end: float, floor: float) -> float:
@@ -196,5 +197,5 @@ class Belief:
         return replace(self, map=self.map.with_obstacles(obstacles))._packed()
 
     def _packed(self) -> Belief:
-        settled = self.map.with_obstacles(self.surfaces.obstacles)
+        settled = self.map.with_discs(self.surfaces.obstacles, self.surfaces.discs)
         return replace(self, settled=settled, world=settled)

@@ -40,6 +40,7 @@ class SurfacePoints:
         cell_size: Radius of the discs on first hits [m].
         noise: Standard deviation of a measured distance [m].
         obstacles: The discs, n of them.
+        discs: The same as x, y and radius [m], shape (n, 3).
         means: Of the hits of each disc [m], shape (n, 2).
         hits: How many there were, shape (n,).
         trust: How many scans have yet to see through each, shape (n,).
@@ -48,6 +49,7 @@ class SurfacePoints:
     cell_size: float
     noise: float
     obstacles: tuple[Obstacle, ...]
+    discs: Floats
     means: Floats
     hits: Ints
     trust: Ints
@@ -56,7 +58,7 @@ class SurfacePoints:
     def none(cls, cell_size: float, noise: float) -> SurfacePoints:
         """Nothing was hit yet."""
         nothing = np.empty(0, np.int64)
-        return cls(cell_size, noise, (), np.empty((0, 2)), nothing, nothing)
+        return cls(cell_size, noise, (), np.empty((0, 3)), np.empty((0, 2)), nothing, nothing)
 
     def __len__(self) -> int:
         return len(self.obstacles)
@@ -69,7 +71,7 @@ class SurfacePoints:
     @property
     def places(self) -> Floats:
         """The middles of the discs [m], shape (n, 2)."""
-        return np.array([_center(obstacle) for obstacle in self.obstacles]).reshape(-1, 2)
+        return self.discs[:, :2]
 
     def confirmed(self, scan: Scan, hits: Floats, index: Ints) -> SurfacePoints:
         """The points after hits of a scan, shape (k, 2), each near the disc ``index``, (k,)."""
@@ -110,11 +112,12 @@ class SurfacePoints:
         level = _level(self.hits)
         due = np.flatnonzero(level > _level(before))
         radii = self.cell_size - self.noise * (1.0 - np.sqrt(1.0 / np.array((1, *RECENTRE_HITS))))
-        obstacles = list(self.obstacles)
+        obstacles, discs = list(self.obstacles), self.discs.copy()
+        discs[due] = np.column_stack((self.means[due], radii[level[due]]))
         for i in due.tolist():
-            obstacles[i] = _disc(self.means[i], float(radii[level[i]]))
+            obstacles[i] = _disc(discs[i])
         moved = tuple(obstacles[i] for i in due.tolist())
-        return replace(self, obstacles=tuple(obstacles)), moved
+        return replace(self, obstacles=tuple(obstacles), discs=discs), moved
 
     def with_hits(self, hits: Floats) -> tuple[SurfacePoints, tuple[Obstacle, ...]]:
         """The points with new discs that cover some hits [m], shape (k, 2), each the first there.
@@ -124,11 +127,13 @@ class SurfacePoints:
         """
         points = np.ascontiguousarray(hits)
         points = points[visible_region.beam_spread(points, self.cell_size)]
-        new = tuple(_disc(point, self.cell_size) for point in points)
+        discs = np.column_stack((points, np.full(len(points), self.cell_size)))
+        new = tuple(_disc(disc) for disc in discs)
         ones = np.ones(len(new), np.int64)
         grown = replace(
             self,
             obstacles=self.obstacles + new,
+            discs=np.concatenate((self.discs, discs)),
             means=np.concatenate((self.means, points)),
             hits=np.concatenate((self.hits, ones)),
             trust=np.concatenate((self.trust, NEW_TRUST_SCANS * ones)),
@@ -160,8 +165,8 @@ class SurfacePoints:
             return self, 0
         left = tuple(self.obstacles[i] for i in np.flatnonzero(kept).tolist())
         return replace(
-            self, obstacles=left, means=self.means[kept], hits=self.hits[kept],
-            trust=self.trust[kept],
+            self, obstacles=left, discs=self.discs[kept], means=self.means[kept],
+            hits=self.hits[kept], trust=self.trust[kept],
         ), gone  # fmt: skip
 
 
@@ -177,12 +182,7 @@ def _level(hits: Ints) -> Ints:
     return np.searchsorted(np.array(RECENTRE_HITS), hits, side="right")
 
 
-def _disc(point: Floats, radius: float) -> Obstacle:
-    x, y = point.tolist()
+def _disc(disc: Floats) -> Obstacle:
+    x, y, radius = disc.tolist()
     circle = Circle(center=(x, y), radius=radius)
     return Obstacle(circle=circle, name=f"what is seen at ({x:.2f}, {y:.2f})")
-
-
-def _center(obstacle: Obstacle) -> tuple[float, float]:
-    assert obstacle.ring is not None
-    return obstacle.ring.loops[0][0]

@@ -157,7 +157,7 @@ def first_candidate(
         UnfinishedSearchError: When it has spent what it may.
         PlanningError: If there is no way to the goal, or none was found.
     """
-    forced = any(obstacle.forced_side for obstacle in context.knowledge.world.obstacles)
+    forced = bool(context.knowledge.world.sided.size)
     laid_anew = set()  # from there a reflex has laid all that a planned path would
     closed = set()  # parts of the order by which nothing leads on, wherever the path is left
     for stage, mode, leave in _stages(context, ("planned",) if skip else modes):
