@@ -83,3 +83,26 @@ def test_no_limit_is_broken_while_giving_way(seed: int) -> None:
     assert run.speeds.max() <= 2.0 + 1e-9
     accelerations = np.diff(run.speeds) / np.maximum(np.diff(run.times), 1e-9)
     assert np.abs(accelerations[np.diff(run.times) > 0.05]).max() <= 1.0 + 1e-6
+
+
+def test_a_robot_at_which_something_turns_gets_out_of_its_way() -> None:
+    """It crosses the robot's path ahead, as it seems, and then comes back at the robot."""
+    turning = {
+        "name": "turning",
+        "circle": {"center": [0, 0], "radius": 0.5},
+        "motion": {
+            "keyframes": [[0, 12, -8], [4, 12, -4], [11, 5.5, 2.5], [40, 5.5, 30]], "after": "stay",
+        },
+    }  # fmt: skip
+    run = vs.simulate(crossing(turning), step=0.1)
+    assert run.reached
+    assert run.encounters is not None
+    assert run.encounters.contacts == ()
+
+
+def test_a_wall_of_them_touches_no_robot_under_way_that_is_to_be_at_rest_in_time() -> None:
+    boxed = [cart(f"d{i}", (12.0, y), (-1.3, 0.0)) for i, y in enumerate(np.arange(-6.0, 7.0))]
+    safe = {"max_speed_mps": 1.5, "safety": "passive"}
+    run = vs.simulate(crossing(*boxed, moving=safe), step=0.1)
+    assert run.encounters is not None
+    assert all(contact.robot_speed == 0.0 for contact in run.encounters.contacts)

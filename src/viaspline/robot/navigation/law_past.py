@@ -9,12 +9,13 @@ from collections.abc import Sequence
 
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
-from viaspline.planning.problem.method import Found
+from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_among import law_among
+from viaspline.trajectory.yielding.no_law import Unserved
 from viaspline.world.moving_obstacles import MovingObstacles
 
 
@@ -52,11 +53,20 @@ def law_past(
         required=task.kept_to_moving,
         zones=task.mission.world.speed_zones, slow=schedule.slow,
         start=min(distance, timed.length), start_speed=motion[0], start_time=time,
-        hold=task.mission.route.hold_s if end >= path.length else 0.0,
+        hold=task.mission.route.hold_s if end >= path.length else 0.0, explained=_unexplained,
     )  # fmt: skip
     if isinstance(outcome, Found):
         return outcome.value
     raise GeometryError(f"no law past what moves: {outcome.reason}")
+
+
+def _unexplained(_: Unserved) -> GaveUp:
+    """That no law was found: under way it isn't proven that there is none, nor is anybody told."""
+    return GaveUp(
+        ("waiting, slowing down and passing before on a lattice of times and speeds",),
+        "another path",
+        reason="no law was found on this path among what moves",
+    )
 
 
 def part_until(path: Path, stops: Sequence[Station], end: float) -> tuple[Path, Sequence[Station]]:

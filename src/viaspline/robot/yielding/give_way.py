@@ -2,17 +2,15 @@
 
 Its path is timed anew first. Where that costs much, or can't be done, it is led round what it would
 meet, on either side, and the earliest arrival wins. What moves may turn: so there is room to spare
-beside it, and where that can't be, what is required. Where nothing is found the robot takes the law
-on which nothing is met for the longest time, and braking if none is better.
+beside it, and where that can't be, what is required. Where nothing is found the robot takes what
+meets something last, also beside its path, and braking if that is no worse.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 
-from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.mission.shapes.obstacle import Side
 from viaspline.planning import replan
@@ -21,7 +19,6 @@ from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.reschedule import (
-    braking_at_once,
     rescheduled,
     trajectory_within_sight,
 )
@@ -29,8 +26,9 @@ from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.transitions import take_over
-from viaspline.robot.run import Event
-from viaspline.spacetime.meetings import Meeting, first_meeting
+from viaspline.robot.yielding.meeting_ahead import meeting_ahead
+from viaspline.robot.yielding.out_of_the_way import out_of_the_way
+from viaspline.robot.yielding.swerves import driven, swerves
 from viaspline.spacetime.standing_ghost import standing_ghost
 from viaspline.spacetime.timed_problem import without_lanes
 from viaspline.trajectory.trajectory import Trajectory
@@ -50,9 +48,6 @@ GAIN_S = 0.5
 
 SIDE_WORK_S = 0.03
 """What may be spent on laying one other path [s of the reference machine]."""
-
-LOOK_S = 8.0
-"""It looks at least so far ahead [s]."""
 
 FREE_S = 0.05
 """Who comes no later than this doesn't give way [s]."""
@@ -86,7 +81,7 @@ def give_way(
     if kept < len(APART_M):
         return Decision(replace(schedule, timed_at=progress.time))
     context = ReplanContext.of(task, progress, knowledge, schedule)
-    return _longest(context, _free_law(context))
+    return out_of_the_way(context, _free_law(context))
 
 
 def _kept(task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule) -> int:
@@ -95,11 +90,11 @@ def _kept(task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: S
     What is on the map doesn't turn: from that it keeps what is required.
     """
     path, law, now = schedule.path, schedule.trajectory, progress.time
-    if _meeting(task, knowledge.moving, path, law, now) is not None:
+    if meeting_ahead(task, knowledge.moving, path, law, now) is not None:
         return len(APART_M)
     sensed = knowledge.sensed_moving
     for k, apart in enumerate(APART_M[:-1]):
-        if _meeting(replace(task, apart=apart), sensed, path, law, now) is None:
+        if meeting_ahead(replace(task, apart=apart), sensed, path, law, now) is None:
             return k
     return len(APART_M) - 1
 
@@ -118,14 +113,6 @@ def _clear_of_all(context: ReplanContext) -> Decision | None:
         decision = take_over(context, other, {})
         return replace(decision, schedule=_giving_way(decision.schedule, progress, math.inf))
     return None if waiting is None else Decision(_giving_way(waiting, progress, late))
-
-
-def _meeting(
-    task: DriveTask, moving: MovingObstacles, path: Path, law: Trajectory, now: float
-) -> Meeting | None:
-    """What a law meets from now on, and a robot that stands at its end."""
-    span = (now, max(law.end_time, now + LOOK_S))
-    return first_meeting(path, law, moving, task.kept_to_moving, span)
 
 
 def _hopes_for_more(progress: Progress, schedule: Schedule) -> bool:
@@ -160,17 +147,25 @@ def _on_path(context: ReplanContext) -> Schedule | None:
 
 
 def _other_side(context: ReplanContext, free: Trajectory) -> PathCandidate | None:
-    """The path round what is met first that arrives first; None if none has a law."""
+    """The path past what is met first that arrives first; None if none has a law.
+
+    Where there is room for that it swerves: round what moves, few paths are found that have a law,
+    and they cost most. Else it is led round.
+    """
     moving, path = context.knowledge.moving, context.schedule.path
-    meeting = _meeting(context.task, moving, path, free, context.progress.time)
+    meeting = meeting_ahead(context.task, moving, path, free, context.progress.time)
     if meeting is None:
         return None
-    found = [
-        candidate
-        for window in meeting.windows
-        for side in SIDES
-        if (candidate := _led_round(context, meeting.obstacle, side, window)) is not None
-    ]
+    paths = swerves(context)
+    if paths:
+        found = driven(context, paths, context.knowledge)
+    else:
+        found = [
+            candidate
+            for window in meeting.windows
+            for side in SIDES
+            if (candidate := _led_round(context, meeting.obstacle, side, window)) is not None
+        ]
     return min(found, key=lambda candidate: candidate.trajectory.end_time, default=None)
 
 
@@ -199,28 +194,3 @@ def _led_round(
         return timed(context, "from_rest" if stands else "planned", solution)
     except PlanningError:
         return None
-
-
-def _longest(context: ReplanContext, free: Trajectory) -> Decision:
-    """The law on which nothing is met for the longest time; braking if it is no worse."""
-    schedule, progress, task = context.schedule, context.progress, context.task
-    braking = braking_at_once(task, progress, schedule, context.speed)
-    laws = (braking, schedule.trajectory, free)
-    meetings = [
-        _meeting(task, context.knowledge.moving, schedule.path, law, progress.time) for law in laws
-    ]
-    until = [math.inf if meeting is None else meeting.begins for meeting in meetings]
-    best = max(range(len(laws)), key=lambda k: (until[k], -k))
-    held = replace(schedule, trajectory=laws[best], timed_at=progress.time, gives_way=True)
-    if best != 0 or context.speed == 0.0 or schedule.gives_way:
-        return Decision(held)
-    name = _met(context, meetings)
-    words = f"brakes for '{name}', which moves"
-    return Decision(held, (Event("braked", progress.time, context.here, words),))
-
-
-def _met(context: ReplanContext, meetings: Sequence[Meeting | None]) -> str:
-    """The name of what is met first on any of the laws."""
-    known = [meeting for meeting in meetings if meeting is not None]
-    first = min(known, key=lambda meeting: meeting.begins)
-    return context.knowledge.moving.name(first.obstacle)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind
 from viaspline.mission.world_spec import SpeedZone
-from viaspline.planning.problem.method import Found, Outcome, Refusal
+from viaspline.planning.problem.method import Found, GaveUp, Outcome, Refusal
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.trajectory.coupled import is_coupled
 from viaspline.trajectory.limits import Limits, Station
@@ -44,6 +44,7 @@ def law_among(
     hold: float = 0.0,
     speed_cap: float | None = None,
     budget: WorkBudget | None = None,
+    explained: Callable[[Unserved], Refusal | GaveUp] = Unserved.outcome,
 ) -> Outcome[Trajectory]:
     """The fastest drive along a path on which nothing that moves comes too near.
 
@@ -68,6 +69,7 @@ def law_among(
         hold: For so long the end of the path stays free after arrival [s].
         speed_cap: As for ``retime``.
         budget: What may be spent.
+        explained: What is said where none is found: by proof, which may cost more than the search.
 
     Returns:
         The law, with its time of arrival for its cost; a refusal if there is none, with what would
@@ -119,4 +121,4 @@ def law_among(
     if knots is not None:
         law = course.law(with_fastest_end(legs.search, knots.merged()))
         return Found(law, law.end_time)
-    return Unserved(legs, spending).outcome()
+    return explained(Unserved(legs, spending))

@@ -1,0 +1,83 @@
+"""A new path under way through one place beside the old one: laid at once, nothing searched.
+
+It costs a small part of what a search round something does, so many places can be tried. What
+lies in its way makes it no path; where the robot's turning circle or the mission's sides have a
+say, none is laid.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from viaspline.curve.path import Path
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import NoPathError
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.checking.conflicts import proven
+from viaspline.planning.departure import Leave
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.via_sequence import Leg, lay
+from viaspline.planning.stretch import (
+    PASSED_M,
+    Stretch,
+    is_round,
+    leaving_place,
+    sequence_through,
+    vias_remaining,
+)
+from viaspline.world.world import World
+
+RUN_OUT_M = 0.2
+"""Over so much the curvature of the old path eases off [m], where there is room."""
+
+
+def may_swerve(path: Path, world: World, requirements: Requirements) -> bool:
+    """Whether any path will do that is clear and leads through the via points."""
+    asked = any(one.pass_on or one.never_pass_on for one in world.obstacles)
+    return requirements.is_free_disc and path.dimension == 2 and not asked and not is_round(path)
+
+
+def swerve(
+    path: Path, at: float, place: Floats, world: World, requirements: Requirements, leave: Leave
+) -> Solution:
+    """Lay everything ahead anew, through a place on the way to the next via point.
+
+    Args:
+        path: What is being driven; ``may_swerve`` holds for it.
+        at: Distance along it from which it may differ [m].
+        place: Where the new path leads [m], (2,).
+        world: What stands.
+        requirements: What to keep.
+        leave: How the old path is left.
+
+    Raises:
+        NoPathError: When that path comes too near to something.
+    """
+    at, u = leaving_place(path, at)
+    stretch = Stretch(u, vias_remaining(path, at, world, requirements, ()), None)
+    departure = leave(path, stretch, world, requirements, RUN_OUT_M)
+    sequence = sequence_through(path, departure.start, stretch, requirements)
+    slack = sequence.legs[0].slack[0]
+    sequence = replace(sequence, start_tangent=departure.tangent, tangents="continuous")
+    sequence = sequence.with_leg(0, Leg(np.array([place]), np.array([slack, slack])))
+    spans, joints = lay(sequence), sequence.first_spans()
+    laid = SplinePath.through(sequence, spans, joints, (sequence.pieces,))
+    head = np.asarray(path.section(0.0, u).spans) if u > 0.0 else np.empty((0, 4, path.dimension))
+    first = len(head) + len(departure.spans)
+    kept = [via for via in path.vias if via.u <= min(u + PASSED_M, len(head))]
+    new = Path(np.concatenate((head, departure.spans, spans)), [*kept, *laid.vias_from(first)])
+    certificate = proven(PiecewiseCubic(new.spans[len(head) :]), world, requirements)
+    if not certificate.holds:
+        raise NoPathError(
+            "there is no room beside the path", where=place, remedy="look for another place"
+        )
+    leaving = float(new.distance(float(len(head))))
+    tightest = min(certificate.tightest_distance + leaving, new.length)
+    certificate = replace(
+        certificate, tightest_distance=tightest, tightest_u=float(new.parameter(tightest))
+    )
+    return Solution(new, certificate, None, leaving)
