@@ -14,7 +14,8 @@ from viaspline.planning.alternatives.homotopy_classes import Attempt, TautRow, c
 from viaspline.planning.problem.method import Found, Method, Outcome, first_settled
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.work_budget import SpentBudgetError
-from viaspline.planning.turning.driven_problem import DrivenPrice, DrivenProblem
+from viaspline.planning.turning.driven_price import DrivenPrice
+from viaspline.planning.turning.driven_problem import DrivenProblem
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain, islice, pairwise
+from itertools import count, pairwise
 
 import numpy as np
 
@@ -58,15 +58,15 @@ class SearchSpace:
         """Whether there are occupancy grids in the world."""
         return bool(self.world.are_maps.any())
 
-    @cached_property
+    @property
     def lattice(self) -> Lattice:
         """The coarsest lattice."""
-        return next(self._all_lattices())
+        return next(self.ever_finer())
 
     @property
     def has_lattice(self) -> bool:
         """Whether the coarsest lattice is made already."""
-        return "lattice" in vars(self)
+        return bool(self._lattices[0])
 
     @cached_property
     def narrow_disc_gaps(self) -> Floats:
@@ -89,11 +89,20 @@ class SearchSpace:
         return ends
 
     def ever_finer(self) -> Iterator[Lattice]:
-        """The lattices of this space, the coarsest first."""
-        return chain((self.lattice,), islice(self._all_lattices(), 1, None))
+        """The lattices of this space, the coarsest first; each is made once, when it is needed."""
+        made, to_make = self._lattices
+        for k in count():
+            if k == len(made):
+                finer = next(to_make, None)
+                if finer is None:
+                    return
+                made.append(finer)
+            yield made[k]
 
-    def _all_lattices(self) -> Iterator[Lattice]:
-        return lattices(self.world, self.required, self.floor, self.places)
+    @cached_property
+    def _lattices(self) -> tuple[list[Lattice], Iterator[Lattice]]:
+        """Those that are made, and those that are not yet."""
+        return [], lattices(self.world, self.required, self.floor, self.places)
 
 
 @dataclass(frozen=True)

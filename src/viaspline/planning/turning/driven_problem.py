@@ -19,7 +19,7 @@ from viaspline.planning.alternatives.cleared_spline import ClearedSpline
 from viaspline.planning.alternatives.homotopy_classes import TautRow
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.checking.conflicts import is_clear
-from viaspline.planning.checking.driving_time import driving_time, leg_time, straight_time
+from viaspline.planning.checking.driving_time import driving_time, leg_time
 from viaspline.planning.problem.heights import with_heights
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
@@ -31,6 +31,7 @@ from viaspline.planning.turning.bend_row import DETOUR, Bends, LegBends, bends_a
 from viaspline.planning.turning.lane_stays import LegLane
 from viaspline.planning.turning.local_detours import LANE_REACHES, LaneTurns, local_bends
 from viaspline.planning.turning.repair import clear_turn_path
+from viaspline.planning.turning.short_turns import short_turn_path
 from viaspline.planning.turning.spline_and_turns import turns_on_runs
 from viaspline.planning.turning.turn_path import OVERSHOOT, TurnPath
 from viaspline.planning.turning.wide_turns import WideTurns
@@ -66,17 +67,30 @@ class DrivenProblem(PathProblem):
 
     @property
     def least_radii(self) -> tuple[float, ...]:
-        """The least radii with which turns are laid [m]; wide ones first if none is given."""
-        least = OVERSHOOT * self.turn_radius
+        """The least radii with which turns are laid [m], in the order in which they are tried."""
+        least = self.sharpest
         if self.requirements.turn_radius is not None:
             return (least,)
-        return (*(part * self.requirements.required for part in FREE_TURN_RADII), least)
+        wide = tuple(part * self.requirements.required for part in FREE_TURN_RADII)
+        return (*wide, least) if self._takes_wide_turns else (least, *reversed(wide))
+
+    @property
+    def sharpest(self) -> float:
+        """The least of them [m]."""
+        return OVERSHOOT * self.turn_radius
 
     @property
     def searched_radii(self) -> tuple[float, ...]:
-        """Those of them that are worth a longer search [m]."""
+        """Those of them that are worth a longer search [m], in the same order."""
         radii = self.least_radii
-        return radii[-1:] if len(radii) == 1 else (radii[1], radii[-1])
+        if len(radii) == 1:
+            return radii
+        return radii[1:] if self._takes_wide_turns else radii[:2]
+
+    @property
+    def _takes_wide_turns(self) -> bool:
+        """Whether wide turns come first: not where a disc is to have the shortest path."""
+        return self.requirements.objective.is_time or not self.requirements.is_free_disc
 
     @cached_property
     def legs(self) -> tuple[LegSearch, ...]:
@@ -244,7 +258,7 @@ class DrivenProblem(PathProblem):
         *local, short = [bends for bends in choices if bends is not None]
         for bends in local:
             row = bends_of_legs(alone, [bends])
-            if self._turns_round(row, self.least_radii[-1]) is not None:
+            if self._turns_round(row, self.sharpest) is not None:
                 return bends
         return short
 
@@ -281,7 +295,7 @@ class DrivenProblem(PathProblem):
 
     def _lane_turns(self, reach: float) -> LaneTurns:
         widest = max(self.requirements.objective.pace.widest_radius, self._roomy)
-        return LaneTurns(self.least_radii[-1], max(widest, self.least_radii[-1]), reach)
+        return LaneTurns(self.sharpest, max(widest, self.sharpest), reach)
 
     @cached_property
     def lanes(self) -> tuple[LegLane, ...]:
@@ -296,12 +310,12 @@ class DrivenProblem(PathProblem):
         if not self.requirements.objective.is_time:
             return True
         bends, stands = bends_of_legs(self.sequence, legs), tuple(leg.stands for leg in self.legs)
-        asked = ("ideal time", self.least_radii[-1], bends.key, stands)
+        asked = ("ideal time", self.sharpest, bends.key, stands)
         return self.requirements.once(asked, partial(self._ideal_time, bends)) < bound
 
     def _ideal_time(self, bends: Bends) -> float:
         """The driven time of turns with nothing else beside them; 0 where there are none [s]."""
-        ideal = self._wide_turns(self.least_radii[-1]).ideal(bends, self.requirements)
+        ideal = self._wide_turns(self.sharpest).ideal(bends, self.requirements)
         if ideal is None:
             return 0.0
         at_vias = ideal.bends.vias != DETOUR
@@ -311,7 +325,7 @@ class DrivenProblem(PathProblem):
 
     def _wide_turns(self, rho: float) -> WideTurns:
         pace = self.requirements.objective.pace
-        return WideTurns(pace, rho, self.least_radii[-1], self._roomy)
+        return WideTurns(pace, rho, self.sharpest, self._roomy)
 
     @property
     def _roomy(self) -> float:
@@ -320,7 +334,8 @@ class DrivenProblem(PathProblem):
     def _turns_round(self, bends: Bends, rho: float) -> TurnPath | None:
         """Turns of at least a radius [m]: no wider ones where it is the length that counts."""
         if not self.requirements.objective.is_time:
-            return clear_turn_path(bends.turning(rho), self.world, self.requirements)
+            lay = short_turn_path if self.requirements.is_free_disc else clear_turn_path
+            return lay(bends.turning(rho), self.world, self.requirements)
         return self._wide_turns(rho).lay(bends, self.world, self.requirements)
 
     def leg_on_sides(self, leg: int, bends: Bends, lay: LayTurns) -> TurnPath | None:
@@ -372,34 +387,6 @@ class DrivenProblem(PathProblem):
             if u > 0:
                 spans[u - 1, 3] = via.at
         return SplinePath.through(sequence, spans, joints, detours)
-
-
-@dataclass(frozen=True)
-class DrivenPrice:
-    """What paths along rows of taut paths are chosen by.
-
-    Attributes:
-        problem: What is to be driven.
-    """
-
-    problem: DrivenProblem
-
-    def of(self, laid: SplinePath, /) -> float:
-        """See ``Price``."""
-        return self.problem.cost(laid)
-
-    def least(self, row: TautRow, /) -> float:
-        """See ``Price``: straight lines of the same lengths from halt to halt."""
-        objective, sequence = self.problem.requirements.objective, self.problem.sequence
-        if not objective.is_time:
-            return row.length
-        total, run = 0.0, 0.0
-        for k, taut_path in enumerate(row.taut_paths):
-            run += taut_path.length
-            if sequence.stands(k + 1):
-                total += straight_time(run, objective.pace)
-                run = 0.0
-        return total + run / objective.pace.speed
 
 
 @dataclass(frozen=True)

@@ -49,25 +49,29 @@ class Stuck:
     places: tuple[tuple[int, Floats], ...]
 
 
-def clear_turn_path(bends: Bends, world: World, requirements: Requirements) -> TurnPath | None:
+def clear_turn_path(
+    bends: Bends, world: World, requirements: Requirements, ramp: float = RAMP
+) -> TurnPath | None:
     """The shortest clear turn path, to any sides of given headings, pushed away from what is near.
 
     Args:
         bends: The row.
         world: What to keep clear of.
         requirements: What to keep.
+        ramp: Length of the ramps, in radii; shorter where that is needed.
     """
-    found = clear_turn_path_or_why(bends, world, requirements)
+    found = clear_turn_path_or_why(bends, world, requirements, ramp)
     return found if isinstance(found, TurnPath) else None
 
 
 def clear_turn_path_or_why(
-    bends: Bends, world: World, requirements: Requirements
+    bends: Bends, world: World, requirements: Requirements, ramp: float = RAMP
 ) -> TurnPath | Stuck:
     """The shortest clear turn path, or where it got stuck; see ``clear_turn_path``."""
     found = [
         requirements.once(
-            ("pushed clear", tried.key, world), partial(_pushed_clear, tried, world, requirements)
+            ("pushed clear", tried.key, ramp, world),
+            partial(_pushed_clear, tried, world, requirements, ramp),
         )
         for tried in with_sides(bends)
     ]
@@ -91,9 +95,10 @@ def _if_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPat
     return turn_path
 
 
-def _pushed_clear(bends: Bends, world: World, requirements: Requirements) -> TurnPath | Stuck:
+def _pushed_clear(
+    bends: Bends, world: World, requirements: Requirements, ramp: float
+) -> TurnPath | Stuck:
     """The turn path to the sides that are set, pushed clear, or where it got stuck."""
-    ramp = RAMP
     turn_path = _laid(bends, ramp, requirements)
     for _ in range(MAX_PUSH_ROUNDS):
         if isinstance(turn_path, NoTurnPath):

@@ -92,7 +92,7 @@ def _sides_in_the_way(problem: DrivenProblem) -> list[int]:
     free = replace(problem, cleared=cleared)
     spline_path = free.turns_along(free.shortest_row.taut_paths)
     if spline_path is None:
-        poses = _poses(free, free.least_radii[-1])
+        poses = _poses(free, free.sharpest)
         spline_path = None if poses is None else free.through_turns(poses.turn_paths)
     if spline_path is None:
         return []
