@@ -5,12 +5,31 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+import pytest
 
-from viaspline.kernels.tracking.drive_motion import GIVEN_AT
+from viaspline.curve.cardinal import CardinalSpline
+from viaspline.curve.path import Path
+from viaspline.kernels.tracking.control_law import CROSS_TRACK, TIME
+from viaspline.kernels.tracking.drive_motion import ALONG, GIVEN_AT, HEADING, X, Y, move
+from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.pose_filter import PoseFilter
+from viaspline.machine.robot_model import drive_model_of
+from viaspline.machine.trial_drive import start_of
 from viaspline.mission.model import Mission
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.robot.controller import Controller
 from viaspline.robot.navigator import Navigator
+from viaspline.robot.state import RobotState
+from viaspline.trajectory.retime import retime
 
 Make = Callable[..., Mission]
+
+PERIOD_S, SEARCH_S = 0.05, 0.045
+LATE = {"delay_s": 0.1, "lag_s": 0.1}
+DRIVES = [
+    {"differential": {"track_m": 0.4}, **LATE},
+    {"ackermann": {"wheelbase_m": 0.4, "max_steer_deg": 40}, **LATE},
+]
 
 
 def test_the_command_that_acts_is_kept_however_late_the_next_one_is(mission_of: Make) -> None:
@@ -21,3 +40,33 @@ def test_the_command_that_acts_is_kept_however_late_the_next_one_is(mission_of: 
     for late in (0.01, 0.1, 0.4, 2.0):
         given = nav.controller.gave(0.05 + late).given[:, GIVEN_AT]
         np.testing.assert_allclose(given[-2:], [0.0, 0.05 + late])
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+def test_a_command_that_is_given_later_is_one_for_later(drive: dict[str, object]) -> None:
+    """Searching for six looks now and then leaves a robot on a slalom nearly as near to it."""
+    told = _farthest_beside(drive, search=SEARCH_S, told=SEARCH_S)
+    assert told < 2.0 * _farthest_beside(drive, search=0.0, told=0.0)
+    assert told < 0.5 * _farthest_beside(drive, search=SEARCH_S, told=0.0)
+
+
+def _farthest_beside(drive: dict[str, object], search: float, told: float) -> float:
+    """How far a robot gets beside a slalom when now and then six commands in a row are late [m]."""
+    robot = RobotSpec.model_validate({"max_speed_mps": 1.5, "max_accel_mps2": 1.0, "drive": drive})
+    slalom = CardinalSpline(
+        [[3.0 * k, (-1.0) ** k * 0.9] for k in range(6)], knots="chordal", tangents="continuous"
+    )
+    path, model = Path(slalom.spans, vias=[]), drive_model_of(robot, PERIOD_S)
+    law = retime(path, limits_of(robot))
+    controller = Controller.of(model, PERIOD_S, path, law, PoseFilter.of(robot, PERIOD_S))
+    state, beside, tick = start_of(model, controller.reference), 0.0, 0
+    while tick * PERIOD_S < law.end_time:
+        time, late = tick * PERIOD_S, float(tick // 6 % 2)
+        at = RobotState((state[X], state[Y]), float(state[HEADING]), float(state[ALONG]))
+        controller = controller.step(at, time, late * told)
+        assert controller.note[TIME] == pytest.approx(time + late * told + model.delay)
+        beside = max(beside, abs(float(controller.note[CROSS_TRACK])))
+        controller = controller.gave(time + late * search)
+        move(model, state, time, PERIOD_S / 10, controller.given.copy(), np.zeros((10, 2)))
+        tick += 1
+    return beside

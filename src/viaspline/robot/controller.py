@@ -107,10 +107,15 @@ class Controller:
             )
         return controller
 
-    def step(self, state: RobotState, time: float) -> Controller:
-        """The controller after it has decided what to do, by what was measured at a time [s].
+    def step(self, state: RobotState, time: float, wait: float = 0.0) -> Controller:
+        """The controller after it has decided what to do, by what was measured at a time.
 
         Where it is too far behind, ``late`` says for how long its clock has to wait.
+
+        Args:
+            state: What was measured.
+            time: Then [s].
+            wait: So much later the command is given [s]; until then the last one holds.
         """
         memory, pose = self.memory.copy(), np.zeros(STATE)
         if math.isinf(memory[control_law.LAST_TIME]):
@@ -120,8 +125,8 @@ class Controller:
         pose[ALONG], pose[ACROSS] = state.speed, state.speed_across
         believed = self._believed(pose, time)
         note = control_law.decide(
-            self.model, self.reference, self.profile, memory, pose, time, max(period, 0.0),
-            self.given.copy(),
+            self.model, self.reference, self.profile, memory, pose, time, wait,
+            max(period, 0.0), self.given.copy(),
         )  # fmt: skip
         believed[TURN] = memory[control_law.LAST_TURN]
         return replace(self, memory=memory, note=note, believed=believed)

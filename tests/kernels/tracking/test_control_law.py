@@ -58,7 +58,7 @@ def told(actuators: Actuators, *, heading: float, aside: float) -> np.ndarray:
     memory[LAST_TIME] = 0.0
     pose[Y], pose[HEADING] = aside, heading
     pose[ALONG], pose[ACROSS] = math.cos(heading), -math.sin(heading)
-    return decide(model, reference, profile, memory, pose, 0.0, 0.05, np.empty((0, 4)))
+    return decide(model, reference, profile, memory, pose, 0.0, 0.0, 0.05, np.empty((0, 4)))
 
 
 @pytest.mark.parametrize("held", [0.0, 1.0, -2.5])

@@ -6,14 +6,18 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.perception.lidar import LidarSensor
+from viaspline.robot.replanning import replan_from_scan
+from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 
@@ -149,6 +153,32 @@ obstacles = st.lists(
     st.tuples(st.floats(2, 16), st.floats(-3, 3), st.floats(0.1, 1.0), st.booleans()),
     min_size=1, max_size=8,
 )  # fmt: skip
+
+
+@pytest.mark.parametrize("work", [0.0, 0.2])
+def test_a_robot_that_stands_sets_off_no_sooner_than_its_search_is_over(
+    work: float, mission_of: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its command comes that much later: a trajectory that began before would leave it behind."""
+
+    def searched(context: ReplanContext, *, opened: bool) -> Decision:
+        return Decision(context.schedule, searched=True, work=work)
+
+    monkeypatch.setattr(replan_from_scan, "better_path", searched)
+    drive = {"ackermann": {"wheelbase_m": 0.2, "max_steer_deg": 40}, "delay_s": 0.1, "lag_s": 0.1}
+    lidar = {"range_m": 4, "fov_deg": 270, "beams": 240}
+    nav = Navigator(
+        mission_of([0, 0], [8, 0], radius_m=0.2, drive=drive, sensor={"lidar": lidar}, unseen=[])
+    )
+    seen = nav.mission.robot.sensor
+    assert seen is not None
+    sensor = LidarSensor((), seen.lidar)
+    state = nav.reference(0.0)
+    _, nav = nav.step(state, sensor.scan(state.position, state.heading), 0.0)
+    assert nav.controller is not None
+    begins = nav.controller.ahead + work
+    assert nav.trajectory.distance_at(begins) == 0.0
+    assert nav.trajectory.distance_at(begins + 0.1) > 0.0
 
 
 def field(found: list[tuple[float, float, float, bool]], disc: Shape, box: Shape) -> list[Any]:

@@ -104,7 +104,9 @@ def drive(
         for k in range(3):
             pose[k] = state[k] + measured[tick, k]
         pose[ALONG], pose[ACROSS] = state[ALONG], state[ACROSS]
-        decide_into(model, reference, profile, memory, pose, time, period, commands, count, note)
+        decide_into(
+            model, reference, profile, memory, pose, time, 0.0, period, commands, count, note
+        )
         for k in range(NOTES):
             notes[tick, k] = note[k]
         commands[count, GIVEN_AT], commands[count, TO_ALONG] = time, note[NOTED_ALONG]

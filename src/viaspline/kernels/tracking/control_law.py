@@ -45,10 +45,6 @@ HEADING_DEADBAND_RAD = 0.004
 """An error of the heading at rest that is left as it is [rad]."""
 
 PAST_CORNER_M = 1e-6
-"""A robot that rests looks along its path so far beyond the rest: the corner at which it turns may
-lie behind the rest by what sums of lengths are rounded by [m]."""
-
-PAST_CORNER_M = 1e-6
 """A robot looks along its path so far behind a rest: the corner at which it turns there may lie
 behind the rest by what sums of lengths are rounded by [m]."""
 
@@ -162,6 +158,7 @@ def decide_into(
     memory: Floats,
     pose: Floats,
     time: float,
+    wait: float,
     period: float,
     commands: Floats,
     count: int,
@@ -173,17 +170,17 @@ def decide_into(
     carried(model, pose, memory[LAST_TIME], time, commands, count)  # the turn is not measured
     memory[LAST_TURN], memory[LAST_SPEED], memory[LAST_TIME] = pose[TURN], along, time
     pose[X], pose[Y], pose[HEADING], pose[ALONG], pose[ACROSS] = x, y, heading, along, across
-    carried(model, pose, time, time + model.delay, commands, count)
-    now = time + model.delay
+    now = time + wait + model.delay
+    carried(model, pose, time, now, commands, count)
     should, speed, accel = profile_at(profile, now - memory[LATE])
     low, high, stood = ends_at(profile, now - memory[LATE])
     if stood:
         memory[FLOOR] = low
     low = min(low, memory[FLOOR])
     rests = speed == 0.0 and accel == 0.0
-    s = should
+    s, least = should, low + PAST_CORNER_M
     if not rests:
-        least, most = low + PAST_CORNER_M, max(high - 1e-9, low + PAST_CORNER_M)
+        most = max(high - 1e-9, least)
         s = nearest_on(reference, clip(should, memory[AT] - 0.5, memory[AT] + 1.0), pose[X],
                      pose[Y], least, most)  # fmt: skip
         if should - s > model.slack + model.slack_time * speed:
@@ -192,7 +189,8 @@ def decide_into(
     memory[AT] = s
     note[TIME], note[PLACE], note[SPEED], note[LOW], note[HIGH] = now, should, speed, low, high
     note[REST] = 1.0 if rests else 0.0
-    note[PROGRESS], note[ALONG_TRACK] = s, should - s
+    note[PROGRESS] = s
+    note[ALONG_TRACK] = 0.0 if rests else max(should, least) - s
     looked = s + PAST_CORNER_M if rests else s
     note[CROSS_TRACK], tangent = beside(reference, looked, pose[X], pose[Y])
     note[HEADING_ERROR] = heading_error(pose[HEADING], wanted_heading(model, tangent))
@@ -214,6 +212,7 @@ def decide(
     memory: Floats,
     pose: Floats,
     time: float,
+    wait: float,
     period: float,
     commands: Floats,
 ) -> Floats:
@@ -227,6 +226,7 @@ def decide(
         pose: As measured: X, Y, HEADING, ALONG and ACROSS, shape (STATE,); afterwards as
             predicted for when the command takes effect.
         time: Now [s].
+        wait: So much later the command is given [s]; until then the last one holds.
         period: Until the next step [s].
         commands: Those given before, in order, shape (k, COMMAND).
 
@@ -235,6 +235,7 @@ def decide(
     """
     note = np.zeros(NOTES)
     decide_into(
-        model, reference, profile, memory, pose, time, period, commands, commands.shape[0], note
-    )
+        model, reference, profile, memory, pose, time, wait, period, commands, commands.shape[0],
+        note,
+    )  # fmt: skip
     return note

@@ -124,6 +124,9 @@ def with_command(
 ) -> tuple[Progress, Schedule]:
     """The robot when its controller has given its command, by the schedule that there is now.
 
+    A command that is given later is one for later: held on for the time of a search, what the
+    robot was told in a bend leads it off its path, and the next one has to be right for then.
+
     Args:
         before: The controller before this step.
         progress: With the controller after it has decided by the schedule before this step.
@@ -135,9 +138,12 @@ def with_command(
     controller = progress.controller
     if controller is None or before is None:
         return progress, schedule
-    if schedule.path is not controller.path or schedule.trajectory is not controller.trajectory:
+    is_new = (
+        schedule.path is not controller.path or schedule.trajectory is not controller.trajectory
+    )
+    if is_new or work > 0.0:
         waited = controller.late > 0.0
-        controller = before.on(schedule.path, schedule.trajectory).step(measured, time)
+        controller = before.on(schedule.path, schedule.trajectory).step(measured, time, work)
         if controller.late > 0.0 and not waited:
             schedule = replace(schedule, trajectory=schedule.trajectory.delayed(controller.late))
     return replace(progress, controller=controller.gave(time + work)), schedule

@@ -18,7 +18,12 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.robot.navigation.decision import Decision
-from viaspline.robot.navigation.schedule import FIRST_STAGE, ReducedClearance, Wait
+from viaspline.robot.navigation.schedule import (
+    FIRST_STAGE,
+    ReducedClearance,
+    Schedule,
+    Wait,
+)
 from viaspline.robot.replanning.better_path import better_path, with_spare
 from viaspline.robot.replanning.deadline import RETRY_INTERVAL_S, is_paused, with_time_to_search
 from viaspline.robot.replanning.recovery import restore_clearance, way_out
@@ -63,10 +68,21 @@ def replan_from_scan(context: ReplanContext, *, opened: bool) -> Decision:
         decision = better_path(replace(context, schedule=unblocked), opened=opened)
     if decision.schedule.giving_up is not None:
         return decision
-    seen = within_sight(
-        context.task, context.progress, context.knowledge, decision.schedule, context.speed
-    )
+    committed = _while_searched(context, decision)
+    seen = within_sight(context.task, context.progress, context.knowledge, committed, context.speed)
     return replace(decision, schedule=seen)
+
+
+def _while_searched(context: ReplanContext, decision: Decision) -> Schedule:
+    """The schedule that stays as it was for as long as the search took.
+
+    The robot is told what follows no sooner: a trajectory that began before would have left it.
+    """
+    schedule = decision.schedule
+    if context.progress.controller is None or decision.work == 0.0:
+        return schedule
+    until = schedule.trajectory.cut_after(context.progress.time + decision.work)
+    return replace(schedule, committed_until=max(schedule.committed_until, until))
 
 
 def _round_obstruction(context: ReplanContext, free: float) -> Decision:
