@@ -17,6 +17,13 @@ from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.turning.driven_price import DrivenPrice
 from viaspline.planning.turning.driven_problem import DrivenProblem
 
+MAX_SOUGHT_BENDS = 60
+"""Legs among much else are led to other sides in rows of no more bends: to lay one takes longer
+than what is gained by one of so many turns."""
+
+MAX_LAID = 60_000
+"""Rows that are laid to find a better one, times the square of their bends: what that costs."""
+
 
 @dataclass(frozen=True)
 class OtherSides:
@@ -48,7 +55,8 @@ class OtherSides:
             rows = list(_other_rows(problem, problem.shortest_row, outcome.value))
         except SpentBudgetError:  # there is a path, and no time left to look for another
             return outcome
-        best = cheapest_laid(rows, attempt, DrivenPrice(problem), best=outcome.value)
+        most = max(MAX_LAID // max(len(problem.bends.rows), 1) ** 2, 1)
+        best = cheapest_laid(rows, attempt, DrivenPrice(problem), outcome.value, most)
         assert best is not None  # there was one to begin with
         return Found(best, problem.cost(best))
 
@@ -61,8 +69,10 @@ def _other_rows(problem: DrivenProblem, row: TautRow, laid: SplinePath) -> Itera
         row: The row.
         laid: What was laid along it.
     """
+    is_short = len(problem.bends.rows) <= MAX_SOUGHT_BENDS
     for leg, passed in problem.cleared.passed.items():
         is_shortest = row.taut_paths[leg] is problem.shortest_row.taut_paths[leg]
-        if is_shortest and (passed.is_weighed or problem.loses_much(laid, leg)):
+        is_sought = passed.is_weighed or (is_short and problem.loses_much(laid, leg))
+        if is_shortest and is_sought:
             for taut_path in passed.rivals:
                 yield row.with_leg(leg, taut_path)

@@ -29,6 +29,7 @@ LEAST_PART = 0.2  # of what the circle turns by on half of the way, that either 
 LEAST_TURN_RAD = 1e-6  # of each that is joined
 LEAST_LENGTH_M = 1e-9
 CROWDED = 0.4  # of a line, that two turns take which may be one
+REACH = 12  # turns before a join and after it, with which it is weighed at first
 
 
 @dataclass(frozen=True)
@@ -81,6 +82,7 @@ class _Runs:
         lengths: [m], (k,).
         spent: By how much the path may be longer than its corners [m].
         joins: For each that is joined what it is, else None.
+        closed: Whether the last is followed by the first.
     """
 
     ends: Ints
@@ -90,6 +92,7 @@ class _Runs:
     lengths: Floats
     spent: float
     joins: tuple[Join | None, ...]
+    closed: bool
 
     @property
     def bending(self) -> Floats:
@@ -110,14 +113,45 @@ def joins_worth_it(bends: Bends, wishes: TurnWishes, room_share: float) -> tuple
     ends = np.repeat(np.arange(count), 2).reshape(-1, 2)
     runs = _Runs(
         ends, wishes.turns, np.zeros(count), wishes.gaps, wishes.lengths, wishes.spent,
-        (None,) * count,
+        (None,) * count, bends.closed,
     )  # fmt: skip
+    weighed: dict[int, float] = {}  # by the first bend of two turns: what is saved if they are one
     while True:
-        tried = (_joined_at(k, runs, bends, wishes, room_share) for k in _crowded(runs, bends))
-        found = [runs_and_saved for runs_and_saved in tried if runs_and_saved is not None]
-        if not found:
+        crowded = {int(runs.ends[k, 0]): k for k in _crowded(runs, bends)}
+        for first in crowded.keys() - weighed.keys():
+            near, low = _near(runs, crowded[first])
+            joined = _joined_at(crowded[first] - low, near, bends, wishes, room_share)
+            weighed[first] = -math.inf if joined is None else joined[1]
+        best = max(crowded, key=weighed.__getitem__, default=None)
+        if best is None or weighed[best] == -math.inf:
             return tuple(join for join in runs.joins if join is not None)
-        runs = max(found, key=lambda joined: joined[1])[0]
+        k = crowded[best]
+        joined = _joined_at(k, runs, bends, wishes, room_share)
+        if joined is None:
+            weighed[best] = -math.inf
+            continue
+        runs = joined[0]
+        for bend in runs.ends[max(k - REACH - 1, 0) : k + REACH + 2, 0].tolist():
+            weighed.pop(bend, None)
+
+
+def _near(runs: _Runs, k: int) -> tuple[_Runs, int]:
+    """The turns about k and k + 1, and which is their first; all of a row that is hardly longer.
+
+    They may lengthen the path by their part.
+    """
+    count = len(runs.turns)
+    low, high = max(k - REACH, 0), min(k + 2 + REACH, count)
+    if high - low == count:
+        return runs, 0
+    part = slice(low, high)
+    longer = runs.turns**2 * runs.lengths
+    share = float(longer[part].sum() / longer.sum())
+    near = _Runs(
+        runs.ends[part], runs.turns[part], runs.ways[part], runs.gaps[low : high - 1],
+        runs.lengths[part], share * runs.spent, runs.joins[part], False,
+    )  # fmt: skip
+    return near, low
 
 
 def _crowded(runs: _Runs, bends: Bends) -> Iterator[int]:
@@ -151,7 +185,7 @@ def _joined_at(
     fast = turn * float(wishes.fast[first : last + 1].max())
     spent = runs.spent * float((turns**2).sum() / (runs.turns**2).sum())  # as much for each turn
     rooms = 2.0 * room_share * (gaps + 0.5 * (ways + np.roll(ways, -1))[: len(gaps)])
-    lengths = gentle_lengths(turns, rooms, bends.closed, spent)
+    lengths = gentle_lengths(turns, rooms, runs.closed, spent)
     lengths[k] = _no_shorter(lengths, rooms, k, fast)
     radius = 0.5 * (float(lengths[k]) + way) / turn
     kept = float(bends.rows[first : last + 1, KEPT].max())
@@ -162,7 +196,7 @@ def _joined_at(
     inner = next((join for join in runs.joins[k : k + 2] if join is not None), None)
     joins = (*runs.joins[:k], Join(first, last, radius, least, inner), *runs.joins[k + 2 :])
     ends = np.vstack((runs.ends[:k], [[first, last]], runs.ends[k + 2 :]))
-    joined = _Runs(ends, turns, ways, gaps, lengths, spent, joins)
+    joined = _Runs(ends, turns, ways, gaps, lengths, spent, joins, runs.closed)
     saved = float(runs.bending.sum() - joined.bending.sum())
     return (joined, saved) if saved > LEAST_GENTLER * runs.bending[k : k + 2].sum() else None
 
