@@ -77,8 +77,8 @@ def _mission(family: str, random: np.random.Generator) -> vs.Mission:
         robot["max_jerk_mps3"] = float(random.uniform(0.5, 3))
     body = max((math.hypot(*corner) for corner in robot.get("footprint", ())), default=0.0)
     room = max(body, robot.get("radius_m", 0.0)) + robot["clearance_m"] + 0.5
-    points = _apart(random, int(random.integers(3, 6)), 7.0)
-    things = [_thing(random) for _ in range(int(random.integers(4, 16)))]
+    points = places_apart(random, int(random.integers(3, 6)), 7.0)
+    things = [random_thing(random) for _ in range(int(random.integers(4, 16)))]
     things = [(reach, thing) for reach, at, thing in things
               if np.hypot(*(points - at).T).min() > reach + room]  # fmt: skip
     seen = random.random(len(things)) < 0.5
@@ -103,7 +103,7 @@ def _mission(family: str, random: np.random.Generator) -> vs.Mission:
     })  # fmt: skip
 
 
-def _apart(random: np.random.Generator, count: int, least: float) -> np.ndarray:
+def places_apart(random: np.random.Generator, count: int, least: float) -> np.ndarray:
     """Random places, no two of them nearer than a distance [m]."""
     points = [random.uniform(0, FIELD_M, 2)]
     while len(points) < count:
@@ -113,7 +113,7 @@ def _apart(random: np.random.Generator, count: int, least: float) -> np.ndarray:
     return np.array(points)
 
 
-def _thing(random: np.random.Generator) -> tuple[float, np.ndarray, dict]:
+def random_thing(random: np.random.Generator) -> tuple[float, np.ndarray, dict]:
     """The reach, the place and the shape of an obstacle."""
     at, reach = random.uniform(1, FIELD_M - 1, 2), float(random.uniform(0.3, 3.0))
     if random.random() < 0.5:

@@ -116,6 +116,38 @@ def test_three_corners_close_together_are_one_turn_and_the_nearest_two_its_inner
     assert rest_of([join]).tolist() == [2, 3]
 
 
+def test_in_a_long_row_pairs_are_joined_as_each_by_itself_would_be() -> None:
+    """A row of more bends than a join is weighed with."""
+    pairs = 40
+    turns, gaps = (0.5, 0.7) * pairs, (20.0, *(1.5, 20.0) * pairs)
+    along = np.concatenate(([0.0], np.cumsum(gaps))).tolist()
+    asked = replace(wishes(turns, gaps), spent=10.0 * pairs)
+    joins = joins_worth_it(row([(x, 0.0) for x in along]), asked, 1.0)
+    assert [(join.first, join.last) for join in joins] == [
+        (k, k + 1) for k in range(1, 2 * pairs, 2)
+    ]
+    (alone,) = joins_worth_it(
+        pair(1.5, (0.7, 0.7), 1.0, 0.0), wishes((0.5, 0.7), (20.0, 1.5, 20.0)), 1.0
+    )
+    assert joins[pairs // 2].radius == pytest.approx(alone.radius, rel=0.05)
+
+
+@pytest.mark.parametrize("count", [6, 26, 60])
+@pytest.mark.parametrize("seed", range(4))
+def test_joins_of_closed_rows_of_any_length_are_in_order(seed: int, count: int) -> None:
+    """The last two of a part of a closed row were once looked for a turn behind its end."""
+    random = np.random.default_rng(seed)
+    turns, gaps = random.uniform(0.05, 0.6, count), random.uniform(0.5, 15.0, count)
+    rows = np.array([bend(x, 0.0, 0.7, 1.0) for x in np.cumsum(gaps).tolist()])
+    vias = np.where(np.arange(count) == 0, 0, DETOUR)
+    bends = Bends(rows, vias, np.full(count, math.inf), closed=True)
+    lengths = gentle_lengths(turns, 2.0 * gaps, True, 5.0)
+    asked = TurnWishes(turns, gaps, lengths, np.full(count, 4.0), spent=5.0)
+    joins = joins_worth_it(bends, asked, 1.0)
+    ends = [k for join in joins for k in (join.first, join.last)]
+    assert ends == sorted(set(ends))
+
+
 def test_a_corner_that_hardly_turns_is_not_joined_by_a_small_circle() -> None:
     bends = pair(4.0, (0.7, 0.7), 1.0, 0.0)
     assert joins_worth_it(bends, wishes((0.8, 0.003), (7.0, 4.0, 7.0)), 1.0) == ()

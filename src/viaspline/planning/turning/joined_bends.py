@@ -205,7 +205,8 @@ def _no_shorter(lengths: Floats, rooms: Floats, k: int, wanted: float) -> float:
     """The length of turn k, at least what is wanted if the turns before and after it let it [m]."""
     after = np.roll(lengths, -1)[: len(rooms)]
     left = rooms - lengths[: len(rooms)] - after
-    return float(max(lengths[k], min(wanted, lengths[k] + min(left[k - 1], left[k]))))
+    beside = left[[k - 1, k]] if len(left) == len(lengths) else left[max(k - 1, 0) : k + 1]
+    return float(max(lengths[k], min(wanted, lengths[k] + beside.min(initial=wanted))))
 
 
 def _merged(values: Floats, k: int, both: float) -> Floats:
