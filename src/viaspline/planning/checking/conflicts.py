@@ -15,6 +15,8 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.clearance.disc import conflicts
 from viaspline.planning.problem.requirements import LEAST_KEPT_M, Requirements
 from viaspline.planning.problem.work_budget import (
+    CONFLICTS_BODY_OBSTACLE_S,
+    CONFLICTS_BODY_OBSTACLES,
     CONFLICTS_BODY_SPAN_S,
     CONFLICTS_S,
     CONFLICTS_SPAN_S,
@@ -63,7 +65,8 @@ def conflicts_within(
     if requirements.footprint is None:
         requirements.spend(CONFLICTS_S + CONFLICTS_SPAN_S * len(spans))
         return too_close(world, spans, required)
-    requirements.spend(CONFLICTS_S + CONFLICTS_BODY_SPAN_S * len(spans))
+    near = CONFLICTS_BODY_OBSTACLE_S * min(len(world), CONFLICTS_BODY_OBSTACLES)
+    requirements.spend(CONFLICTS_S + (CONFLICTS_BODY_SPAN_S + near) * len(spans))
     least = max(required - requirements.radius, LEAST_KEPT_M)
     return footprint_conflicts.body_conflicts(
         world.packed, spans, outline(requirements.footprint), least

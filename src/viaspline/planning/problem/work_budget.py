@@ -20,8 +20,11 @@ ROUTE_S, LATTICE_S, GUIDE_S, GUIDE_OBSTACLE_S = 5e-4, 4e-3, 1e-3, 2e-6
 """Of a route between two places; of each lattice and each guide through one that it takes, and of
 pulling that taut for each obstacle of the world [s]."""
 
-CONFLICTS_S, CONFLICTS_SPAN_S, CONFLICTS_BODY_SPAN_S = 3e-5, 1e-6, 9e-6
-"""Of looking for conflicts: in all, for each span, and for each span if a polygon drives [s]."""
+CONFLICTS_S, CONFLICTS_SPAN_S, CONFLICTS_BODY_SPAN_S = 3e-5, 1e-6, 4e-6
+"""Of looking for conflicts: in all, for each span, and for each span if a polygon drives [s],"""
+
+CONFLICTS_BODY_OBSTACLE_S, CONFLICTS_BODY_OBSTACLES = 2.5e-8, 1000
+"""more for each obstacle, up to so many: of a larger world what is near is looked at [s]."""
 
 PROOF_S, PROOF_SPAN_S, PROOF_BODY_S = 3e-4, 2e-6, 1.5e-3
 """Of a certificate: in all, for each span, and more if a polygon drives [s]."""
@@ -29,12 +32,12 @@ PROOF_S, PROOF_SPAN_S, PROOF_BODY_S = 3e-4, 2e-6, 1.5e-3
 TURN_PATH_S, TURN_PATH_BEND_S = 5e-5, 2e-5
 """Of a turn path: in all, and for each bend [s]."""
 
-HEADING_PAIR_BEND_S = 7e-6
-"""Of the length of a leg between two headings, for each bend [s]."""
+HEADING_PAIR_BEND_S, HEADING_PAIR_BENDS_S = 1.2e-5, 1e-6
+"""Of the length of a leg between two headings, for each bend, and for each pair of bends [s]."""
 
-TREE_S, POSES_EFFORT_S = 2e-3, 2e-6
+TREE_S, POSES_EFFORT_S, POSES_BODY_EFFORT_S = 2e-3, 2e-6, 4e-6
 """Of a search among poses: to begin one, and for each distance to the world that is reckoned in it,
-each connection that is tried and each move that is done [s]."""
+each connection that is tried and each move that is done, by a disc and by a polygon [s]."""
 
 CHAIN_SEGMENT_S = 1e-4
 """Of the shortcuts of what such a search has found, for each segment [s]."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
 
@@ -21,13 +21,14 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.turning.heading_costs import cheapest, leg_lengths
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import HEADING_PAIR_BEND_S
+from viaspline.planning.problem.work_budget import HEADING_PAIR_BEND_S, HEADING_PAIR_BENDS_S
 from viaspline.planning.turning.bend_row import DETOUR, HEADING, SIDE, Bends
 from viaspline.planning.turning.turn_path import RAMP, TurnPath
 
 Lay = Callable[[int, Bends], TurnPath | None]  # a leg, and its bends
 
 HEADING_COUNT = 36  # that are tried at a via point
+STARTS_AT_ONCE = 6  # of the headings of a leg, of which a search is stopped no sooner than after
 FINER_TURNS = (0.5, 0.25, 0.12, 0.06)  # of the step between headings, by which they are turned then
 
 
@@ -124,18 +125,22 @@ def costs_between(legs: Sequence[HeadingLeg], requirements: Requirements) -> Flo
     most = max(len(ends) for leg in legs for ends in (leg.starts, leg.goals))
     costs = np.full((len(legs), most, most), np.inf)
     for k, leg in enumerate(legs):
-        lengths = requirements.once(
-            ("lengths", leg.rows.tobytes(), leg.starts.tobytes(), leg.goals.tobytes()),
-            partial(_paid_lengths, leg, requirements),
-        )
-        costs[k, : len(leg.starts), : len(leg.goals)] = lengths.min(axis=(2, 3))
+        for first in range(0, len(leg.starts), STARTS_AT_ONCE):
+            some = replace(leg, starts=leg.starts[first : first + STARTS_AT_ONCE])
+            lengths = requirements.once(
+                ("lengths", some.rows.tobytes(), some.starts.tobytes(), some.goals.tobytes()),
+                partial(_paid_lengths, some, requirements),
+            )
+            until = first + len(some.starts)
+            costs[k, first:until, : len(leg.goals)] = lengths.min(axis=(2, 3))
     return costs
 
 
 def _paid_lengths(leg: HeadingLeg, requirements: Requirements) -> Floats:
     """The lengths of a leg, when what they cost has been taken off."""
-    pairs = len(leg.starts) * len(leg.goals)
-    requirements.spend(HEADING_PAIR_BEND_S * pairs * len(leg.rows))
+    pairs, bends = len(leg.starts) * len(leg.goals), len(leg.rows)
+    cost = HEADING_PAIR_BEND_S + HEADING_PAIR_BENDS_S * bends
+    requirements.spend(cost * pairs * bends)
     return leg.lengths()
 
 

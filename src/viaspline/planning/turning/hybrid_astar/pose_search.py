@@ -19,7 +19,12 @@ from viaspline.kernels.turning.hybrid_astar.pose_nodes import CELL_SHARE
 from viaspline.kernels.turning.hybrid_astar.primitives import MotionPrimitives, primitives_of
 from viaspline.kernels.turning.segment_chain import chain_spans, merged, shortened
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import CHAIN_SEGMENT_S, POSES_EFFORT_S, TREE_S
+from viaspline.planning.problem.work_budget import (
+    CHAIN_SEGMENT_S,
+    POSES_BODY_EFFORT_S,
+    POSES_EFFORT_S,
+    TREE_S,
+)
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
     Goal,
@@ -100,7 +105,9 @@ class PoseProblem:
         Raises:
             SpentBudgetError: When less is left.
         """
-        self.requirements.spend_on_part(POSES_EFFORT_S * tree.effort)
+        is_disc = self.requirements.footprint is None
+        each = POSES_EFFORT_S if is_disc else POSES_BODY_EFFORT_S
+        self.requirements.spend_on_part(each * tree.effort)
         tree.go_on(other)
 
     def forwards(
