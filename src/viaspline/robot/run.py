@@ -31,7 +31,7 @@ MODES: Mapping[Mode, str] = MappingProxyType(
     {
         "reflex": "under way, only the blocked spans are laid anew",
         "planned": "under way, everything ahead is laid anew",
-        "from_rest": "the robot stops, and everything ahead is laid anew from there",
+        "from_rest": "the robot stops, and what is ahead of it is laid anew from there",
     }
 )
 """What the modes of a re-plan are; the first two are the words of the paper."""
@@ -75,8 +75,9 @@ class Replan:
 
     The modes are tried in the order of how much they change. ``reflex`` leads only the blocked
     spans ahead round what is in their way; ``planned`` lays everything ahead anew while the robot
-    rolls on; ``from_rest`` has it stop first, so that it may turn on the spot. The first two are
-    the words of the paper for what a robot does by reflex and what by plan.
+    rolls on; ``from_rest`` has it stop first, so that it may turn on the spot, and lays anew what
+    is in its way, or everything ahead where that doesn't do. The first two are the words of the
+    paper for what a robot does by reflex and what by plan.
 
     Attributes:
         time: When [s].
