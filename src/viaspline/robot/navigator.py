@@ -43,7 +43,7 @@ from viaspline.robot.state import Command, RobotState
 from viaspline.robot.yielding.broken_premises import broken_premises
 from viaspline.robot.yielding.foreseen import foreseen
 from viaspline.robot.yielding.give_way import give_way
-from viaspline.robot.yielding.stoppable import sight_of, stoppable
+from viaspline.robot.yielding.stoppable import kept_to_path, sight_of, stoppable
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -171,7 +171,8 @@ class Navigator:
         if not before.progress.set_off:
             before = _set_off(before, time, self._plan)
         progress, knowledge = before.progress, before.knowledge
-        schedule, log = before.schedule, before.log
+        schedule = proven = before.schedule
+        log = before.log
         # how far has the robot come?
         respond = decide
         if not progress.finished or progress.controller is not None:
@@ -179,7 +180,7 @@ class Navigator:
             progress, log = note_arrivals(task, progress, schedule, log)
             if is_due(progress, schedule):
                 progress, schedule, log = _next_part(task, progress, knowledge, schedule, log)
-                respond = look_again
+                respond, proven = look_again, schedule
             schedule = caught_up(task, progress, knowledge, schedule, measured.speed)
         # what does it perceive? after the end only a lidar goes on
         sighting = None
@@ -195,7 +196,7 @@ class Navigator:
             *broken_premises(task, progress, before.knowledge, knowledge, schedule)
         )
         # what does it do about that?
-        work = 0.0
+        work, undecided = 0.0, (progress, log)
         if sighting is not None or schedule.pending is not None or respond is look_again:
             began = clock.perf_counter()
             decision = respond(task, progress, knowledge, schedule, sighting)
@@ -208,7 +209,13 @@ class Navigator:
             progress, log = note_arrivals(task, progress, schedule, log)
         if task.mission.robot.moving is not None:
             sight = sight_of(task.mission.robot, sensed, measured, time)
-            schedule = stoppable(task, progress, knowledge, before.schedule, schedule, sight)
+            decided = schedule
+            schedule = stoppable(task, progress, knowledge, proven, decided, sight)
+            if schedule.path is not decided.path:
+                progress, log = undecided
+                looked_at = knowledge.world if respond is look_again else sighting
+                schedule, event = kept_to_path(progress, knowledge, schedule, looked_at)
+                log = log.with_events(event)
         # what is it to do now?
         controller = before.progress.controller
         progress, schedule = with_command(controller, progress, schedule, measured, time, work)

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import viaspline as vs
+from viaspline.robot.yielding import stoppable
+from viaspline.trajectory.passive_safety import passive_law
 
 TOP_MPS = 1.5
 
@@ -76,6 +78,32 @@ def test_who_stands_for_what_crosses_sets_off_when_it_is_gone_and_not_before() -
     assert run.encounters is not None
     assert run.encounters.contacts == ()
     assert run.encounters.clearance > 0.0
+
+
+def test_a_stop_that_was_proven_is_driven_on_its_path_and_what_was_seen_is_not_forgotten(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A new path on which no law is proven isn't taken: then it braked on it, by no proof."""
+    data = among(0, "passive").model_dump(by_alias=True, exclude_defaults=True)
+    data["world"] = {"unseen": [{"name": "rock", "circle": {"center": [14, 0.2], "radius": 0.5}}]}
+    planned = vs.plan(vs.Mission.model_validate(data))
+    unproven: list[float] = []
+
+    def doubtful(path: Any, upper: Any, *rest: Any) -> tuple[Any, bool]:
+        law, proven = passive_law(path, upper, *rest)
+        if path is planned.path or len(unproven) >= 5:
+            return law, proven
+        unproven.append(float(law.start_time))
+        return law, False
+
+    monkeypatch.setattr(stoppable, "passive_law", doubtful)
+    run = vs.simulate(planned.mission, plan=planned, step=0.1)
+    assert len(unproven) == 5
+    assert run.reached
+    assert run.replans
+    assert all(replan.time > max(unproven) for replan in run.replans)
+    assert [event for event in run.events if "its stop is proven" in event.message]
+    assert run.certificate.clearance >= 0.05 - 1e-6
 
 
 def test_who_does_without_drives_as_if_nothing_came_from_out_of_sight() -> None:

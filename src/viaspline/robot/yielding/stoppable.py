@@ -16,10 +16,18 @@ from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.reschedule import rescheduled
-from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.navigation.schedule import (
+    FIRST_STAGE,
+    PendingSearch,
+    Schedule,
+    SearchSoFar,
+)
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.foretell import Foresight, foretold
 from viaspline.robot.perception.moving.mouths import reach_and_mouths
+from viaspline.robot.perception.perceive import Sighting
+from viaspline.robot.replanning.deadline import STEP_WORK_S
+from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
 from viaspline.trajectory.passive_safety import (
     SAME_PLACE_M,
@@ -30,6 +38,7 @@ from viaspline.trajectory.passive_safety import (
 from viaspline.trajectory.retime import braking
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
+from viaspline.world.world import World
 
 LASTING_S = 1.0
 """A law goes on for so long if it may, and then stops; there is another look long before [s]."""
@@ -88,15 +97,15 @@ def stoppable(
 
     It goes on by what it means to do as far as that is proven: nothing is faster than the mission
     says, and nothing appears inside of what its sensor sees. Where not even braking at once is, it
-    stops as was proven by an earlier look. One that follows exactly and stands until what crosses
-    is gone sets off no sooner. With a limit of the jerk it may brake more suddenly than that, and
-    the law says so.
+    stops as was proven by an earlier look, on the path on which that was. One that follows exactly
+    and stands until what crosses is gone sets off no sooner. With a limit of the jerk it may brake
+    more suddenly than that, and the law says so.
 
     Args:
         task: What is asked of the drive.
         progress: How far it has come.
         knowledge: All that is known, with what was just seen.
-        before: What it meant to do before this look.
+        before: What it meant to do before this look, along distances as they count now.
         after: What it would do if nothing could come.
         sight: What this look has shown.
     """
@@ -127,11 +136,38 @@ def stoppable(
     law, proven = passive_law(
         meant.path, upper, premises, keep, (task.limits.max_accel, brake), now, LASTING_S
     )
-    if not proven and before.path is meant.path:
+    if not proven:
         law = stop_of(before.trajectory, now, brake)
+        meant = meant if meant.path is before.path else before
     if task.limits.max_jerk is not None:
         law = replace(law, over_jerk_until=float(law.distances[-1]))
     return replace(meant, trajectory=law)
+
+
+def kept_to_path(
+    progress: Progress, knowledge: Knowledge, schedule: Schedule, sighting: Sighting | None
+) -> tuple[Schedule, Event]:
+    """The schedule of a robot that stops on its path though a new one was found, and the event.
+
+    What was just seen is told of once: it is looked for a way round it again in the next step.
+
+    Args:
+        progress: How far it has come.
+        knowledge: All that is known, with what was just seen.
+        schedule: Which keeps to the path that there was.
+        sighting: What was just seen, or looked at, if it was anything new.
+    """
+    words = "brakes: on the new path it might be touched, on the old one its stop is proven"
+    event = Event("braked", progress.time, schedule.place(progress.distance), words)
+    if not isinstance(sighting, World) or not len(sighting):
+        return schedule, event
+    met, names, since = sighting, sighting.names, progress.time
+    if schedule.pending is not None:
+        met = World((*schedule.pending.obstacles.obstacles, *sighting.obstacles))
+        names, since = (*schedule.pending.names, *names), schedule.pending.since
+    so_far = SearchSoFar(STEP_WORK_S, 0.0, knowledge.world, {})
+    again = PendingSearch(since, met, names, FIRST_STAGE, so_far)
+    return replace(schedule, pending=again), event
 
 
 def _stands_until(law: Trajectory, now: float, later: float) -> bool:
