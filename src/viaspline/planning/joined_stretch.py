@@ -76,10 +76,8 @@ def joined(
         lay = partial(_join, path, stretch, leave, world, requirements, reach, until)
         try:
             return _once(requirements, (path, stretch, leave, world, reach, until), lay)
-        except (BlockedLegError, BlockedTurnError):
+        except (BlockedLegError, BlockedTurnError, SpentBudgetError):
             raise  # a run-out is clear: where none leads on from one, none does from another
-        except SpentBudgetError:
-            raise
         except PlanningError as error:
             problem = error
     assert problem is not None  # there is a length at least
@@ -145,10 +143,10 @@ def _join(
     spans = spline_path.spans
     if not len(departure.spans):
         refuse_blocked_turn(path, stretch.u, spans[0], world, requirements)
-    head = _head(path, stretch.u)
+    head = head_until(path, stretch.u)
     first = len(head) + len(departure.spans)
     pieces = [head, departure.spans, spans]
-    vias = [*_vias_until(path, stretch.u, len(head)), *spline_path.vias_from(first)]
+    vias = [*vias_until(path, stretch.u, len(head)), *spline_path.vias_from(first)]
     ahead = first + len(spans)
     rejoin = None
     if tail is not None and back is not None:
@@ -180,12 +178,13 @@ def solution_from(
     return Solution(new, moved, account, certificate_from, rejoins_at)
 
 
-def _head(path: Path, u: float) -> Floats:
+def head_until(path: Path, u: float) -> Floats:
     """The spans before u, the last of them cut there."""
     if u <= 0:
         return np.empty((0, 4, path.dimension))
     return np.asarray(path.section(0.0, u).spans)
 
 
-def _vias_until(path: Path, u: float, spans: int) -> Sequence[PathVia]:
+def vias_until(path: Path, u: float, spans: int) -> Sequence[PathVia]:
+    """The via points of a path up to u, before which it has so many spans."""
     return [via for via in path.vias if via.u <= min(u + PASSED_M, spans)]

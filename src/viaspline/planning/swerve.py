@@ -18,11 +18,11 @@ from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.departure import Leave
+from viaspline.planning.joined_stretch import head_until, solution_from, vias_until
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.problem.via_sequence import Leg, lay
 from viaspline.planning.stretch import (
-    PASSED_M,
     Stretch,
     is_round,
     leaving_place,
@@ -66,18 +66,12 @@ def swerve(
     sequence = sequence.with_leg(0, Leg(np.array([place]), np.array([slack, slack])))
     spans, joints = lay(sequence), sequence.first_spans()
     laid = SplinePath.through(sequence, spans, joints, (sequence.pieces,))
-    head = np.asarray(path.section(0.0, u).spans) if u > 0.0 else np.empty((0, 4, path.dimension))
-    first = len(head) + len(departure.spans)
-    kept = [via for via in path.vias if via.u <= min(u + PASSED_M, len(head))]
-    new = Path(np.concatenate((head, departure.spans, spans)), [*kept, *laid.vias_from(first)])
+    head = head_until(path, u)
+    vias = [*vias_until(path, u, len(head)), *laid.vias_from(len(head) + len(departure.spans))]
+    new = Path(np.concatenate((head, departure.spans, spans)), vias)
     certificate = proven(PiecewiseCubic(new.spans[len(head) :]), world, requirements)
     if not certificate.holds:
         raise NoPathError(
             "there is no room beside the path", where=place, remedy="look for another place"
         )
-    leaving = float(new.distance(float(len(head))))
-    tightest = min(certificate.tightest_distance + leaving, new.length)
-    certificate = replace(
-        certificate, tightest_distance=tightest, tightest_u=float(new.parameter(tightest))
-    )
-    return Solution(new, certificate, None, leaving)
+    return solution_from(new, float(new.distance(float(len(head)))), certificate, None)
