@@ -89,7 +89,10 @@ def crossings_on(courses: PackedCourses) -> PackedCrossings:
 
 
 def rides_on(
-    courses: PackedCourses, top: float = 2.0, accel: float = 1.0, depart: float = 0.0
+    courses: PackedCourses,
+    top: float = 2.0,
+    accel: float = 1.0,
+    depart: float | Sequence[float] = 0.0,
 ) -> PackedRides:
     """From rest to rest as fast as it goes."""
     count = courses.first.size - 1
@@ -107,7 +110,7 @@ def rides_on(
     no = np.zeros(count, bool)
     return PackedRides(
         square, lasts, np.zeros(square.size), np.full(count, accel), np.full(count, accel),
-        np.full(count, depart), no, no,
+        np.broadcast_to(depart, count).astype(float), no, no,
     )  # fmt: skip
 
 

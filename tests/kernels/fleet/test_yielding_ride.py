@@ -52,9 +52,11 @@ def lines_without_rests_in_the_way(seed: int, count: int, side: float = 40.0) ->
     return lines
 
 
-def timed(lines: list[Line]) -> tuple[PackedCourses, PackedRides, PackedLaws, list[int]]:
+def timed(
+    lines: list[Line], depart: float | list[float] = 0.0
+) -> tuple[PackedCourses, PackedRides, PackedLaws, list[int]]:
     courses = courses_on(lines, REACH)
-    rides, laws = rides_on(courses), no_laws(courses)
+    rides, laws = rides_on(courses, depart=depart), no_laws(courses)
     found = timed_in_order(courses, crossings_on(courses), rides, laws, np.arange(len(lines)))
     return courses, rides, laws, found.tolist()
 
@@ -113,7 +115,7 @@ def test_the_second_comes_to_a_crossing_with_a_running_start() -> None:
 
 
 def test_who_begins_where_another_passes_can_not_let_it_pass() -> None:
-    *_, found = timed([((17.0, 0.0), (40.0, 0.0)), ((20.0, 0.5), (24.0, 20.0))])
+    *_, found = timed([((0.0, 0.0), (40.0, 0.0)), ((20.0, 0.5), (20.0, 20.0))], [0.0, 30.0])
     assert found[0] == -1
     assert found[1] >= 0
 
