@@ -1,0 +1,133 @@
+"""Each robot's path by itself, among the places where the others rest.
+
+A path that passes no resting place of another can be timed whatever the others do: see
+``plan_fleet``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from viaspline.errors import GaveUpError, GeometryError, PlanningError
+from viaspline.fleet.fleet_plan import NotServed
+from viaspline.fleet.laying.lay_among_rests import LaidPath, lay_among_rests
+from viaspline.fleet.laying.resting_places import RestingPlace, all_rests
+from viaspline.mission.fleet.fleet import Fleet, FleetMember
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan, plan_in
+from viaspline.planning.routing.visit_order import ordered
+from viaspline.world.world import World
+
+LayingProgress: TypeAlias = Callable[[int, int], None]
+"""Called with how many robots have their path, and how many there are."""
+
+
+@dataclass(frozen=True, eq=False)
+class LaidPaths:
+    """The paths of a fleet, each with the law that its robot would drive alone.
+
+    Attributes:
+        plans: By name, in the order of the fleet.
+        not_served: The robots that have none, with the reason.
+        passed: By name, the resting places of others that a path comes too near to, where it does.
+    """
+
+    plans: dict[str, Plan]
+    not_served: tuple[NotServed, ...] = ()
+    passed: Mapping[str, tuple[RestingPlace, ...]] = field(default_factory=dict)
+
+
+def lay_paths(fleet: Fleet, progress: LayingProgress | None = None) -> LaidPaths:
+    """Lay the path of every robot, round those resting places of others that it would hit.
+
+    Where there is no way round one of them, the path passes it, and timing has to see to it that
+    its robot isn't there then. A robot without a path stands at its start for good.
+
+    Args:
+        fleet: What is asked for.
+        progress: See ``LayingProgress``.
+
+    Example:
+        >>> mission = lambda start, goal: Mission.model_validate(
+        ...     {"route": {"start": start, "goal": goal}})
+        >>> a, b = mission((0, 0), (20, 0)), mission((10, 0.5), (10, 20))
+        >>> laid = lay_paths(Fleet((FleetMember("a", a), FleetMember("b", b)), separation_m=1.0))
+        >>> laid.plans["a"].path.length > 20.0, laid.plans["b"].path.length, dict(laid.passed)
+        (True, 19.5, {})
+    """
+    members = fleet.members
+    alone = _alone(fleet)
+    reaches = [_reach(fleet, one, alone.get(one.name)) for one in members]
+    rests = all_rests(members, reaches)
+    laid: dict[str, LaidPath] = {}
+    for k, (member, reach) in enumerate(zip(members, reaches, strict=True)):
+        found = alone[member.name]
+        if isinstance(found, _Alone):
+            laid[member.name] = lay_among_rests(
+                found.plan, found.mission, member.name, reach, rests
+            )
+        if progress is not None:
+            progress(k + 1, len(members))
+    return LaidPaths(
+        {name: one.plan for name, one in laid.items()},
+        tuple(one for one in alone.values() if isinstance(one, NotServed)),
+        {name: one.passed for name, one in laid.items() if one.passed},
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Alone:
+    """What a robot does if it is alone.
+
+    Attributes:
+        mission: Its via points in the order in which they are served.
+        plan: Of that.
+    """
+
+    mission: Mission
+    plan: Plan
+
+
+def _alone(fleet: Fleet) -> dict[str, _Alone | NotServed]:
+    """Every robot's plan as if it were alone, by name."""
+    shared: list[tuple[Mission, World]] = []
+    found: dict[str, _Alone | NotServed] = {}
+    for member in fleet.members:
+        world = _shared_world(member.mission, shared)
+        try:
+            mission = ordered(member.mission, world)
+            if mission is not member.mission and mission.route.corridor is not None:
+                world = World.known(mission)
+            found[member.name] = _Alone(mission, plan_in(mission, world))
+        except (PlanningError, GeometryError) as error:
+            found[member.name] = not_served(member.name, error)
+    return found
+
+
+def _shared_world(mission: Mission, shared: list[tuple[Mission, World]]) -> World:
+    """What a mission has on its map, packed once for all that have the same."""
+    if mission.route.corridor is not None:
+        return World.known(mission)
+    for other, world in shared:
+        if other.world is mission.world or other.world == mission.world:
+            return world
+    shared.append((mission, World.known(mission)))
+    return shared[-1][1]
+
+
+def not_served(name: str, error: PlanningError | GeometryError) -> NotServed:
+    """What is told of a robot that has no path."""
+    if isinstance(error, PlanningError):
+        outcome = "gave up" if isinstance(error, GaveUpError) else "refused"
+        return NotServed(name, outcome, error.reason, error.remedy)
+    reason, _, remedy = str(error).partition("; ")
+    return NotServed(name, "refused", reason, remedy)
+
+
+def _reach(fleet: Fleet, member: FleetMember, alone: _Alone | NotServed | None) -> float:
+    """How far a robot keeps others away on its part [m]; see ``PackedCourses``."""
+    robot = member.mission.robot
+    error = alone.plan.tracking_error if isinstance(alone, _Alone) else robot.tracking_error_m
+    return robot.outer_radius + (error or 0.0) + 0.5 * fleet.separation_m
