@@ -55,7 +55,9 @@ def _close(courses: PackedCourses, i: int, j: int) -> Floats:
 def crossings_on(courses: PackedCourses) -> PackedCrossings:
     """Where they come near each other; every pair of robots has one crossing at most."""
     count = courses.first.size - 1
-    robots, spans, boxes = [], [], []
+    robots: list[tuple[int, int]] = []
+    spans: list[list[float]] = []
+    boxes: list[tuple[float, ...]] = []
     for i in range(count):
         for j in range(i + 1, count):
             near = _close(courses, i, j)
