@@ -11,7 +11,7 @@ from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.time_paths import Timing
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.fleet.neighbourhood_search import improved_laws
+from viaspline.kernels.fleet.improved_laws import improved_laws
 
 BOXES_PER_S = 8_000_000
 """What a search looks at in a second of the reference machine."""

@@ -4,7 +4,7 @@ Large-neighbourhood search (Shaw 1998; for many robots Li et al., IJCAI 2021). A
 robot that comes late, those that it lets pass, and a few that let it pass or the like of it. At any
 moment the laws of the fleet are whole and clear of each other.
 
-Tested through ``fleet/test_improve_laws``.
+Tested through ``fleet/timing/test_improve_laws``.
 """
 
 from __future__ import annotations
