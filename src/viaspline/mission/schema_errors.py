@@ -137,8 +137,8 @@ def _one_of(path: Path, kind: str, keys: Sequence[str], root: Model) -> Unplaced
     """None or several of keys of which one is to be given."""
     both = ", ".join(keys[:-1]) + " and " + keys[-1]
     if kind == "two_of":
-        name = field_of(path)
-        problem = f"{name} has {both}, which exclude each other"
+        name = f"{field_of(path)} " if isinstance(path[-1], str) else ""
+        problem = f"{name}has {both}, which exclude each other"
         return UnplacedFault((*path, keys[0]), problem, f"keep one of {both}", at_key=True)
     return UnplacedFault(path, f"has none of {both}", f"it should be {expectation(path, root)}")
 
