@@ -15,7 +15,7 @@ from viaspline import __version__
 from viaspline.command_steps import (
     default_folder,
     film_file,
-    load_mission,
+    load_asked,
     progress_bar,
     result_folder,
     say_remarks,
@@ -75,7 +75,7 @@ def run(
     Example:
       viaspline run examples/fig8-patrol.yaml --out patrol --animate patrol/run.gif
     """
-    asked = load_mission(mission)
+    asked = load_asked(mission)
     with (
         result_folder(out or default_folder(mission), RUN_NAMES) as folder,
         film_file(animate) as film,
@@ -129,7 +129,7 @@ def plan(mission: Path, out: Path | None, quiet: bool) -> None:
     Example:
       viaspline plan examples/fig7-obstacles.yaml --out detour
     """
-    asked = load_mission(mission)
+    asked = load_asked(mission)
     with (
         result_folder(out or default_folder(mission), PLAN_NAMES) as folder,
         progress_bar(quiet, asked.robot) as watch,
@@ -164,7 +164,7 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
     Example:
       viaspline tension examples/fig8-patrol.yaml --out advice
     """
-    asked = load_mission(mission)
+    asked = load_asked(mission)
     with (
         result_folder(out or default_folder(mission), ("tension.png",)) as folder,
         progress_bar(quiet, asked.robot) as watch,
@@ -210,7 +210,7 @@ def check(mission: Path | None, schema: bool) -> None:
     from viaspline.report.remarks import remarks
     from viaspline.report.summary import summary
 
-    loaded = load_mission(mission)
+    loaded = load_asked(mission)
     lines = [*summary(loaded), *(("note", words) for words in remarks(loaded))]
     say(f"{mission} is sound", *(f"  {name:<7} {words}" for name, words in lines))
 

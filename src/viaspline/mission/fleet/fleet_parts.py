@@ -46,6 +46,6 @@ class FleetParts(Value):
 
     world: WorldSpec = WorldSpec()
     separation_m: Distance = 0.5
-    robots: Kinds = {}
+    robots: Kinds = Field(default_factory=dict)
     fleet: Members
     spline: SplineSpec = SplineSpec()

@@ -61,10 +61,12 @@ def parts_of(member: MemberSpec, fleet: FleetParts) -> MissionParts:
         member: A robot of a kind that the fleet has, or with a mission.
         fleet: Its fleet.
     """
+    robot = robot_of(member, fleet)
+    assert robot is not None, "a robot is of a kind that there is"
     # Built of values that are sound: they are not validated again for each robot.
     return MissionParts.model_construct(
         world=fleet.world,
-        robot=robot_of(member, fleet),
+        robot=robot,
         route=route_of(member),
         spline=spline_of(member, fleet),
     )

@@ -20,7 +20,7 @@ from viaspline.mission.fleet.member_spec import MemberSpec, Rest
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.resolve_files import ResolvedFiles
-from viaspline.mission.route_spec import Route, ViaPoint
+from viaspline.mission.route_spec import EndPoint, Route, ViaPoint
 from viaspline.mission.unplaced_faults import Path, children, list_items
 from viaspline.mission.world_spec import WorldSpec
 
@@ -115,7 +115,7 @@ def _attempt(data: Any) -> FleetParts | None:
 
 
 def _world_of(world: WorldSpec, resolved: ResolvedFiles) -> PartialMission:
-    route = Route.model_construct(start=ViaPoint(at=(0.0, 0.0)))
+    route = Route(start=EndPoint(at=(0.0, 0.0)))
     parts = MissionParts.model_construct(world=world, route=route)
     return replace(PartialMission.of(parts, resolved), points=[], robot=None, spline=None)
 
@@ -125,16 +125,16 @@ def _members_of(fleet: FleetParts) -> Iterator[PartialMember]:
     for i, one in enumerate(fleet.fleet):
         path: Path = ("fleet", i)
         home = path if one.asked is None else (*path, "mission")
-        robot, route = robot_of(one, fleet), route_of(one)
-        parts = MissionParts.model_construct(
-            world=WorldSpec(), robot=robot, route=route, spline=spline_of(one, fleet)
-        )
+        route = route_of(one)
+        parts = MissionParts.model_construct(route=route, spline=spline_of(one, fleet))
         yield PartialMember(
             path=path,
             home=home,
             name=one.name,
             kind=None if one.asked is not None else one.robot or "",
-            parts=PartialMission.of(parts, ResolvedFiles(None)),
+            parts=replace(
+                PartialMission.of(parts, ResolvedFiles(None)), robot=robot_of(one, fleet)
+            ),
             end=_end_of(route),
             rest=one.rest,
             departs_twice=_departs_twice(one),
