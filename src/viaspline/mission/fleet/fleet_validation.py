@@ -48,17 +48,19 @@ def sound_fleet(
     faults += resolved.faults
     files = read_members(resolved.data, (children(data) or {}).get("world"), folder)
     faults += files.faults
+    read = replace(resolved, data=files.data)
     fleet: SoundFleet | None = None
     try:
         fleet = validated(files.data, handler)
-        partial = PartialFleet.of(fleet, resolved)
+        is_whole = not (files.faults or files.own_faults)
+        partial = PartialFleet.of(fleet, resolved) if is_whole else PartialFleet.salvage(read)
     except ValidationError as error:
         # Imported late: a sound fleet needs no words for what is wrong.
         from viaspline.mission.schema_errors import schema_faults
 
         found = schema_faults(error, root=FleetParts)
         faults += (fault._replace(path=resolved.original(fault.path)) for fault in found)
-        partial = PartialFleet.salvage(replace(resolved, data=files.data))
+        partial = PartialFleet.salvage(read)
     faults += fleet_faults(partial)
     if faults or files.own_faults or fleet is None:
         raise MissionError([*_placed(faults, data, origin, files), *files.own_faults]) from None

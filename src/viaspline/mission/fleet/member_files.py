@@ -86,7 +86,7 @@ def _read(
         if asked.world != WorldSpec() and worlds.sound not in (None, asked.world):
             found.faults.append(UnplacedFault(("fleet", i, "mission"), *_OTHER_WORLD))
         return {**member, "mission": None, "asked": asked}
-    if isinstance(asked, str | FilePath) and str(asked):
+    if isinstance(asked, str | FilePath) and str(asked) and member.get("route") is None:
         return _of_file(i, member, FilePath(asked), worlds, found)
     route = {"route": member.get("route")}
     with_line, faults = resolve_corridor(route, worlds.folder)

@@ -7,6 +7,7 @@ Tested through ``mission/fleet/test_fleet``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
@@ -92,7 +93,7 @@ def _too_near(stands: Sequence[_Stand], separation: float) -> Iterator[tuple[_St
 
 
 def _fault(first: _Stand, second: _Stand, separation: float) -> UnplacedFault:
-    apart = float(np.hypot(*np.subtract(first.place, second.place)))
+    apart = math.dist(first.place, second.place)
     needed = first.radius + second.radius + separation
     verb = "starts" if second.is_start else "stays for good"
     where = "starts" if first.is_start else "does"
@@ -101,7 +102,8 @@ def _fault(first: _Stand, second: _Stand, separation: float) -> UnplacedFault:
         f"bodies and separation_m {number(separation)} they have to be {number(needed)} m apart"
     )
     remedies = ["move one of them"]
-    spare = np.floor((apart - first.radius - second.radius) * 1e3) / 1e3
+    # Rounded down, so that what is said is enough.
+    spare = math.floor((apart - first.radius - second.radius + ROUND_OFF_M) * 1e3) / 1e3
     if spare >= 0.0:
         remedies.append(f"set separation_m to at most {number(spare)}")
     if not second.is_start and not first.is_start:
