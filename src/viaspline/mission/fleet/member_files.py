@@ -1,6 +1,8 @@
 """The missions that a fleet names, read and put beside their names.
 
 What comes after sees, for each robot that has a file, what the file holds beside its world.
+
+Tested through ``mission/fleet/test_fleet``.
 """
 
 from __future__ import annotations
