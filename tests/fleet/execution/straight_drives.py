@@ -48,6 +48,16 @@ def lines_without_rests_in_the_way(seed: int, count: int, side: float) -> list[L
     return lines
 
 
+def timed_lines(seed: int, count: int) -> list[Line]:
+    """Those of some random lines whose robots can be timed one after the other."""
+    lines = lines_without_rests_in_the_way(seed, count, 40.0)
+    courses = courses_on(lines, REACH)
+    found = timed_in_order(
+        courses, crossings_on(courses), rides_on(courses), no_laws(courses), np.arange(len(lines))
+    )
+    return [line for line, box in zip(lines, found, strict=True) if box == -1]
+
+
 def driven_on(
     lines: Sequence[Line], order: Sequence[int] | None = None, vanish: bool = False
 ) -> DrivenFleet:

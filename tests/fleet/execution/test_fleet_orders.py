@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 sys.path.insert(0, str(Path(__file__).parent))
-from straight_drives import CROSS, driven_on, lines_without_rests_in_the_way
+from straight_drives import CROSS, driven_on, timed_lines
 
 from viaspline.errors import GeometryError
 from viaspline.fleet.execution.fleet_orders import orders_led, orders_of
@@ -34,7 +34,7 @@ def test_the_second_waits_before_the_crossing_until_the_first_has_left_it() -> N
 
 
 def test_orders_are_those_of_who_is_there_first_by_the_laws() -> None:
-    lines = lines_without_rests_in_the_way(3, 9, 40.0)
+    lines = timed_lines(3, 9)
     fleet = driven_on(lines)
     courses, laws, robots = fleet.courses.packed, fleet.laws.packed, fleet.crossings.packed.robots
     orders = orders_of(fleet)
@@ -50,12 +50,12 @@ def test_orders_are_those_of_who_is_there_first_by_the_laws() -> None:
 
 def test_a_ring_of_robots_that_wait_for_each_other_is_named() -> None:
     """Three streets in a triangle: each robot would let the one pass that lets the next one."""
-    lines = [((0.0, 0.0), (40.0, 0.0)), ((36.0, -8.0), (12.0, 34.0)), ((4.0, -8.0), (28.0, 34.0))]
+    lines = [((0.0, 0.0), (40.0, 0.0)), ((36.0, -8.0), (12.0, 34.0)), ((28.0, 34.0), (4.0, -8.0))]
     fleet = driven_on(lines)
     robots = fleet.crossings.packed.robots.tolist()
     assert robots == [[0, 1], [0, 2], [1, 2]]
     own = np.ones(3, np.bool_)
-    # along its way each of them comes to the next one's street before it has left the last one's
+    # each of them comes to the street of the one that is to pass before it first
     rings = [np.array(ring) for ring in ([0, 2, 1], [1, 0, 2])]
     refused = []
     for ring in rings:
@@ -81,7 +81,7 @@ def test_laws_that_meet_keep_no_order() -> None:
 @given(seed=st.integers(0, 10_000), count=st.integers(1, 12))
 @settings(max_examples=25, deadline=None)
 def test_orders_of_laws_that_keep_apart_are_acyclic(seed: int, count: int) -> None:
-    fleet = driven_on(lines_without_rests_in_the_way(seed, count, 40.0))
+    fleet = driven_on(timed_lines(seed, count))
     orders = orders_of(fleet)
     assert sorted(orders.sequence.tolist()) == list(range(orders.packed.place.size))
     assert (orders.leaders >= 0).all()
@@ -90,7 +90,7 @@ def test_orders_of_laws_that_keep_apart_are_acyclic(seed: int, count: int) -> No
 @given(seed=st.integers(0, 10_000), late=st.floats(0.0, 100.0))
 @settings(max_examples=25, deadline=None)
 def test_a_delay_reaches_those_who_wait_and_never_grows(seed: int, late: float) -> None:
-    orders = orders_of(driven_on(lines_without_rests_in_the_way(seed, 9, 40.0)))
+    orders = orders_of(driven_on(timed_lines(seed, 9)))
     delays = orders.delays("r0", late)
     assert delays[0] == pytest.approx(late)
     assert (delays >= -1e-9).all()

@@ -13,6 +13,9 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 
+SAME_M = 1e-7
+"""Places that lie nearer to each other are one."""
+
 
 def driven_laws(
     courses: FleetCourses, stretches: list[Floats], ends: Floats, leaves: Floats
@@ -53,10 +56,12 @@ def driven_laws(
 
 def _law(rows: Floats, nodes: Floats, end: float) -> Floats:
     """Place, arrival, departure and speed at all nodes and wherever the acceleration changes."""
-    places, begins = np.unique(rows[:, 1], return_index=True)
+    begins = np.flatnonzero(np.diff(rows[:, 1], prepend=-np.inf) > SAME_M)
     lasts = np.append(begins[1:], len(rows)) - 1
-    arrive, leave, square = rows[begins, 0], rows[lasts, 0], rows[begins, 2]
-    between = nodes[(nodes < end) & ~np.isin(nodes, places) & (nodes > places[0])]
+    arrive, (leave, places, square) = rows[begins, 0], rows[lasts].T
+    between = nodes[(nodes < end) & (nodes > places[0])]
+    near = np.searchsorted(places, between - SAME_M)
+    between = between[places[np.minimum(near, len(places) - 1)] > between + SAME_M]
     i = np.searchsorted(places, between) - 1
     gone, width = between - places[i], places[i + 1] - places[i]
     square_there = square[i] + (square[i + 1] - square[i]) * gone / width
