@@ -118,7 +118,10 @@ def orders_led(
     packed = _packed(fleet, leaders, by_second)
     heads = packed.first[:-1].copy()
     none = np.zeros(len(fleet.names))
-    sequence, stuck = order_flow(packed, leaders, none, heads, none if margin is None else margin)
+    fixed = np.zeros(len(fleet.names), np.bool_)
+    sequence, stuck = order_flow(
+        packed, leaders, none, heads, none if margin is None else margin, fixed
+    )
     if (stuck >= 0).any():
         raise GeometryError(_cycle(fleet.names, packed, stuck))
     return FleetOrders(fleet.names, packed, leaders, by_second, sequence)

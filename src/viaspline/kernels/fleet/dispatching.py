@@ -8,14 +8,15 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.blocked_times import comes_to, goes_from
+from viaspline.kernels.fleet.blocked_times import comes_to, goes_from, node_before
+from viaspline.kernels.fleet.granted_drive import PackedTrouble, drive_stretch, new_drive
 from viaspline.kernels.fleet.open_bars import open_bars_of
-from viaspline.kernels.fleet.order_flow import expected_shifts
+from viaspline.kernels.fleet.order_flow import expected_shifts, order_flow
 from viaspline.kernels.fleet.order_swaps import consider_swaps, settle_recall
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_laws import PackedLaws
-from viaspline.kernels.fleet.packed_orders import PackedOrders
+from viaspline.kernels.fleet.packed_orders import PackedOrdersfrom viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.kernels.jit import inner, kernel
 
 MOVED_M = 1e-6
@@ -105,3 +106,80 @@ def swap_orders(
     """
     shift, _ = expected_shifts(orders, dispatch.leaders, sequence, dispatch.head, dispatch.begin)
     return consider_swaps(orders, dispatch, shift, now)
+
+
+@kernel
+def dispatch_step(
+    courses: PackedCourses, alone: PackedLaws, orders: PackedOrders, dispatch: PackedDispatch,
+    robots: Ints, reports: Floats, sequence: Ints, swaps: bool, now: float,
+) -> tuple[Floats, Ints]:  # fmt: skip
+    """One step of a fleet that is driven: reports in, grants out.
+
+    Args:
+        courses: PackedCourses.
+        alone: The laws of robots that set out at 0 s and never wait.
+        orders: PackedOrders.
+        dispatch: It is written to.
+        robots: Who reports, (k,).
+        reports: When [s], where it is [m] and how far it takes itself to be let [m], (k, 3).
+        sequence: Bars in an order in which they can be passed, as the leaders are, (m,).
+        swaps: Whether orders that have become foolish are swapped.
+        now: [s].
+
+    Returns:
+        How far each robot may go [m], (n,); and an order in which all bars can be passed, (m,).
+    """
+    swapped = 0
+    for i in range(robots.size):
+        time, place, holds = reports[i]
+        swapped += take_report(courses, alone, orders, dispatch, robots[i], place, holds, time)
+    count = orders.length.size
+    grants = np.empty(count)
+    for robot in range(count):
+        grants[robot] = grant_of(orders, dispatch, robot)
+    if swaps:
+        swapped += swap_orders(orders, dispatch, sequence, now)
+    if swapped > 0:
+        heads = orders.first[:-1]
+        sequence, _ = order_flow(
+            orders, dispatch.leaders, dispatch.progress, heads, np.zeros(count), dispatch.fixed
+        )
+        for robot in range(count):
+            grants[robot] = grant_of(orders, dispatch, robot)
+    return grants, sequence
+
+
+@kernel
+def speeds_ahead(
+    courses: PackedCourses, rides: PackedRides, progress: Floats, speeds: Floats, grants: Floats,
+    period: float,
+) -> Floats:  # fmt: skip
+    """How fast robots go after a while, each as its law and its grant let it [m/s], (n,).
+
+    Args:
+        courses: PackedCourses.
+        rides: PackedRides.
+        progress: Where they are; infinite: not there any more [m], (n,).
+        speeds: How fast they are [m/s], (n,).
+        grants: How far they may go [m], (n,).
+        period: How long that while is [s].
+    """
+    nodes = courses.distance.size
+    trouble = PackedTrouble(np.ones(nodes), np.zeros(nodes), 0.0, 0)
+    drive = new_drive(courses, rides, trouble)
+    for robot in range(grants.size):
+        first, last = courses.first[robot], courses.first[robot + 1] - 1
+        if progress[robot] >= courses.distance[last]:
+            continue
+        node = node_before(courses.distance, first, last, progress[robot])
+        drive.cell[robot] = node
+        drive.place[robot] = progress[robot]
+        drive.square[robot] = speeds[robot] ** 2
+        drive.rests_until[robot] = 0.0
+        drive.served[robot] = True
+        time = 0.0
+        while time < period and drive.arrived[robot] == np.inf:
+            time = drive_stretch(
+                drive, courses, rides, trouble, robot, grants[robot], time, period
+            )
+    return np.sqrt(drive.square)

@@ -125,10 +125,16 @@ def fleet_ticks(
     stretches, rows = new_floats(64 + 32 * count, 5), 0
     happened, events = new_floats(64, 5), 0
     heads = dispatch.head.copy()
-    sequence, _ = order_flow(orders, dispatch.leaders, dispatch.progress, heads, grants)
+    none = np.zeros(count)
+    sequence, _ = order_flow(
+        orders, dispatch.leaders, dispatch.progress, heads, none, dispatch.fixed
+    )
     tick, now = 0, begin
+    for robot in range(count):  # those without a law never set out
+        dispatch.fixed[robot] = rides.depart[robot] == np.inf
+    bound = count - dispatch.fixed.sum()
     arrivals = 0
-    while tick < longest and arrivals < count:
+    while tick < longest and arrivals < bound:
         now = begin + tick * step
         swapped = 0
         for robot in range(count):
@@ -153,10 +159,10 @@ def fleet_ticks(
                     happened = _noted(happened, events, row)
                     events += 1
                     seen[c] = dispatch.leaders[c]
-            none = np.zeros(count)
             sequence, _ = order_flow(
-                orders, dispatch.leaders, dispatch.progress, orders.first[:-1], none
-            )
+                orders, dispatch.leaders, dispatch.progress, orders.first[:-1], none,
+                dispatch.fixed,
+            )  # fmt: skip
         for robot in range(count):
             grant = grant_of(orders, dispatch, robot)
             if chance(trouble.seed, 2 * tick + 1, robot) < trouble.lost:
