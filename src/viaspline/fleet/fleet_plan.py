@@ -13,6 +13,7 @@ from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.precedences import Precedence
+from viaspline.fleet.timing.rides import FleetRides
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 
@@ -49,6 +50,7 @@ class FleetPlan:
         courses: Their paths, cut into cells: the served robots in the order of ``plans``.
         crossings: Where these come near each other.
         laws: When each robot is where on its course.
+        rides: How each robot drives where nobody is in its way.
     """
 
     fleet: Fleet
@@ -60,6 +62,7 @@ class FleetPlan:
     courses: FleetCourses
     crossings: FleetCrossings
     laws: FleetLaws
+    rides: FleetRides
 
     @property
     def served(self) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.errors import GeometryError
+from viaspline.fleet.execution.carried_over import carried_over
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
 from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
 from viaspline.fleet.execution.fleet_orders import index_of, orders_of
@@ -244,7 +245,7 @@ class FleetNavigator:
 
     def with_fleet(self, fleet: DrivenFleet) -> FleetNavigator:
         """``with_plan`` for a fleet that was planned by other means."""
-        navigator = self._with(self._state.carried_over(self._fleet, fleet, self._margin))
+        navigator = self._with(carried_over(self._state, self._fleet, fleet))
         navigator._fleet, navigator._plan = fleet, None
         return navigator
 

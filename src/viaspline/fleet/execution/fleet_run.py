@@ -17,7 +17,7 @@ from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Floats
 
 FleetEventKind = Literal[
-    "waits", "goes on", "swapped", "arrived", "refused", "ignored", "dead", "taken out", "added",
+    "waits", "goes on", "swapped", "arrived", "refused", "ignored", "dead", "taken out", "silent",
 ]  # fmt: skip
 
 

@@ -16,7 +16,8 @@ from viaspline.kernels.fleet.order_swaps import consider_swaps, settle_recall
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_laws import PackedLaws
-from viaspline.kernels.fleet.packed_orders import PackedOrdersfrom viaspline.kernels.fleet.packed_rides import PackedRides
+from viaspline.kernels.fleet.packed_orders import PackedOrders
+from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.kernels.jit import inner, kernel
 
 MOVED_M = 1e-6
