@@ -25,13 +25,15 @@ class DrivenFleet:
         courses: Of the robots.
         crossings: Where these come near each other.
         laws: That were planned: they say who passes first.
-        rides: How each robot drives where nobody is in its way.
+        rides: How each robot drives where nobody is in its way; who departs at infinity never does.
+        separation: The free space that the plan keeps between bodies [m].
     """
 
     courses: FleetCourses
     crossings: FleetCrossings
     laws: FleetLaws
     rides: PackedRides
+    separation: float
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -72,4 +74,5 @@ def driven_fleet_of(plan: FleetPlan) -> DrivenFleet:
     """What is driven of a plan: robots that are not served stay at their starts for ever."""
     rides = plan.rides.packed
     departs = np.where(plan.laws.packed.is_timed, rides.depart, np.inf)
-    return DrivenFleet(plan.courses, plan.crossings, plan.laws, rides._replace(depart=departs))
+    rides, separation = rides._replace(depart=departs), plan.fleet.separation_m
+    return DrivenFleet(plan.courses, plan.crossings, plan.laws, rides, separation)

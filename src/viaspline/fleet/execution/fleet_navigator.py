@@ -4,21 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from math import floor
 
 import numpy as np
 
 from viaspline.errors import GeometryError
+from viaspline.fleet.execution.believed_reports import believed
 from viaspline.fleet.execution.carried_over import carried_over
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
+from viaspline.fleet.execution.fleet_commands import commands_of
 from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
 from viaspline.fleet.execution.fleet_orders import index_of, orders_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
-from viaspline.fleet.execution.fleet_run import FleetEvent
-from viaspline.fleet.execution.judged_reports import judged
+from viaspline.fleet.execution.fleet_run import FleetEvent, swapped_event
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.handed_in import all_of, check_kind, number_from, time_from
-from viaspline.kernels.arrays import Floats
-from viaspline.kernels.fleet.dispatching import dispatch_step, speeds_ahead
+from viaspline.kernels.fleet.dispatching import dispatch_step
 from viaspline.kernels.fleet.order_flow import expected_shifts
 from viaspline.mission.fleet.fleet import FleetMember
 
@@ -67,9 +68,7 @@ class FleetNavigator:
         (40.0, 'a', True)
     """
 
-    def __init__(
-        self, plan: FleetPlan, *, margin_m: float = 0.0, period: float = PERIOD_S
-    ) -> None:
+    def __init__(self, plan: FleetPlan, *, margin_m: float = 0.0, period: float = PERIOD_S) -> None:
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
         self._begin(driven_fleet_of(plan), number_from("margin_m", margin_m), period)
         self._plan: FleetPlan | None = plan
@@ -117,78 +116,21 @@ class FleetNavigator:
         if not self._state.time <= time < np.inf:
             raise GeometryError(f"time {time} s is before the last step's, {self._state.time} s")
         given = all_of("reports", reports, ProgressReport, "give ProgressReport(name, time, …)")
-        state = self._state.copied(time)
-        believed, events = self._believed(state, given)
-        fleet, packed, orders = self._fleet, state.packed, state.orders.packed
+        fleet, state = self._fleet, self._state.copied(time)
+        packed, orders = state.packed, state.orders.packed
+        robots, table, events = believed(fleet, state, given, self._margin)
         before = packed.leaders.copy()
-        robots = np.array([robot for robot, _ in believed], np.int64)
-        table = np.array([row for _, row in believed], float).reshape(-1, 3)
-        swaps = np.floor(time) > np.floor(self._state.time) if np.isfinite(self._state.time) else False
+        swaps = np.isfinite(self._state.time) and floor(time) > floor(self._state.time)
         grants, sequence = dispatch_step(
             fleet.courses.packed, fleet.laws_alone(), orders, packed, robots, table,
             state.sequence, bool(swaps), time,
         )  # fmt: skip
         for c in np.flatnonzero(before != packed.leaders).tolist():
             one, two = (fleet.names[r] for r in (packed.leaders[c], before[c]))
-            words = f"{one} passes before {two}, which is late"
-            events.append(FleetEvent("swapped", time, one, words, two))
+            events.append(swapped_event(one, two, time))
         events += state.silences(SILENT_S)
-        commands = self._commands(state, grants)
+        commands = commands_of(fleet, state, grants, self._period)
         return commands, self._with(replace(state, sequence=sequence, events=tuple(events)))
-
-    def _believed(
-        self, state: FleetProgressState, reports: tuple[ProgressReport, ...]
-    ) -> tuple[list[tuple[int, tuple[float, float, float]]], list[FleetEvent]]:
-        """The reports that can be true, in the order of their times, and why the others can't."""
-        known, rows, events = state.known(self._fleet), [], []
-        for report in sorted(reports, key=_order):
-            event = judged(report, known, state.time)
-            if event is not None:
-                events.append(event)
-                continue
-            robot = known.names[report.name]
-            place = min(max(report.distance - self._margin, 0.0), float(known.lengths[robot]))
-            if report.arrived:
-                gone = bool(self._fleet.rides.vanishes[robot])
-                place = np.inf if gone else float(known.lengths[robot])
-                if not state.arrived[robot]:
-                    words = f"{report.name} arrives"
-                    events.append(FleetEvent("arrived", report.time, report.name, words))
-                state.arrived[robot] = True
-            state.heard[robot], state.silent[robot] = report.time, False
-            state.speeds[robot] = abs(report.speed)
-            known.progress[robot] = max(known.progress[robot], place)
-            holds = np.inf if report.holds is None else report.holds
-            rows.append((robot, (report.time, place, holds)))
-        return rows, events
-
-    def _commands(self, state: FleetProgressState, grants: Floats) -> dict[str, FleetCommand]:
-        """What each robot that drives is to do."""
-        fleet, orders, packed = self._fleet, state.orders.packed, state.packed
-        speeds = speeds_ahead(
-            fleet.courses.packed, fleet.rides, packed.progress, state.speeds, grants, self._period
-        )
-        sets_out = fleet.rides.depart < state.time + self._period
-        commands = {}
-        for robot, name in enumerate(fleet.names):
-            if state.out[robot]:
-                continue
-            bar = int(packed.head[robot])
-            waits, opens = None, None
-            if packed.recall[robot] >= 0:
-                pair = orders.robots[packed.recall[robot]]
-                waits = fleet.names[int(pair[0] if pair[1] == robot else pair[1])]
-            elif bar < orders.first[robot + 1]:
-                waits, opens = fleet.names[orders.other[bar]], float(orders.passed[bar])
-            commands[name] = FleetCommand(
-                name=name,
-                granted=float(grants[robot]),
-                speed=float(speeds[robot]) if sets_out[robot] else 0.0,
-                waits_for=waits,
-                opens_at=opens,
-                arrived=bool(state.arrived[robot]),
-            )
-        return commands
 
     def without(self, name: str) -> FleetNavigator:
         """The fleet without a robot that was taken out of the world: nobody waits for it.
@@ -316,8 +258,3 @@ class FleetNavigator:
         arrive = last + self._fleet.laws_alone().arrive[ends]
         arrive[self._state.stuck() >= 0] = np.inf
         return dict(zip(self.names, arrive.tolist(), strict=True))
-
-
-def _order(report: ProgressReport) -> tuple[float, str]:
-    """By time; a report whose time is no number has its place as well."""
-    return (report.time if report.time == report.time else -np.inf, str(report.name))

@@ -14,7 +14,7 @@ from viaspline.fleet.execution.fleet_orders import FleetOrders
 from viaspline.fleet.execution.fleet_run import FleetEvent
 from viaspline.fleet.execution.judged_reports import KnownFleet
 from viaspline.kernels.arrays import Flags, Floats, Ints
-from viaspline.kernels.fleet.dispatching import dispatch_at_start
+from viaspline.kernels.fleet.dispatching import dispatch_at_start, dispatch_copy
 from viaspline.kernels.fleet.order_flow import order_flow
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 
@@ -63,7 +63,7 @@ class FleetProgressState:
         """A state of its own for the step at a time [s], in which nothing has happened yet."""
         return replace(
             self,
-            packed=PackedDispatch(*(array.copy() for array in self.packed)),
+            packed=dispatch_copy(self.packed),
             time=time,
             speeds=self.speeds.copy(),
             heard=self.heard.copy(),

@@ -50,7 +50,6 @@ def judged(report: ProgressReport, known: KnownFleet, now: float) -> FleetEvent 
     robot of the fleet, or without numbers is refused. An old one, or one of a place farther back,
     is ignored: where a robot has been, it doesn't come back.
     """
-
     found = _fault(report, known, now)
     if found is None:
         return None

@@ -18,8 +18,8 @@ from viaspline.kernels.fleet.granted_drive import (
     new_drive,
 )
 from viaspline.kernels.fleet.order_flow import order_flow
+from viaspline.kernels.fleet.order_swaps import settle_recall
 from viaspline.kernels.fleet.packed_courses import PackedCourses
-from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 from viaspline.kernels.fleet.packed_rides import PackedRides
@@ -87,9 +87,7 @@ def _drive_tick(
         while time < until and drive.arrived[robot] == np.inf:
             before, place, square = drive.slope[robot], drive.place[robot], drive.square[robot]
             began = time
-            time = drive_stretch(
-                drive, courses, rides, trouble, robot, grants[robot], time, until
-            )
+            time = drive_stretch(drive, courses, rides, trouble, robot, grants[robot], time, until)
             if abs(drive.slope[robot] - before) > SAME_SLOPE:
                 stretches = _noted(stretches, count, (float(robot), began, place, square, 0.0))
                 count += 1
@@ -143,13 +141,10 @@ def fleet_ticks(
             place = drive.place[robot]
             if drive.arrived[robot] < np.inf and orders.vanishes[robot]:
                 place = np.inf
-            swapped += take_report(
-                courses, alone, orders, dispatch, robot, place, grants[robot], now
-            )
+            if take_report(dispatch, robot, place, grants[robot], now):
+                swapped += settle_recall(orders, dispatch, robot)
         if swap_every > 0 and tick % swap_every == 0:
-            for robot in range(count):
-                grant_of(orders, dispatch, robot)
-            swapped += swap_orders(orders, dispatch, sequence, now)
+            swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
         if swapped > 0:
             for c in range(seen.size):
                 if seen[c] != dispatch.leaders[c]:
