@@ -13,6 +13,7 @@ from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.precedences import Precedence
+from viaspline.fleet.timing.rides import FleetRides
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 
@@ -50,6 +51,7 @@ class FleetPlan:
         crossings: Where these come near each other; in each of them one robot passes first.
         laws: When each robot is where on its course. Those that are not served stand at their
             starts for ever.
+        rides: How each robot drives where nobody is in its way.
     """
 
     fleet: Fleet
@@ -61,6 +63,7 @@ class FleetPlan:
     courses: FleetCourses
     crossings: FleetCrossings
     laws: FleetLaws
+    rides: FleetRides
 
     @property
     def served(self) -> bool:

@@ -118,4 +118,5 @@ def _planned(fleet: Fleet, timed: TimedFleet, laid: LaidPaths) -> FleetPlan:
         courses=courses,
         crossings=crossings,
         laws=timing.laws,
+        rides=ways.rides,
     )
