@@ -36,8 +36,11 @@ if TYPE_CHECKING:
         PlanningError,
         ViasplineError,
     )
+    from viaspline.fleet.fleet_plan import FleetPlan
+    from viaspline.fleet.plan_fleet import plan_fleet
     from viaspline.formats.load import load
     from viaspline.maps.grid import Grid
+    from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.load_map import load_map
     from viaspline.mission.model import Mission
     from viaspline.mission.shapes.obstacle import Obstacle
@@ -61,6 +64,8 @@ _HOMES = {
     "CardinalSpline": "curve.cardinal",
     "Certificate": "curve.certificate",
     "Command": "robot.state",
+    "Fleet": "mission.fleet.fleet",
+    "FleetPlan": "fleet.fleet_plan",
     "GaveUpError": "errors",
     "GeometryError": "errors",
     "Grid": "maps.grid",
@@ -95,6 +100,7 @@ _HOMES = {
     "load": "formats.load",
     "load_map": "mission.load_map",
     "plan": "planner",
+    "plan_fleet": "fleet.plan_fleet",
     "retime": "trajectory.retime",
     "retime_lap": "trajectory.lap",
     "simulate": "robot.simulator",

@@ -12,27 +12,9 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.precedences import Precedence
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
-
-
-@dataclass(frozen=True)
-class Precedence:
-    """Who passes first where two paths come near each other.
-
-    Attributes:
-        first: The name of the robot that passes first.
-        second: The name of the one that passes after it.
-        leaves_at: Where along its path the first one has passed [m].
-        enters_at: From where along its path the second one would be too near [m].
-        waits_s: How long the second one is held up for it [s]; 0 where it comes later anyway.
-    """
-
-    first: str
-    second: str
-    leaves_at: float
-    enters_at: float
-    waits_s: float = 0.0
 
 
 @dataclass(frozen=True)

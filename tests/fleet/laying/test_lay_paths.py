@@ -24,7 +24,7 @@ def robot(name: str, *points: Place, rest: Any = "stay", **more: Any) -> FleetMe
 
 
 def laid(*members: FleetMember) -> LaidPaths:
-    return lay_paths(Fleet(members, separation_m=1.0))
+    return lay_paths(Fleet.of(members, 1.0))
 
 
 def least_distance(found: LaidPaths, name: str, place: Place) -> float:
@@ -122,5 +122,5 @@ def test_a_fleet_of_one_and_of_none_is_laid() -> None:
 def test_progress_counts_robots() -> None:
     seen: list[tuple[int, int]] = []
     members = (robot("a", (0, 0), (9, 0)), robot("b", (0, 9), (9, 9)))
-    lay_paths(Fleet(members, 1.0), progress=lambda done, all_: seen.append((done, all_)))
+    lay_paths(Fleet.of(members, 1.0), progress=lambda done, all_: seen.append((done, all_)))
     assert seen == [(1, 2), (2, 2)]

@@ -53,7 +53,7 @@ def lay_paths(fleet: Fleet, progress: LayingProgress | None = None) -> LaidPaths
         >>> mission = lambda start, goal: Mission.model_validate(
         ...     {"route": {"start": start, "goal": goal}})
         >>> a, b = mission((0, 0), (20, 0)), mission((10, 0.5), (10, 20))
-        >>> laid = lay_paths(Fleet((FleetMember("a", a), FleetMember("b", b)), separation_m=1.0))
+        >>> laid = lay_paths(Fleet.of([FleetMember("a", a), FleetMember("b", b)], 1.0))
         >>> [round(plan.path.length, 1) for plan in laid.plans.values()], dict(laid.passed)
         ([20.4, 19.5], {})
     """

@@ -1,0 +1,89 @@
+"""Who passes first wherever two paths of a fleet come near each other, and who waits for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.passing_order import passing_gaps
+
+TIGHT_S = 1e-3
+"""Who comes so soon after another one has left waited for it [s]."""
+
+
+@dataclass(frozen=True)
+class Precedence:
+    """Who passes first where two paths come near each other.
+
+    Attributes:
+        first: The name of the robot that passes first.
+        second: The name of the one that passes after it.
+        leaves_at: Where along its path the first one has passed [m].
+        enters_at: From where along its path the second one would be too near [m].
+        waits_s: How much later the second one comes for it [s]; 0 where it comes later anyway.
+    """
+
+    first: str
+    second: str
+    leaves_at: float
+    enters_at: float
+    waits_s: float = 0.0
+
+
+def precedences_of(
+    courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws
+) -> tuple[Precedence, ...]:
+    """Who passes first at every crossing, in the order of the crossings.
+
+    Args:
+        courses: The paths of the fleet.
+        crossings: Where these come near each other.
+        laws: When each robot is where.
+        alone: When each would be where if it were alone.
+    """
+    packed, nodes = crossings.packed, courses.packed
+    count = len(packed.robots)
+    owner = np.repeat(np.arange(nodes.reach.size), np.diff(packed.box_first))
+    gaps = passing_gaps(nodes, packed, laws.packed)
+    is_first_later = np.zeros(count, np.bool_)  # of the two, the one with the lower number
+    mine = (gaps >= 0.0) & (owner == packed.robots[packed.crossing, 0])
+    is_first_later[packed.crossing[mine]] = True
+    waits = _waits(courses, crossings, laws, alone, gaps)
+    found = []
+    for c, (a, b) in enumerate(packed.robots.tolist()):
+        a_low, a_high, b_low, b_high = packed.span[c].tolist()
+        first, last, left, entered = (a, b, a_high, b_low)
+        if is_first_later[c]:
+            first, last, left, entered = (b, a, b_high, a_low)
+        names = courses.names
+        found.append(Precedence(names[first], names[last], left, entered, float(waits[c])))
+    return tuple(found)
+
+
+def _waits(
+    courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws,
+    gaps: Floats,
+) -> Floats:  # fmt: skip
+    """How much later each crossing makes its second robot come [s], (c,).
+
+    A robot comes to a crossing that it waited for just when the other one has left it. What it is
+    late by there, beyond what it was late by at the one before, it is late for this one.
+    """
+    packed, nodes = crossings.packed, courses.packed
+    late = laws.packed.arrive - alone.packed.arrive
+    waits = np.zeros(len(packed.robots))
+    for robot in range(nodes.reach.size):
+        boxes = np.arange(packed.box_first[robot], packed.box_first[robot + 1])
+        tight = boxes[(gaps[boxes] >= 0.0) & (gaps[boxes] < TIGHT_S)]
+        before = 0.0
+        for box in tight.tolist():
+            now = float(late[packed.cell[box]])
+            if now > before + TIGHT_S:
+                waits[packed.crossing[box]] += now - before
+                before = now
+    return waits
