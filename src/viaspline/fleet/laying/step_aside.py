@@ -10,14 +10,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from viaspline.curve.path import Path, PathVia
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.sidestep import ASIDE, FREE, KEPT, step_aside
+from viaspline.kernels.fleet.sidestep import ASIDE, FIXED, FREE, KEPT, step_aside
 from viaspline.machine.allowance import allowance
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.robot_model import is_driven
@@ -51,35 +51,45 @@ def can_step_aside(plan: Plan) -> bool:
     )
 
 
-def stepped_aside(plan: Plan, discs: Floats) -> Plan | None:
+@dataclass(frozen=True, eq=False)
+class SteppedAside:
+    """What came of stepping aside.
+
+    Attributes:
+        plan: Proven in its world; None where there is no room to step aside.
+        no_room_for: Index of the disc for which there is none, where that is known.
+    """
+
+    plan: Plan | None
+    no_room_for: int | None = None
+
+
+def stepped_aside(plan: Plan, discs: Floats) -> SteppedAside:
     """A plan whose path steps aside for discs.
 
     Args:
         plan: One that can: see ``can_step_aside``.
         discs: x, y of each, and the distance that the path has to keep from there [m], (n, 3).
-
-    Returns:
-        The plan, proven in its world; None where there is no room to step aside.
     """
     robot, world = plan.mission.robot, plan.world
     requirements = Requirements.of(plan.mission, plan.tracking_error)
     limits = limits_of(robot)
-    spans, marks, is_clear = step_aside(
-        world.packed, plan.path.spans.copy(), _marks(plan.path), discs, requirements.required,
-        _bend(limits),
+    spans, marks, failed = step_aside(
+        world.packed, plan.path.spans.copy(), _marks(plan.path, plan.mission), discs,
+        requirements.required, _bend(limits),
     )  # fmt: skip
-    if not is_clear:
-        return None
+    if failed >= 0:
+        return SteppedAside(None, int(failed))
     path = Path(spans, list(_vias(plan.path, spans, marks)))
     certificate = proven(path, world, requirements)
     if not certificate.holds:
-        return None
+        return SteppedAside(None)
     try:
         law = retime(path, limits, stations(path, robot), zones=plan.mission.world.speed_zones)
     except GeometryError:
-        return None
+        return SteppedAside(None)
     found = replace(plan, path=path, certificate=certificate, trajectory=law)
-    return found if _follows(found, plan.mission) else None
+    return SteppedAside(found if _follows(found, plan.mission) else None)
 
 
 def _follows(plan: Plan, mission: Mission) -> bool:
@@ -98,12 +108,14 @@ def _bend(limits: Limits) -> float:
     return min(by_accel, by_yaw, SHARPEST_PER_M)
 
 
-def _marks(path: Path) -> Ints:
+def _marks(path: Path, mission: Mission) -> Ints:
     """The joints of a path as the kernel takes them."""
     marks = np.full(len(path.spans) + 1, FREE, np.int64)
-    marks[[0, -1]] = KEPT
     for via in path.vias:
         marks[round(via.u)] = KEPT if via.kind == "user" else ASIDE
+    route = mission.route
+    marks[0] = KEPT if route.start.heading_deg is None else FIXED
+    marks[-1] = KEPT if route.goal is None or route.goal.heading_deg is None else FIXED
     return marks
 
 
@@ -111,8 +123,8 @@ def _vias(path: Path, spans: Floats, marks: Ints) -> Iterator[PathVia]:
     """The via points of a path that has stepped aside."""
     kept = iter([via for via in path.vias if via.kind == "user"])
     for joint, mark in enumerate(marks.tolist()):
-        if mark == KEPT:
+        if mark in (KEPT, FIXED):
             yield replace(next(kept), u=float(joint))
         elif mark == ASIDE:
-            x, y = spans[joint, 0].tolist()
+            x, y = spans[joint, 0].tolist() if joint < len(spans) else spans[-1, 3].tolist()
             yield PathVia("detour", (x, y), "detour", float(joint))
