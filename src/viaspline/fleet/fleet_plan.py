@@ -49,6 +49,7 @@ class FleetPlan:
         courses: Their paths, cut into cells: the served robots in the order of ``plans``.
         crossings: Where these come near each other.
         laws: When each robot is where on its course.
+        alone_laws: When it would be where if it were alone.
     """
 
     fleet: Fleet
@@ -60,6 +61,7 @@ class FleetPlan:
     courses: FleetCourses
     crossings: FleetCrossings
     laws: FleetLaws
+    alone_laws: FleetLaws
 
     @property
     def served(self) -> bool:

@@ -161,4 +161,5 @@ def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -
         courses=timed.courses,
         crossings=timed.crossings,
         laws=laws,
+        alone_laws=alone,
     )
