@@ -6,6 +6,7 @@ Tested through ``report/fleet/test_fleet_picture``.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -67,18 +68,18 @@ def draw_ends(
     goals = np.array([goal_of(one) for one in served]).reshape(-1, 2)
     inks = [colours[one.name] for one in served]
     area = size * size
-    look = {"edgecolors": style.INK, "linewidths": 0.8 if size > 3 else 0.3, "clip_on": True}
-    axes.scatter(*goals.T, s=area, c=inks or None, marker="s", zorder=11, **look)  # type: ignore[arg-type]
-    axes.scatter(*starts.T, s=area, c="white", marker="o", zorder=11.5, **look)  # type: ignore[arg-type]
-    axes.scatter(*starts.T, s=0.4 * area, c=inks or None, marker="o", zorder=11.6, linewidths=0)
+    edge: dict[str, Any] = {"edgecolors": style.INK, "linewidths": 0.8 if size > 3 else 0.3}
+    bare: dict[str, Any] = {"linewidths": 0.0}
+    white = ["white"] * len(served)
+    _scatter(axes, goals, area, inks, marker="s", **edge)
+    _scatter(axes, starts, area, white, marker="o", **edge)
+    _scatter(axes, starts, 0.4 * area, inks, marker="o", **bare)
     handles: list[Artist] = [_key("o", "white", "start"), _key("s", "white", "goal")]
     places = np.vstack([starts, goals])
     if left:
         stuck = np.array([one.mission.route.start.at[:2] for one in left])
-        axes.scatter(
-            *stuck.T, s=1.6 * area, c=style.TIGHTEST, marker="X", edgecolors="white",
-            linewidths=0.7, zorder=12,
-        )  # fmt: skip
+        crossed = [style.TIGHTEST] * len(left)
+        _scatter(axes, stuck, 1.6 * area, crossed, marker="X", edgecolors="white", linewidths=0.7)
         handles.append(_key("X", style.TIGHTEST, f"not served: {len(left)}"))
         places = np.vstack([places, stuck])
     return handles, places
@@ -115,15 +116,25 @@ def draw_wait_arrows(
         when = 0.5 * (wait.begin + wait.end)
         tail = place_at(plan, name, when)
         head = place_at(plan, wait.other, wait.end)
-        _draw_arrow(axes, tail, head, colours[name])
+        _draw_arrow(axes, tail, head)
+        axes.plot(
+            *tail,
+            marker="o",
+            markersize=5.0,
+            markerfacecolor=colours[name],
+            zorder=13.5,
+            markeredgecolor=style.INK,
+            markeredgewidth=0.8,
+            linestyle="none",
+        )
         if rank < MAX_TOLD_WAITS and len(timelines) <= MAX_TOLD_APART:
             labels.add(f"{wait.lost:.1f} s", tail, rank=4, colour=colours[name], gap=7)
     if not waits:
         return []
-    words = "waits for (in the colour of who waits)"
+    words = "waits for"
     if sum(len(one.waits) for one in timelines) > len(waits):
         words = f"waits for; the {len(waits)} longest"
-    return [Line2D([], [], color=style.INK, marker=">", markersize=5, linewidth=1.3, label=words)]
+    return [Line2D([], [], color=style.INK, marker=">", markersize=5, linewidth=1.1, label=words)]
 
 
 def longest_waits(timelines: Sequence[Timeline]) -> list[tuple[str, Stretch]]:
@@ -142,9 +153,7 @@ def place_at(plan: FleetPlan, name: str, time: float) -> tuple[float, float]:
     return x, y
 
 
-def _draw_arrow(
-    axes: Axes, tail: tuple[float, float], head: tuple[float, float], colour: str
-) -> None:
+def _draw_arrow(axes: Axes, tail: tuple[float, float], head: tuple[float, float]) -> None:
     """An arrow that can be seen: a short one is drawn longer, from farther back."""
     ends = axes.transData.transform([tail, head])
     way = ends[1] - ends[0]
@@ -156,11 +165,15 @@ def _draw_arrow(
     start, end = (tuple(p) for p in axes.transData.inverted().transform(ends))
     axes.add_patch(
         FancyArrowPatch(
-            start, end, arrowstyle="-|>", mutation_scale=10, color=colour, linewidth=1.5,
+            start, end, arrowstyle="-|>", mutation_scale=10, color=style.INK, linewidth=1.1,
             connectionstyle="arc3,rad=0.18", zorder=13, shrinkA=0, shrinkB=0,
-            path_effects=[Stroke(linewidth=3.2, foreground="white"), Normal()],
+            path_effects=[Stroke(linewidth=2.6, foreground="white"), Normal()],
         )
     )  # fmt: skip
+
+
+def _scatter(axes: Axes, places: Floats, area: float, inks: Sequence[str], **look: Any) -> None:
+    axes.scatter(*places.T, s=area, c=list(inks) or None, zorder=11, **look)  # type: ignore[misc]
 
 
 def _key(marker: str, colour: str, label: str) -> Line2D:

@@ -78,8 +78,9 @@ def least_gap(places: Floats, bodies: Floats) -> float:
     from scipy.spatial import cKDTree
 
     tree = cKDTree(places)
-    apart, near = tree.query(places, k=2)
-    gap = float((apart[:, 1] - bodies - bodies[near[:, 1]]).min())
+    found = tree.query(places, k=2)
+    apart, near = np.asarray(found[0])[:, 1], np.asarray(found[1])[:, 1]
+    gap = float((apart - bodies - bodies[near]).min())
     if np.ptp(bodies) == 0.0:
         return gap
     # those whose centres are farther apart are no nearer, however large their bodies

@@ -1,4 +1,4 @@
-"""The page of a fleet's picture: the map with its legend, panels below it, times at the right.
+"""The page of a fleet's picture: the map with its legend, times at the right, further panels.
 
 Tested through ``report/fleet/test_fleet_picture``.
 """
@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
 from matplotlib.axes import Axes
 
 from viaspline.report.canvas import new_figure, tidy
@@ -31,7 +32,7 @@ class FleetPage:
 
     Attributes:
         sheet: The map with the column of its legend.
-        small: Panels below the map, from the left.
+        small: Panels below the map or below the times, from the left.
         rows: Who does what when.
         apart: The nearest two, over the same times.
     """
@@ -45,11 +46,11 @@ class FleetPage:
 def new_fleet_page(
     view: Box, small: Sequence[float], rows: int, title: str, subtitles: Sequence[str]
 ) -> FleetPage:
-    """A page for a view of the world.
+    """A page for a view of the world, as low as it can be.
 
     Args:
         view: What the map shows [m].
-        small: Widths of the panels below the map [inch].
+        small: Widths of the panels below the map, or below the times [inch].
         rows: How many robots have a row.
         title: Above it all.
         subtitles: Lines below the title.
@@ -57,18 +58,18 @@ def new_fleet_page(
     across, up = view[2] - view[0], view[3] - view[1]
     scale = min(WIDEST / across, TALLEST / up)  # inch per metre
     width, height = max(across * scale, NARROWEST), max(up * scale, LOWEST)
-    below = SMALL_TALL + BETWEEN + 0.25 if small else 0.0
-    whole = max(height + below, max(rows, 2) * ROW_TALL + APART_TALL + BETWEEN)
-    total_h = BOTTOM + whole + TOP
+    more = SMALL_TALL + BETWEEN if small else 0.0
+    times_tall = max(rows, 4) * ROW_TALL + BETWEEN + APART_TALL
+    is_below = max(height + more + 0.25, times_tall) < max(height, times_tall + more)
+    below, beside = (more + 0.25, 0.0) if is_below else (0.0, more)
+    whole = max(height + below, times_tall + beside)
     panels = sum(small) + BETWEEN * max(len(small) - 1, 0)
-    left_wide = max(width + COLUMN, panels + 0.3)
-    times = LEFT + left_wide + BETWEEN
-    total_w = times + TIMES_WIDE + 0.65
+    times = LEFT + max(width + COLUMN, panels + 0.3 if is_below else 0.0) + BETWEEN
+    total_w, total_h = times + TIMES_WIDE + 0.65, BOTTOM + whole + TOP
     figure = new_figure(total_w, total_h)
 
     def axes(left: float, bottom: float, wide: float, tall: float) -> Axes:
-        box = left / total_w, bottom / total_h, wide / total_w, tall / total_h
-        added = figure.add_axes(box)
+        added = figure.add_axes((left / total_w, bottom / total_h, wide / total_w, tall / total_h))
         tidy(added)
         return added
 
@@ -79,14 +80,14 @@ def new_fleet_page(
     drawn.set_ylim(middle[1] - height / scale / 2, middle[1] + height / scale / 2)
     drawn.set_xlabel("x, east [m]", labelpad=2)
     drawn.set_ylabel("y, north [m]", labelpad=2)
-    placed, left = [], LEFT
-    for wide in small:
-        placed.append(axes(left, bottom - below, wide, SMALL_TALL))
-        left += wide + BETWEEN
-    apart = axes(times, BOTTOM, TIMES_WIDE, APART_TALL)
-    tall = whole - APART_TALL - BETWEEN
-    row_axes = axes(times, BOTTOM + APART_TALL + BETWEEN, TIMES_WIDE, tall)
-    side = LEFT + width + 0.25, bottom - (0.0 if small else 0.4), COLUMN - 0.35, height
+    left, low = (LEFT, bottom - below) if is_below else (times, BOTTOM)
+    lefts = left + np.cumsum([0.0, *(wide + BETWEEN for wide in small)])
+    placed = [axes(*at, SMALL_TALL) for at in zip(lefts, [low] * len(small), small, strict=False)]
+    apart = axes(times, BOTTOM + beside, TIMES_WIDE, APART_TALL)
+    first = BOTTOM + beside + APART_TALL + BETWEEN
+    row_axes = axes(times, first, TIMES_WIDE, BOTTOM + whole - first)
+    side = LEFT + width + 0.25, 0.2 if not is_below else bottom, COLUMN - 0.35, 0.0
+    side = (*side[:3], BOTTOM + whole - side[1])
     sheet = Sheet(figure, drawn, (), side, scale * DPI)
     draw_heading(figure, title, subtitles)
     draw_scale_bar(sheet, scale, LEFT + width, total_h - TOP + 0.14)

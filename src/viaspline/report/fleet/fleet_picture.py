@@ -163,6 +163,6 @@ def _chart_keys() -> list[Artist]:
     own, other = ROBOT_COLOURS[0], ROBOT_COLOURS[1]
     return [
         Patch(facecolor=own, label="drives"),
-        Patch(facecolor="white", edgecolor=other, hatch="/////", label="waits or slows for another"),
+        Patch(facecolor="white", edgecolor=other, hatch="/////", label="waits, slows for another"),
         Patch(facecolor=STANDS_COLOUR, edgecolor=own, label="stands at a station"),
     ]  # fmt: skip
