@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Final
 
@@ -41,6 +42,7 @@ from viaspline.report.units import down, seconds
 from viaspline.world.world import World
 
 INSTANTS: Final = 700  # at which the nearest two are looked for
+NOTE_WIDTH: Final = 40  # letters of a line of the column
 PLACES: Final = 700_000  # of all robots at all these instants, at most
 
 
@@ -73,8 +75,11 @@ def fleet_picture(plan: FleetPlan, name: str) -> bytes:
     arrows = draw_wait_arrows(sheet.map, labels, plan, timelines, colours)
     labels.place(np.vstack([*paths, np.zeros((0, 2))]), places, marker_size=5.0)
     column = SideColumn(sheet)
-    column.legend([*_robots(timelines, colours), *marks, *arrows, *handles, *_chart_keys()])
-    column.notes("Not served", [f"{one.name}: {one.reason}" for one in plan.not_served])
+    column.legend(
+        [*_robots(timelines, colours), *marks, *arrows, *handles, *_chart_keys(timelines)]
+    )
+    why = [f"{one.name}: {one.reason}" for one in plan.not_served]
+    column.notes("Not served", [line for words in why for line in textwrap.wrap(words, NOTE_WIDTH)])
     panels = list(page.small)
     if pair:
         draw_coordination(panels.pop(0), plan, pair, colours)
@@ -158,11 +163,15 @@ def _robots(timelines: Sequence[Timeline], colours: Mapping[str, str]) -> list[A
     ]
 
 
-def _chart_keys() -> list[Artist]:
+def _chart_keys(timelines: Sequence[Timeline]) -> list[Artist]:
     """What the bars of the chart mean."""
     own, other = ROBOT_COLOURS[0], ROBOT_COLOURS[1]
-    return [
-        Patch(facecolor=own, label="drives"),
-        Patch(facecolor="white", edgecolor=other, hatch="/////", label="waits, slows for another"),
-        Patch(facecolor=STANDS_COLOUR, edgecolor=own, label="stands at a station"),
-    ]  # fmt: skip
+    looks: dict[str, Artist] = {
+        "drives": Patch(facecolor=own, label="drives"),
+        "waits": Patch(
+            facecolor="white", edgecolor=other, hatch="/////", label="waits, slows for another"
+        ),
+        "stands": Patch(facecolor=STANDS_COLOUR, edgecolor=own, label="stands at a station"),
+    }
+    met = {stretch.kind for one in timelines for stretch in one.stretches}
+    return [look for kind, look in looks.items() if kind in met]
