@@ -52,6 +52,7 @@ class FleetPlan:
         laws: When each robot is where on its course. Those that are not served stand at their
             starts for ever.
         rides: How each robot drives where nobody is in its way.
+        alone_laws: When it would be where if it were alone.
     """
 
     fleet: Fleet
@@ -64,6 +65,7 @@ class FleetPlan:
     crossings: FleetCrossings
     laws: FleetLaws
     rides: FleetRides
+    alone_laws: FleetLaws
 
     @property
     def served(self) -> bool:

@@ -119,4 +119,5 @@ def _planned(fleet: Fleet, timed: TimedFleet, laid: LaidPaths) -> FleetPlan:
         crossings=crossings,
         laws=timing.laws,
         rides=ways.rides,
+        alone_laws=alone,
     )
