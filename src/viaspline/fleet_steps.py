@@ -1,6 +1,6 @@
 """What the commands do with a fleet: check, plan and drive it, and write what comes of it.
 
-Tested through ``test_fleet_commands``.
+Tested through ``test_fleet_steps``.
 """
 
 from __future__ import annotations
