@@ -71,10 +71,16 @@ def crossings_of(
     first, near = near_pieces(pieces, grid, is_asked, max_boxes)
     if len(near) > max_boxes:
         raise _too_many(courses, pieces, first[1:], max_boxes)
-    box_first, whole, real = near_boxes(packed, pieces, first, near, max_boxes)
-    if len(whole) > max_boxes:
+    boxes = near_boxes(packed, pieces, first, near, max_boxes)
+    if len(boxes.cell) > max_boxes:
         raise _too_many(courses, pieces, np.diff(first), max_boxes)
-    return FleetCrossings(joined_boxes(packed, box_first, whole, real))
+    pairs, span, box_first, crossing, count = joined_boxes(packed, boxes)
+    return FleetCrossings(
+        PackedCrossings(
+            pairs, span, box_first, boxes.cell[:count], crossing[:count], boxes.other[:count],
+            boxes.low[:count], boxes.high[:count],
+        )
+    )  # fmt: skip
 
 
 def _flags(count: int, chosen: Ints) -> Flags:
