@@ -20,6 +20,9 @@ from viaspline.kernels.fleet.packed_pieces import PackedPieces, pieces_of
 MAX_BOXES = 50_000_000
 """How many boxes the crossings of a fleet may have: 2 GB."""
 
+BOXES_A_PAIR = 4
+"""How many boxes a pair of pieces that are near each other has at least, in the mean."""
+
 
 @dataclass(frozen=True, eq=False)
 class FleetCrossings:
@@ -68,8 +71,9 @@ def crossings_of(
         mark_neighbours(packed, np.ascontiguousarray(only, dtype=np.int64), takes_part)
     pieces = pieces_of(packed, takes_part)
     grid = grid_of(pieces)
-    first, near = near_pieces(pieces, grid, is_asked, max_boxes)
-    if len(near) > max_boxes:
+    max_pairs = max_boxes // BOXES_A_PAIR
+    first, near = near_pieces(pieces, grid, is_asked, max_pairs)
+    if len(near) > 2 * max_pairs:
         raise _too_many(courses, pieces, first[1:], max_boxes)
     boxes = near_boxes(packed, pieces, first, near, max_boxes)
     if len(boxes.cell) > max_boxes:
