@@ -37,6 +37,7 @@ if TYPE_CHECKING:
         ViasplineError,
     )
     from viaspline.fleet.execution.delays import Delays
+    from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
     from viaspline.fleet.execution.fleet_navigator import FleetNavigator
     from viaspline.fleet.execution.fleet_run import FleetRun
     from viaspline.fleet.execution.simulate_fleet import simulate_fleet
@@ -70,6 +71,7 @@ _HOMES = {
     "Command": "robot.state",
     "Delays": "fleet.execution.delays",
     "Fleet": "mission.fleet.fleet",
+    "FleetCommand": "fleet.execution.fleet_messages",
     "FleetNavigator": "fleet.execution.fleet_navigator",
     "FleetPlan": "fleet.fleet_plan",
     "FleetRun": "fleet.execution.fleet_run",
@@ -91,6 +93,7 @@ _HOMES = {
     "Path": "curve.path",
     "PiecewiseCubic": "curve.piecewise",
     "Plan": "planner",
+    "ProgressReport": "fleet.execution.fleet_messages",
     "PlanningError": "errors",
     "RobotState": "robot.state",
     "Run": "robot.run",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -61,7 +62,8 @@ class DrivenFleet:
         nodes = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
         return packed.distance[nodes], packed.place[nodes]
 
-    def laws_alone(self) -> PackedLaws:
+    @cached_property
+    def alone(self) -> PackedLaws:
         """The laws of robots that set out at 0 s and never wait for another."""
         first, rides = self.courses.packed.first, self.rides
         spent = np.concatenate(([0.0], np.cumsum(rides.lasts + rides.stays)[:-1]))

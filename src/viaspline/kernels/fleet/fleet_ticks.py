@@ -119,6 +119,7 @@ def fleet_ticks(
     dispatch = new_dispatch(orders, leaders, rides.depart)
     seen = leaders.copy()
     grants = np.zeros(count)
+    heard = np.full(count, -np.inf)
     waits = np.zeros(count, np.bool_)
     stretches, rows = new_floats(64 + 32 * count, 5), 0
     happened, events = new_floats(64, 5), 0
@@ -141,7 +142,7 @@ def fleet_ticks(
             place = drive.place[robot]
             if drive.arrived[robot] < np.inf and orders.vanishes[robot]:
                 place = np.inf
-            if take_report(dispatch, robot, place, grants[robot], now):
+            if take_report(dispatch, robot, place, grants[robot], heard[robot], now):
                 swapped += settle_recall(orders, dispatch, robot)
         if swap_every > 0 and tick % swap_every == 0:
             swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
@@ -162,6 +163,7 @@ def fleet_ticks(
             grant = grant_of(orders, dispatch, robot)
             if chance(trouble.seed, 2 * tick + 1, robot) < trouble.lost:
                 continue
+            heard[robot] = now
             room = 2.0 * rides.brake[robot] * (grant - drive.place[robot])
             if grant >= grants[robot] or drive.square[robot] <= room:
                 grants[robot] = grant
