@@ -1,9 +1,14 @@
+import sys
+from pathlib import Path
+
 import numpy as np
 from hypothesis import given, settings
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import shortest_path
 
-from kernels.fleet.lattice_oracles import problems
+sys.path.insert(0, str(Path(__file__).parent))
+from lattice_oracles import problems
+
 from viaspline.kernels.fleet.lattice_distances import FAR, lattice_distances
 
 

@@ -1,9 +1,13 @@
+import sys
 from collections import deque
+from pathlib import Path
 
 import numpy as np
 from hypothesis import assume, given, settings
 
-from kernels.fleet.lattice_oracles import is_a_way, keeps_a_step_apart, lattice_of, problems
+sys.path.insert(0, str(Path(__file__).parent))
+from lattice_oracles import is_a_way, keeps_a_step_apart, lattice_of, problems
+
 from viaspline.kernels.fleet.lacam import FOUND, lacam
 from viaspline.kernels.fleet.lattice_distances import FAR, lattice_distances
 from viaspline.kernels.fleet.lattice_table import spaced_out
