@@ -70,7 +70,9 @@ def test_robots_that_meet_nobody_keep_their_paths():
 
 
 def test_no_robots_have_no_paths():
-    assert lattice_paths({}, 0.0) == LatticePaths({}, {})
+    paths = lattice_paths({}, 0.0)
+    assert isinstance(paths, LatticePaths)
+    assert (paths.plans, paths.steps) == ({}, {})
 
 
 def test_robots_with_via_points_are_not_led_over_a_lattice():

@@ -97,15 +97,22 @@ def rides_in_order(
     keeps = np.ones(order.size, np.bool_)
     for robot in order:
         take_law(new_ride(courses, rides, robot), laws)
+    is_due = np.ones(order.size, np.bool_)
     for k in range(rounds):
         is_settled = True
         for robot in order:
+            if not is_due[robot]:
+                continue
+            is_due[robot] = False
             releases = _releases(courses, crossings, laws, second, robot)
             ride, keeps[robot] = _ride_after(courses, rides, robot, releases, 2 * k >= rounds)
             if _differs(ride, laws):
                 take_law(ride, laws)
                 is_settled = False
                 keeps[robot] = keeps[robot] and k + 1 < rounds
+                for b in range(crossings.box_first[robot], crossings.box_first[robot + 1]):
+                    if not second[b]:
+                        is_due[crossings.other[b]] = True
         if is_settled:
             break
     return keeps
