@@ -48,7 +48,8 @@ def crowd(count: int):
     starts = 4.0 * np.array([(i % side, i // side) for i in range(count)], float)
     random = np.random.default_rng(0)
     starts += random.normal(0, 0.01, starts.shape)
-    return {}, CROWD, list(zip(starts.tolist(), starts[random.permutation(count)].tolist()))
+    goals = starts[random.permutation(count)]
+    return {}, CROWD, list(zip(starts.tolist(), goals.tolist(), strict=True))
 
 
 def on_map(folder: Path, name: str, count: int):
