@@ -109,16 +109,14 @@ def run_fleet_file(
 
             folders = write_robots(planned, target, watch.fraction)
             contents = fleet_contents(planned, file.stem)
-            contents |= fleet_run_contents(done, fleet.separation_m, file.stem, seed=seed)
+            contents |= fleet_run_contents(done, file.stem, seed=seed)
         files = write_all(folder, contents, watch.times)
     if not quiet:
-        from viaspline.report.fleet_run_json import driven_certificate
         from viaspline.report.fleet_summary import fleet_plan_remarks
         from viaspline.report.fleet_tables import fleet_run_table, fleet_tables
         from viaspline.report.terminal_tables import show
 
-        proven = driven_certificate(done, fleet.separation_m)
-        show(fleet_tables(planned, file.stem), fleet_run_table(done, proven, file.stem))
+        show(fleet_tables(planned, file.stem), fleet_run_table(done, file.stem))
         say(*(f"note: {words}" for words in fleet_plan_remarks(fleet)))
         say_written(files)
         say_folders(folders)

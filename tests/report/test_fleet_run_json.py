@@ -9,13 +9,8 @@ import pytest
 from rich.console import Console
 
 import viaspline as vs
-from viaspline.fleet.execution.delays import Delays
-from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_run import FleetRun
-from viaspline.fleet.execution.simulate_fleet import drive_fleet
-from viaspline.fleet.plan_fleet import TimedFleet
 from viaspline.report.fleet_results import fleet_run_contents
-from viaspline.report.fleet_run_json import driven_certificate
 from viaspline.report.fleet_tables import fleet_run_table
 
 FLEET = {
@@ -31,14 +26,11 @@ FLEET = {
 @pytest.fixture(scope="module")
 def run() -> FleetRun:
     fleet = vs.Fleet.model_validate(FLEET)
-    plans = [vs.plan(one.mission) for one in fleet.members]
-    timed = TimedFleet.of(fleet.members, plans, fleet.separation_m)
-    driven = DrivenFleet(timed.courses, timed.crossings, timed.timing.laws, timed.rides.packed)
-    return drive_fleet(driven, Delays(slowed=0.3, halts=1, halts_s=10), seed=3)
+    return vs.simulate_fleet(fleet, vs.Delays(slowed=0.3, halts=1, halts_s=10), seed=3)
 
 
 def test_run_json_says_when_each_arrived_and_how_near_any_two_came(run: FleetRun) -> None:
-    data = json.loads(fleet_run_contents(run, 1.0, "yard", seed=3)["run.json"])
+    data = json.loads(fleet_run_contents(run, "yard", seed=3)["run.json"])
     assert data["fleet"] == {"name": "yard", "seed": 3}
     assert data["reached"] is True
     assert data["deadlock"] == []
@@ -53,7 +45,7 @@ def test_run_json_says_when_each_arrived_and_how_near_any_two_came(run: FleetRun
 
 def test_the_table_says_who_arrived_and_how_late(run: FleetRun) -> None:
     console = Console(width=160, record=True, file=StringIO())
-    console.print(fleet_run_table(run, driven_certificate(run, 1.0), "yard"))
+    console.print(fleet_run_table(run, "yard"))
     text = console.export_text()
     assert "2 of 2" in text
     assert "later than planned" in text

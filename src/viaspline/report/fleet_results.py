@@ -56,9 +56,9 @@ def fleet_contents(plan: FleetPlan, name: str) -> Contents:
     return {"fleet.json": fleet_json(plan, name, folders)}
 
 
-def fleet_run_contents(run: FleetRun, required: float, name: str, *, seed: int = 0) -> Contents:
+def fleet_run_contents(run: FleetRun, name: str, *, seed: int = 0) -> Contents:
     """The files of a drive of a fleet, without those of its plan: the same bytes every time."""
-    return {"run.json": fleet_run_json(run, required, name, seed=seed)}
+    return {"run.json": fleet_run_json(run, name, seed=seed)}
 
 
 def check_robot_folders(path: Path, robots: Iterable[str]) -> None:

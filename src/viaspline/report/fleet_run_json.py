@@ -6,27 +6,15 @@ Tested through ``report/test_fleet_run_json``.
 from __future__ import annotations
 
 from viaspline.fleet.execution.fleet_run import FleetRun
-from viaspline.fleet.fleet_certificate import FleetCertificate, certify_fleet
 from viaspline.report.fleet_json import certificate_of_fleet
 from viaspline.report.json_text import dumps
 
 
-def driven_certificate(run: FleetRun, required: float) -> FleetCertificate:
-    """What is proven of the distance between robots as they were driven.
-
-    Args:
-        run: What was driven.
-        required: The free space that was asked for [m].
-    """
-    return certify_fleet(run.courses, run.laws, required)
-
-
-def fleet_run_json(run: FleetRun, required: float, name: str, *, seed: int = 0) -> str:
+def fleet_run_json(run: FleetRun, name: str, *, seed: int = 0) -> str:
     """The text of ``run.json``.
 
     Args:
         run: What was driven.
-        required: The free space between two bodies that was asked for [m].
         name: The fleet's name.
         seed: Of what was random.
     """
@@ -37,7 +25,7 @@ def fleet_run_json(run: FleetRun, required: float, name: str, *, seed: int = 0) 
             "duration_s": run.end_s,
             "mean_delay_s": run.mean_delay,
             "deadlock": run.deadlock,
-            "certificate": certificate_of_fleet(driven_certificate(run, required)),
+            "certificate": certificate_of_fleet(run.certificate),
             "robots": [
                 {
                     "name": robot,

@@ -58,19 +58,18 @@ def _apart(certificate: FleetCertificate) -> Iterator[tuple[str, str]]:
         yield "nearest", f"'{first}' at {place(where)} and '{second}' at {place(there)}, {when}"
 
 
-def fleet_run_table(run: FleetRun, certificate: FleetCertificate, name: str) -> RenderableType:
+def fleet_run_table(run: FleetRun, name: str) -> RenderableType:
     """Who arrived and how late, and how near any two robots came.
 
     Args:
         run: What was driven.
-        certificate: What is proven of it.
         name: The fleet's name.
     """
     facts = facts_table(f"Run · {name}")
     facts.add_row("arrived", f"{len(run.arrivals)} of {len(run.names)}")
     facts.add_row("ended", f"after {seconds(run.end_s)}")
     facts.add_row("later than planned", f"{seconds(run.mean_delay)} in the mean")
-    for title, words in _apart(certificate):
+    for title, words in _apart(run.certificate):
         facts.add_row(title, words)
     kinds = Counter(event.kind for event in run.events if event.kind != "arrived")
     for kind, many in kinds.items():
