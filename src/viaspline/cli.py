@@ -71,7 +71,8 @@ def run(
     r"""Plan a mission, drive it and report: the main job.
 
     Writes plan.json, path.csv, plan.png, run.json, run.csv, run.png and timing.json; of a fleet
-    fleet.json and timing.json, and for each robot a folder with its plan.json and path.csv.
+    fleet.json, run.json and timing.json, and for each robot a folder with its plan.json and
+    path.csv.
 
     \b
     Example:
@@ -88,7 +89,12 @@ def run(
             asked, mission, out, seed=seed, animate=animate, real_time=real_time, quiet=quiet
         )
         return
-    raise click.UsageError("a fleet is planned, not driven yet: viaspline plan FILE")
+    if real_time or animate is not None:
+        option = "--real-time" if real_time else "--animate"
+        raise click.UsageError(f"{option} is for the mission of one robot; this is a fleet")
+    from viaspline.fleet_commands import run_fleet_file
+
+    run_fleet_file(asked, mission, out, improve=improve, seed=seed, quiet=quiet)
 
 
 @cli.command()
