@@ -8,7 +8,6 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from viaspline.fleet.execution.fleet_run import FleetRun
-from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.timelines import Timeline
 from viaspline.report import style
@@ -35,7 +34,7 @@ def fleet_run_picture(plan: FleetPlan, run: FleetRun, name: str) -> bytes:
         name: What the fleet is called.
     """
     scene, view = scene_of(plan)
-    certificate = certify_fleet(run.courses, run.laws, plan.fleet.separation_m)
+    certificate = run.certificate
     begin, _ = span_of(plan)
     times = instants(begin, run.end_s, len(plan.names), certificate.at_s)
     motion = FleetMotion.of_run(plan, run, times)
