@@ -62,7 +62,7 @@ def test_plan_writes_the_fleet_and_a_folder_for_each_robot(fleet: Path, tmp_path
     assert result.exit_code == 0, result.stderr
     files = {file.relative_to(out).as_posix() for file in out.rglob("*") if file.is_file()}
     assert files == {
-        "fleet.json", "timing.json", "east/plan.json", "east/path.csv", "north/plan.json",
+        "fleet.json", "fleet.png", "timing.json", "east/plan.json", "east/path.csv", "north/plan.json",
         "north/path.csv",
     }  # fmt: skip
     assert json.loads((out / "fleet.json").read_text())["served"] is True
@@ -125,7 +125,6 @@ def test_options_of_one_kind_of_file_are_refused_with_the_other(
         (("plan", fleet, "--improve", -1), "is not in the range"),
         (("tension", fleet), "this is a fleet"),
         (("run", fleet, "--real-time"), "--real-time is for the mission of one robot"),
-        (("run", fleet, "--animate", "a.gif"), "--animate is for the mission of one robot"),
     ):
         result = call(*arguments)
         assert result.exit_code == 2

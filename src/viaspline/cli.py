@@ -71,8 +71,8 @@ def run(
     r"""Plan a mission, drive it and report: the main job.
 
     Writes plan.json, path.csv, plan.png, run.json, run.csv, run.png and timing.json; of a fleet
-    fleet.json, run.json and timing.json, and for each robot a folder with its plan.json and
-    path.csv.
+    fleet.json, fleet.png, run.json, run.png and timing.json, and for each robot a folder with its
+    plan.json and path.csv.
 
     \b
     Example:
@@ -89,12 +89,11 @@ def run(
             asked, mission, out, seed=seed, animate=animate, real_time=real_time, quiet=quiet
         )
         return
-    if real_time or animate is not None:
-        option = "--real-time" if real_time else "--animate"
-        raise click.UsageError(f"{option} is for the mission of one robot; this is a fleet")
+    if real_time:
+        raise click.UsageError("--real-time is for the mission of one robot; this is a fleet")
     from viaspline.fleet_steps import run_fleet_file
 
-    run_fleet_file(asked, mission, out, improve=improve, seed=seed, quiet=quiet)
+    run_fleet_file(asked, mission, out, improve=improve, seed=seed, animate=animate, quiet=quiet)
 
 
 @cli.command()
@@ -105,8 +104,8 @@ def run(
 def plan(mission: Path, out: Path | None, improve: float, quiet: bool) -> None:
     r"""Plan a mission: the path, its proof and what it was chosen from.
 
-    Writes plan.json, path.csv, plan.png and timing.json; of a fleet fleet.json and timing.json, and
-    for each robot a folder with its plan.json and path.csv.
+    Writes plan.json, path.csv, plan.png and timing.json; of a fleet fleet.json, fleet.png and
+    timing.json, and for each robot a folder with its plan.json and path.csv.
 
     \b
     Example:

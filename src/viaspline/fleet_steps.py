@@ -12,7 +12,13 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
-from viaspline.command_steps import default_folder, progress_bar, result_folder, say_written
+from viaspline.command_steps import (
+    default_folder,
+    film_file,
+    progress_bar,
+    result_folder,
+    say_written,
+)
 from viaspline.exit_codes import GAVE_UP, NO_PATH, NOT_REACHED
 from viaspline.report.terminal_lines import say, say_error
 
@@ -74,8 +80,9 @@ def plan_fleet_file(
 
 
 def run_fleet_file(
-    fleet: Fleet, file: Path, out: Path | None, *, improve: float, seed: int, quiet: bool
-) -> None:
+    fleet: Fleet, file: Path, out: Path | None, *,
+    improve: float, seed: int, animate: Path | None, quiet: bool,
+) -> None:  # fmt: skip
     """Plan a fleet, drive it, write the files of both and say what came of it.
 
     Args:
@@ -84,6 +91,7 @@ def run_fleet_file(
         out: The folder for the results; None: the usual one.
         improve: For so long sooner orders are sought [s].
         seed: Of what is random.
+        animate: The file of a film; None: there is none.
         quiet: Say nothing when all goes well.
     """
     from viaspline.report.fleet_results import FLEET_RUN_FILES, check_robot_folders
@@ -91,6 +99,7 @@ def run_fleet_file(
     target = out or default_folder(file)
     with (
         result_folder(target, FLEET_RUN_FILES) as folder,
+        film_file(animate) as film,
         progress_bar(quiet, fleet.members[0].mission.robot) as watch,
     ):
         check_robot_folders(target, (one.name for one in fleet.members))
@@ -109,7 +118,13 @@ def run_fleet_file(
 
             folders = write_robots(planned, target, watch.fraction)
             contents = fleet_contents(planned, file.stem)
-            contents |= fleet_run_contents(done, file.stem, seed=seed)
+            contents |= fleet_run_contents(planned, done, file.stem, seed=seed)
+            if film is not None:
+                from viaspline.report.fleet.fleet_film import FilmedFleet, film_fleet
+
+                with watch.stage("animate", f"filming {film.path.name}"):
+                    filmed = FilmedFleet.of_run(planned, done, file.stem)
+                    film_fleet(filmed, film, watch.fraction)
         files = write_all(folder, contents, watch.times)
     if not quiet:
         from viaspline.report.fleet_summary import fleet_plan_remarks
@@ -118,7 +133,7 @@ def run_fleet_file(
 
         show(fleet_tables(planned, file.stem), fleet_run_table(done, file.stem))
         say(*(f"note: {words}" for words in fleet_plan_remarks(fleet)))
-        say_written(files)
+        say_written([*files, *([] if film is None else [film.path])])
         say_folders(folders)
     end_unserved(planned)
     end_not_reached(done)

@@ -10,7 +10,7 @@ from rich.console import Console
 
 import viaspline as vs
 from viaspline.fleet.execution.fleet_run import FleetRun
-from viaspline.report.fleet_results import fleet_run_contents
+from viaspline.report.fleet_run_json import fleet_run_json
 from viaspline.report.fleet_tables import fleet_run_table
 
 FLEET = {
@@ -30,7 +30,7 @@ def run() -> FleetRun:
 
 
 def test_run_json_says_when_each_arrived_and_how_near_any_two_came(run: FleetRun) -> None:
-    data = json.loads(fleet_run_contents(run, "yard", seed=3)["run.json"])
+    data = json.loads(fleet_run_json(run, "yard", seed=3))
     assert data["fleet"] == {"name": "yard", "seed": 3}
     assert data["reached"] is True
     assert data["deadlock"] == []
