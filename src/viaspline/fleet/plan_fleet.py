@@ -12,7 +12,7 @@ from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_laws import static_laws
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
-from viaspline.fleet.laying.lay_paths import lay_paths
+from viaspline.fleet.laying.lay_paths import LaidPaths, lay_paths
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.rides import FleetRides, rides_of
@@ -72,7 +72,10 @@ class TimedFleet:
 
 
 def plan_fleet(
-    fleet: Fleet, improve: float = 0.0, progress: FleetProgress | None = None
+    fleet: Fleet,
+    improve: float = 0.0,
+    progress: FleetProgress | None = None,
+    laid: LaidPaths | None = None,
 ) -> FleetPlan:
     """Plan a fleet: a path for each robot, when it drives along it, and the proof of both.
 
@@ -84,6 +87,7 @@ def plan_fleet(
         fleet: What is asked for.
         improve: For so long sooner orders are sought [s, on the reference machine].
         progress: See ``FleetProgress``.
+        laid: The paths of the very fleet, if they are laid already.
 
     Returns:
         The plans of those that are served, proven apart, and why the others are not.
@@ -111,7 +115,8 @@ def plan_fleet(
         if progress is not None:
             progress(stage, share)
 
-    laid = lay_paths(fleet, lambda done, of: tell("laying paths", done / of))
+    if laid is None:
+        laid = lay_paths(fleet, lambda done, of: tell("laying paths", done / of))
     members = [one for one in fleet.members if one.name in laid.plans]
     tell("timing", 0.0)
     timed = TimedFleet.of(members, [laid.plans[one.name] for one in members], fleet.separation_m)
