@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from viaspline.errors import GeometryError
 from viaspline.fleet.courses import FleetCourses, courses_of
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
@@ -96,11 +98,11 @@ def plan_fleet(
         GeometryError: ``improve`` is no finite number of 0 or more.
 
     Example:
-        >>> from viaspline.mission.model import Mission
-        >>> mission = lambda start, goal: Mission.model_validate(
-        ...     {"route": {"start": start, "goal": goal}})
-        >>> a, b = mission((0, 0), (40, 0)), mission((20, -20), (20, 20))
-        >>> plan = plan_fleet(Fleet((FleetMember("a", a), FleetMember("b", b)), 1.0))
+        >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
+        ...     {"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}},
+        ...     {"name": "b", "route": {"start": [20, -20], "goal": [20, 20]}},
+        ... ]})
+        >>> plan = plan_fleet(fleet)
         >>> plan.served, plan.certificate.separation >= 1.0
         (True, True)
         >>> [(one.first, one.second) for one in plan.precedences]
@@ -108,6 +110,8 @@ def plan_fleet(
     """
     check_kind("fleet", fleet, Fleet, "give Fleet.model_validate({...}) or load(file)")
     improve = number_from("improve", improve)
+    if not 0.0 <= improve < math.inf:
+        raise GeometryError(f"improve is {improve}; give a finite number of seconds, 0 or more")
     if progress is not None:
         check_callable("progress", progress, "give a function of words and a share")
 

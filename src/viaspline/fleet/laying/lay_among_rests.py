@@ -17,6 +17,7 @@ import numpy as np
 
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces
+from viaspline.fleet.laying.step_aside import can_step_aside, stepped_aside
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.circle import Circle
@@ -62,20 +63,57 @@ def lay_among_rests(
         rests: Of all robots.
     """
     own = rests.of_robot(name)
-    round_them: set[int] = set()
     past = _at_its_points(mission, reach, rests)
+    if not rests.near(alone.path.spans, reach + ENOUGH_MORE_M, own | past).size:
+        plan = alone
+    else:
+        plan = _bent(alone, reach, rests, own | past) or _anew(
+            alone, mission, reach, rests, own, past
+        )
+    passed = rests.near(plan.path.spans, reach, own).tolist()
+    return LaidPath(plan, tuple(rests.places[k] for k in passed))
+
+
+def _bent(alone: Plan, reach: float, rests: RestingPlaces, out: frozenset[int]) -> Plan | None:
+    """The plan that steps aside for resting places; None if there is none.
+
+    Args:
+        alone: As if there were no resting places.
+        reach: Of the robot [m].
+        rests: All resting places,
+        out: but not these.
+    """
+    if not can_step_aside(alone):
+        return None
+    near = rests.near(alone.path.spans, reach + IN_SIGHT_M, out)
+    discs = rests.rows[near].copy()
+    discs[:, 2] += reach + KEPT_MORE_M
+    plan = stepped_aside(alone, discs)
+    if plan is None or rests.near(plan.path.spans, reach + ENOUGH_MORE_M, out).size:
+        return None
+    return plan
+
+
+def _anew(
+    alone: Plan,
+    mission: Mission,
+    reach: float,
+    rests: RestingPlaces,
+    own: frozenset[int],
+    past: frozenset[int],
+) -> Plan:
+    """The plan that is laid anew among resting places, round as many as there is a way round."""
+    round_them: set[int] = set()
     plan = alone
     for _ in range(MAX_ROUNDS):
         out = own | past | round_them
-        met = rests.near(plan.path.spans, reach + ENOUGH_MORE_M, out)
-        if not met.size:
+        if not rests.near(plan.path.spans, reach + ENOUGH_MORE_M, out).size:
             break
         seen = rests.near(plan.path.spans, reach + IN_SIGHT_M, out)
         round_them.update(seen.tolist())
         plan, past = _laid(alone, mission, reach, rests, round_them, past)
         round_them -= past
-    passed = rests.near(plan.path.spans, reach, own).tolist()
-    return LaidPath(plan, tuple(rests.places[k] for k in passed))
+    return plan
 
 
 def _at_its_points(mission: Mission, reach: float, rests: RestingPlaces) -> frozenset[int]:

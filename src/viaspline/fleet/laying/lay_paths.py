@@ -129,9 +129,10 @@ def _shared_world(mission: Mission, shared: list[tuple[Mission, World]]) -> Worl
 
 def not_served(name: str, error: PlanningError | GeometryError) -> NotServed:
     """What is told of a robot that has no path."""
+    if isinstance(error, GaveUpError):
+        return NotServed(name, "gave up", error.reason, error.remedy)
     if isinstance(error, PlanningError):
-        outcome = "gave up" if isinstance(error, GaveUpError) else "refused"
-        return NotServed(name, outcome, error.reason, error.remedy)
+        return NotServed(name, "refused", error.reason, error.remedy)
     reason, _, remedy = str(error).partition("; ")
     return NotServed(name, "refused", reason, remedy)
 

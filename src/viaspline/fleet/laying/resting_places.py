@@ -86,7 +86,8 @@ class RestingPlaces:
 
     @cached_property
     def _sorted_x(self) -> Floats:
-        return self.rows[self._by_x, 0]
+        ordered: Floats = self.rows[self._by_x, 0]
+        return ordered
 
     @cached_property
     def _owners(self) -> dict[str, frozenset[int]]:
@@ -121,10 +122,11 @@ class RestingPlaces:
         low, high = spans[..., :2].min(axis=(0, 1)), spans[..., :2].max(axis=(0, 1))
         widest = reach + float(self.rows[:, 2].max())
         ends = np.searchsorted(self._sorted_x, (low[0] - widest, high[0] + widest))
-        found = np.sort(self._by_x[ends[0] : ends[1]])
+        found: Ints = np.sort(self._by_x[ends[0] : ends[1]])
         grown = reach + self.rows[found, 2]
         y = self.rows[found, 1]
-        return found[(y >= low[1] - grown) & (y <= high[1] + grown)]
+        inside: Ints = found[(y >= low[1] - grown) & (y <= high[1] + grown)]
+        return inside
 
 
 def all_rests(members: Sequence[FleetMember], reaches: Sequence[float]) -> RestingPlaces:

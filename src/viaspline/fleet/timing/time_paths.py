@@ -65,7 +65,9 @@ def time_paths(
         learned = [
             (robot, other) for robot, other in found.blocked.items() if other not in left_out
         ]
-        pairs = np.unique(np.concatenate([asked, np.array(learned, np.int64).reshape(-1, 2)]), 0)
+        pairs = np.unique(
+            np.concatenate([asked, np.array(learned, np.int64).reshape(-1, 2)]), axis=0
+        )
         if len(pairs) == len(asked):
             break
         asked = pairs
