@@ -17,7 +17,7 @@ import numpy as np
 from viaspline.curve.path import Path, PathVia
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.sidestep import ASIDE, FREE, KEPT, step_aside
+from viaspline.kernels.fleet.sidestep import ASIDE, FIXED, FREE, KEPT, step_aside
 from viaspline.machine.allowance import allowance
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.robot_model import is_driven
@@ -65,8 +65,8 @@ def stepped_aside(plan: Plan, discs: Floats) -> Plan | None:
     requirements = Requirements.of(plan.mission, plan.tracking_error)
     limits = limits_of(robot)
     spans, marks, is_clear = step_aside(
-        world.packed, plan.path.spans.copy(), _marks(plan.path), discs, requirements.required,
-        _bend(limits),
+        world.packed, plan.path.spans.copy(), _marks(plan.path, plan.mission), discs,
+        requirements.required, _bend(limits),
     )  # fmt: skip
     if not is_clear:
         return None
@@ -98,12 +98,14 @@ def _bend(limits: Limits) -> float:
     return min(by_accel, by_yaw, SHARPEST_PER_M)
 
 
-def _marks(path: Path) -> Ints:
+def _marks(path: Path, mission: Mission) -> Ints:
     """The joints of a path as the kernel takes them."""
     marks = np.full(len(path.spans) + 1, FREE, np.int64)
-    marks[[0, -1]] = KEPT
     for via in path.vias:
         marks[round(via.u)] = KEPT if via.kind == "user" else ASIDE
+    route = mission.route
+    marks[0] = KEPT if route.start.heading_deg is None else FIXED
+    marks[-1] = KEPT if route.goal is None or route.goal.heading_deg is None else FIXED
     return marks
 
 
@@ -111,8 +113,8 @@ def _vias(path: Path, spans: Floats, marks: Ints) -> Iterator[PathVia]:
     """The via points of a path that has stepped aside."""
     kept = iter([via for via in path.vias if via.kind == "user"])
     for joint, mark in enumerate(marks.tolist()):
-        if mark == KEPT:
+        if mark in (KEPT, FIXED):
             yield replace(next(kept), u=float(joint))
         elif mark == ASIDE:
-            x, y = spans[joint, 0].tolist()
+            x, y = spans[joint, 0].tolist() if joint < len(spans) else spans[-1, 3].tolist()
             yield PathVia("detour", (x, y), "detour", float(joint))

@@ -1,8 +1,9 @@
 """Paths that step aside for discs: bent by just so much, where they come too near.
 
-A step aside adds a cubic B-spline's basis function, scaled, across the path: it begins and ends
-without an offset, a slope or a bend, and is as far aside as it takes beside the disc. The path is
-cut where that function has its knots; each piece is the cubic with the offset's ends and slopes.
+A step aside has two halves, before and behind the place that is farthest aside. Where there is room
+each is half of a cubic B-spline's basis function, scaled, across the path: it begins without an
+offset, a slope or a bend. Where a via point is too near for that, the path swings through it: it
+runs through the via point in another direction, and swings out a little on its far side.
 
 Tested through ``fleet/laying/test_step_aside``.
 """
@@ -18,14 +19,16 @@ from viaspline.kernels.clearance.disc import conflicts
 from viaspline.kernels.jit import inlined, inner, kernel
 from viaspline.kernels.world.packed import PackedWorld
 
-FREE, KEPT, ASIDE = 0, 1, 2
-"""Marks of joints."""
+FREE, KEPT, FIXED, ASIDE = 0, 1, 2, 3
+"""Marks of joints: where a path runs through the place, where it does so in this direction."""
 CLEAR = -1
 """What a span comes too close to, where that is nothing."""
 MAX_STEPS_EACH = 3
 """Steps aside for each disc, on average, after which it is given up."""
-MAX_WIDENINGS = 4
+MAX_WIDENINGS = 8
 """How often a step aside is made wider that isn't wide enough."""
+WIDENED = 1.5
+"""By how much of what it lacks it is made wider: it is narrower beside its widest place."""
 TOUCH_M = 1e-4
 """By which a step aside is too wide, so that the next look finds it wide enough."""
 LOOKS_APART_M = 2.0
@@ -38,7 +41,13 @@ LEAST_KEPT = 0.2
 ONE_MORE_M = 100.0
 """What it costs to come too near to another disc, beside being so far aside [m]."""
 SHORTEST = 0.6
-"""The shortest half of a step aside, of the one that bends no more than the disc."""
+"""The shortest half of a step aside, of the one that bends no more than the disc,"""
+SHORTEST_SWING = 0.3
+"""and that of one that swings through a via point."""
+GENTLE = 0.7
+"""Of the half that is wanted, from which on a path doesn't swing through a via point for more."""
+STEEPEST = 1.8
+"""The greatest slope with which a path swings through a via point, to the path as it was."""
 
 
 @inlined
@@ -130,42 +139,37 @@ def _walk(
             return k, w, far
         gone += rest
         joint = k + 1 if ahead else k
-        if marks[joint] == KEPT or joint == 0 or joint == count:
+        if marks[joint] == KEPT or marks[joint] == FIXED:
             return k, 1.0 if ahead else 0.0, gone
         k, w = (k + 1, 0.0) if ahead else (k - 1, 1.0)
 
 
 @inlined
-def _aside(t: float) -> float:
-    """The share of a step aside at a share of its half, 0 being where it is widest."""
-    x = 2.0 * abs(t)
-    if x >= 2.0:
-        return 0.0
-    if x >= 1.0:
-        return 0.25 * (2.0 - x) ** 3
-    return 1.0 - 1.5 * x * x + 0.75 * x * x * x
+def _aside(x: float, half: float, beyond: float) -> tuple[float, float]:
+    """How far aside a path is, as a share of the most, and its slope away from there [1/m].
 
-
-@inlined
-def _slope_aside(t: float) -> float:
-    """Its derivative by t."""
-    x = 2.0 * abs(t)
-    if x >= 2.0:
-        return 0.0
-    slope = -0.75 * (2.0 - x) ** 2 if x >= 1.0 else -3.0 * x + 2.25 * x * x
-    return 2.0 * slope if t >= 0.0 else -2.0 * slope
+    Args:
+        x: How far from the place that is farthest aside [m], at least 0.
+        half: How long this half is, to the via point if it swings through that [m].
+        beyond: How far it swings out behind that [m]; negative if it doesn't swing at all.
+    """
+    t = x / half
+    if beyond >= 0.0:
+        if t < 1.0:
+            return 1.0 - 1.5 * t * t + 0.5 * t * t * t, (-3.0 * t + 1.5 * t * t) / half
+        z = min((x - half) / beyond, 1.0) if beyond > 0.0 else 0.0
+        steep = -1.5 / half
+        return steep * beyond * z * (1.0 - z) ** 2, steep * (1.0 - z) * (1.0 - 3.0 * z)
+    if t >= 1.0:
+        return 0.0, 0.0
+    if t >= 0.5:
+        return 2.0 * (1.0 - t) ** 3, -6.0 * (1.0 - t) ** 2 / half
+    return 1.0 - 6.0 * t * t + 6.0 * t * t * t, (-12.0 * t + 18.0 * t * t) / half
 
 
 @inner
-def _shift(piece: Floats, wide: float, t0: float, t1: float, half: float) -> bool:
-    """Move a piece of a path aside: its ends by their offsets, its tangents by their slopes.
-
-    Args:
-        piece: As a span, (4, 2) [m]; it is changed.
-        wide: How far aside, to the left, where that is most [m].
-        t0: Where its first end is, as a share of that half of the step aside,
-        t1: and where its last end is.
-        half: How long that half is [m].
+def _shift(piece: Floats, out0: float, slope0: float, out1: float, slope1: float) -> bool:
+    """Move a piece of a path to the left: its ends by offsets [m], its tangents by slopes.
 
     Returns:
         Whether it goes on in its direction: it doesn't where the path bends too sharply that way.
@@ -178,8 +182,6 @@ def _shift(piece: Floats, wide: float, t0: float, t1: float, half: float) -> boo
         return False
     bend0 = 2.0 / 3.0 * (d01x * d12y - d01y * d12x) / first**3
     bend1 = 2.0 / 3.0 * (d12x * d23y - d12y * d23x) / last**3
-    out0, out1 = wide * _aside(t0), wide * _aside(t1)
-    slope0, slope1 = wide * _slope_aside(t0) / half, wide * _slope_aside(t1) / half
     keep0, keep1 = 1.0 - bend0 * out0, 1.0 - bend1 * out1
     if keep0 < LEAST_KEPT or keep1 < LEAST_KEPT:
         return False
@@ -250,9 +252,72 @@ def _copy(spans: Floats, marks: Ints, count: int, to_spans: Floats, to_marks: In
 
 
 @inner
+def _half(
+    spans: Floats, marks: Ints, count: int, apex: int, ahead: bool, wide: float, shortest: float,
+    bend: float,
+) -> tuple[float, float]:  # fmt: skip
+    """How one half of a step aside is: how long, and how far it swings out beyond [m].
+
+    Args:
+        spans: The path,
+        marks: its joints,
+        count: and how many spans it has.
+        apex: The joint that is to be farthest aside.
+        ahead: Which half.
+        wide: How far aside [m].
+        shortest: A half that bends no more than the disc [m].
+        bend: The curvature that a step aside has where there is room [1/m].
+
+    Returns:
+        See ``_aside``; a length of 0 where there is no room.
+    """
+    wanted = max(shortest, math.sqrt(12.0 * abs(wide) / bend))
+    k, w = (apex, 0.0) if ahead else (apex - 1, 1.0)
+    k, _, room = _walk(spans, count, marks, k, w, wanted, ahead)
+    if room >= GENTLE * wanted:
+        return room, -1.0
+    joint = k + 1 if ahead else k
+    is_end = joint == 0 or joint == count
+    steep = 1.5 * abs(wide) / max(room, TOUCH_M)
+    if marks[joint] == FIXED or steep > STEEPEST or room < SHORTEST_SWING * shortest:
+        return room if room >= SHORTEST * shortest else 0.0, -1.0
+    if is_end:
+        return room, 0.0
+    k, w = (joint, 0.0) if ahead else (joint - 1, 1.0)
+    _, _, beyond = _walk(spans, count, marks, k, w, 4.0 * steep / bend, ahead)
+    if beyond < room:
+        return room if room >= SHORTEST * shortest else 0.0, -1.0
+    return room, beyond
+
+
+@inner
+def _cut_half(
+    spans: Floats, marks: Ints, count: int, apex: int, ahead: bool, half: float, beyond: float
+) -> tuple[int, int]:
+    """Cut a path where one half of a step aside has its knots.
+
+    Returns:
+        (the joint where the half ends, how many spans there are now). Behind a cut joints count on.
+    """
+    had = count
+    k, w = (apex, 0.0) if ahead else (apex - 1, 1.0)
+    at_k, at_w, _ = _walk(spans, count, marks, k, w, half, ahead)
+    joint, count = _split(spans, marks, count, at_k, at_w)
+    if beyond > 0.0:
+        k, w = (joint, 0.0) if ahead else (joint - 1, 1.0)
+        at_k, at_w, _ = _walk(spans, count, marks, k, w, beyond, ahead)
+        joint, count = _split(spans, marks, count, at_k, at_w)
+    k, w = (apex, 0.0) if ahead else (apex + count - had - 1, 1.0)
+    before = count
+    at_k, at_w, _ = _walk(spans, count, marks, k, w, 0.5 * half, ahead)
+    _, count = _split(spans, marks, count, at_k, at_w)
+    return joint + count - before if ahead else joint, count
+
+
+@inner
 def _moved(
-    spans: Floats, marks: Ints, count: int, k: int, w: float, wide: float, half: float,
-    shortest: float,
+    spans: Floats, marks: Ints, count: int, k: int, w: float, wide: float, shortest: float,
+    bend: float,
 ) -> tuple[int, int, int]:  # fmt: skip
     """Step aside at a place of a path.
 
@@ -263,40 +328,46 @@ def _moved(
         k: The span on which the path is to be farthest aside,
         w: and where on it.
         wide: How far, to the left [m].
-        half: How long either half may be [m],
-        shortest: and has to be [m].
+        shortest: A half that bends no more than the disc [m].
+        bend: The curvature that a step aside has where there is room [1/m].
 
     Returns:
         (how many spans there are now, the first that is moved, the first behind that isn't);
-        nothing is moved where a half would be too short or the path bends too sharply.
+        nothing is moved where there is no room or the path bends too sharply.
     """
     apex, count = _split(spans, marks, count, k, w)
-    if marks[apex] == KEPT or apex == 0 or apex == count:
+    if marks[apex] == KEPT or marks[apex] == FIXED:
         return count, 0, 0
-    at_k, at_w, after = _walk(spans, count, marks, apex, 0.0, half, True)
-    last, count = _split(spans, marks, count, at_k, at_w)
-    at_k, at_w, _ = _walk(spans, count, marks, apex, 0.0, 0.5 * after, True)
+    after, swing_after = _half(spans, marks, count, apex, True, wide, shortest, bend)
+    before, swing_before = _half(spans, marks, count, apex, False, wide, shortest, bend)
+    if min(before, after) <= 0.0:
+        return count, 0, 0
+    last, count = _cut_half(spans, marks, count, apex, True, after, swing_after)
     had = count
-    _, count = _split(spans, marks, count, at_k, at_w)
-    last += count - had
-    at_k, at_w, before = _walk(spans, count, marks, apex - 1, 1.0, half, False)
-    had = count
-    first, count = _split(spans, marks, count, at_k, at_w)
-    apex, last, had = apex + count - had, last + count - had, count
-    at_k, at_w, _ = _walk(spans, count, marks, apex - 1, 1.0, 0.5 * before, False)
-    _, count = _split(spans, marks, count, at_k, at_w)
+    first, count = _cut_half(spans, marks, count, apex, False, before, swing_before)
     apex, last = apex + count - had, last + count - had
-    if min(before, after) < shortest:
-        return count, 0, 0
-    gone = -before
-    for i in range(first, last):
-        long = _length(spans[i], 0.0, 1.0)
-        half = before if i < apex else after
-        t0 = gone / half
-        t1 = (gone + long) / half if i + 1 != apex else 0.0
-        if not _shift(spans[i], wide, t0, 1.0 if i + 1 == last else t1, half):
+    x = 0.0
+    for i in range(apex, last):
+        out0, slope0 = _aside(x, after, swing_after)
+        x += _length(spans[i], 0.0, 1.0)
+        out1, slope1 = _aside(x, after, swing_after)
+        if i + 1 == last and swing_after != 0.0:
+            out1, slope1 = 0.0, 0.0
+        out0 = 0.0 if marks[i] == KEPT else out0
+        out1 = 0.0 if marks[i + 1] == KEPT else out1
+        if not _shift(spans[i], wide * out0, wide * slope0, wide * out1, wide * slope1):
             return count, 0, 0
-        gone = gone + long if i + 1 != apex else 0.0
+    x = 0.0
+    for i in range(apex - 1, first - 1, -1):
+        out1, slope1 = _aside(x, before, swing_before)
+        x += _length(spans[i], 0.0, 1.0)
+        out0, slope0 = _aside(x, before, swing_before)
+        if i == first and swing_before != 0.0:
+            out0, slope0 = 0.0, 0.0
+        out0 = 0.0 if marks[i] == KEPT else out0
+        out1 = 0.0 if marks[i + 1] == KEPT else out1
+        if not _shift(spans[i], wide * out0, -wide * slope0, wide * out1, -wide * slope1):
+            return count, 0, 0
     marks[apex] = ASIDE
     return count, first, last
 
@@ -357,7 +428,8 @@ def step_aside(
     Args:
         world: What stands: nowhere does it step nearer than is required to that.
         spans: Bézier control polygons of a planar path [m], (m, 4, 2).
-        marks: Of its joints: ``KEPT`` where it has to run through, else ``FREE``, (m + 1,).
+        marks: Of its joints, (m + 1,): ``KEPT`` where it has to run through, ``FIXED`` where in
+            this direction as well; at both ends one of these; else ``FREE`` or ``ASIDE``.
         discs: x, y of each, and the distance that the path has to keep from there [m], (n, 3).
         required: Distance that it has to keep from what stands [m].
         bend: The curvature that a step aside has where it can be so long [1/m].
@@ -367,7 +439,7 @@ def step_aside(
         joints where the path is farthest aside are ``ASIDE``.
     """
     most = MAX_STEPS_EACH * discs.shape[0] + 1
-    room = spans.shape[0] + 5 * most + 5
+    room = spans.shape[0] + 7 * most + 7
     path, path_marks = np.empty((room, 4, 2)), np.zeros(room + 1, np.int64)
     trial, trial_marks = np.empty((room, 4, 2)), np.zeros(room + 1, np.int64)
     best, best_marks = np.empty((room, 4, 2)), np.zeros(room + 1, np.int64)
@@ -389,16 +461,13 @@ def step_aside(
             for _ in range(MAX_WIDENINGS):
                 _copy(path, path_marks, count, trial, trial_marks)
                 shortest = math.sqrt(12.0 * abs(wide) * needed)
-                half = max(shortest, math.sqrt(12.0 * abs(wide) / bend))
-                now, first, last = _moved(
-                    trial, trial_marks, count, k, w, wide, half, SHORTEST * shortest
-                )
+                now, first, last = _moved(trial, trial_marks, count, k, w, wide, shortest, bend)
                 if first == last:
                     break
                 kept = _least_apart(trial, first, last, discs[which])
                 if kept >= needed:
                     break
-                wide += math.copysign(needed - kept + TOUCH_M, wide)
+                wide += math.copysign(WIDENED * (needed - kept) + TOUCH_M, wide)
             if first == last or _least_apart(trial, first, last, discs[which]) < needed:
                 continue
             if (conflicts(world, trial[first:last], required)[0] != CLEAR).any():
