@@ -78,6 +78,10 @@ export class Timeline {
   /** Drive the mission as it is now, then play it. */
   async drive() {
     const { store, link, drive, toast } = this.app;
+    if (store.robot !== null) { // a fleet's plan is played
+      this.toggle();
+      return;
+    }
     if (this.isAsked) {
       link.send({ type: "halt" });
       return;
@@ -133,16 +137,17 @@ export class Timeline {
     const { run } = drive;
     this.panel.classList.toggle("is-driving", !!run);
     document.body.classList.toggle("is-driving", !!run);
-    const verb = this.isAsked ? "Stop" : run ? (drive.isPlaying ? "Pause" : "Play") : "Drive";
+    const isFleet = store.robot !== null;
+    const verb = this.isAsked ? "Stop" : isFleet ? (preview.isPlaying ? "Pause" : "Play") : run ? (drive.isPlaying ? "Pause" : "Play") : "Drive";
     this.dress(this.button, verb, icon(verb === "Pause" ? "pause" : verb === "Stop" ? "stop" : "play", 16), verb);
-    this.button.disabled = !run && !this.isAsked && !store.plan?.ok;
     const canPlay = this.played.end > this.played.begin;
+    this.button.disabled = isFleet ? !canPlay : !run && !this.isAsked && !store.plan?.ok;
     const watch = preview.isPlaying ? "Pause the plan" : "Play the plan";
     this.dress(this.watch, watch, icon(preview.isPlaying ? "pause" : "watch"));
     this.watch.setAttribute("aria-label", watch);
     this.watch.title = `${watch} (W)`;
     this.watch.disabled = this.scrub.disabled = !canPlay;
-    const shown = run ?? store.goodPlan;
+    const shown = run ?? store.fleetPlan?.answer ?? store.goodPlan;
     if (shown !== this.shown) {
       this.shown = shown;
       this.scrub.min = String(this.played.begin);
@@ -171,8 +176,8 @@ export class Timeline {
     const speed = store.curve?.speedAt(store.curve.distanceAt(preview.time)) ?? 0;
     this.clock.textContent = !store.plan?.ok ? "–" : isMoved ? `${clock(preview.time)} · ${speed.toFixed(2)} m/s` : seconds(store.plan.duration);
     if (this.isAsked) return;
-    const last = preview.moments().filter(({ time }) => time <= preview.time + 1e-6).at(-1);
-    this.note.textContent = isMoved && last ? `${clock(last.time)} ${last.text}` : "Drive the mission in simulation, with what is not on the map.";
+    const last = preview.moments().filter((/** @type {{time: number}} */ { time }) => time <= preview.time + 1e-6).at(-1);
+    this.note.textContent = isMoved && last ? `${clock(last.time)} ${last.text}` : store.robot === null ? "Drive the mission in simulation, with what is not on the map." : "All robots, as they are planned.";
   }
 
   renderDrive() {
