@@ -37,6 +37,7 @@ if TYPE_CHECKING:
         ViasplineError,
     )
     from viaspline.fleet.fleet_plan import FleetPlan
+    from viaspline.fleet.plan_fleet import plan_fleet
     from viaspline.formats.load import load
     from viaspline.maps.grid import Grid
     from viaspline.mission.fleet.fleet import Fleet
@@ -99,6 +100,7 @@ _HOMES = {
     "load": "formats.load",
     "load_map": "mission.load_map",
     "plan": "planner",
+    "plan_fleet": "fleet.plan_fleet",
     "retime": "trajectory.retime",
     "retime_lap": "trajectory.lap",
     "simulate": "robot.simulator",

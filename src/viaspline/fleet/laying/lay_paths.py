@@ -60,7 +60,7 @@ def lay_paths(
         >>> mission = lambda start, goal: Mission.model_validate(
         ...     {"route": {"start": start, "goal": goal}})
         >>> a, b = mission((0, 0), (20, 0)), mission((10, 0.5), (10, 20))
-        >>> laid = lay_paths(Fleet((FleetMember("a", a), FleetMember("b", b)), separation_m=1.0))
+        >>> laid = lay_paths(Fleet.of([FleetMember("a", a), FleetMember("b", b)], 1.0))
         >>> laid.plans["a"].path.length > 20.0, laid.plans["b"].path.length, dict(laid.passed)
         (True, 19.5, {})
     """

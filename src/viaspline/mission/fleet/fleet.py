@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -59,6 +60,29 @@ class Fleet(FleetParts):
     >>> [(each.name, each.mission.route.depart_s, each.rest) for each in fleet.members]
     [('r1', 0.0, 'stay'), ('r2', 3.0, 'leave')]
     """
+
+    @classmethod
+    def of(cls, members: Sequence[FleetMember], separation_m: float = 0.5) -> Fleet:
+        """A fleet of robots with a mission each, all over the world of the first.
+
+        Args:
+            members: The robots.
+            separation_m: Free space between the bodies of any two of them [m].
+
+        Raises:
+            MissionError: With every fault.
+
+        >>> there = Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}})
+        >>> Fleet.of([FleetMember("r1", there), FleetMember("r2", there)])
+        Traceback (most recent call last):
+        viaspline.errors.MissionError: <mission>: fleet[1].mission.route.start.at: 'r2' starts 0 ...
+        """
+        robots = [
+            {"name": one.name, "mission": one.mission, "priority": one.priority, "rest": one.rest}
+            for one in members
+        ]
+        world = {"world": members[0].mission.world} if members else {}
+        return cls.model_validate({**world, "separation_m": separation_m, "fleet": robots})
 
     @model_validator(mode="wrap")
     @classmethod

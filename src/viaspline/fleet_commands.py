@@ -1,0 +1,124 @@
+"""What the commands do with a fleet: check, plan and drive it, and write what comes of it.
+
+Tested through ``test_fleet_commands``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from viaspline.command_steps import default_folder, progress_bar, result_folder, say_written
+from viaspline.exit_codes import GAVE_UP, NO_PATH
+from viaspline.report.terminal_lines import say, say_error
+
+if TYPE_CHECKING:
+    from viaspline.fleet.fleet_plan import FleetPlan
+    from viaspline.mission.fleet.fleet import Fleet
+    from viaspline.report.progress_bar import ProgressBar
+
+
+def check_fleet(fleet: Fleet) -> list[tuple[str, str]]:
+    """What a sound fleet is, and what may not be meant in it."""
+    from viaspline.report.fleet_summary import fleet_remarks, fleet_summary
+
+    return [*fleet_summary(fleet), *(("note", words) for words in fleet_remarks(fleet))]
+
+
+def plan_fleet_file(
+    fleet: Fleet, file: Path, out: Path | None, *, improve: float, quiet: bool
+) -> None:
+    """Plan a fleet, write its files and say what it is.
+
+    Args:
+        fleet: What was read.
+        file: From where.
+        out: The folder for the results; None: the usual one.
+        improve: For so long sooner orders are sought [s].
+        quiet: Say nothing when all goes well.
+    """
+    from viaspline.report.fleet_results import FLEET_FILES, check_robot_folders
+
+    target = out or default_folder(file)
+    with (
+        result_folder(target, FLEET_FILES) as folder,
+        progress_bar(quiet, fleet.members[0].mission.robot) as watch,
+    ):
+        check_robot_folders(target, (one.name for one in fleet.members))
+        planned = watched_fleet_plan(fleet, watch, improve)
+        with watch.stage("report", "writing"):
+            from viaspline.report.fleet_results import fleet_contents, write_robots
+            from viaspline.report.results import write_all
+
+            folders = write_robots(planned, target, watch.fraction)
+            contents = fleet_contents(planned, file.stem)
+        files = write_all(folder, contents, watch.times)
+    if not quiet:
+        from viaspline.report.fleet_summary import fleet_plan_remarks
+        from viaspline.report.fleet_tables import fleet_tables
+        from viaspline.report.terminal_tables import show
+
+        show(fleet_tables(planned, file.stem))
+        say(*(f"note: {words}" for words in fleet_plan_remarks(fleet)))
+        say_written(files)
+        say_folders(folders)
+    end_unserved(planned)
+
+
+def watched_fleet_plan(fleet: Fleet, watch: ProgressBar, improve: float) -> FleetPlan:
+    """Plan a fleet, with progress."""
+    with watch.stage("load", "loading"):
+        from viaspline.fleet.plan_fleet import plan_fleet
+    with _stages(watch) as stages:
+        return plan_fleet(fleet, improve=improve, progress=stages.told)
+
+
+class _Stages:
+    """Stages that a planner tells as it comes to them.
+
+    Args:
+        watch: Hears of each.
+        open_stage: What is open, and is closed when the next one begins.
+    """
+
+    def __init__(self, watch: ProgressBar, open_stage: ExitStack) -> None:
+        self._watch = watch
+        self._open = open_stage
+        self._words = ""
+
+    def told(self, words: str, share: float) -> None:
+        """Hear what is being done, and the share of it that is done."""
+        if words != self._words:
+            self._open.close()
+            self._open.enter_context(self._watch.stage(words.replace(" ", "_"), words))
+            self._words = words
+        self._watch.fraction(share)
+
+
+@contextmanager
+def _stages(watch: ProgressBar) -> Iterator[_Stages]:
+    with ExitStack() as open_stage:
+        yield _Stages(watch, open_stage)
+
+
+def say_folders(folders: list[Path]) -> None:
+    """Say which robots have a folder of their own."""
+    if folders:
+        names = [folder.name for folder in folders]
+        shown = ", ".join(names) if len(names) <= 6 else f"{', '.join(names[:5])} … {names[-1]}"
+        say(f"wrote plan.json, path.csv for each of {len(names)} robots: {shown}")
+
+
+def end_unserved(planned: FleetPlan) -> None:
+    """Say which robots are not served, and end with the code for it; nothing if all are."""
+    if planned.served:
+        return
+    from viaspline.report.fleet_tables import unserved_lines
+
+    say_error(*unserved_lines(planned))
+    refused = any(one.outcome == "refused" for one in planned.not_served)
+    click.get_current_context().exit(NO_PATH if refused else GAVE_UP)
