@@ -86,6 +86,17 @@ def test_a_mistyped_fleet_is_still_told_from_a_mission(tmp_path: Path) -> None:
         vs.load(file)
 
 
+@pytest.mark.parametrize("page", ["README.md", "docs/fleets.md"])
+def test_the_fleet_of_the_documentation_is_sound(page: str, tmp_path: Path) -> None:
+    text = (Path(__file__).parents[2] / page).read_text()
+    blocks = [block.partition("```")[0] for block in text.split("```yaml\n")[1:]]
+    (found,) = [block for block in blocks if "\nfleet:" in block]
+    (tmp_path / "fleet.yaml").write_text(found)
+    fleet = vs.load(tmp_path / "fleet.yaml")
+    assert isinstance(fleet, vs.Fleet)
+    assert len(fleet.members) > 1
+
+
 NUMBERS = st.floats(0, 50).map(lambda value: round(value, 3))
 NAMES = st.text(min_size=1, max_size=8)
 OPTIONS = st.fixed_dictionaries(

@@ -29,9 +29,8 @@ def fleet_summary(fleet: Fleet) -> list[tuple[str, str]]:
     """Robots, kinds, separation, rounds and world: what each of them is, on one line."""
     members = fleet.members
     lengths = [_straight(one.mission.route) for one in members]
-    mean = sum(lengths) / len(lengths)
-    rounds = f"{metres(mean, 1)} from point to point in the mean"
-    if len(lengths) > 1:
+    rounds = f"{metres(sum(lengths) / len(lengths), 1)} from point to point in the mean"
+    if min(lengths) < max(lengths):
         rounds += f", {metres(min(lengths), 1)} to {metres(max(lengths), 1)}"
     return [
         ("robots", _robots(members)),

@@ -149,9 +149,29 @@ def yielding_ride(
         The ride, and -1; or a ride that isn't clear, and the number of a box in which it can't let
         the other one pass.
     """
+    blocked = blocked_times(courses, crossings, laws, robot)
+    return ride_past(courses, crossings, rides, robot, blocked)
+
+
+@inner
+def ride_past(
+    courses: PackedCourses, crossings: PackedCrossings, rides: PackedRides, robot: int,
+    blocked: Floats,
+) -> tuple[Ride, int]:  # fmt: skip
+    """The ride of a robot whose boxes are blocked from when to when [s], (boxes, 2).
+
+    Args:
+        courses: PackedCourses.
+        crossings: PackedCrossings.
+        rides: PackedRides.
+        robot: Its number.
+        blocked: See ``blocked_times``.
+
+    Returns:
+        As ``yielding_ride``.
+    """
     ride = new_ride(courses, rides, robot)
     begin = crossings.box_first[robot]
-    blocked = blocked_times(courses, crossings, laws, robot)
     yields = np.empty(blocked.shape[0], np.int64)  # crossings, in the order of their first cells
     count = 0
     while True:
