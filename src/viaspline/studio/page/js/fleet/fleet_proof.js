@@ -37,8 +37,8 @@ export class FleetProof {
     const late = driving.reduce((sum, { law, alone }) => sum + Math.max(0, law.times.at(-1) - law.times[0] - alone), 0);
     const row = (/** @type {string} */ name, /** @type {string} */ value) => [h("dt", {}, name), h("dd", {}, value)];
     return [h("dl", { class: "figures" },
-      ...row("Served", `${driving.length} of ${byName.size}`), ...row("Last arrives", clock(plan.lasts[1])),
-      ...row("Late in all", seconds(late)), ...row("Planned in", answer.ms < 1000 ? `${answer.ms.toFixed(1)} ms` : seconds(answer.ms / 1000)))];
+      ...row("Served", `${driving.length} of ${byName.size}`), ...row("All home", clock(plan.lasts[1])),
+      ...row("Late", seconds(late)), ...row("Planned in", answer.ms < 1000 ? `${answer.ms.toFixed(1)} ms` : seconds(answer.ms / 1000)))];
   }
 
   /** Who isn't served, and why. @param {import("../core/fleet_plan.js").FleetPlan} plan */

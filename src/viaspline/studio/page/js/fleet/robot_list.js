@@ -59,9 +59,11 @@ export class RobotList {
   row({ i, name, note, title, isBad }, dark) {
     const { store } = this.app;
     const isChosen = store.robot === i;
+    const swatch = h("span", { class: "swatch" });
+    swatch.style.background = robotColour(i, dark);
     return h("li", { class: `row${isChosen ? " is-selected" : ""}` },
       h("button", { type: "button", class: "row-main", "aria-pressed": String(isChosen), "aria-label": `robot ${name}${note ? `, ${note}` : ""}`, title, onclick: () => store.choose(i) },
-        h("span", { class: "swatch", style: `background: ${robotColour(i, dark)}` }),
+        swatch,
         h("span", { class: "row-name" }, name),
         note ? h("span", { class: `row-note${isBad ? " is-bad" : ""}` }, note) : null));
   }
