@@ -9,12 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.errors import GeometryError
-from viaspline.fleet.courses import FleetCourses, courses_of
-from viaspline.fleet.crossings import FleetCrossings, crossings_of
+from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
+from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_certificate import certify_fleet
-from viaspline.fleet.fleet_laws import static_laws
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
-from viaspline.fleet.laying.lay_paths import LaidPaths, lay_paths
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.rides import FleetRides, rides_of
@@ -49,19 +48,16 @@ class TimedFleet:
     timing: Timing
 
     @classmethod
-    def of(
-        cls, members: Sequence[FleetMember], plans: Sequence[Plan], separation: float
-    ) -> TimedFleet:
+    def of(cls, fleet: Fleet, paths: CrossingPaths) -> TimedFleet:
         """Time robots along their paths.
 
         Args:
-            members: The robots.
-            plans: Of each.
-            separation: Free space between any two bodies [m].
+            fleet: What is asked for.
+            paths: Of those that have one.
         """
-        named = {one.name: plan for one, plan in zip(members, plans, strict=True)}
-        courses = courses_of(named, separation)
-        crossings = crossings_of(courses)
+        courses, crossings = paths.courses, paths.crossings
+        members = [one for one in fleet.members if one.name in paths.laid.plans]
+        plans = [paths.laid.plans[one.name] for one in members]
         rides = rides_of(members, plans, courses)
         priorities = [one.priority for one in members]
         timing = time_paths(courses, crossings, rides, priorities)
@@ -77,7 +73,7 @@ def plan_fleet(
     fleet: Fleet,
     improve: float = 0.0,
     progress: FleetProgress | None = None,
-    laid: LaidPaths | None = None,
+    paths: CrossingPaths | None = None,
 ) -> FleetPlan:
     """Plan a fleet: a path for each robot, when it drives along it, and the proof of both.
 
@@ -89,7 +85,7 @@ def plan_fleet(
         fleet: What is asked for.
         improve: For so long sooner orders are sought [s, on the reference machine].
         progress: See ``FleetProgress``.
-        laid: The paths of the very fleet, if they are laid already.
+        paths: Of the very fleet, if they are laid already.
 
     Returns:
         The plans of those that are served, proven apart, and why the others are not.
@@ -119,19 +115,18 @@ def plan_fleet(
         if progress is not None:
             progress(stage, share)
 
-    if laid is None:
-        laid = lay_paths(fleet, lambda done, of: tell("laying paths", done / of))
-    members = [one for one in fleet.members if one.name in laid.plans]
+    if paths is None:
+        paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
     tell("timing", 0.0)
-    timed = TimedFleet.of(members, [laid.plans[one.name] for one in members], fleet.separation_m)
+    timed = TimedFleet.of(fleet, paths)
     if improve > 0.0:
         improve_laws(
             timed.courses, timed.crossings, timed.rides, timed.timing,
-            np.array([one.priority for one in members], float), improve,
+            np.array([one.priority for one in timed.members], float), improve,
             lambda share: tell("improving", share),
         )  # fmt: skip
     tell("proving", 0.0)
-    return _planned(fleet, timed, laid.not_served)
+    return _planned(fleet, timed, paths.laid.not_served)
 
 
 def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -> FleetPlan:
@@ -155,13 +150,12 @@ def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -
         )
         for robot, other in sorted(blocked.items())
     ]  # fmt: skip
-    alone = static_laws(timed.courses, [plan.trajectory for plan in timed.plans])
     return FleetPlan(
         fleet=fleet,
         plans=plans,
         not_served=(*not_served, *unserved),
         certificate=certify_fleet(timed.courses, laws, fleet.separation_m),
-        precedences=precedences_of(timed.courses, timed.crossings, laws, alone),
+        precedences=precedences_of(timed.courses, timed.crossings, laws, timed.rides.laws),
         alone=dict(zip(names, timed.rides.alone.tolist(), strict=True)),
         courses=timed.courses,
         crossings=timed.crossings,

@@ -9,7 +9,7 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.passing_order import passing_gaps
 
 TIGHT_S = 1e-3
@@ -53,37 +53,39 @@ def precedences_of(
     is_first_later = np.zeros(count, np.bool_)  # of the two, the one with the lower number
     mine = (gaps >= 0.0) & (owner == packed.robots[packed.crossing, 0])
     is_first_later[packed.crossing[mine]] = True
-    waits = _waits(courses, crossings, laws, alone, gaps)
-    found = []
-    for c, (a, b) in enumerate(packed.robots.tolist()):
-        a_low, a_high, b_low, b_high = packed.span[c].tolist()
-        first, last, left, entered = (a, b, a_high, b_low)
-        if is_first_later[c]:
-            first, last, left, entered = (b, a, b_high, a_low)
-        names = courses.names
-        found.append(Precedence(names[first], names[last], left, entered, float(waits[c])))
-    return tuple(found)
+    waits = _waits(crossings, laws, alone, gaps, owner)
+    later = is_first_later[:, None]
+    ranked = np.where(later, packed.robots[:, ::-1], packed.robots).tolist()
+    places = np.where(later, packed.span[:, [3, 0]], packed.span[:, [1, 2]]).tolist()
+    names = courses.names
+    return tuple(
+        Precedence(names[first], names[second], left, entered, waited)
+        for (first, second), (left, entered), waited in zip(
+            ranked, places, waits.tolist(), strict=True
+        )
+    )
 
 
 def _waits(
-    courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws,
-    gaps: Floats,
-) -> Floats:  # fmt: skip
+    crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws, gaps: Floats, owners: Ints
+) -> Floats:
     """How much later each crossing makes its second robot come [s], (c,).
 
     A robot comes to a crossing that it waited for just when the other one has left it. What it is
     late by there, beyond what it was late by at the one before, it is late for this one.
     """
-    packed, nodes = crossings.packed, courses.packed
+    packed = crossings.packed
     late = laws.packed.arrive - alone.packed.arrive
     waits = np.zeros(len(packed.robots))
-    for robot in range(nodes.reach.size):
-        boxes = np.arange(packed.box_first[robot], packed.box_first[robot + 1])
-        tight = boxes[(gaps[boxes] >= 0.0) & (gaps[boxes] < TIGHT_S)]
-        before = 0.0
-        for box in tight.tolist():
-            now = float(late[packed.cell[box]])
-            if now > before + TIGHT_S:
-                waits[packed.crossing[box]] += now - before
-                before = now
+    tight = np.flatnonzero((gaps >= 0.0) & (gaps < TIGHT_S))
+    now = late[packed.cell[tight]]
+    robot, before = -1, 0.0
+    for crossing, owner, lateness in zip(
+        packed.crossing[tight].tolist(), owners[tight].tolist(), now.tolist(), strict=True
+    ):
+        if owner != robot:
+            robot, before = owner, 0.0
+        if lateness > before + TIGHT_S:
+            waits[crossing] += lateness - before
+            before = lateness
     return waits

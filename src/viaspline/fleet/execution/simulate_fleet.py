@@ -58,9 +58,7 @@ def drive_fleet(
         begin, step, longest, every,
     )  # fmt: skip
     came = np.isfinite(ticks.arrived)
-    arrivals = {
-        name: float(ticks.arrived[i]) for i, name in enumerate(fleet.names) if came[i]
-    }
+    arrivals = {name: float(ticks.arrived[i]) for i, name in enumerate(fleet.names) if came[i]}
     courses, laws = driven_laws(
         fleet.courses,
         _stretches(fleet, ticks),

@@ -10,8 +10,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from viaspline.fleet.fleet_plan import NotServed
-from viaspline.fleet.laying.lay_among_rests import LaidPath
+from viaspline.fleet.laying.lay_among_rests import LaidPath, lay_among_rests
 from viaspline.fleet.laying.resting_places import RestingPlaces
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.model import Mission
@@ -57,11 +59,22 @@ class KeptPaths:
             return None
         return self.alone[member.name]
 
-    def laid_of(self, name: str, alone: PathAlone, rests: RestingPlaces) -> LaidPath | None:
-        """The path of a robot among resting places, if it was laid among the same; else None."""
-        if self.alone.get(name) is not alone or rests.places != self.rests.places:
-            return None
-        return self.laid[name]
+    def laid_of(self, name: str, alone: PathAlone, reach: float, rests: RestingPlaces) -> LaidPath:
+        """The path of a robot among resting places: the very one that it had, if it is the same.
+
+        Args:
+            name: The robot.
+            alone: Its path as if it were alone.
+            reach: How far it keeps others away on its part [m].
+            rests: Of all robots.
+        """
+        known = self.laid[name] if self.alone.get(name) is alone else None
+        if known is not None and rests.places == self.rests.places:
+            return known
+        found = lay_among_rests(alone.plan, alone.mission, name, reach, rests)
+        if known is None or not np.array_equal(found.plan.path.spans, known.plan.path.spans):
+            return found
+        return LaidPath(known.plan, found.passed)
 
 
 def _is_same(one: Mission, other: Mission) -> bool:

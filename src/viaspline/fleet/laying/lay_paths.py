@@ -89,8 +89,9 @@ def _among_rests(
     name: str, alone: PathAlone, reach: float, rests: RestingPlaces, before: KeptPaths | None
 ) -> LaidPath:
     """The path of a robot among resting places: the one that it had, if nothing has changed."""
-    kept = None if before is None else before.laid_of(name, alone, rests)
-    return kept or lay_among_rests(alone.plan, alone.mission, name, reach, rests)
+    if before is not None:
+        return before.laid_of(name, alone, reach, rests)
+    return lay_among_rests(alone.plan, alone.mission, name, reach, rests)
 
 
 def _alone(

@@ -92,9 +92,7 @@ def grant_of(orders: PackedOrders, dispatch: PackedDispatch, robot: int) -> floa
 
 
 @inner
-def swap_orders(
-    orders: PackedOrders, dispatch: PackedDispatch, sequence: Ints, now: float
-) -> int:
+def swap_orders(orders: PackedOrders, dispatch: PackedDispatch, sequence: Ints, now: float) -> int:
     """Swap orders that have become foolish; how many were.
 
     Args:

@@ -87,9 +87,7 @@ def _drive_tick(
         while time < until and drive.arrived[robot] == np.inf:
             before, place, square = drive.slope[robot], drive.place[robot], drive.square[robot]
             began = time
-            time = drive_stretch(
-                drive, courses, rides, trouble, robot, grants[robot], time, until
-            )
+            time = drive_stretch(drive, courses, rides, trouble, robot, grants[robot], time, until)
             if abs(drive.slope[robot] - before) > SAME_SLOPE:
                 stretches = _noted(stretches, count, (float(robot), began, place, square, 0.0))
                 count += 1

@@ -69,9 +69,7 @@ class PackedTrouble(NamedTuple):
 
 
 @inner
-def new_drive(
-    courses: PackedCourses, rides: PackedRides, trouble: PackedTrouble
-) -> PackedDrive:
+def new_drive(courses: PackedCourses, rides: PackedRides, trouble: PackedTrouble) -> PackedDrive:
     """Robots that stand at their starts."""
     count = courses.reach.size
     drive = PackedDrive(
@@ -186,9 +184,7 @@ def drive_stretch(
         slope = (rides.square[node + 1] - rides.square[node]) / width * pace * pace
         top = rides.square[node] * pace * pace
         top += slope * (drive.place[robot] - courses.distance[node])
-    rise, far = _rise(
-        square, top, slope, room, 2.0 * rides.accel[robot], 2.0 * rides.brake[robot]
-    )
+    rise, far = _rise(square, top, slope, room, 2.0 * rides.accel[robot], 2.0 * rides.brake[robot])
     ends = far >= left
     far = min(far, left)
     speed = math.sqrt(square)

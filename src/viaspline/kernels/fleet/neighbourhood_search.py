@@ -21,9 +21,7 @@ WALKS = 12
 
 
 @inner
-def _delayed(
-    table: LatticeTable, starts: Steps, distances: Steps, random: Ints
-) -> int:
+def _delayed(table: LatticeTable, starts: Steps, distances: Steps, random: Ints) -> int:
     """A robot that arrives late, drawn by how late it is; -1 where none is."""
     late = 0
     for robot in range(len(starts)):
@@ -152,9 +150,7 @@ def neighbourhood_search(
             other = random_below(search.random, k + 1)
             chosen[k], chosen[other] = chosen[other], chosen[k]
         order = chosen[:count]
-        done, _total, looked = plan_in_order(
-            search, table, order, starts, goals, distances, total
-        )
+        done, _total, looked = plan_in_order(search, table, order, starts, goals, distances, total)
         used += looked + count
         if done < count:
             _restore(table, chosen, done, kept, count)

@@ -14,9 +14,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from viaspline.errors import MissionError, ViasplineError
+from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.laying.kept_paths import KeptPaths
-from viaspline.fleet.laying.lay_paths import lay_paths
 from viaspline.fleet.plan_fleet import plan_fleet
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.mission.world_spec import WorldSpec
@@ -38,7 +37,7 @@ class PlannedFleet:
         problems: If it isn't.
         seconds: How long it took [s].
         missions: Of the robots that have files, by the files' names.
-        kept: The newest paths, of this document or of one before it.
+        paths: The newest paths, of this document or of one before it.
         drawn: The newest plan, of this document or of one before it: what the page has.
     """
 
@@ -49,7 +48,7 @@ class PlannedFleet:
     problems: tuple[PlanFault, ...]
     seconds: float
     missions: Mapping[str, MemberMission] = field(default_factory=dict)
-    kept: KeptPaths | None = None
+    paths: CrossingPaths | None = None
     drawn: FleetPlan | None = None
 
     @property
@@ -75,14 +74,13 @@ def planned_fleet(
     plan: FleetPlan | None = None
     problems: tuple[PlanFault, ...] = ()
     missions = {} if before is None else before.missions
-    kept = None if before is None else before.kept
+    paths = None if before is None else before.paths
     try:
         found = unfold_fleet(document, base, maps, missions)
         unfolded, missions = found.expanded, found.missions
         fleet = Fleet.model_validate(_with_same_world(unfolded.data, before))
-        laid = lay_paths(fleet, before=kept)
-        kept = laid.kept
-        plan = plan_fleet(fleet, laid=laid)
+        paths = crossing_paths(fleet, before=paths)
+        plan = plan_fleet(fleet, paths=paths)
     except MissionError as error:
         problems = faults_of(error, unfolded)
     except ViasplineError as error:
@@ -90,7 +88,7 @@ def planned_fleet(
     drawn = plan if plan is not None or before is None else before.drawn
     seconds = time.perf_counter() - start
     return PlannedFleet(
-        document, unfolded, fleet, plan, problems, seconds, missions, kept, drawn
+        document, unfolded, fleet, plan, problems, seconds, missions, paths, drawn
     )  # fmt: skip
 
 
