@@ -152,9 +152,9 @@ def test_a_fleet_is_saved_as_yaml_only(start: Start, file: Path) -> None:
 def test_the_files_of_robots_are_read_and_named_from_where_the_fleet_is_saved(
     start: Start, file: Path
 ) -> None:
-    own = {"robot": {"radius_m": 0.4}, "route": {"start": [0, 20], "goal": [40, 21]}}
+    own = {"robot": {"radius_m": 0.4}, "route": {"start": [0, 25], "goal": [40, 26]}}
     (file.parent / "own.yaml").write_text(
-        "robot: {radius_m: 0.4}\nroute: {start: [0, 20], goal: [40, 21]}\n"
+        "robot: {radius_m: 0.4}\nroute: {start: [0, 25], goal: [40, 26]}\n"
     )
     (file.parent / "sub").mkdir()
     with start(file).client() as client:

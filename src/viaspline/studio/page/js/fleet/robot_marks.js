@@ -5,7 +5,7 @@
 
 const TRAIL_S = 12; // that a trail goes back [s]
 const TRAIL_PIECES = 12;
-const LEAST_RADIUS_PX = 4;
+const LEAST_RADIUS_PX = 6.5;
 
 /** @param {Pen} pen @param {{spans: number[], points: any[], colour: string, isStale: boolean}} route */
 export function drawRoute(pen, { spans, points, colour, isStale }) {
@@ -25,9 +25,9 @@ export function drawRoute(pen, { spans, points, colour, isStale }) {
     const isEnd = point.id === "start" || point.id === "goal";
     ctx.beginPath();
     if (point.id === "goal") ctx.rect(x - 4.5, y - 4.5, 9, 9);
-    else ctx.arc(x, y, isEnd ? 5 : 3.5, 0, 2 * Math.PI);
-    pen.fill(point.id === "start" ? colour : colours.paper);
-    pen.stroke(colour, 2);
+    else ctx.arc(x, y, isEnd ? 4.5 : 3, 0, 2 * Math.PI);
+    pen.fill(colours.paper);
+    pen.stroke(colour, isEnd ? 2 : 1.5);
   }
 }
 

@@ -69,7 +69,7 @@ export class Summary {
       this.drives(plan.drivability),
       h("dl", { class: "figures" },
         ...row("Length", metres(plan.length, 1)), ...row("Duration", seconds(plan.duration)),
-        ...row("Sharpest", bend(plan.curvature)), ...row("Planned in", plan.ms < 1000 ? `${plan.ms.toFixed(1)} ms` : seconds(plan.ms / 1000))),
+        ...row("Sharpest", bend(plan.curvature)), ...(this.app.store.robot !== null ? [] : row("Planned in", plan.ms < 1000 ? `${plan.ms.toFixed(1)} ms` : seconds(plan.ms / 1000)))),
       ...timingRows(this.app, plan),
       ...this.groups(),
     ];
