@@ -22,7 +22,10 @@ robots:
   cart: {radius_m: 0.8, clearance_m: 0.3}
 fleet:
   - {name: east, robot: cart, route: {start: [0, 0], via: [[12, 0]], goal: [40, 0]}}   # first
-  - {name: north, robot: cart, priority: 2, route: {start: [20, -20], via: [[20, -8]], goal: [20, 20]}}
+  - name: north
+    robot: cart
+    priority: 2
+    route: {start: [20, -20], via: [[20, -8]], goal: [20, 20]}
   - {name: own, mission: own.yaml}
 """
 COLOUR_AT = """([x, y]) => {
@@ -123,6 +126,7 @@ def test_the_scrubber_plays_every_robot(visit: Visit, file: Path) -> None:
         page.js(f"studio.store.fleetPlan.byName.get('{n}').law.times.at(-1)")
         for n in ("east", "north", "own")
     )
+    page.page.wait_for_timeout(200)  # the marks on it follow the plan
     scrub = page.page.locator("#scrub")
     scrub.fill(str(round(end / 3, 1)))
     time = page.js("studio.preview.time")

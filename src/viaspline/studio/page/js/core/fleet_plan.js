@@ -94,6 +94,6 @@ export class FleetPlan {
 /** A problem of a fleet as one of the robot that has it. @param {any} file @param {any} problem */
 function problemOf(file, problem) {
   const { robot, path } = placeInMission(file, problem.path);
-  const changes = problem.changes.map((/** @type {any} */ change) => ({ ...change, path: placeInMission(file, change.path).path }));
+  const changes = problem.changes.map((/** @type {any} */ change) => ({ ...change, ...placeInMission(file, change.path) }));
   return { ...problem, path, changes, robot };
 }

@@ -169,10 +169,10 @@ export class Summary {
     });
   }
 
-  /** @param {{path: (string|number)[], value: any}} change */
-  changeLabel({ path, value }) {
+  /** @param {{path: (string|number)[], value: any, robot?: number|null}} change */
+  changeLabel({ path, value, robot }) {
     const last = path.at(-1);
-    if (last === "at") return `Move ${this.nameOf(path)} to ${place(value)}`;
+    if (last === "at") return `Move ${this.nameOf(path, robot)} to ${place(value)}`;
     if (last === "clearance_m") return `Set the clearance to ${number(value)} m`;
     if (last === "pass_on" || last === "never_pass_on") return `Let ${this.nameOf(path)} be passed on either side`;
     return `Set ${path.join(".")} to ${value}`;

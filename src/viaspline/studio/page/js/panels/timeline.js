@@ -35,8 +35,9 @@ export class Timeline {
     this.button.addEventListener("click", () => (app.drive.run ? this.toggle() : this.drive()));
     this.watch.addEventListener("click", () => this.toggle());
     this.scrub.addEventListener("input", () => {
+      const time = Number(this.scrub.value); // a pause draws the line of time anew
       this.played.pause();
-      this.played.seek(Number(this.scrub.value));
+      this.played.seek(time);
     });
     this.scrub.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
       const way = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
