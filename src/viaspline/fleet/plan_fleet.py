@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from viaspline.errors import GeometryError
+from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
-from viaspline.fleet.fleet_laws import static_laws
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
-from viaspline.fleet.laying.lay_paths import LaidPaths, lay_paths
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
@@ -23,7 +22,10 @@ FleetProgress = Callable[[str, float], None]
 
 
 def plan_fleet(
-    fleet: Fleet, improve: float = 0.0, progress: FleetProgress | None = None
+    fleet: Fleet,
+    improve: float = 0.0,
+    progress: FleetProgress | None = None,
+    paths: CrossingPaths | None = None,
 ) -> FleetPlan:
     """Plan a fleet: a path for each robot, when it drives along it, and the proof of both.
 
@@ -35,6 +37,7 @@ def plan_fleet(
         fleet: What is asked for.
         improve: For so long sooner orders are sought [s, on the reference machine].
         progress: See ``FleetProgress``.
+        paths: Of the very fleet, if they are laid already.
 
     Returns:
         The plans of those that are served, proven apart, and why the others are not.
@@ -64,15 +67,14 @@ def plan_fleet(
         if progress is not None:
             progress(stage, share)
 
-    laid = lay_paths(fleet, lambda done, of: tell("laying paths", done / of))
-    members = [one for one in fleet.members if one.name in laid.plans]
-    plans = [laid.plans[one.name] for one in members]
+    if paths is None:
+        paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
     tell("timing", 0.0)
-    timed = _served(FleetWays.of(members, plans, fleet.separation_m), fleet.separation_m)
+    timed = _served(FleetWays.of(fleet, paths), fleet.separation_m)
     if improve > 0.0:
         timed = timed.improved(improve, lambda share: tell("improving", share))
     tell("proving", 0.0)
-    return _planned(fleet, timed, laid)
+    return _planned(fleet, timed, paths.laid.not_served)
 
 
 def _served(ways: FleetWays, separation: float) -> TimedFleet:
@@ -86,7 +88,7 @@ def _served(ways: FleetWays, separation: float) -> TimedFleet:
     return timed.past_standing_ones()
 
 
-def _planned(fleet: Fleet, timed: TimedFleet, laid: LaidPaths) -> FleetPlan:
+def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -> FleetPlan:
     """The plan of a fleet that is timed."""
     ways, timing = timed.ways, timed.timing
     courses, names = ways.courses, ways.courses.names
@@ -107,17 +109,15 @@ def _planned(fleet: Fleet, timed: TimedFleet, laid: LaidPaths) -> FleetPlan:
         for robot, other in sorted(timing.blocked.items())
     ]  # fmt: skip
     crossings = ordered_crossings(courses, ways.crossings, timing.laws)
-    alone = static_laws(courses, [plan.trajectory for plan in ways.plans])
     return FleetPlan(
         fleet=fleet,
         plans=plans,
-        not_served=(*laid.not_served, *unserved),
+        not_served=(*not_served, *unserved),
         certificate=certify_fleet(courses, timing.laws, fleet.separation_m),
-        precedences=precedences_of(courses, crossings, timing.laws, alone),
+        precedences=precedences_of(courses, crossings, timing.laws, ways.rides.laws),
         alone=dict(zip(names, ways.rides.alone.tolist(), strict=True)),
         courses=courses,
         crossings=crossings,
         laws=timing.laws,
         rides=ways.rides,
-        alone_laws=alone,
     )

@@ -12,8 +12,9 @@ from typing import TypeAlias
 
 from viaspline.errors import GaveUpError, GeometryError, PlanningError
 from viaspline.fleet.fleet_plan import NotServed
+from viaspline.fleet.laying.kept_paths import KeptPaths, PathAlone
 from viaspline.fleet.laying.lay_among_rests import LaidPath, lay_among_rests
-from viaspline.fleet.laying.resting_places import RestingPlace, all_rests
+from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces, all_rests
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan_in
@@ -32,14 +33,18 @@ class LaidPaths:
         plans: By name, in the order of the fleet.
         not_served: The robots that have none, with the reason.
         passed: By name, the resting places of others that a path comes too near to, where it does.
+        kept: What the next laying of a fleet that differs a little can take from this one.
     """
 
     plans: dict[str, Plan]
     not_served: tuple[NotServed, ...] = ()
     passed: Mapping[str, tuple[RestingPlace, ...]] = field(default_factory=dict)
+    kept: KeptPaths | None = None
 
 
-def lay_paths(fleet: Fleet, progress: LayingProgress | None = None) -> LaidPaths:
+def lay_paths(
+    fleet: Fleet, progress: LayingProgress | None = None, before: KeptPaths | None = None
+) -> LaidPaths:
     """Lay the path of every robot, round those resting places of others that it would hit.
 
     Where there is no way round one of them, the path passes it, and timing has to see to it that
@@ -48,6 +53,8 @@ def lay_paths(fleet: Fleet, progress: LayingProgress | None = None) -> LaidPaths
     Args:
         fleet: What is asked for.
         progress: See ``LayingProgress``.
+        before: From an earlier laying: what was asked for then isn't laid again. The paths are the
+            same without it.
 
     Example:
         >>> mission = lambda start, goal: Mission.model_validate(
@@ -58,52 +65,56 @@ def lay_paths(fleet: Fleet, progress: LayingProgress | None = None) -> LaidPaths
         ([20.4, 19.5], {})
     """
     members = fleet.members
-    alone = _alone(fleet)
+    worlds = list(before.worlds) if before is not None else []
+    alone = _alone(fleet, worlds, before)
     reaches = [_reach(fleet, one, alone.get(one.name)) for one in members]
     rests = all_rests(members, reaches)
     laid: dict[str, LaidPath] = {}
     for k, (member, reach) in enumerate(zip(members, reaches, strict=True)):
         found = alone[member.name]
-        if isinstance(found, _Alone):
-            laid[member.name] = lay_among_rests(
-                found.plan, found.mission, member.name, reach, rests
-            )
+        if isinstance(found, PathAlone):
+            laid[member.name] = _among_rests(member.name, found, reach, rests, before)
         if progress is not None:
             progress(k + 1, len(members))
+    asked = {one.name: one.mission for one in members}
     return LaidPaths(
         {name: one.plan for name, one in laid.items()},
         tuple(one for one in alone.values() if isinstance(one, NotServed)),
         {name: one.passed for name, one in laid.items() if one.passed},
+        KeptPaths(asked, tuple(worlds[-1:]), alone, rests, laid),
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Alone:
-    """What a robot does if it is alone.
-
-    Attributes:
-        mission: Its via points in the order in which they are served.
-        plan: Of that.
-    """
-
-    mission: Mission
-    plan: Plan
+def _among_rests(
+    name: str, alone: PathAlone, reach: float, rests: RestingPlaces, before: KeptPaths | None
+) -> LaidPath:
+    """The path of a robot among resting places: the one that it had, if nothing has changed."""
+    if before is not None:
+        return before.laid_of(name, alone, reach, rests)
+    return lay_among_rests(alone.plan, alone.mission, name, reach, rests)
 
 
-def _alone(fleet: Fleet) -> dict[str, _Alone | NotServed]:
-    """Every robot's plan as if it were alone, by name."""
-    shared: list[tuple[Mission, World]] = []
-    found: dict[str, _Alone | NotServed] = {}
+def _alone(
+    fleet: Fleet, worlds: list[tuple[Mission, World]], before: KeptPaths | None
+) -> dict[str, PathAlone | NotServed]:
+    """Every robot's plan as if it were alone, by name; worlds that are packed are added."""
+    found: dict[str, PathAlone | NotServed] = {}
     for member in fleet.members:
-        world = _shared_world(member.mission, shared)
-        try:
-            mission = ordered(member.mission, world)
-            if mission is not member.mission and mission.route.corridor is not None:
-                world = World.known(mission)
-            found[member.name] = _Alone(mission, plan_in(mission, world))
-        except (PlanningError, GeometryError) as error:
-            found[member.name] = not_served(member.name, error)
+        kept = None if before is None else before.alone_of(member)
+        found[member.name] = kept or _alone_anew(member, worlds)
     return found
+
+
+def _alone_anew(member: FleetMember, worlds: list[tuple[Mission, World]]) -> PathAlone | NotServed:
+    """A robot's plan as if it were alone, or why there is none."""
+    try:
+        world = _shared_world(member.mission, worlds)
+        mission = ordered(member.mission, world)
+        if mission is not member.mission and mission.route.corridor is not None:
+            world = World.known(mission)
+        return PathAlone(mission, plan_in(mission, world))
+    except (PlanningError, GeometryError) as error:
+        return not_served(member.name, error)
 
 
 def _shared_world(mission: Mission, shared: list[tuple[Mission, World]]) -> World:
@@ -127,8 +138,8 @@ def not_served(name: str, error: PlanningError | GeometryError) -> NotServed:
     return NotServed(name, "refused", reason, remedy)
 
 
-def _reach(fleet: Fleet, member: FleetMember, alone: _Alone | NotServed | None) -> float:
+def _reach(fleet: Fleet, member: FleetMember, alone: PathAlone | NotServed | None) -> float:
     """How far a robot keeps others away on its part [m]; see ``PackedCourses``."""
     robot = member.mission.robot
-    error = alone.plan.tracking_error if isinstance(alone, _Alone) else robot.tracking_error_m
+    error = alone.plan.tracking_error if isinstance(alone, PathAlone) else robot.tracking_error_m
     return robot.outer_radius + (error or 0.0) + 0.5 * fleet.separation_m

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
-from viaspline.fleet.fleet_laws import static_laws
+from viaspline.fleet.fleet_laws import FleetLaws, static_laws
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.machine.machine_limits import limits_of
@@ -27,10 +27,12 @@ class FleetRides:
     Attributes:
         packed: As kernels see them.
         alone: How long each takes [s], (n,).
+        laws: When each would be where.
     """
 
     packed: PackedRides
     alone: Floats
+    laws: FleetLaws
 
 
 def rides_of(
@@ -46,7 +48,8 @@ def rides_of(
         plans: Their plans, whose laws are those of robots that are alone.
         courses: Their paths, cut into cells.
     """
-    laws = static_laws(courses, [plan.trajectory for plan in plans]).packed
+    alone = static_laws(courses, [plan.trajectory for plan in plans])
+    laws = alone.packed
     first = courses.packed.first
     ends = first[1:] - 1
     stays = laws.leave - laws.arrive
@@ -70,4 +73,5 @@ def rides_of(
             vanishes=np.array([member.rest == "leave" for member in members], np.bool_),
         ),
         np.array([plan.trajectory.duration for plan in plans]),
+        alone,
     )
