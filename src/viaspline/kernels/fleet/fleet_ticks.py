@@ -118,6 +118,7 @@ def fleet_ticks(
     drive = new_drive(courses, rides, trouble)
     dispatch = new_dispatch(orders, leaders, rides.depart)
     seen = leaders.copy()
+    is_old = False  # what the sequence of bars is
     grants = np.zeros(count)
     heard = np.full(count, -np.inf)
     waits = np.zeros(count, np.bool_)
@@ -145,6 +146,12 @@ def fleet_ticks(
             if take_report(dispatch, robot, place, grants[robot], heard[robot], now):
                 swapped += settle_recall(orders, dispatch, robot)
         if swap_every > 0 and tick % swap_every == 0:
+            if is_old:
+                sequence, _ = order_flow(
+                    orders, dispatch.leaders, dispatch.progress, orders.first[:-1], none,
+                    dispatch.fixed,
+                )  # fmt: skip
+                is_old = False
             swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
         if swapped > 0:
             for c in range(seen.size):
@@ -155,10 +162,7 @@ def fleet_ticks(
                     happened = _noted(happened, events, row)
                     events += 1
                     seen[c] = dispatch.leaders[c]
-            sequence, _ = order_flow(
-                orders, dispatch.leaders, dispatch.progress, orders.first[:-1], none,
-                dispatch.fixed,
-            )  # fmt: skip
+            is_old = True
         for robot in range(count):
             grant = grant_of(orders, dispatch, robot)
             if chance(trouble.seed, 2 * tick + 1, robot) < trouble.lost:
