@@ -1,4 +1,7 @@
-"""How far a fleet has come and how far it may go, as the kernels that drive it see it."""
+"""How far a fleet has come and how far it may go, as the kernels that drive it see it.
+
+Tested through ``fleet/execution/test_fleet_orders``.
+"""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from viaspline.fleet.execution.fleet_run import FleetEvent, FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.timelines import Stretch, Timeline
+from viaspline.fleet.timelines import ActivitySpan, Timeline
 
 SHOWN_S = 1e-3
 """Stretches that are no longer aren't told [s]."""
@@ -34,14 +34,14 @@ def driven_timelines(plan: FleetPlan, run: FleetRun) -> tuple[Timeline, ...]:
     )
 
 
-def _stretches(begin: float, events: list[FleetEvent], end: float) -> tuple[Stretch, ...]:
+def _stretches(begin: float, events: list[FleetEvent], end: float) -> tuple[ActivitySpan, ...]:
     """Driving and waiting one after the other, from when a robot may set out until it arrives."""
-    found: list[Stretch] = []
+    found: list[ActivitySpan] = []
     now, other = begin, ""
     for event in [*events, FleetEvent("goes on", end, "", "")]:
         until = min(max(event.time, now), end)
         if until - now > SHOWN_S:
             lost = until - now if other else 0.0
-            found.append(Stretch(now, until, "waits" if other else "drives", other, lost))
+            found.append(ActivitySpan(now, until, "waits" if other else "drives", other, lost))
         now, other = until, event.other or "" if event.kind == "waits" else ""
     return tuple(found)

@@ -24,7 +24,7 @@ from viaspline.report.fleet.driven_timelines import driven_timelines
 from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART, colours_of
 from viaspline.report.fleet.fleet_map import scene_of
 from viaspline.report.fleet.fleet_marks import MAX_PLAIN, paths_of
-from viaspline.report.fleet.fleet_motion import FleetMotion, span_of
+from viaspline.report.fleet.places_over_time import FleetMotion, span_of
 from viaspline.report.moving_film import arrow_line
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Box, new_sheet

@@ -27,7 +27,7 @@ from viaspline.report.fleet.fleet_marks import (
     name_robots,
     paths_of,
 )
-from viaspline.report.fleet.fleet_motion import FleetMotion
+from viaspline.report.fleet.places_over_time import FleetMotion
 from viaspline.report.fleet.waits_chart import STANDS_COLOUR
 from viaspline.report.labels import Labels
 from viaspline.report.path_marks import draw_arrows

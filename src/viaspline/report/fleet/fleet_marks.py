@@ -17,7 +17,7 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.patheffects import Normal, Stroke
 
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.timelines import Stretch, Timeline
+from viaspline.fleet.timelines import ActivitySpan, Timeline
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.report import style
@@ -147,7 +147,7 @@ def draw_wait_arrows(
     return [Line2D([], [], color=style.INK, marker=">", markersize=5, linewidth=1.1, label=words)]
 
 
-def longest_waits(timelines: Sequence[Timeline]) -> list[tuple[str, Stretch]]:
+def longest_waits(timelines: Sequence[Timeline]) -> list[tuple[str, ActivitySpan]]:
     """The longest waits of a fleet, each with who waits, the longest first."""
     waits = [
         (one.name, wait) for one in timelines for wait in one.waits if wait.lost >= WORTH_AN_ARROW_S

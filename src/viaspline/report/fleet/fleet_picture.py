@@ -13,8 +13,8 @@ from viaspline.report.canvas import any_name, png
 from viaspline.report.fleet.coordination_panel import draw_coordination, pair_to_show
 from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART
 from viaspline.report.fleet.fleet_map import draw_fleet_map, robot_colours, scene_of
-from viaspline.report.fleet.fleet_motion import FleetMotion, instants, span_of
 from viaspline.report.fleet.fleet_page import SMALL_TALL, new_fleet_page
+from viaspline.report.fleet.places_over_time import FleetMotion, instants, span_of
 from viaspline.report.fleet.separation_panel import draw_separation
 from viaspline.report.fleet.waiting_map import draw_waiting_map, map_width
 from viaspline.report.fleet.waits_chart import draw_waits, rows_of

@@ -14,9 +14,9 @@ from viaspline.report import style
 from viaspline.report.canvas import any_name, png
 from viaspline.report.fleet.driven_timelines import driven_timelines
 from viaspline.report.fleet.fleet_map import draw_fleet_map, robot_colours, scene_of
-from viaspline.report.fleet.fleet_motion import FleetMotion, instants, span_of
 from viaspline.report.fleet.fleet_page import SMALL_TALL, name_panel, new_fleet_page
 from viaspline.report.fleet.fleet_picture import apart_words
+from viaspline.report.fleet.places_over_time import FleetMotion, instants, span_of
 from viaspline.report.fleet.separation_panel import draw_separation
 from viaspline.report.fleet.waits_chart import draw_waits, rows_of
 from viaspline.report.units import seconds

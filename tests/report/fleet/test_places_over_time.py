@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.report.fleet.fleet_motion import FleetMotion, instants, least_gap, span_of
+from viaspline.report.fleet.places_over_time import FleetMotion, instants, least_gap, span_of
 
 
 @given(seed=st.integers(0, 10_000), count=st.integers(0, 30), same=st.booleans())
