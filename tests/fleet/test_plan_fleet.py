@@ -85,7 +85,7 @@ def random_fleet(seed: int, count: int, side: float = 40.0) -> Fleet:
                     float(random.choice([0.0, 3.0])),
                     max_speed_mps=speed,
                     radius_m=float(random.choice([0.2, 0.5])),
-                )  # fmt: skip
+                )
             )
     return fleet_of(*robots)
 
