@@ -7,7 +7,13 @@ from __future__ import annotations
 
 import math
 
-from viaspline.robot.navigation.schedule import FIRST_STAGE, NO_STAGE, PendingSearch, SearchSoFar
+from viaspline.robot.navigation.pending_search import (
+    FIRST_STAGE,
+    NO_STAGE,
+    PendingSearch,
+    SearchSoFar,
+    Stage,
+)
 from viaspline.robot.replanning.replan_context import NOTHING, ReplanContext
 
 STEP_WORK_S = 0.1
@@ -60,9 +66,7 @@ def with_time_to_search(context: ReplanContext) -> ReplanContext:
     return context.searching(SHARES[-1] * STEP_WORK_S if is_late else 0.0, found)
 
 
-def gone_on(
-    context: ReplanContext, begin_with: tuple[int, int], held_at: float
-) -> PendingSearch | None:
+def gone_on(context: ReplanContext, begin_with: Stage, held_at: float) -> PendingSearch | None:
     """How a search that was stopped goes on; None if it has spent all that it may, at rest.
 
     Args:

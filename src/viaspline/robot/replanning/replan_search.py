@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TypeAlias
 
 import numpy as np
 
@@ -18,8 +17,16 @@ from viaspline.planning import replan
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError
+from viaspline.robot.navigation.pending_search import (
+    FIRST_STAGE,
+    LAST_STAGE,
+    NEARBY,
+    NO_STAGE,
+    ORDER,
+    UNDER_WAY,
+    Stage,
+)
 from viaspline.robot.navigation.progress import SAME_PLACE_M
-from viaspline.robot.navigation.schedule import FIRST_STAGE, NO_STAGE
 from viaspline.robot.replanning.hold_to_path import CREEP_MPS
 from viaspline.robot.replanning.passing_sides import changed_side, is_better
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
@@ -27,27 +34,12 @@ from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.run import Mode
 from viaspline.world.world import World
 
-MODES: tuple[Mode, ...] = ("reflex", "planned")
-"""In which a path is left under way, in this order."""
-
 TURN_BACK_SAMPLES = 129
 """Places along a path at which it is seen whether it leads back."""
-
-Stage: TypeAlias = tuple[int, int]
-"""A part of a search: which of the order, and which place at which the path so far is left."""
-
-ORDER: tuple[Mode, ...] = (*MODES, "from_rest", "from_rest")
-"""The modes, from the least change to the greatest. From rest the path is laid anew nearby first,
-as far as something is in its way, then all of it."""
-
-NEARBY = 2
-"""The first of the latter."""
 
 NEARBY_WORK_S = 3.2
 """What a robot that stands spends before it lays all of its path anew [s of the reference machine],
 if a search nearby comes on."""
-
-LAST_STAGE: Stage = (len(ORDER) - 1, 0)
 
 MAX_SHARE_BEFORE = 0.2
 """A part of a search that was stopped had a step for itself if no more was spent before."""
@@ -124,7 +116,7 @@ def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandida
     if now < 0 or world.obstacles[now].forced_side is not None:
         return candidate
     try:
-        modes = MODES if candidate.mode == "reflex" else ("planned",)
+        modes = UNDER_WAY if candidate.mode == "reflex" else ("planned",)
         sided = context.requirements.once(
             ("side", world, now, side), partial(world.with_side, now, side)
         )
@@ -140,7 +132,7 @@ def first_candidate(
     context: ReplanContext,
     world: World,
     skip: Collection[int] = (),
-    modes: tuple[Mode, ...] = MODES,
+    modes: tuple[Mode, ...] = UNDER_WAY,
 ) -> PathCandidate:
     """The first way on that the robot can take: in these modes under way, then from rest.
 
