@@ -79,9 +79,10 @@ class Navigator:
     that it meant to, unless the other is shorter by as much.
 
     A step is bounded. Where something is in its way, a robot under way looks for a new path no
-    longer than it can and still stop, and no longer than a tenth of a second of work in each step;
-    meanwhile it goes on as it meant to (see ``work``). What it had no time for goes on in the steps
-    to come, while it brakes; at rest each step goes on from what the one before it has found.
+    longer than it can and still stop, and no longer than 0.03 s of work in each step; meanwhile it
+    goes on as it meant to (see ``work``). What it had no time for goes on in the steps to come,
+    while it brakes: also whether a new path on another side is worth it. At rest each step goes on
+    from what the one before it has found.
 
     A robot with a drive, or with a localisation that is not exact, is controlled in a closed loop:
     its commands bring it to where it should be when they take effect, after the delay of the drive.

@@ -11,13 +11,15 @@ from viaspline.robot.navigation.pending_search import (
     ORDER,
     PendingSearch,
     SearchSoFar,
+    SideInDoubt,
 )
 from viaspline.world.world import World
 
 ROCK = Obstacle(circle={"center": (5, 0), "radius": 1}, name="rock")
 POST = Obstacle(circle={"center": (9, 1), "radius": 1}, name="post")
 SO_FAR = SearchSoFar(0.1, 0.0, World([ROCK]), {})
-PENDING = PendingSearch(2.0, World([ROCK]), ("rock",), (1, 0), SO_FAR, again=3.0, free_until=4.0)
+DOUBT = SideInDoubt((5.0, 0.0), "left", ("reflex", "planned"), 40.0)
+PENDING = PendingSearch(2.0, World([ROCK]), ("rock",), (1, 0), SO_FAR, 3.0, 4.0, DOUBT)
 
 
 def test_a_search_goes_on_where_it_was_while_nothing_new_is_seen() -> None:
@@ -30,6 +32,7 @@ def test_a_search_that_meets_something_new_begins_anew_with_all_that_is_in_the_w
     assert both.begin_with == FIRST_STAGE
     assert both.again < both.since  # it doesn't wait
     assert both.so_far is SO_FAR
+    assert both.doubt is None
 
 
 def test_what_comes_after_the_last_stage_comes_after_all_of_them() -> None:

@@ -7,6 +7,7 @@ from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
+from viaspline.mission.shapes.obstacle import Side
 from viaspline.robot.run import Mode
 from viaspline.world.world import World
 
@@ -51,6 +52,25 @@ class SearchSoFar:
 
 
 @dataclass(frozen=True)
+class SideInDoubt:
+    """Something that a new path would pass on another side than the robot meant to.
+
+    Attributes:
+        place: In it [m].
+        side: The side that the robot meant.
+        modes: In which a path is sought that keeps to that.
+        other: Length of the one that doesn't, driven as far as the path so far [m].
+        is_open: Whether it is still sought; else the robot takes the other.
+    """
+
+    place: tuple[float, float]
+    side: Side
+    modes: tuple[Mode, ...]
+    other: float
+    is_open: bool = True
+
+
+@dataclass(frozen=True)
 class PendingSearch:
     """A search for a new path that is not over yet.
 
@@ -62,6 +82,7 @@ class PendingSearch:
         so_far: What it takes on to its next step.
         again: Under way it waits until then: it has tried all that it has time for [s].
         free_until: Up to this distance along the path it was certainly clear then [m].
+        doubt: What it was found to pass on another side, if that is not decided yet.
     """
 
     since: float
@@ -71,6 +92,7 @@ class PendingSearch:
     so_far: SearchSoFar
     again: float = -math.inf
     free_until: float = math.inf
+    doubt: SideInDoubt | None = None
 
     def with_new(self, new: World) -> PendingSearch:
         """The search with what has just been seen: that may bar what was tried, so it begins anew.
@@ -87,4 +109,5 @@ class PendingSearch:
             begin_with=FIRST_STAGE,
             again=-math.inf,
             free_until=math.inf,
+            doubt=None,
         )

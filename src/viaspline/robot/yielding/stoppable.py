@@ -22,7 +22,7 @@ from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.foretell import Foresight, foretold
 from viaspline.robot.perception.moving.mouths import reach_and_mouths
 from viaspline.robot.perception.perceive import Sighting
-from viaspline.robot.replanning.deadline import STEP_WORK_S
+from viaspline.robot.replanning.deadline import STANDING_WORK_S
 from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
 from viaspline.trajectory.passive_safety import (
@@ -157,7 +157,7 @@ def kept_to_path(
     event = Event("braked", progress.time, schedule.place(progress.distance), words)
     if not isinstance(sighting, World) or not len(sighting):
         return schedule, event
-    so_far = SearchSoFar(STEP_WORK_S, 0.0, knowledge.world, {})
+    so_far = SearchSoFar(STANDING_WORK_S, 0.0, knowledge.world, {})
     pending = PendingSearch(progress.time, sighting, sighting.names, FIRST_STAGE, so_far)
     if schedule.pending is not None:
         pending = replace(schedule.pending.with_new(sighting), so_far=so_far)
