@@ -79,8 +79,7 @@ def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandida
         context = context.searching_from_the_first()
     if doubt.is_open:
         kept = _on_side(context, doubt, skip)
-        here = context.progress.distance
-        if kept is not None and not is_better(doubt.other - here, kept.solution.path.length - here):
+        if kept is not None and _is_worth(context, doubt, kept):
             return kept
         if candidate is not None:
             return candidate
