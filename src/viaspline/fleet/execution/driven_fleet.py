@@ -1,4 +1,7 @@
-"""What is driven: courses, where they cross, the laws that were planned, and what robots can do."""
+"""What is driven: courses, where they cross, the laws that were planned, and what robots can do.
+
+Tested through ``fleet/execution/test_fleet_orders``.
+"""
 
 from __future__ import annotations
 
@@ -19,8 +22,6 @@ from viaspline.kernels.fleet.packed_rides import PackedRides
 @dataclass(frozen=True, eq=False)
 class DrivenFleet:
     """A fleet with its plan, as it is driven.
-
-    Tested through ``fleet/execution/test_fleet_orders``.
 
     Attributes:
         courses: Of the robots.
