@@ -12,11 +12,11 @@ from viaspline.errors import GeometryError
 from viaspline.fleet.execution.believed_reports import believed
 from viaspline.fleet.execution.carried_over import carried_over
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
-from viaspline.fleet.execution.fleet_commands import commands_of
 from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
 from viaspline.fleet.execution.fleet_orders import index_of, orders_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent, swapped_event
+from viaspline.fleet.execution.granted_commands import commands_of
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.handed_in import all_of, check_kind, number_from, time_from
 from viaspline.kernels.fleet.dispatching import dispatch_step
