@@ -114,8 +114,7 @@ def test_who_has_no_path_is_named_with_the_reason_and_stands_at_its_start() -> N
     assert least_distance(found, "b", (20, 0)) >= APART
 
 
-def test_a_fleet_of_one_and_of_none_is_laid() -> None:
-    assert laid().plans == {}
+def test_a_fleet_of_one_is_laid() -> None:
     assert set(laid(robot("a", (0, 0), (9, 0))).plans) == {"a"}
 
 
