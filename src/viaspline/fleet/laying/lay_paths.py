@@ -6,14 +6,15 @@ A path that passes no resting place of another can be timed whatever the others 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 from viaspline.errors import GaveUpError, GeometryError, PlanningError
 from viaspline.fleet.fleet_plan import NotServed
 from viaspline.fleet.laying.lay_among_rests import LaidPath, lay_among_rests
-from viaspline.fleet.laying.resting_places import RestingPlace, all_rests
+from viaspline.fleet.laying.laying_workers import LayingWorkers, ThisProcess
+from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces, all_rests
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan_in
@@ -21,7 +22,13 @@ from viaspline.planning.routing.visit_order import ordered
 from viaspline.world.world import World
 
 LayingProgress: TypeAlias = Callable[[int, int], None]
-"""Called with how many robots have their path, and how many there are."""
+"""Called with how many paths are laid, and how many have to be: alone, then among all."""
+
+AT_ONCE = 25
+"""So many robots are one piece of work."""
+THIS_PROCESS = ThisProcess()
+Part = TypeVar("Part")
+Done = TypeVar("Done")
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +46,11 @@ class LaidPaths:
     passed: Mapping[str, tuple[RestingPlace, ...]] = field(default_factory=dict)
 
 
-def lay_paths(fleet: Fleet, progress: LayingProgress | None = None) -> LaidPaths:
+def lay_paths(
+    fleet: Fleet,
+    progress: LayingProgress | None = None,
+    workers: LayingWorkers = THIS_PROCESS,
+) -> LaidPaths:
     """Lay the path of every robot, round those resting places of others that it would hit.
 
     Where there is no way round one of them, the path passes it, and timing has to see to it that
@@ -48,6 +59,7 @@ def lay_paths(fleet: Fleet, progress: LayingProgress | None = None) -> LaidPaths
     Args:
         fleet: What is asked for.
         progress: See ``LayingProgress``.
+        workers: Who lays them; the paths don't depend on that.
 
     Example:
         >>> mission = lambda start, goal: Mission.model_validate(
@@ -58,51 +70,100 @@ def lay_paths(fleet: Fleet, progress: LayingProgress | None = None) -> LaidPaths
         ([20.4, 19.5], {})
     """
     members = fleet.members
-    alone = _alone(fleet)
-    reaches = [_reach(fleet, one, alone.get(one.name)) for one in members]
+    tell = _Told(progress, 2 * len(members))
+    parts = [members[k : k + AT_ONCE] for k in range(0, len(members), AT_ONCE)]
+    alone = [one for part in _in_order(workers, lay_alone, parts, tell) for one in part]
+    reaches = [_reach(fleet, *pair) for pair in zip(members, alone, strict=True)]
     rests = all_rests(members, reaches)
-    laid: dict[str, LaidPath] = {}
-    for k, (member, reach) in enumerate(zip(members, reaches, strict=True)):
-        found = alone[member.name]
-        if isinstance(found, _Alone):
-            laid[member.name] = lay_among_rests(
-                found.plan, found.mission, member.name, reach, rests
-            )
-        if progress is not None:
-            progress(k + 1, len(members))
+    tasks = [
+        AmongRests(tuple(alone[k : k + AT_ONCE]), tuple(reaches[k : k + AT_ONCE]), rests)
+        for k in range(0, len(members), AT_ONCE)
+    ]
+    laid = [one for part in _in_order(workers, lay_among, tasks, tell) for one in part]
+    named = {member.name: one for member, one in zip(members, laid, strict=True) if one is not None}
     return LaidPaths(
-        {name: one.plan for name, one in laid.items()},
-        tuple(one for one in alone.values() if isinstance(one, NotServed)),
-        {name: one.passed for name, one in laid.items() if one.passed},
+        {name: one.plan for name, one in named.items()},
+        tuple(one for one in alone if isinstance(one, NotServed)),
+        {name: one.passed for name, one in named.items() if one.passed},
     )
 
 
+class _Told:
+    """Counts the pieces that are done, and tells."""
+
+    def __init__(self, progress: LayingProgress | None, pieces: int) -> None:
+        self._progress, self._pieces, self._done = progress, pieces, 0
+
+    def more(self, pieces: int) -> None:
+        self._done += pieces
+        if self._progress is not None:
+            self._progress(self._done, self._pieces)
+
+
+def _in_order(
+    workers: LayingWorkers, task: Callable[[Part], list[Done]], parts: Sequence[Part], tell: _Told
+) -> list[list[Done]]:
+    """What comes of every part, in the order of the parts."""
+    found: dict[int, list[Done]] = {}
+    for k, done in workers.each(task, parts):
+        found[k] = done
+        tell.more(len(done))
+    return [found[k] for k in range(len(parts))]
+
+
 @dataclass(frozen=True, eq=False)
-class _Alone:
+class AlonePlan:
     """What a robot does if it is alone.
 
     Attributes:
+        name: The robot.
         mission: Its via points in the order in which they are served.
         plan: Of that.
     """
 
+    name: str
     mission: Mission
     plan: Plan
 
 
-def _alone(fleet: Fleet) -> dict[str, _Alone | NotServed]:
-    """Every robot's plan as if it were alone, by name."""
+@dataclass(frozen=True, eq=False)
+class AmongRests:
+    """Robots whose paths are to be laid among resting places.
+
+    Attributes:
+        alone: What each does if it is alone, or why that is nothing.
+        reaches: Of each [m].
+        rests: Of all robots of the fleet.
+    """
+
+    alone: tuple[AlonePlan | NotServed, ...]
+    reaches: tuple[float, ...]
+    rests: RestingPlaces
+
+
+def lay_among(asked: AmongRests) -> list[LaidPath | None]:
+    """Lay paths among resting places; None for a robot that has none even alone."""
+    return [
+        lay_among_rests(one.plan, one.mission, one.name, reach, asked.rests)
+        if isinstance(one, AlonePlan)
+        else None
+        for one, reach in zip(asked.alone, asked.reaches, strict=True)
+    ]
+
+
+def lay_alone(members: Sequence[FleetMember]) -> list[AlonePlan | NotServed]:
+    """Each robot's plan as if it were alone."""
     shared: list[tuple[Mission, World]] = []
-    found: dict[str, _Alone | NotServed] = {}
-    for member in fleet.members:
+    found: list[AlonePlan | NotServed] = []
+    for member in members:
         world = _shared_world(member.mission, shared)
         try:
             mission = ordered(member.mission, world)
             if mission is not member.mission and mission.route.corridor is not None:
                 world = World.known(mission)
-            found[member.name] = _Alone(mission, plan_in(mission, world))
+            found.append(AlonePlan(member.name, mission, plan_in(mission, world)))
         except (PlanningError, GeometryError) as error:
-            found[member.name] = not_served(member.name, error)
+            found.append(not_served(member.name, error))
     return found
 
 
@@ -127,8 +188,8 @@ def not_served(name: str, error: PlanningError | GeometryError) -> NotServed:
     return NotServed(name, "refused", reason, remedy)
 
 
-def _reach(fleet: Fleet, member: FleetMember, alone: _Alone | NotServed | None) -> float:
+def _reach(fleet: Fleet, member: FleetMember, alone: AlonePlan | NotServed) -> float:
     """How far a robot keeps others away on its part [m]; see ``PackedCourses``."""
     robot = member.mission.robot
-    error = alone.plan.tracking_error if isinstance(alone, _Alone) else robot.tracking_error_m
+    error = alone.plan.tracking_error if isinstance(alone, AlonePlan) else robot.tracking_error_m
     return robot.outer_radius + (error or 0.0) + 0.5 * fleet.separation_m
