@@ -101,7 +101,7 @@ def test_who_is_served_is_apart_from_all_others_at_every_instant(seed: int, coun
     assert len(planned.plans) + len(planned.not_served) == count
     if np.isfinite(looked_at):
         assert looked_at >= SEPARATION - 1e-6
-        assert planned.certificate.separation >= looked_at - 0.005 or looked_at > 2 * SEPARATION
+        assert planned.certificate.separation >= looked_at - 0.045  # and bows of curves
 
 
 @given(seed=st.integers(0, 100_000))
@@ -143,8 +143,8 @@ def test_a_fleet_of_one_drives_as_if_alone() -> None:
 
 
 def test_robots_that_can_be_slowed_nowhere_wait_at_home() -> None:
-    crossing = [robot([(0, 0), (40, 0)]), robot([(20, -20), (20, 20)], max_jerk_mps3=1.0)]
-    planned = plan_fleet(fleet_of(*crossing))
+    first = {**robot([(0, 0), (40, 0)]), "priority": 1}
+    planned = plan_fleet(fleet_of(first, robot([(20, -20), (20, 20)], max_jerk_mps3=1.0)))
     assert planned.served
     law = planned.plans["r1"].trajectory
     assert law.distances[0] == law.distances[1] == 0.0

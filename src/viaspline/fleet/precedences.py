@@ -69,21 +69,39 @@ def _waits(
     courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws,
     gaps: Floats,
 ) -> Floats:  # fmt: skip
-    """How much later each crossing makes its second robot come [s], (c,).
+    """How much later each crossing makes its second robot come [s], (c,)."""
+    waits = np.zeros(len(crossings.packed.robots))
+    for robot in range(courses.packed.reach.size):
+        for box, lost in held_at(courses, crossings, laws, alone, gaps, robot):
+            waits[crossings.packed.crossing[box]] += lost
+    return waits
+
+
+def held_at(
+    courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws,
+    gaps: Floats, robot: int,
+) -> list[tuple[int, float]]:  # fmt: skip
+    """The boxes that a robot waits for, in their order along its path, and how long for each [s].
 
     A robot comes to a crossing that it waited for just when the other one has left it. What it is
     late by there, beyond what it was late by at the one before, it is late for this one.
+
+    Args:
+        courses: The paths of the fleet.
+        crossings: Where these come near each other.
+        laws: When each robot is where.
+        alone: When each would be where if it were alone.
+        gaps: See ``passing_gaps``, (boxes,).
+        robot: Which one.
     """
-    packed, nodes = crossings.packed, courses.packed
+    packed = crossings.packed
     late = laws.packed.arrive - alone.packed.arrive
-    waits = np.zeros(len(packed.robots))
-    for robot in range(nodes.reach.size):
-        boxes = np.arange(packed.box_first[robot], packed.box_first[robot + 1])
-        tight = boxes[(gaps[boxes] >= 0.0) & (gaps[boxes] < TIGHT_S)]
-        before = 0.0
-        for box in tight.tolist():
-            now = float(late[packed.cell[box]])
-            if now > before + TIGHT_S:
-                waits[packed.crossing[box]] += now - before
-                before = now
-    return waits
+    boxes = np.arange(packed.box_first[robot], packed.box_first[robot + 1])
+    tight = boxes[(gaps[boxes] >= 0.0) & (gaps[boxes] < TIGHT_S)]
+    found, before = [], 0.0
+    for box in tight.tolist():
+        now = float(late[packed.cell[box]])
+        if now > before + TIGHT_S:
+            found.append((box, now - before))
+            before = now
+    return found

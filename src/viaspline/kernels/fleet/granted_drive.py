@@ -69,9 +69,7 @@ class PackedTrouble(NamedTuple):
 
 
 @inner
-def new_drive(
-    courses: PackedCourses, rides: PackedRides, trouble: PackedTrouble
-) -> PackedDrive:
+def new_drive(courses: PackedCourses, rides: PackedRides, trouble: PackedTrouble) -> PackedDrive:
     """Robots that stand at their starts."""
     count = courses.reach.size
     drive = PackedDrive(
@@ -121,9 +119,10 @@ def _rise(
     return slope, until
 
 
-@inner
-def enters_node(drive: PackedDrive, courses: PackedCourses, trouble: PackedTrouble, robot: int,
-                node: int) -> None:  # fmt: skip
+@inlined
+def enters_node(
+    drive: PackedDrive, courses: PackedCourses, trouble: PackedTrouble, robot: int, node: int
+) -> None:
     """A robot comes to a node."""
     drive.cell[robot] = node
     drive.place[robot] = courses.distance[node]
@@ -131,7 +130,7 @@ def enters_node(drive: PackedDrive, courses: PackedCourses, trouble: PackedTroub
     drive.halts[robot] = max(drive.halts[robot], trouble.halts[node])
 
 
-@inner
+@inlined
 def drive_stretch(
     drive: PackedDrive, courses: PackedCourses, rides: PackedRides, trouble: PackedTrouble,
     robot: int, grant: float, now: float, until: float,
@@ -186,9 +185,7 @@ def drive_stretch(
         slope = (rides.square[node + 1] - rides.square[node]) / width * pace * pace
         top = rides.square[node] * pace * pace
         top += slope * (drive.place[robot] - courses.distance[node])
-    rise, far = _rise(
-        square, top, slope, room, 2.0 * rides.accel[robot], 2.0 * rides.brake[robot]
-    )
+    rise, far = _rise(square, top, slope, room, 2.0 * rides.accel[robot], 2.0 * rides.brake[robot])
     ends = far >= left
     far = min(far, left)
     speed = math.sqrt(square)

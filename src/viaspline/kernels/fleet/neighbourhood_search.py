@@ -3,6 +3,8 @@
 Li, Chen, Harabor, Stuckey and Koenig: Anytime multi-agent path finding via large neighborhood
 search, IJCAI 2021. Each set of paths is valid; a new one is kept if its sum of arrivals isn't
 larger.
+
+Tested through ``kernels/fleet/test_prioritised_planning``.
 """
 
 from __future__ import annotations
@@ -21,9 +23,7 @@ WALKS = 12
 
 
 @inner
-def _delayed(
-    table: LatticeTable, starts: Steps, distances: Steps, random: Ints
-) -> int:
+def _delayed(table: LatticeTable, starts: Steps, distances: Steps, random: Ints) -> int:
     """A robot that arrives late, drawn by how late it is; -1 where none is."""
     late = 0
     for robot in range(len(starts)):
@@ -152,9 +152,7 @@ def neighbourhood_search(
             other = random_below(search.random, k + 1)
             chosen[k], chosen[other] = chosen[other], chosen[k]
         order = chosen[:count]
-        done, _total, looked = plan_in_order(
-            search, table, order, starts, goals, distances, total
-        )
+        done, _total, looked = plan_in_order(search, table, order, starts, goals, distances, total)
         used += looked + count
         if done < count:
             _restore(table, chosen, done, kept, count)

@@ -114,9 +114,10 @@ def _put_on_stack(choice: StepChoice, depth: int, robot: int) -> None:
         key = 2 * choice.distances[robot, to] + (choice.here[to] != 0 and to != cell)
         while at > 0:
             other = choice.options[depth, at - 1]
-            if 2 * choice.distances[robot, other] + (
-                choice.here[other] != 0 and other != cell
-            ) <= key:
+            if (
+                2 * choice.distances[robot, other] + (choice.here[other] != 0 and other != cell)
+                <= key
+            ):
                 break
             choice.options[depth, at] = other
             at -= 1
