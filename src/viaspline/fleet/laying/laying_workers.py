@@ -2,8 +2,6 @@
 
 What comes of a piece depends on the piece alone, so the bytes of the whole don't depend on who does
 it, in which order, or how often it has to be done again.
-
-Tested through ``fleet/laying/test_lay_paths``.
 """
 
 from __future__ import annotations
