@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
+from importlib import import_module
 from multiprocessing import get_context
 from typing import Any, Protocol, TypeVar
 
@@ -98,9 +99,8 @@ class Cluster:
         self, task: Callable[[Part], Done], parts: Sequence[Part]
     ) -> Iterator[tuple[int, Done]]:
         """See ``LayingWorkers``."""
-        from distributed import as_completed as as_gathered
-
+        gathered: Any = import_module("distributed").as_completed
         futures = [self.client.submit(task, part, pure=False) for part in parts]
         numbers = {future.key: k for k, future in enumerate(futures)}
-        for future, done in as_gathered(futures, with_results=True):
+        for future, done in gathered(futures, with_results=True):
             yield numbers[future.key], done
