@@ -42,7 +42,7 @@ def test_robots_that_change_places_are_proven_apart():
 
 def test_a_crowd_that_is_permuted_is_proven_apart():
     places = [(x + 0.5, y + 0.5) for x in range(0, 8, 2) for y in range(0, 8, 2)]
-    order = np.random.default_rng(2).permutation(len(places))
+    order = (5 * np.arange(len(places)) + 3) % len(places)
     ends = [(place, places[k]) for place, k in zip(places, order, strict=True)]
     courses, timing = timed(ends, {"bounds": [0, 0, 8, 8]})
     assert not timing.blocked

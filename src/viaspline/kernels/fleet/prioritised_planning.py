@@ -34,17 +34,17 @@ def plan_in_order(
     """
     left = 0  # the least sum of those that are still to come
     for k in range(len(order)):
-        left += distances[order[k], starts[order[k]]]
+        left += int(distances[order[k], starts[order[k]]])
     total = work = 0
     for k in range(len(order)):
         robot = order[k]
         start, goal = starts[robot], goals[robot]
-        left -= distances[robot, start]
+        left -= int(distances[robot, start])
         found = cell_path(search, table, robot, start, goal, distances, most - total - left)
         work += abs(found)
         if found < 0:
             return k, total, work
-        total += table.arrivals[robot]
+        total += int(table.arrivals[robot])
         book(table, robot)
     return len(order), total, work
 
