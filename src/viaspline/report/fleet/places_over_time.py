@@ -53,7 +53,7 @@ class FleetMotion:
             one.mission.robot.outer_radius + one.tracking_error for one in plan.plans.values()
         ]
         return cls(
-            plan.names, times, np.array(places).reshape(-1, len(times), 2), np.array(bodies, float)
+            tuple(plan.plans), times, np.array(places).reshape(-1, len(times), 2), np.array(bodies, float)
         )
 
     @classmethod
@@ -68,7 +68,7 @@ class FleetMotion:
             places.append(_along(one, along, times > leaves))
             bodies.append(one.mission.robot.outer_radius + one.tracking_error)
         return cls(
-            plan.names, times, np.array(places).reshape(-1, len(times), 2), np.array(bodies, float)
+            tuple(plan.plans), times, np.array(places).reshape(-1, len(times), 2), np.array(bodies, float)
         )
 
     def place_at(self, name: str, time: float) -> tuple[float, float]:
