@@ -62,8 +62,8 @@ def test_plan_writes_the_fleet_and_a_folder_for_each_robot(fleet: Path, tmp_path
     assert result.exit_code == 0, result.stderr
     files = {file.relative_to(out).as_posix() for file in out.rglob("*") if file.is_file()}
     assert files == {
-        "fleet.json", "fleet.png", "timing.json",
-        "east/plan.json", "east/path.csv", "north/plan.json", "north/path.csv",
+        "fleet.json", "fleet.png", "timing.json", "east/plan.json", "east/path.csv",
+        "north/plan.json", "north/path.csv",
     }  # fmt: skip
     assert json.loads((out / "fleet.json").read_text())["served"] is True
     assert "2 of 2" in result.stdout
@@ -75,12 +75,14 @@ def test_plan_writes_the_fleet_and_a_folder_for_each_robot(fleet: Path, tmp_path
 
 def test_run_drives_the_fleet_as_well(fleet: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    result = call("run", fleet, "--out", out, "--seed", 5)
+    result = call("run", fleet, "--out", out, "--seed", 5, "--animate", tmp_path / "round.gif")
     assert result.exit_code == 0, result.stderr
     run = json.loads((out / "run.json").read_text())
     assert run["reached"] is True
     assert run["fleet"]["seed"] == 5
     assert (out / "fleet.json").exists()
+    assert (out / "run.png").read_bytes() != (out / "fleet.png").read_bytes()
+    assert (tmp_path / "round.gif").read_bytes().startswith(b"GIF")
     assert (out / "north" / "path.csv").exists()
     assert "Run · yard" in result.stdout
 

@@ -84,7 +84,7 @@ def timelines_of(plan: FleetPlan) -> tuple[Timeline, ...]:
     lost = lost_times(plan)
     gaps = passing_gaps(plan.courses.packed, plan.crossings.packed, plan.laws.packed)
     numbers = {name: robot for robot, name in enumerate(plan.courses.names)}
-    return tuple(_timeline(plan, lost, gaps, numbers[name]) for name in plan.names)
+    return tuple(_timeline(plan, lost, gaps, numbers[name]) for name in plan.plans)
 
 
 def _timeline(plan: FleetPlan, lost: LostTimes, gaps: Floats, robot: int) -> Timeline:

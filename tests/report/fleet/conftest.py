@@ -16,7 +16,8 @@ YARD: dict[str, Any] = {
     "separation_m": 1,
     "robots": {"cart": {"radius_m": 0.5}, "tug": {"radius_m": 0.9, "max_speed_mps": 1}},
     "fleet": [
-        {"name": "east", "robot": "cart", "route": {"start": [0, 0], "goal": [40, 0]}},
+        {"name": "east", "robot": "cart", "depart_s": 3,
+         "route": {"start": [0, 0], "goal": [40, 0]}},
         {"name": "north", "robot": "cart", "rest": "leave",
          "route": {"start": [20, -20], "via": [{"at": [20, -12], "dwell_s": 2}], "goal": [20, 20]}},
         {"name": "tug", "robot": "tug", "priority": 1,

@@ -5,7 +5,6 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
-import pytest
 from numpy.typing import NDArray
 
 from viaspline.report.fleet.fleet_colours import ROBOT_COLOURS, colours_of
@@ -31,9 +30,8 @@ def nearest(colours: tuple[str, ...], eyes: NDArray[np.float64]) -> float:
     return min(float(np.linalg.norm(a - b)) for a, b in combinations(seen, 2))
 
 
-@pytest.mark.parametrize(("count", "apart"), [(8, 28.0), (20, 20.0)])
-def test_any_two_of_the_first_colours_differ(count: int, apart: float) -> None:
-    assert nearest(ROBOT_COLOURS[:count], np.eye(3)) > apart
+def test_any_two_colours_differ() -> None:
+    assert nearest(ROBOT_COLOURS, np.eye(3)) > 25.0
 
 
 def test_the_first_colours_differ_without_green_as_well() -> None:

@@ -27,7 +27,7 @@ class FleetRides:
     Attributes:
         packed: As kernels see them.
         alone: How long each takes [s], (n,).
-        laws: When each would be where.
+        laws: When each would be where, if it set out when it departs [s].
     """
 
     packed: PackedRides
@@ -48,14 +48,16 @@ def rides_of(
         plans: Their plans, whose laws are those of robots that are alone.
         courses: Their paths, cut into cells.
     """
-    alone = static_laws(courses, [plan.trajectory for plan in plans])
-    laws = alone.packed
+    laws = static_laws(courses, [plan.trajectory for plan in plans]).packed
     first = courses.packed.first
     ends = first[1:] - 1
     stays = laws.leave - laws.arrive
     stays[ends] = 0.0
     lasts = np.append(laws.arrive[1:] - laws.leave[:-1], 0.0)
     lasts[ends] = 0.0
+    depart = np.array([member.mission.route.depart_s for member in members], float)
+    later = np.repeat(depart - laws.arrive[first[:-1]], np.diff(first))
+    by_clock = laws._replace(arrive=laws.arrive + later, leave=laws.leave + later)
     limits = [limits_of(plan.mission.robot) for plan in plans]
     paced = [
         one.max_jerk is not None or is_coupled(one, plan.path.dimension)
@@ -68,10 +70,10 @@ def rides_of(
             stays=stays,
             accel=np.array([one.max_accel for one in limits]),
             brake=np.array([one.brake for one in limits]),
-            depart=np.array([member.mission.route.depart_s for member in members], float),
+            depart=depart,
             keeps_pace=np.array(paced, np.bool_),
             vanishes=np.array([member.rest == "leave" for member in members], np.bool_),
         ),
         np.array([plan.trajectory.duration for plan in plans]),
-        alone,
+        FleetLaws(by_clock),
     )

@@ -20,7 +20,7 @@ def driven_timelines(plan: FleetPlan, run: FleetRun) -> tuple[Timeline, ...]:
         plan: What was planned.
         run: What was driven.
     """
-    events: dict[str, list[FleetEvent]] = {name: [] for name in plan.names}
+    events: dict[str, list[FleetEvent]] = {name: [] for name in plan.plans}
     for event in run.events:
         if event.name in events and event.kind in ("waits", "goes on"):
             events[event.name].append(event)

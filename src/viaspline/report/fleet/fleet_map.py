@@ -73,7 +73,7 @@ def draw_fleet_map(
 
 def robot_colours(plan: FleetPlan) -> dict[str, str]:
     """The colours of the robots that are served, by name."""
-    return dict(zip(plan.names, colours_of(len(plan.names)), strict=True))
+    return dict(zip(plan.plans, colours_of(len(plan.plans)), strict=True))
 
 
 def scene_of(plan: FleetPlan) -> tuple[Scene, Box]:
@@ -90,8 +90,8 @@ def scene_of(plan: FleetPlan) -> tuple[Scene, Box]:
 
 def _robots(plan: FleetPlan) -> list[Artist]:
     """The legend's lines of the robots, as far as their colours tell them apart."""
-    if len(plan.names) > MAX_TOLD_APART:
-        words = f"paths of {len(plan.names)} robots"
+    if len(plan.plans) > MAX_TOLD_APART:
+        words = f"paths of {len(plan.plans)} robots"
         return [Line2D([], [], color=style.PATH, linewidth=1.6, label=words)]
     return [
         Line2D([], [], color=colour, linewidth=2.4, label=style.short(name, 24))

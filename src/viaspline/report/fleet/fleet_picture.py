@@ -34,7 +34,7 @@ def fleet_picture(plan: FleetPlan, name: str) -> bytes:
     rows = rows_of(timelines)
     colours = robot_colours(plan)
     pair = pair_to_show(plan)
-    is_large = len(plan.names) > MAX_TOLD_APART
+    is_large = len(plan.plans) > MAX_TOLD_APART
     small = ([SMALL_TALL + 0.5] if pair else []) + ([map_width(view)] if is_large else [])
     page = new_fleet_page(view, small, len(rows), *heading(plan, timelines, name))
     draw_fleet_map(page.sheet, scene, plan, timelines, motion)
@@ -51,7 +51,7 @@ def fleet_picture(plan: FleetPlan, name: str) -> bytes:
 
 def motion_of(plan: FleetPlan) -> FleetMotion:
     """Where robots are all through a plan, and where two of them are nearest."""
-    times = instants(*span_of(plan), len(plan.names), plan.certificate.at_s)
+    times = instants(*span_of(plan), len(plan.plans), plan.certificate.at_s)
     return FleetMotion.of_plan(plan, times)
 
 
@@ -64,7 +64,7 @@ def heading(
     robots = "robot" if asked == 1 else "robots"
     title = f"{style.short(name, 48)}: {count} of {asked} {robots} served in {seconds(end - begin)}"
     late = [max(one.late, 0.0) for one in timelines]
-    alone = sum(plan.alone[one] for one in plan.names)
+    alone = sum(plan.alone[one] for one in plan.plans)
     lines = (
         f"{seconds(sum(late))} late in all, {sum(late) / max(alone, 1e-9):.1%} over driving alone"
     )

@@ -36,7 +36,7 @@ def fleet_run_picture(plan: FleetPlan, run: FleetRun, name: str) -> bytes:
     scene, view = scene_of(plan)
     certificate = run.certificate
     begin, _ = span_of(plan)
-    times = instants(begin, run.end_s, len(plan.names), certificate.at_s)
+    times = instants(begin, run.end_s, len(plan.plans), certificate.at_s)
     motion = FleetMotion.of_run(plan, run, times)
     timelines = driven_timelines(plan, run)
     rows, colours = rows_of(timelines), robot_colours(plan)
@@ -61,7 +61,7 @@ def draw_arrivals(axes: Axes, plan: FleetPlan, run: FleetRun, colours: Mapping[s
         colours: Of robots by name.
     """
     name_panel(axes, "Arrivals, planned and driven")
-    names = [name for name in plan.names if name in run.arrivals]
+    names = [name for name in plan.plans if name in run.arrivals]
     planned = np.array([plan.plans[name].trajectory.end_time for name in names])
     driven = np.array([run.arrivals[name] for name in names])
     top = 1.06 * max(float(planned.max(initial=1.0)), float(driven.max(initial=1.0)))

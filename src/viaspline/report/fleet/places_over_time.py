@@ -52,9 +52,8 @@ class FleetMotion:
         bodies = [
             one.mission.robot.outer_radius + one.tracking_error for one in plan.plans.values()
         ]
-        return cls(
-            plan.names, times, np.array(places).reshape(-1, len(times), 2), np.array(bodies, float)
-        )
+        ways = np.array(places).reshape(-1, len(times), 2)
+        return cls(tuple(plan.plans), times, ways, np.array(bodies, float))
 
     @classmethod
     def of_run(cls, plan: FleetPlan, run: FleetRun, times: Floats) -> FleetMotion:
@@ -67,9 +66,8 @@ class FleetMotion:
             leaves = run.arrivals.get(name, np.inf) if rests[name] == "leave" else np.inf
             places.append(_along(one, along, times > leaves))
             bodies.append(one.mission.robot.outer_radius + one.tracking_error)
-        return cls(
-            plan.names, times, np.array(places).reshape(-1, len(times), 2), np.array(bodies, float)
-        )
+        ways = np.array(places).reshape(-1, len(times), 2)
+        return cls(tuple(plan.plans), times, ways, np.array(bodies, float))
 
     def place_at(self, name: str, time: float) -> tuple[float, float]:
         """Where a robot is at one of the times, or about that between two of them [m]."""
