@@ -47,7 +47,7 @@ def test_check_names_every_fault_of_a_fleet(tmp_path: Path) -> None:
     result = call("check", file)
     assert result.exit_code == 2
     assert [line.partition(" ")[0] for line in result.stderr.splitlines()] == [
-        f"{file}:5:25:", f"{file}:5:68:", f"{file}:6:26:",
+        f"{file}:5:25:", f"{file}:5:69:", f"{file}:6:26:",
     ]  # fmt: skip
 
 

@@ -89,14 +89,18 @@ class _Stages:
         self._watch = watch
         self._open = open_stage
         self._words = ""
+        self._begin("plan", "planning")
 
     def told(self, words: str, share: float) -> None:
         """Hear what is being done, and the share of it that is done."""
         if words != self._words:
-            self._open.close()
-            self._open.enter_context(self._watch.stage(words.replace(" ", "_"), words))
-            self._words = words
+            self._begin(words.replace(" ", "_"), words)
         self._watch.fraction(share)
+
+    def _begin(self, name: str, words: str) -> None:
+        self._open.close()
+        self._open.enter_context(self._watch.stage(name, words))
+        self._words = words
 
 
 @contextmanager

@@ -13,6 +13,7 @@ from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.precedences import Precedence
+from viaspline.fleet.timing.rides import FleetRides
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 
@@ -43,12 +44,15 @@ class FleetPlan:
         plans: The plan of every robot that is served, by name, in the order of the fleet. Its
             trajectory begins when its robot departs, by the clock of the fleet.
         not_served: The others, with the reason.
-        certificate: The least separation of any two robots that are served, over all time.
+        certificate: The least separation of any two robots that have a path, over all time.
         precedences: Who passes first, wherever two paths come near each other.
         alone: How long each robot would drive if it were alone [s], by name.
-        courses: Their paths, cut into cells: the served robots in the order of ``plans``.
-        crossings: Where these come near each other.
-        laws: When each robot is where on its course.
+        courses: Their paths, cut into cells, and those of robots that have a path but no law.
+        crossings: Where these come near each other; in each of them one robot passes first.
+        laws: When each robot is where on its course. Those that are not served stand at their
+            starts for ever.
+        rides: How each robot drives where nobody is in its way.
+        alone_laws: When it would be where if it were alone.
     """
 
     fleet: Fleet
@@ -60,6 +64,8 @@ class FleetPlan:
     courses: FleetCourses
     crossings: FleetCrossings
     laws: FleetLaws
+    rides: FleetRides
+    alone_laws: FleetLaws
 
     @property
     def served(self) -> bool:
@@ -68,5 +74,5 @@ class FleetPlan:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The robots that are served, in the order of the courses."""
-        return tuple(self.plans)
+        """The robots that have a path, in the order of the courses."""
+        return self.courses.names

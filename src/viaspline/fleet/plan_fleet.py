@@ -3,70 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-
-import numpy as np
+from collections.abc import Callable
+from dataclasses import replace
 
 from viaspline.errors import GeometryError
-from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
-from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.fleet.laying.lay_paths import LaidPaths
+from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
-from viaspline.fleet.timing.improve_laws import improve_laws
-from viaspline.fleet.timing.rides import FleetRides, rides_of
-from viaspline.fleet.timing.time_paths import Timing, time_paths
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.handed_in import check_callable, check_kind, number_from
-from viaspline.mission.fleet.fleet import Fleet, FleetMember
-from viaspline.planner import Plan
+from viaspline.mission.fleet.fleet import Fleet
 
 FleetProgress = Callable[[str, float], None]
 """Called with what is being done, and the share of it that is done."""
-
-
-@dataclass(frozen=True, eq=False)
-class TimedFleet:
-    """Robots with paths, and when they drive along them.
-
-    Attributes:
-        members: Those that have a path.
-        plans: Their paths, with the laws of robots that are alone, in the order of the members.
-        courses: These paths, cut into cells.
-        crossings: Where they come near each other.
-        rides: How each robot drives alone.
-        timing: When it drives among the others.
-    """
-
-    members: tuple[FleetMember, ...]
-    plans: tuple[Plan, ...]
-    courses: FleetCourses
-    crossings: FleetCrossings
-    rides: FleetRides
-    timing: Timing
-
-    @classmethod
-    def of(cls, fleet: Fleet, paths: CrossingPaths) -> TimedFleet:
-        """Time robots along their paths.
-
-        Args:
-            fleet: What is asked for.
-            paths: Of those that have one.
-        """
-        courses, crossings = paths.courses, paths.crossings
-        members = [one for one in fleet.members if one.name in paths.laid.plans]
-        plans = [paths.laid.plans[one.name] for one in members]
-        rides = rides_of(members, plans, courses)
-        priorities = [one.priority for one in members]
-        timing = time_paths(courses, crossings, rides, priorities)
-        return cls(tuple(members), tuple(plans), courses, crossings, rides, timing)
-
-    @property
-    def blocked(self) -> tuple[FleetMember, ...]:
-        """The robots that could not be timed."""
-        return tuple(self.members[k] for k in sorted(self.timing.blocked))
 
 
 def plan_fleet(
@@ -118,46 +71,70 @@ def plan_fleet(
     if paths is None:
         paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
     tell("timing", 0.0)
-    timed = TimedFleet.of(fleet, paths)
+    timed = _served(FleetWays.along(fleet.members, paths), fleet.separation_m)
     if improve > 0.0:
-        improve_laws(
-            timed.courses, timed.crossings, timed.rides, timed.timing,
-            np.array([one.priority for one in timed.members], float), improve,
-            lambda share: tell("improving", share),
-        )  # fmt: skip
+        timed = timed.improved(improve, lambda share: tell("improving", share))
     tell("proving", 0.0)
-    return _planned(fleet, timed, paths.laid.not_served)
+    return _planned(fleet, timed, paths.laid)
 
 
-def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -> FleetPlan:
+def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
+    """Plan a fleet along its paths, by priority alone.
+
+    Those that can't be timed so stand at their starts: ``plan_fleet`` looks for other ways then,
+    which takes longer.
+
+    Args:
+        fleet: What is asked for.
+        paths: Of the very fleet.
+    """
+    timed = TimedFleet.by_priority(FleetWays.along(fleet.members, paths))
+    return _planned(fleet, timed.past_standing_ones() if timed.blocked else timed, paths.laid)
+
+
+def _served(ways: FleetWays, separation: float) -> TimedFleet:
+    """Robots timed along their paths, with other paths where that leaves some without a law."""
+    timed = TimedFleet.by_priority(ways)
+    if not timed.blocked:
+        return timed
+    led = on_lattice(ways, separation)
+    if isinstance(led, TimedFleet) and not led.blocked:
+        return led
+    return timed.past_standing_ones()
+
+
+def _planned(fleet: Fleet, timed: TimedFleet, laid: LaidPaths) -> FleetPlan:
     """The plan of a fleet that is timed."""
-    blocked = timed.timing.blocked
-    laws = timed.timing.laws
+    ways, timing = timed.ways, timed.timing
+    courses, names = ways.courses, ways.courses.names
     plans = {
         member.name: replace(
             plan,
-            trajectory=timed_trajectory(plan.trajectory, timed.courses, timed.rides, laws, k),
+            trajectory=timed_trajectory(plan.trajectory, courses, ways.rides, timing.laws, k),
         )
-        for k, (member, plan) in enumerate(zip(timed.members, timed.plans, strict=True))
-        if k not in blocked
+        for k, (member, plan) in enumerate(zip(ways.members, ways.plans, strict=True))
+        if k not in timing.blocked
     }
-    names = timed.courses.names
     unserved = [
         NotServed(
             names[robot], "gave up",
             f"it can't be timed along its path: '{names[other]}' is in its way",
             f"give '{names[other]}' another start, goal or priority, or let it leave",
         )
-        for robot, other in sorted(blocked.items())
+        for robot, other in sorted(timing.blocked.items())
     ]  # fmt: skip
+    crossings = ordered_crossings(courses, ways.crossings, timing.laws)
+    alone = ways.rides.laws
     return FleetPlan(
         fleet=fleet,
         plans=plans,
-        not_served=(*not_served, *unserved),
-        certificate=certify_fleet(timed.courses, laws, fleet.separation_m),
-        precedences=precedences_of(timed.courses, timed.crossings, laws, timed.rides.laws),
-        alone=dict(zip(names, timed.rides.alone.tolist(), strict=True)),
-        courses=timed.courses,
-        crossings=timed.crossings,
-        laws=laws,
+        not_served=(*laid.not_served, *unserved),
+        certificate=certify_fleet(courses, timing.laws, fleet.separation_m),
+        precedences=precedences_of(courses, crossings, timing.laws, alone),
+        alone=dict(zip(names, ways.rides.alone.tolist(), strict=True)),
+        courses=courses,
+        crossings=crossings,
+        laws=timing.laws,
+        rides=ways.rides,
+        alone_laws=alone,
     )

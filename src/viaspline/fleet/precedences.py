@@ -9,7 +9,7 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.passing_order import passing_gaps
 
 TIGHT_S = 1e-3
@@ -53,7 +53,7 @@ def precedences_of(
     is_first_later = np.zeros(count, np.bool_)  # of the two, the one with the lower number
     mine = (gaps >= 0.0) & (owner == packed.robots[packed.crossing, 0])
     is_first_later[packed.crossing[mine]] = True
-    waits = _waits(crossings, laws, alone, gaps, owner)
+    waits = _waits(courses, crossings, laws, alone, gaps)
     later = is_first_later[:, None]
     ranked = np.where(later, packed.robots[:, ::-1], packed.robots).tolist()
     places = np.where(later, packed.span[:, [3, 0]], packed.span[:, [1, 2]]).tolist()
@@ -67,25 +67,42 @@ def precedences_of(
 
 
 def _waits(
-    crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws, gaps: Floats, owners: Ints
-) -> Floats:
-    """How much later each crossing makes its second robot come [s], (c,).
+    courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws,
+    gaps: Floats,
+) -> Floats:  # fmt: skip
+    """How much later each crossing makes its second robot come [s], (c,)."""
+    waits = np.zeros(len(crossings.packed.robots))
+    for robot in range(courses.packed.reach.size):
+        for box, lost in held_at(courses, crossings, laws, alone, gaps, robot):
+            waits[crossings.packed.crossing[box]] += lost
+    return waits
+
+
+def held_at(
+    courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws,
+    gaps: Floats, robot: int,
+) -> list[tuple[int, float]]:  # fmt: skip
+    """The boxes that a robot waits for, in their order along its path, and how long for each [s].
 
     A robot comes to a crossing that it waited for just when the other one has left it. What it is
     late by there, beyond what it was late by at the one before, it is late for this one.
+
+    Args:
+        courses: The paths of the fleet.
+        crossings: Where these come near each other.
+        laws: When each robot is where.
+        alone: When each would be where if it were alone.
+        gaps: See ``passing_gaps``, (boxes,).
+        robot: Which one.
     """
     packed = crossings.packed
     late = laws.packed.arrive - alone.packed.arrive
-    waits = np.zeros(len(packed.robots))
-    tight = np.flatnonzero((gaps >= 0.0) & (gaps < TIGHT_S))
-    now = late[packed.cell[tight]]
-    robot, before = -1, 0.0
-    for crossing, owner, lateness in zip(
-        packed.crossing[tight].tolist(), owners[tight].tolist(), now.tolist(), strict=True
-    ):
-        if owner != robot:
-            robot, before = owner, 0.0
-        if lateness > before + TIGHT_S:
-            waits[crossing] += lateness - before
-            before = lateness
-    return waits
+    boxes = np.arange(packed.box_first[robot], packed.box_first[robot + 1])
+    tight = boxes[(gaps[boxes] >= 0.0) & (gaps[boxes] < TIGHT_S)]
+    found, before = [], 0.0
+    for box in tight.tolist():
+        now = float(late[packed.cell[box]])
+        if now > before + TIGHT_S:
+            found.append((box, now - before))
+            before = now
+    return found

@@ -77,7 +77,7 @@ def courses_names(count: int) -> tuple[str, ...]:
 
 def fleet_with(names, courses, crossings, laws, rides) -> DrivenFleet:  # type: ignore[no-untyped-def]
     return DrivenFleet(
-        FleetCourses(names, courses), FleetCrossings(crossings), FleetLaws(laws), rides
+        FleetCourses(names, courses), FleetCrossings(crossings), FleetLaws(laws), rides, 0.0
     )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_rides import PackedRides
@@ -24,13 +25,15 @@ class DrivenFleet:
         courses: Of the robots.
         crossings: Where these come near each other.
         laws: That were planned: they say who passes first.
-        rides: How each robot drives where nobody is in its way.
+        rides: How each robot drives where nobody is in its way; who departs at infinity never does.
+        separation: The free space that the plan keeps between bodies [m].
     """
 
     courses: FleetCourses
     crossings: FleetCrossings
     laws: FleetLaws
     rides: PackedRides
+    separation: float
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -44,6 +47,20 @@ class DrivenFleet:
         lengths: Floats = packed.distance[packed.first[1:] - 1]
         return lengths
 
+    @property
+    def fastest(self) -> Floats:
+        """The largest speed of each robot [m/s], (n,)."""
+        if not self.names:
+            return np.empty(0)
+        first = self.courses.packed.first[:-1]
+        return np.sqrt(np.maximum.reduceat(self.rides.square, first))
+
+    def course(self, robot: int) -> tuple[Floats, Floats]:
+        """Distances and places of the nodes of a robot's course [m], (m,) and (m, 2)."""
+        packed = self.courses.packed
+        nodes = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
+        return packed.distance[nodes], packed.place[nodes]
+
     def laws_alone(self) -> PackedLaws:
         """The laws of robots that set out at 0 s and never wait for another."""
         first, rides = self.courses.packed.first, self.rides
@@ -51,3 +68,11 @@ class DrivenFleet:
         arrive = spent - np.repeat(spent[first[:-1]], np.diff(first))
         timed = np.ones(len(self.names), np.bool_)
         return PackedLaws(arrive, arrive + rides.stays, np.sqrt(rides.square), timed)
+
+
+def driven_fleet_of(plan: FleetPlan) -> DrivenFleet:
+    """What is driven of a plan: robots that are not served stay at their starts for ever."""
+    rides = plan.rides.packed
+    departs = np.where(plan.laws.packed.is_timed, rides.depart, np.inf)
+    rides, separation = rides._replace(depart=departs), plan.fleet.separation_m
+    return DrivenFleet(plan.courses, plan.crossings, plan.laws, rides, separation)

@@ -10,11 +10,30 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.fleet_ticks import FleetTicks
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 
 SAME_M = 1e-7
 """Places that lie nearer to each other are one."""
+
+
+def stretches_of(ticks: FleetTicks, departs: Floats) -> list[Floats]:
+    """For each robot when, where and how fast it was where its acceleration changed, (m, 3).
+
+    Args:
+        ticks: What was driven.
+        departs: When each robot may set out [s], (n,).
+    """
+    rows = ticks.stretches[np.argsort(ticks.stretches[:, 0], kind="stable")]
+    cuts = np.searchsorted(rows[:, 0], np.arange(len(departs) + 1))
+    found = []
+    for robot, depart in enumerate(departs.tolist()):
+        own = rows[cuts[robot] : cuts[robot + 1], 1:4]
+        last = min(float(ticks.arrived[robot]), ticks.end)
+        end = [[last, float(ticks.place[robot]), 0.0]]
+        found.append(np.concatenate(([[depart, 0.0, 0.0]], own, end)))
+    return found
 
 
 def driven_laws(

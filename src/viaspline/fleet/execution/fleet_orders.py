@@ -87,6 +87,19 @@ def orders_of(fleet: DrivenFleet, margin: Floats | None = None) -> FleetOrders:
         GeometryError: The laws keep no order in a crossing, or the orders have a cycle: each of
             some robots waits for the next one.
     """
+    leaders, by_second = decided(fleet)
+    return orders_led(fleet, leaders, by_second, margin)
+
+
+def decided(fleet: DrivenFleet) -> tuple[Ints, Flags]:
+    """Who passes each crossing first by the laws of a fleet, and by whose boxes.
+
+    Returns:
+        ``leaders`` and ``by_second``, as ``orders_led`` takes them.
+
+    Raises:
+        GeometryError: The laws keep no order in a crossing.
+    """
     courses, crossings = fleet.courses.packed, fleet.crossings.packed
     leaders, by_second = crossing_leaders(courses, crossings, fleet.laws.packed)
     if (leaders == UNSETTLED).any():
@@ -97,7 +110,7 @@ def orders_of(fleet: DrivenFleet, margin: Floats | None = None) -> FleetOrders:
             f"{one} and {two} are too near each other between {begin:.1f} m and {end:.1f} m along "
             f"the path of {one}: neither passes first; time the fleet anew"
         )
-    return orders_led(fleet, leaders, by_second, margin)
+    return leaders, by_second
 
 
 def orders_led(
@@ -118,7 +131,10 @@ def orders_led(
     packed = _packed(fleet, leaders, by_second)
     heads = packed.first[:-1].copy()
     none = np.zeros(len(fleet.names))
-    sequence, stuck = order_flow(packed, leaders, none, heads, none if margin is None else margin)
+    fixed = np.zeros(len(fleet.names), np.bool_)
+    sequence, stuck = order_flow(
+        packed, leaders, none, heads, none if margin is None else margin, fixed
+    )
     if (stuck >= 0).any():
         raise GeometryError(_cycle(fleet.names, packed, stuck))
     return FleetOrders(fleet.names, packed, leaders, by_second, sequence)

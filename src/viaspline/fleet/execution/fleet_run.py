@@ -13,11 +13,12 @@ import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.execution.fleet_orders import index_of
+from viaspline.fleet.fleet_certificate import FleetCertificate, certify_fleet
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Floats
 
 FleetEventKind = Literal[
-    "waits", "goes on", "swapped", "arrived", "refused", "ignored", "dead", "taken out", "added",
+    "waits", "goes on", "swapped", "arrived", "refused", "ignored", "dead", "taken out", "silent",
 ]  # fmt: skip
 
 
@@ -42,6 +43,11 @@ class FleetEvent:
     at_m: float | None = None
 
 
+def swapped_event(first: str, second: str, time: float) -> FleetEvent:
+    """The order of two robots in a crossing was swapped."""
+    return FleetEvent("swapped", time, first, f"{first} passes before {second}", second)
+
+
 @dataclass(frozen=True, eq=False)
 class FleetRun:
     """A drive of a fleet that was simulated.
@@ -53,6 +59,7 @@ class FleetRun:
         deadlock: The robots that wait for each other for ever; none if the orders are acyclic.
         courses: As far as they were driven, with a node wherever a robot's acceleration changed.
         laws: When each robot was where on these: exactly what was driven.
+        required: The separation that the plan keeps [m].
         end_s: When the simulation ended [s].
     """
 
@@ -62,6 +69,7 @@ class FleetRun:
     deadlock: tuple[str, ...]
     courses: FleetCourses
     laws: FleetLaws
+    required: float
     end_s: float
 
     @property
@@ -75,6 +83,11 @@ class FleetRun:
         return len(self.arrivals) == len(self.names)
 
     @cached_property
+    def certificate(self) -> FleetCertificate:
+        """The least separation of any two robots as they drove, proven over continuous time."""
+        return certify_fleet(self.courses, self.laws, self.required)
+
+    @property
     def mean_delay(self) -> float:
         """Of those that arrived [s]; 0 if none did."""
         return float(np.mean(list(self.delays.values()))) if self.delays else 0.0

@@ -2,20 +2,72 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import numpy as np
 
 from viaspline.fleet.execution.delays import Delays, trouble_of
-from viaspline.fleet.execution.driven_fleet import DrivenFleet
-from viaspline.fleet.execution.driven_law import driven_laws
+from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
+from viaspline.fleet.execution.driven_law import driven_laws, stretches_of
 from viaspline.fleet.execution.fleet_orders import FleetOrders, orders_of
-from viaspline.fleet.execution.fleet_run import FleetEvent, FleetRun
-from viaspline.kernels.arrays import Floats
-from viaspline.kernels.fleet.fleet_ticks import ARRIVED, SWAPPED, WAITS, FleetTicks, fleet_ticks
+from viaspline.fleet.execution.fleet_run import FleetEvent, FleetRun, swapped_event
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.plan_fleet import FleetProgress, plan_fleet
+from viaspline.handed_in import check_kind, seed_from, time_from
+from viaspline.kernels.fleet.fleet_ticks import SWAPPED, WAITS, FleetTicks, fleet_ticks
+from viaspline.kernels.fleet.granted_drive import PackedTrouble
+from viaspline.mission.fleet.fleet import Fleet
 
 SWAPS_S = 1.0
 """Between two looks for orders to swap."""
 LONGEST_S = 1e5
-"""So long after the plan's end it is simulated at most."""
+"""A drive takes no longer than that."""
+
+
+def simulate_fleet(
+    fleet: Fleet,
+    delays: Delays | None = None,
+    plan: FleetPlan | None = None,
+    *,
+    seed: int = 0,
+    step: float = 0.1,
+    progress: FleetProgress | None = None,
+) -> FleetRun:
+    """Drive a fleet, with robots that are slow, that halt, and that aren't always heard.
+
+    Every robot drives as fast as its law, its trouble and the others let it; they are let into
+    crossings as ``FleetNavigator`` does it. Robots that are not served stay at home and are left
+    out.
+
+    Args:
+        fleet: What was asked for.
+        delays: What goes wrong; nothing if it isn't given.
+        plan: Its plan, if there is one already.
+        seed: Of all that is random: the same seed makes the same run.
+        step: From report to report [s].
+        progress: See ``FleetProgress``; only planning tells of any.
+
+    Raises:
+        GeometryError: An argument is something else.
+
+    Example:
+        >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
+        ...     {"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}},
+        ...     {"name": "b", "route": {"start": [20, -20], "goal": [20, 20]}},
+        ... ]})
+        >>> run = simulate_fleet(fleet, Delays(slowed=0.3, halts=1, halts_s=30), seed=4)
+        >>> run.reached, run.certificate.separation >= 1.0
+        (True, True)
+    """
+    check_kind("fleet", fleet, Fleet, "give Fleet.model_validate({...}) or load(file)")
+    delays = Delays() if delays is None else delays
+    check_kind("delays", delays, Delays, "give Delays(slowed=0.3)")
+    if plan is not None:
+        check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
+    step, seed = time_from("step", step), seed_from("seed", seed)
+    plan = plan_fleet(fleet, progress=progress) if plan is None else plan
+    return drive_fleet(driven_fleet_of(plan), delays, seed=seed, step=step)
 
 
 def drive_fleet(
@@ -46,67 +98,64 @@ def drive_fleet(
     orders = orders_of(fleet) if orders is None else orders
     delays = Delays() if delays is None else delays
     trouble = trouble_of(delays, fleet, seed)
-    rides, first = fleet.rides, fleet.courses.packed.first
-    begin = float(rides.depart.min(initial=np.inf)) if len(fleet.names) else 0.0
-    planned = fleet.laws.packed.arrive[first[1:] - 1]
-    slowest = 1.0 / (1.0 - delays.slowed) / (1.0 - delays.lost)
-    span = (planned.max(initial=begin) - begin) * slowest * slowest + trouble.halts.sum()
-    longest = int((min(10.0 * span, LONGEST_S) + 60.0) / step)
+    rides = fleet.rides
+    begin = float(rides.depart.min(initial=math.inf))
+    begin = begin if math.isfinite(begin) else 0.0
+    longest = int(_longest(fleet, delays, trouble, begin) / step) + 1
     every = max(round(SWAPS_S / step), 1) if swaps else 0
     ticks = fleet_ticks(
         fleet.courses.packed, rides, fleet.laws_alone(), orders.packed, orders.leaders, trouble,
         begin, step, longest, every,
     )  # fmt: skip
+    return _run(fleet, ticks)
+
+
+def _longest(fleet: DrivenFleet, delays: Delays, trouble: PackedTrouble, begin: float) -> float:
+    """How long a drive can take if no robot waits for one that waits for it [s]."""
+    ends = fleet.courses.packed.first[1:] - 1
+    is_timed = fleet.laws.packed.is_timed
+    planned = fleet.laws.packed.arrive[ends][is_timed].max(initial=begin) - begin
+    slower = 1.0 / (1.0 - delays.slowed) / (1.0 - delays.lost)
+    alone = fleet.laws_alone().arrive[ends].sum()
+    return float(min(60.0 + 10.0 * slower * planned + alone + trouble.halts.sum(), LONGEST_S))
+
+
+def _run(fleet: DrivenFleet, ticks: FleetTicks) -> FleetRun:
+    """What was driven, without the robots that have no law."""
+    packed, is_timed = fleet.courses.packed, fleet.laws.packed.is_timed
     came = np.isfinite(ticks.arrived)
-    arrivals = {name: float(ticks.arrived[i]) for i, name in enumerate(fleet.names) if came[i]}
-    courses, laws = driven_laws(
-        fleet.courses,
-        _stretches(fleet, ticks),
-        ticks.place,
-        np.where(rides.vanishes & came, ticks.arrived, np.inf),
-    )
+    planned = fleet.laws.packed.arrive[packed.first[1:] - 1]
+    leaves = np.where(fleet.rides.vanishes & came, ticks.arrived, np.inf)
+    stretches = stretches_of(ticks, np.where(is_timed, fleet.rides.depart, 0.0))
+    courses, laws = driven_laws(fleet.courses, stretches, ticks.place, leaves)
+    laws = replace(laws, packed=laws.packed._replace(is_timed=is_timed.copy()))
+    arrivals = {fleet.names[r]: float(ticks.arrived[r]) for r in np.flatnonzero(came)}
     return FleetRun(
         arrivals=arrivals,
-        delays={n: t - float(planned[i]) for i, n in enumerate(fleet.names) if came[i]
-                for t in (arrivals[n],)},
+        delays={fleet.names[r]: float(ticks.arrived[r] - planned[r]) for r in np.flatnonzero(came)},
         events=_events(fleet.names, ticks),
-        deadlock=tuple(n for i, n in enumerate(fleet.names) if not came[i]),
+        deadlock=tuple(fleet.names[r] for r in np.flatnonzero(~came & is_timed)),
         courses=courses,
         laws=laws,
+        required=fleet.separation,
         end_s=ticks.end,
-    )  # fmt: skip
-
-
-def _stretches(fleet: DrivenFleet, ticks: FleetTicks) -> list[Floats]:
-    """For each robot when, where and how fast it was where its acceleration changed, (m, 3)."""
-    rows = ticks.stretches[np.argsort(ticks.stretches[:, 0], kind="stable")]
-    cuts = np.searchsorted(rows[:, 0], np.arange(len(fleet.names) + 1))
-    found = []
-    for robot in range(len(fleet.names)):
-        own = rows[cuts[robot] : cuts[robot + 1], 1:4]
-        begin = np.array([[float(fleet.rides.depart[robot]), 0.0, 0.0]])
-        last = min(float(ticks.arrived[robot]), ticks.end)
-        end = np.array([[last, float(ticks.place[robot]), 0.0]])
-        found.append(np.concatenate((begin, own, end)))
-    return found
+    )
 
 
 def _events(names: tuple[str, ...], ticks: FleetTicks) -> tuple[FleetEvent, ...]:
     """What happened, in the order of time."""
-    happened = [(float(t), float(ARRIVED), i) for i, t in enumerate(ticks.arrived) if t < np.inf]
-    events = [FleetEvent("arrived", t, names[i], f"{names[i]} arrives") for t, _, i in happened]
-    for kind, time, robot, other, place in ticks.happened:
-        name = names[int(robot)]
+    events = [
+        FleetEvent("arrived", float(ticks.arrived[r]), names[r], f"{names[r]} arrives")
+        for r in np.flatnonzero(np.isfinite(ticks.arrived))
+    ]
+    for kind, time, robot, other, place in ticks.happened.tolist():
+        name, other_name = names[int(robot)], names[int(other)]
         if kind == SWAPPED:
-            other_name = names[int(other)]
-            words = f"{name} passes before {other_name}, which is late"
-            events.append(FleetEvent("swapped", time, name, words, other_name))
+            events.append(swapped_event(name, other_name, time))
         elif kind == WAITS:
-            other_name = names[int(other)]
             words = f"{name} waits at {place:.1f} m for {other_name}"
             events.append(FleetEvent("waits", time, name, words, other_name, place))
         else:
-            events.append(
-                FleetEvent("goes on", time, name, f"{name} goes on at {place:.1f} m", None, place)
-            )
+            words = f"{name} goes on at {place:.1f} m"
+            events.append(FleetEvent("goes on", time, name, words, None, place))
     return tuple(sorted(events, key=lambda event: (event.time, event.name, event.kind)))

@@ -7,6 +7,7 @@ passes first wherever two paths come near each other. Steps are not times: timin
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -30,6 +31,8 @@ from viaspline.world.world import World
 
 FARTHEST_SHARE = 0.3
 """Of a cell, how far the rounding of a corner may be from it."""
+CHORD_M = 0.25
+"""Length of the chords that a path is taken for [m]."""
 SAME_M = 1e-6
 """Places that are no farther apart are one [m]."""
 
@@ -109,13 +112,29 @@ def lattice_paths(
     solved = solve_lattice(lattice.neighbours, lattice.starts, lattice.goals, work=work)
     if isinstance(solved, NoLatticeOrder):
         return solved
-    motions = lattice_motions(solved, lattice, world, starts, goals, reach, kept)
+    lines = [_line(plan) for plan in many]
+    motions = lattice_motions(solved, lattice, world, lines, reach, kept)
     laid: dict[str, Plan] = {}
     steps: dict[str, PassingSteps] = {}
     for robot, (name, plan) in enumerate(plans.items()):
+        begin = float(motions.sets_out[robot])
+        if begin >= 0.0:
+            length = plan.path.length
+            laid[name] = plan
+            steps[name] = PassingSteps(
+                np.array([0.0, 0.0, length]), np.array([0.0, begin, begin + length / lattice.cell])
+            )
+            continue
         places, when = motions.vertices(robot)
         laid[name], steps[name] = _laid(plan, places, when, world, FARTHEST_SHARE * lattice.cell)
     return LatticePaths(laid, steps)
+
+
+def _line(plan: Plan) -> Floats:
+    """Places along a path, near enough to each other to see who meets whom [m], (k, 2)."""
+    count = max(math.ceil(plan.path.length / CHORD_M), 1)
+    distances = np.linspace(0.0, plan.path.length, count + 1)
+    return np.ascontiguousarray(plan.path.at_distance(distances))
 
 
 def _unfit(plans: Mapping[str, Plan]) -> NoLatticeOrder | None:

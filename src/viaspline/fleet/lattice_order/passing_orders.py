@@ -14,13 +14,17 @@ from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.lattice_order.lattice_paths import PassingSteps
 from viaspline.kernels.arrays import Flags, Floats, Ints
 
+SURE = 1e6
+"""What an order counts that is forced, in steps and in boxes."""
+
 
 def passes_second(
     courses: FleetCourses, crossings: FleetCrossings, steps: Sequence[PassingSteps]
 ) -> Flags:
     """Whether the robot of each box passes after the other one.
 
-    Who starts in a box passes first, and who rests there at its goal passes last.
+    The boxes of a crossing have one order, that of most of them. Who starts in a box passes first,
+    and who rests there at its goal passes last.
 
     Args:
         courses: The paths.
@@ -32,11 +36,16 @@ def passes_second(
     first, last = packed.first[robot], packed.first[robot + 1] - 1
     own = (packed.distance[boxes.cell] + packed.distance[boxes.cell + 1]) / 2.0
     other = (boxes.low + boxes.high) / 2.0
-    found: Flags = _at(steps, robot, own) > _at(steps, boxes.other, other)
+    later = _at(steps, robot, own) - _at(steps, boxes.other, other)
     other_last = packed.distance[packed.first[boxes.other + 1] - 1]
-    found[(boxes.cell == last - 1) | (boxes.low <= 0.0)] = True
-    found[(boxes.cell == first) | (boxes.high >= other_last)] = False
-    return found
+    later[(boxes.cell == last - 1) | (boxes.low <= 0.0)] = SURE
+    later[(boxes.cell == first) | (boxes.high >= other_last)] = -SURE
+    is_lower = robot == boxes.robots[boxes.crossing, 0]
+    votes = np.sign(later) * np.where(is_lower, 1.0, -1.0)
+    votes *= np.where(np.abs(later) == SURE, SURE, 1.0)
+    lower_is_later = np.bincount(boxes.crossing, votes, minlength=len(boxes.robots)) > 0.0
+    second: Flags = lower_is_later[boxes.crossing] == is_lower
+    return second
 
 
 def _at(steps: Sequence[PassingSteps], robots: Ints, distances: Floats) -> Floats:

@@ -10,7 +10,7 @@ from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.kernels.arrays import Ints, Steps
 from viaspline.kernels.fleet.lacam import FOUND, NONE, lacam
 from viaspline.kernels.fleet.lattice_distances import FAR, lattice_distances
-from viaspline.kernels.fleet.lattice_table import LatticeTable
+from viaspline.kernels.fleet.lattice_table import LatticeTable, spaced_out
 from viaspline.kernels.fleet.neighbourhood_search import neighbourhood_search
 from viaspline.kernels.fleet.prioritised_planning import prioritised_planning, table_of
 
@@ -28,7 +28,7 @@ WORK = 5_000_000
 
 @dataclass(frozen=True, eq=False)
 class LatticePlan:
-    """The cells of robots, step by step: no two in one, and never round in a ring.
+    """The cells of robots, step by step: nobody goes to one in the step in which another leaves it.
 
     Attributes:
         places: The cell of each robot at each step, (n, steps).
@@ -62,7 +62,7 @@ def solve_lattice(
     Example:
         >>> row = np.array([[1, -1], [2, 0], [-1, 1]], np.int32)
         >>> solve_lattice(row, np.int32([0, 1]), np.int32([1, 2])).places.tolist()
-        [[0, 1], [1, 2]]
+        [[0, 0, 1], [1, 2, 2]]
     """
     robots = len(starts)
     if robots == 0:
@@ -98,10 +98,14 @@ def _first(
     state, places, _ = lacam(neighbours, starts, goals, distances, work, 1)
     if state == NONE:
         return _no_way()
-    if state != FOUND or places.shape[1] * len(neighbours) > MOST_ENTRIES:
+    if state != FOUND:
         return _gave_up("the search for an order ran out of its budget")
-    more = max(steps - places.shape[1], SLACK)
-    return table_of(np.hstack([places, np.repeat(places[:, -1:], more, axis=1)]), len(neighbours))
+    places, count = spaced_out(places, len(neighbours))
+    if (count + SLACK) * len(neighbours) > MOST_ENTRIES:
+        return _gave_up("its ways are too long for the tables")
+    wide = np.empty((len(places), max(steps, count + SLACK)), np.int32)
+    wide[:, :count], wide[:, count:] = places[:, :count], places[:, count - 1 : count]
+    return table_of(wide, len(neighbours))
 
 
 def _no_way() -> NoLatticeOrder:

@@ -18,7 +18,7 @@ import numpy as np
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces
 from viaspline.fleet.laying.step_aside import can_step_aside, stepped_aside
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -63,65 +63,43 @@ def lay_among_rests(
         rests: Of all robots.
     """
     own = rests.of_robot(name)
-    past = _at_its_points(mission, reach, rests)
-    if not rests.near(alone.path.spans, reach + ENOUGH_MORE_M, own | past).size:
-        plan = alone
-    else:
-        plan = _bent(alone, reach, rests, own | past) or _anew(
-            alone, mission, reach, rests, own, past
-        )
+    past = rests.at(_points(mission), reach + KEPT_MORE_M)
+    round_them: set[int] = set()
+    plan = alone
+    for _ in range(MAX_ROUNDS):
+        out = own | past
+        met = rests.near(plan.path.spans, reach + ENOUGH_MORE_M, out)
+        if not met.size:
+            break
+        seen = rests.near(plan.path.spans, reach + IN_SIGHT_M, out)
+        aside, others = _aside(plan, reach, rests, seen)
+        if aside is not None and not rests.near(aside.path.spans, reach + ENOUGH_MORE_M, out).size:
+            plan = aside
+            break
+        round_them.update(others if set(others) - round_them else seen.tolist())
+        plan, past = _laid(alone, mission, reach, rests, round_them, past)
+        round_them -= past
     passed = rests.near(plan.path.spans, reach, own).tolist()
     return LaidPath(plan, tuple(rests.places[k] for k in passed))
 
 
-def _bent(alone: Plan, reach: float, rests: RestingPlaces, out: frozenset[int]) -> Plan | None:
-    """The plan that steps aside for resting places; None if there is none.
+def _points(mission: Mission) -> Floats:
+    """Where the robot has to get to [m], (k, 2)."""
+    return np.array([via.at[:2] for _, via in mission.route.points()])
 
-    Args:
-        alone: As if there were no resting places.
-        reach: Of the robot [m].
-        rests: All resting places,
-        out: but not these.
-    """
-    if not can_step_aside(alone):
-        return None
-    near = rests.near(alone.path.spans, reach + IN_SIGHT_M, out)
-    discs = rests.rows[near].copy()
+
+def _aside(
+    plan: Plan, reach: float, rests: RestingPlaces, seen: Ints
+) -> tuple[Plan | None, list[int]]:
+    """The plan that steps aside for resting places, or else those that it is to be laid round."""
+    if not can_step_aside(plan):
+        return None, seen.tolist()
+    discs = rests.rows[seen]
     discs[:, 2] += reach + KEPT_MORE_M
-    plan = stepped_aside(alone, discs)
-    if plan is None or rests.near(plan.path.spans, reach + ENOUGH_MORE_M, out).size:
-        return None
-    return plan
-
-
-def _anew(
-    alone: Plan,
-    mission: Mission,
-    reach: float,
-    rests: RestingPlaces,
-    own: frozenset[int],
-    past: frozenset[int],
-) -> Plan:
-    """The plan that is laid anew among resting places, round as many as there is a way round."""
-    round_them: set[int] = set()
-    plan = alone
-    for _ in range(MAX_ROUNDS):
-        out = own | past | round_them
-        if not rests.near(plan.path.spans, reach + ENOUGH_MORE_M, out).size:
-            break
-        seen = rests.near(plan.path.spans, reach + IN_SIGHT_M, out)
-        round_them.update(seen.tolist())
-        plan, past = _laid(alone, mission, reach, rests, round_them, past)
-        round_them -= past
-    return plan
-
-
-def _at_its_points(mission: Mission, reach: float, rests: RestingPlaces) -> frozenset[int]:
-    """Resting places that are too near to the robot's own via points to be gone round."""
-    places = np.array([via.at[:2] for _, via in mission.route.points()])
-    points = np.repeat(places[:, None, :], 4, axis=1)
-    found = (rests.near(point[None], reach + KEPT_MORE_M, frozenset()) for point in points)
-    return frozenset(int(k) for near in found for k in near)
+    found = stepped_aside(plan, discs)
+    if found.no_room_for is None:
+        return found.plan, seen.tolist()
+    return None, [int(seen[found.no_room_for])]
 
 
 def _laid(

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from viaspline.fleet.laying.clear_of_rests import rests_met
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.fleet.discs_met import discs_met
 from viaspline.mission.fleet.fleet import FleetMember
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 RestKind = Literal["start", "goal", "home"]
 
@@ -81,13 +85,14 @@ class RestingPlaces:
         return np.array([(*one.at, one.reach) for one in self.places]).reshape(-1, 3)
 
     @cached_property
-    def _by_x(self) -> Ints:
-        return np.argsort(self.rows[:, 0], kind="stable")
+    def _tree(self) -> cKDTree:
+        from scipy.spatial import cKDTree
+
+        return cKDTree(self.rows[:, :2])
 
     @cached_property
-    def _sorted_x(self) -> Floats:
-        ordered: Floats = self.rows[self._by_x, 0]
-        return ordered
+    def _widest(self) -> float:
+        return float(self.rows[:, 2].max(initial=0.0))
 
     @cached_property
     def _owners(self) -> dict[str, frozenset[int]]:
@@ -107,9 +112,22 @@ class RestingPlaces:
         Returns:
             Indices, increasing, (k,).
         """
-        inside = self._in_box(spans, reach)
-        inside = inside[[index not in but for index in inside.tolist()]]
-        return inside[rests_met(spans, self.rows[inside], reach)]
+        found = self._in_box(spans, reach)
+        found = found[[index not in but for index in found.tolist()]]
+        curve = spans if spans.flags.writeable else spans.copy()  # numba compiles for one kind
+        return found[discs_met(curve, self.rows[found], reach)]
+
+    def at(self, points: Floats, reach: float) -> frozenset[int]:
+        """Those whose robots a robot comes too near to at one of some points [m], (k, 2)."""
+        if not self.places:
+            return frozenset()
+        near = [self._tree.query_ball_point(point, reach + self._widest) for point in points]
+        return frozenset(
+            index
+            for point, found in zip(points.tolist(), near, strict=True)
+            for index in found
+            if math.dist(point, self.places[index].at) < reach + self.places[index].reach
+        )
 
     def of_robot(self, name: str) -> frozenset[int]:
         """Indices of the places of one robot."""
@@ -120,13 +138,21 @@ class RestingPlaces:
         if not self.places:
             return np.empty(0, np.int64)
         low, high = spans[..., :2].min(axis=(0, 1)), spans[..., :2].max(axis=(0, 1))
-        widest = reach + float(self.rows[:, 2].max())
-        ends = np.searchsorted(self._sorted_x, (low[0] - widest, high[0] + widest))
+        widest = reach + self._widest
+        ends = np.searchsorted(self._xs, (low[0] - widest, high[0] + widest))
         found: Ints = np.sort(self._by_x[ends[0] : ends[1]])
-        grown = reach + self.rows[found, 2]
         y = self.rows[found, 1]
-        inside: Ints = found[(y >= low[1] - grown) & (y <= high[1] + grown)]
+        inside: Ints = found[(y >= low[1] - widest) & (y <= high[1] + widest)]
         return inside
+
+    @cached_property
+    def _by_x(self) -> Ints:
+        return np.argsort(self.rows[:, 0], kind="stable")
+
+    @cached_property
+    def _xs(self) -> Floats:
+        ordered: Floats = self.rows[self._by_x, 0]
+        return ordered
 
 
 def all_rests(members: Sequence[FleetMember], reaches: Sequence[float]) -> RestingPlaces:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -51,35 +51,45 @@ def can_step_aside(plan: Plan) -> bool:
     )
 
 
-def stepped_aside(plan: Plan, discs: Floats) -> Plan | None:
+@dataclass(frozen=True, eq=False)
+class SteppedAside:
+    """What came of stepping aside.
+
+    Attributes:
+        plan: Proven in its world; None where there is no room to step aside.
+        no_room_for: Index of the disc for which there is none, where that is known.
+    """
+
+    plan: Plan | None
+    no_room_for: int | None = None
+
+
+def stepped_aside(plan: Plan, discs: Floats) -> SteppedAside:
     """A plan whose path steps aside for discs.
 
     Args:
         plan: One that can: see ``can_step_aside``.
         discs: x, y of each, and the distance that the path has to keep from there [m], (n, 3).
-
-    Returns:
-        The plan, proven in its world; None where there is no room to step aside.
     """
     robot, world = plan.mission.robot, plan.world
     requirements = Requirements.of(plan.mission, plan.tracking_error)
     limits = limits_of(robot)
-    spans, marks, is_clear = step_aside(
+    spans, marks, failed = step_aside(
         world.packed, plan.path.spans.copy(), _marks(plan.path, plan.mission), discs,
         requirements.required, _bend(limits),
     )  # fmt: skip
-    if not is_clear:
-        return None
+    if failed >= 0:
+        return SteppedAside(None, int(failed))
     path = Path(spans, list(_vias(plan.path, spans, marks)))
     certificate = proven(path, world, requirements)
     if not certificate.holds:
-        return None
+        return SteppedAside(None)
     try:
         law = retime(path, limits, stations(path, robot), zones=plan.mission.world.speed_zones)
     except GeometryError:
-        return None
+        return SteppedAside(None)
     found = replace(plan, path=path, certificate=certificate, trajectory=law)
-    return found if _follows(found, plan.mission) else None
+    return SteppedAside(found if _follows(found, plan.mission) else None)
 
 
 def _follows(plan: Plan, mission: Mission) -> bool:

@@ -8,15 +8,17 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.blocked_times import comes_to, goes_from
+from viaspline.kernels.fleet.blocked_times import comes_to, goes_from, node_before
+from viaspline.kernels.fleet.granted_drive import PackedTrouble, drive_stretch, new_drive
 from viaspline.kernels.fleet.open_bars import open_bars_of
-from viaspline.kernels.fleet.order_flow import expected_shifts
+from viaspline.kernels.fleet.order_flow import expected_shifts, order_flow
 from viaspline.kernels.fleet.order_swaps import consider_swaps, settle_recall
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_orders import PackedOrders
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.fleet.packed_rides import PackedRides
+from viaspline.kernels.jit import inlined, inner, kernel
 
 MOVED_M = 1e-6
 """A robot that gets on by less stands."""
@@ -47,17 +49,23 @@ def dispatch_at_start(orders: PackedOrders, leaders: Ints, depart: Floats) -> Pa
     return new_dispatch(orders, leaders, depart)
 
 
-@inner
+@kernel
+def dispatch_copy(dispatch: PackedDispatch) -> PackedDispatch:
+    """A dispatch of its own that says what another one does."""
+    return PackedDispatch(
+        dispatch.leaders.copy(), dispatch.progress.copy(), dispatch.head.copy(),
+        dispatch.promised.copy(), dispatch.recall.copy(), dispatch.recall_place.copy(),
+        dispatch.begin.copy(), dispatch.moved_at.copy(), dispatch.fixed.copy(),
+    )  # fmt: skip
+
+
+@inlined
 def take_report(
-    courses: PackedCourses, alone: PackedLaws, orders: PackedOrders, dispatch: PackedDispatch,
-    robot: int, place: float, holds: float, now: float,
-) -> bool:  # fmt: skip
+    dispatch: PackedDispatch, robot: int, place: float, holds: float, now: float
+) -> bool:
     """Note where a robot is, and whether it keeps before a crossing that it was asked to.
 
     Args:
-        courses: PackedCourses.
-        alone: The laws of robots that set out at 0 s and never wait.
-        orders: PackedOrders.
         dispatch: It is written to.
         robot: Which.
         place: Where it says it is [m]; infinite: it has left the world.
@@ -65,25 +73,40 @@ def take_report(
         now: When it was there [s].
 
     Returns:
-        Whether the order of a crossing was swapped.
+        Whether it says what becomes of a crossing that it was asked to let another pass first.
     """
     before = dispatch.progress[robot]
     if place > before:
         dispatch.progress[robot] = place
     if place > before + MOVED_M or before >= dispatch.promised[robot] - HELD_M:
         dispatch.moved_at[robot] = max(now, dispatch.moved_at[robot])
-    if place < np.inf:
-        come = max(comes_to(courses, alone, robot, place), 0.0)
-        earliest, latest = now - goes_from(courses, alone, robot, place), now - come
-        dispatch.begin[robot] = max(min(dispatch.begin[robot], latest), earliest)
-    if holds < np.inf:
-        dispatch.promised[robot] = holds
-        if dispatch.recall[robot] >= 0:
-            return settle_recall(orders, dispatch, robot)
-    return False
+    if holds == np.inf:
+        return False
+    dispatch.promised[robot] = holds
+    return dispatch.recall[robot] >= 0
 
 
 @inner
+def set_begin(
+    courses: PackedCourses, alone: PackedLaws, dispatch: PackedDispatch, robot: int, now: float
+) -> None:
+    """Reckon when a robot would have set out to be where it is now without any waits.
+
+    Args:
+        courses: PackedCourses.
+        alone: The laws of robots that set out at 0 s and never wait.
+        dispatch: It is written to.
+        robot: Which.
+        now: [s].
+    """
+    place = dispatch.progress[robot]
+    if place < np.inf and not dispatch.fixed[robot]:
+        latest = now - max(comes_to(courses, alone, robot, place), 0.0)
+        earliest = now - goes_from(courses, alone, robot, place)
+        dispatch.begin[robot] = max(min(dispatch.begin[robot], latest), earliest)
+
+
+@inlined
 def grant_of(orders: PackedOrders, dispatch: PackedDispatch, robot: int) -> float:
     """How far a robot may go now [m]; it is taken to be promised that."""
     grant = min(open_bars_of(orders, dispatch, robot), dispatch.recall_place[robot])
@@ -92,14 +115,99 @@ def grant_of(orders: PackedOrders, dispatch: PackedDispatch, robot: int) -> floa
 
 
 @inner
-def swap_orders(orders: PackedOrders, dispatch: PackedDispatch, sequence: Ints, now: float) -> int:
+def swap_orders(
+    courses: PackedCourses, alone: PackedLaws, orders: PackedOrders, dispatch: PackedDispatch,
+    sequence: Ints, now: float,
+) -> int:  # fmt: skip
     """Swap orders that have become foolish; how many were.
 
     Args:
+        courses: PackedCourses.
+        alone: The laws of robots that set out at 0 s and never wait.
         orders: PackedOrders.
         dispatch: It is written to.
         sequence: Bars in an order in which they can be passed, as the leaders are, (m,).
         now: [s].
     """
+    for robot in range(orders.length.size):
+        set_begin(courses, alone, dispatch, robot, now)
+        open_bars_of(orders, dispatch, robot)
     shift, _ = expected_shifts(orders, dispatch.leaders, sequence, dispatch.head, dispatch.begin)
     return consider_swaps(orders, dispatch, shift, now)
+
+
+@kernel
+def dispatch_step(
+    courses: PackedCourses, alone: PackedLaws, orders: PackedOrders, dispatch: PackedDispatch,
+    robots: Ints, reports: Floats, sequence: Ints, swaps: bool, now: float,
+) -> tuple[Floats, Ints]:  # fmt: skip
+    """One step of a fleet that is driven: reports in, grants out.
+
+    Args:
+        courses: PackedCourses.
+        alone: The laws of robots that set out at 0 s and never wait.
+        orders: PackedOrders.
+        dispatch: It is written to.
+        robots: Who reports, (k,).
+        reports: When [s], where it is [m] and how far it takes itself to be let [m], (k, 3).
+        sequence: Bars in an order in which they can be passed, as the leaders are, (m,).
+        swaps: Whether orders that have become foolish are swapped.
+        now: [s].
+
+    Returns:
+        How far each robot may go [m], (n,); and an order in which all bars can be passed, (m,).
+    """
+    swapped = 0
+    for i in range(robots.size):
+        time, place, holds = reports[i]
+        if take_report(dispatch, robots[i], place, holds, time):
+            swapped += settle_recall(orders, dispatch, robots[i])
+    count = orders.length.size
+    grants = np.empty(count)
+    for robot in range(count):
+        set_begin(courses, alone, dispatch, robot, now)
+        grants[robot] = grant_of(orders, dispatch, robot)
+    if swaps:
+        swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
+    if swapped > 0:
+        heads = orders.first[:-1]
+        sequence, _ = order_flow(
+            orders, dispatch.leaders, dispatch.progress, heads, np.zeros(count), dispatch.fixed
+        )
+        for robot in range(count):
+            grants[robot] = grant_of(orders, dispatch, robot)
+    return grants, sequence
+
+
+@kernel
+def speeds_ahead(
+    courses: PackedCourses, rides: PackedRides, progress: Floats, speeds: Floats, grants: Floats,
+    period: float,
+) -> Floats:  # fmt: skip
+    """How fast robots go after a while, each as its law and its grant let it [m/s], (n,).
+
+    Args:
+        courses: PackedCourses.
+        rides: PackedRides.
+        progress: Where they are; infinite: not there any more [m], (n,).
+        speeds: How fast they are [m/s], (n,).
+        grants: How far they may go [m], (n,).
+        period: How long that while is [s].
+    """
+    nodes = courses.distance.size
+    trouble = PackedTrouble(np.ones(nodes), np.zeros(nodes), 0.0, 0)
+    drive = new_drive(courses, rides, trouble)
+    for robot in range(grants.size):
+        first, last = courses.first[robot], courses.first[robot + 1] - 1
+        if progress[robot] >= courses.distance[last]:
+            continue
+        node = node_before(courses.distance, first, last, progress[robot])
+        drive.cell[robot] = node
+        drive.place[robot] = progress[robot]
+        drive.square[robot] = speeds[robot] ** 2
+        drive.rests_until[robot] = 0.0
+        drive.served[robot] = True
+        time = 0.0
+        while time < period and drive.arrived[robot] == np.inf:
+            time = drive_stretch(drive, courses, rides, trouble, robot, grants[robot], time, period)
+    return np.sqrt(drive.square)

@@ -297,10 +297,14 @@ def _times(courses: PackedCourses, laws: PackedLaws) -> tuple[float, float, floa
     for robot in range(courses.reach.shape[0]):
         if laws.is_timed[robot]:
             first, last = courses.first[robot], courses.first[robot + 1] - 1
-            begin, end = min(begin, laws.leave[first]), max(end, laws.arrive[last])
             reach, count = reach + courses.reach[robot], count + 1
+            begin = min(begin, laws.leave[first])
             for node in range(first, last + 1):
                 fastest = max(fastest, laws.speed[node])
+                if laws.arrive[node] < np.inf:  # else it stands at its start for ever
+                    end = max(end, laws.arrive[node])
+    if not begin <= end:
+        return 0.0, 0.0, 0.0
     lasts = end - begin
     if fastest > 0.0 and reach > 0.0:
         lasts = WINDOW_REACHES * reach / (count * fastest)

@@ -18,8 +18,8 @@ from viaspline.kernels.fleet.granted_drive import (
     new_drive,
 )
 from viaspline.kernels.fleet.order_flow import order_flow
+from viaspline.kernels.fleet.order_swaps import settle_recall
 from viaspline.kernels.fleet.packed_courses import PackedCourses
-from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 from viaspline.kernels.fleet.packed_rides import PackedRides
@@ -123,10 +123,16 @@ def fleet_ticks(
     stretches, rows = new_floats(64 + 32 * count, 5), 0
     happened, events = new_floats(64, 5), 0
     heads = dispatch.head.copy()
-    sequence, _ = order_flow(orders, dispatch.leaders, dispatch.progress, heads, grants)
+    none = np.zeros(count)
+    sequence, _ = order_flow(
+        orders, dispatch.leaders, dispatch.progress, heads, none, dispatch.fixed
+    )
     tick, now = 0, begin
+    for robot in range(count):  # those without a law never set out
+        dispatch.fixed[robot] = rides.depart[robot] == np.inf
+    bound = count - dispatch.fixed.sum()
     arrivals = 0
-    while tick < longest and arrivals < count:
+    while tick < longest and arrivals < bound:
         now = begin + tick * step
         swapped = 0
         for robot in range(count):
@@ -135,13 +141,10 @@ def fleet_ticks(
             place = drive.place[robot]
             if drive.arrived[robot] < np.inf and orders.vanishes[robot]:
                 place = np.inf
-            swapped += take_report(
-                courses, alone, orders, dispatch, robot, place, grants[robot], now
-            )
+            if take_report(dispatch, robot, place, grants[robot], now):
+                swapped += settle_recall(orders, dispatch, robot)
         if swap_every > 0 and tick % swap_every == 0:
-            for robot in range(count):
-                grant_of(orders, dispatch, robot)
-            swapped += swap_orders(orders, dispatch, sequence, now)
+            swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
         if swapped > 0:
             for c in range(seen.size):
                 if seen[c] != dispatch.leaders[c]:
@@ -151,10 +154,10 @@ def fleet_ticks(
                     happened = _noted(happened, events, row)
                     events += 1
                     seen[c] = dispatch.leaders[c]
-            none = np.zeros(count)
             sequence, _ = order_flow(
-                orders, dispatch.leaders, dispatch.progress, orders.first[:-1], none
-            )
+                orders, dispatch.leaders, dispatch.progress, orders.first[:-1], none,
+                dispatch.fixed,
+            )  # fmt: skip
         for robot in range(count):
             grant = grant_of(orders, dispatch, robot)
             if chance(trouble.seed, 2 * tick + 1, robot) < trouble.lost:

@@ -119,9 +119,10 @@ def _rise(
     return slope, until
 
 
-@inner
-def enters_node(drive: PackedDrive, courses: PackedCourses, trouble: PackedTrouble, robot: int,
-                node: int) -> None:  # fmt: skip
+@inlined
+def enters_node(
+    drive: PackedDrive, courses: PackedCourses, trouble: PackedTrouble, robot: int, node: int
+) -> None:
     """A robot comes to a node."""
     drive.cell[robot] = node
     drive.place[robot] = courses.distance[node]
@@ -129,7 +130,7 @@ def enters_node(drive: PackedDrive, courses: PackedCourses, trouble: PackedTroub
     drive.halts[robot] = max(drive.halts[robot], trouble.halts[node])
 
 
-@inner
+@inlined
 def drive_stretch(
     drive: PackedDrive, courses: PackedCourses, rides: PackedRides, trouble: PackedTrouble,
     robot: int, grant: float, now: float, until: float,

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Ints, Steps
+from viaspline.kernels.arrays import Steps
 from viaspline.kernels.fleet.lattice_distances import FAR
 from viaspline.kernels.fleet.pibt import (
     StepChoice,
@@ -248,10 +248,7 @@ def lacam(
 
 @inner
 def _arrived(configurations: Steps, now: int, goals: Steps) -> bool:
-    for robot in range(len(goals)):
-        if configurations[now, robot] != goals[robot]:
-            return False
-    return True
+    return (configurations[now] == goals).all()
 
 
 @inner

@@ -1,9 +1,9 @@
 """Who is in which cell of a lattice at which step.
 
-Two robots may follow each other closely: one may go to a cell in the step in which another leaves
-it. But robots never go round in a ring, each to the cell of the next (two that change places are
-the least ring): so the order in which robots pass the cells has no circle, and a robot that is
-late delays those behind it and nobody else.
+A robot goes to a cell only if nobody is there any more when it sets out: not in the step in which
+another one leaves it. So the order in which robots pass the cells has no circle, with a step to
+spare, and a robot that is late delays those behind it and nobody else (compare Atzmon et al.:
+Robust multi-agent path finding and executing, JAIR 2020).
 
 Tested through ``kernels/fleet/test_prioritised_planning``.
 """
@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viaspline.kernels.arrays import Steps
-from viaspline.kernels.jit import inlined, inner
+from viaspline.kernels.jit import inlined, inner, kernel
 
 
 class LatticeTable(NamedTuple):
@@ -62,15 +62,7 @@ def may_move(table: LatticeTable, step: int, cell: int, to: int) -> bool:
     """Whether a robot may be in one cell at a step and in another, or there still, at the next."""
     if table.robots[step + 1, to] != 0:
         return False
-    if cell == to:
-        return True
-    ahead = table.robots[step, to]
-    while ahead != 0:  # it goes on, as the cell is free then: to an empty one, or one is ahead
-        further = table.places[ahead - 1, step + 1]
-        if further == cell:
-            return False
-        ahead = table.robots[step, further]
-    return True
+    return cell == to or (table.robots[step, to] == 0 and table.robots[step + 1, cell] == 0)
 
 
 @inlined
@@ -80,3 +72,45 @@ def free_from(table: LatticeTable, cell: int) -> int:
         if table.robots[step, cell] != 0:
             return step + 1
     return 0
+
+
+@kernel
+def spaced_out(places: Steps, cells: int) -> tuple[Steps, int]:
+    """The same ways in the same order, but nobody goes to a cell before it has been left.
+
+    Args:
+        places: The cell of each robot at each step, without rings, (n, steps).
+        cells: How many the lattice has.
+
+    Returns:
+        The cell of each robot at each step, (n, later steps), and how many steps there are.
+    """
+    robots, steps = places.shape
+    turn = np.zeros((robots, steps), np.int32)  # how many were in the cell before the robot came
+    visits = np.zeros(cells, np.int32)
+    for step in range(steps):
+        for robot in range(robots):
+            if step == 0 or places[robot, step] != places[robot, step - 1]:
+                turn[robot, step] = visits[places[robot, step]]
+                visits[places[robot, step]] += 1
+    left = np.zeros(cells, np.int32)
+    at = np.zeros(robots, np.int64)
+    found = np.empty((robots, robots * steps + 1), np.int32)
+    count = 0
+    moving = True
+    while moving:
+        for robot in range(robots):
+            found[robot, count] = places[robot, at[robot]]
+        count += 1
+        moving = False
+        was_left = left.copy()
+        for robot in range(robots):
+            here = places[robot, at[robot]]
+            k = at[robot] + 1
+            while k < steps and places[robot, k] == here:
+                k += 1
+            if k < steps and was_left[places[robot, k]] == turn[robot, k]:
+                at[robot] = k
+                left[here] += 1
+                moving = True
+    return found, count

@@ -3,6 +3,8 @@
 Li, Chen, Harabor, Stuckey and Koenig: Anytime multi-agent path finding via large neighborhood
 search, IJCAI 2021. Each set of paths is valid; a new one is kept if its sum of arrivals isn't
 larger.
+
+Tested through ``kernels/fleet/test_prioritised_planning``.
 """
 
 from __future__ import annotations

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_orders import PackedOrders
-from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.jit import inlined, kernel
 
 
-@inner
+@inlined
 def open_bars_of(orders: PackedOrders, dispatch: PackedDispatch, robot: int) -> float:
     """Move on to the first bar of a robot that isn't open, and say how far it may go [m]."""
     b, end = dispatch.head[robot], orders.first[robot + 1]

@@ -11,14 +11,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 from viaspline.kernels.jit import kernel
 
 
 @kernel
 def order_flow(
-    orders: PackedOrders, leaders: Ints, progress: Floats, head: Ints, margin: Floats
+    orders: PackedOrders, leaders: Ints, progress: Floats, head: Ints, margin: Floats, fixed: Flags
 ) -> tuple[Ints, Ints]:
     """Drive robots from bar to bar to their ends, without any times.
 
@@ -28,6 +28,7 @@ def order_flow(
         progress: How far each robot has come [m], (n,).
         head: The first bar of each robot that may not be open, (n,).
         margin: How much farther than it says a robot has to be, but at its end [m], (n,).
+        fixed: Whether a robot never gets on any more, (n,).
 
     Returns:
         All bars from the heads on in an order in which they can be passed, (m,); and for each robot
@@ -40,9 +41,13 @@ def order_flow(
     done = 0
     waiter = np.full(count, -1)  # the first of those who wait for a robot
     behind = np.full(count, -1)  # who waits for the same robot
-    ready = np.arange(count)[::-1].copy()  # a stack
-    is_ready = np.ones(count, np.bool_)
-    top = count
+    ready = np.empty(count, np.int64)  # a stack
+    is_ready = ~fixed
+    top = 0
+    for robot in range(count - 1, -1, -1):
+        if is_ready[robot]:
+            ready[top] = robot
+            top += 1
     while top > 0:
         top -= 1
         robot = ready[top]
@@ -73,7 +78,7 @@ def order_flow(
                 top += 1
             one = following
     for robot in range(count):
-        if stuck[robot] == orders.first[robot + 1]:
+        if stuck[robot] == orders.first[robot + 1] or fixed[robot]:
             stuck[robot] = -1
     return sequence[:done], stuck
 

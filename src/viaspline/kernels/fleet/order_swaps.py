@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
 from viaspline.kernels.fleet.packed_orders import PackedOrders
 from viaspline.kernels.jit import inner

@@ -1,4 +1,7 @@
-"""The paths of a fleet, cut into cells, as the kernels of fleets see them."""
+"""The paths of a fleet, cut into cells, as the kernels of fleets see them.
+
+Tested through ``fleet/test_courses``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Where the paths of a fleet come near each other, as the kernels of fleets see it."""
+"""Where the paths of a fleet come near each other, as the kernels of fleets see it.
+
+Tested through ``fleet/test_crossings``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""When every robot of a fleet is where, as the kernels of fleets see it."""
+"""When every robot of a fleet is where, as the kernels of fleets see it.
+
+Tested through ``fleet/test_fleet_certificate``.
+"""
 
 from __future__ import annotations
 

@@ -420,7 +420,7 @@ def _left_of(span: Floats, w: float, x: float, y: float) -> float:
 @kernel
 def step_aside(
     world: PackedWorld, spans: Floats, marks: Ints, discs: Floats, required: float, bend: float
-) -> tuple[Floats, Ints, bool]:
+) -> tuple[Floats, Ints, int]:
     """A path that steps aside for every disc that it comes too near to, one after the other.
 
     It goes to the side on which it comes near to no other disc, else to the nearer one.
@@ -435,21 +435,21 @@ def step_aside(
         bend: The curvature that a step aside has where it can be so long [1/m].
 
     Returns:
-        (spans, marks, whether it is clear of all discs, as closely as it was looked): marks of
-        joints where the path is farthest aside are ``ASIDE``.
+        (spans, marks, the disc for which there is no room to step aside): the last is -1 where the
+        path is clear of all discs, as closely as it was looked. Marks of joints where the path is
+        farthest aside are ``ASIDE``.
     """
     most = MAX_STEPS_EACH * discs.shape[0] + 1
-    room = spans.shape[0] + 7 * most + 7
+    room = spans.shape[0] + 7 * most + 14
     path, path_marks = np.empty((room, 4, 2)), np.zeros(room + 1, np.int64)
     trial, trial_marks = np.empty((room, 4, 2)), np.zeros(room + 1, np.int64)
     best, best_marks = np.empty((room, 4, 2)), np.zeros(room + 1, np.int64)
     count = spans.shape[0]
     _copy(spans, marks, count, path, path_marks)
-    is_clear = False
-    for _ in range(most):
+    which = -1
+    for _ in range(most + 1):
         which, k, w, apart = _first_met(path, count, discs)
         if which < 0:
-            is_clear = True
             break
         x, y, needed = discs[which]
         left = _left_of(path[k], w, x, y)
@@ -483,4 +483,4 @@ def step_aside(
             break
         count = best_count
         _copy(best, best_marks, count, path, path_marks)
-    return path[:count].copy(), path_marks[: count + 1].copy(), is_clear
+    return path[:count].copy(), path_marks[: count + 1].copy(), which

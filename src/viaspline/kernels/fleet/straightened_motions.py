@@ -128,6 +128,74 @@ def _pass(
     return changed
 
 
+@inner
+def _ride_along(
+    points: Floats, along: Floats, start: float, pace: float, t: int, place: Floats
+) -> None:
+    """Where a robot is at a step that sets out along a line at another one."""
+    gone = min(max((t - start) * pace, 0.0), along[along.size - 1])
+    k = min(max(np.searchsorted(along, gone) - 1, 0), along.size - 2)
+    width = along[k + 1] - along[k]
+    share = (gone - along[k]) / width if width > 0.0 else 0.0
+    for axis in range(2):
+        place[axis] = points[k, axis] + share * (points[k + 1, axis] - points[k, axis])
+
+
+@kernel
+def along_its_line(
+    places: Floats, reach: Floats, margin: float, robot: int, points: Floats, along: Floats,
+    pace: float, latest: int,
+) -> int:  # fmt: skip
+    """Let a robot drive along a line, at the first step at which it meets nobody on its way.
+
+    Args:
+        places: Where each robot is at each step [m], (n, steps, 2); written to if there is one.
+        reach: Of each robot [m], (n,); two are to be the sum of theirs apart.
+        margin: And so much more.
+        robot: Which.
+        points: Of the line, (k, 2), k >= 2.
+        along: Their distances along it [m], (k,).
+        pace: How far it drives in a step [m].
+        latest: The last step at which it may set out.
+
+    Returns:
+        The step at which it sets out; -1 if it meets somebody whenever it does.
+    """
+    steps = places.shape[1]
+    tried = np.empty((steps, 2))
+    for start in range(latest + 1):
+        if start + along[along.size - 1] / pace > steps - 1:
+            break
+        for t in range(steps):
+            _ride_along(points, along, start, pace, t, tried[t])
+        if _meets_nobody(places, reach, margin, robot, tried, pace):
+            for t in range(steps):
+                places[robot, t, 0], places[robot, t, 1] = tried[t, 0], tried[t, 1]
+            return start
+    return -1
+
+
+@inner
+def _meets_nobody(
+    places: Floats, reach: Floats, margin: float, robot: int, tried: Floats, pace: float
+) -> bool:
+    """Whether a motion is far enough from all others, which drive no faster."""
+    steps = places.shape[1]
+    for other in range(places.shape[0]):
+        if other == robot:
+            continue
+        apart = reach[robot] + reach[other] + margin
+        t = 0
+        while t < steps - 1:
+            ax, ay = places[other, t, 0] - tried[t, 0], places[other, t, 1] - tried[t, 1]
+            bx = places[other, t + 1, 0] - tried[t + 1, 0]
+            by = places[other, t + 1, 1] - tried[t + 1, 1]
+            if closest(ax, ay, bx, by) < apart:
+                return False
+            t += max(int((math.hypot(ax, ay) - apart) / (2.0 * pace)), 1)
+    return True
+
+
 @kernel
 def straightened_motions(
     world: PackedWorld, kept: Floats, places: Floats, reach: Floats, margin: float,
