@@ -36,6 +36,11 @@ if TYPE_CHECKING:
         PlanningError,
         ViasplineError,
     )
+    from viaspline.fleet.execution.delays import Delays
+    from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
+    from viaspline.fleet.execution.fleet_navigator import FleetNavigator
+    from viaspline.fleet.execution.fleet_run import FleetRun
+    from viaspline.fleet.execution.simulate_fleet import simulate_fleet
     from viaspline.fleet.fleet_plan import FleetPlan
     from viaspline.fleet.plan_fleet import plan_fleet
     from viaspline.formats.load import load
@@ -64,8 +69,12 @@ _HOMES = {
     "CardinalSpline": "curve.cardinal",
     "Certificate": "curve.certificate",
     "Command": "robot.state",
+    "Delays": "fleet.execution.delays",
     "Fleet": "mission.fleet.fleet",
+    "FleetCommand": "fleet.execution.fleet_messages",
+    "FleetNavigator": "fleet.execution.fleet_navigator",
     "FleetPlan": "fleet.fleet_plan",
+    "FleetRun": "fleet.execution.fleet_run",
     "GaveUpError": "errors",
     "GeometryError": "errors",
     "Grid": "maps.grid",
@@ -84,6 +93,7 @@ _HOMES = {
     "Path": "curve.path",
     "PiecewiseCubic": "curve.piecewise",
     "Plan": "planner",
+    "ProgressReport": "fleet.execution.fleet_messages",
     "PlanningError": "errors",
     "RobotState": "robot.state",
     "Run": "robot.run",
@@ -104,6 +114,7 @@ _HOMES = {
     "retime": "trajectory.retime",
     "retime_lap": "trajectory.lap",
     "simulate": "robot.simulator",
+    "simulate_fleet": "fleet.execution.simulate_fleet",
 }
 
 __all__ = [*sorted(_HOMES), "__version__"]

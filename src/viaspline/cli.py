@@ -71,7 +71,8 @@ def run(
     r"""Plan a mission, drive it and report: the main job.
 
     Writes plan.json, path.csv, plan.png, run.json, run.csv, run.png and timing.json; of a fleet
-    fleet.json and timing.json, and for each robot a folder with its plan.json and path.csv.
+    fleet.json, fleet.png, run.json, run.png and timing.json, and for each robot a folder with its
+    plan.json and path.csv.
 
     \b
     Example:
@@ -82,13 +83,17 @@ def run(
 
     if isinstance(asked, Mission):
         check_of_fleets(improve)
-        from viaspline.mission_commands import run_mission
+        from viaspline.mission_steps import run_mission
 
         run_mission(
             asked, mission, out, seed=seed, animate=animate, real_time=real_time, quiet=quiet
         )
         return
-    raise click.UsageError("a fleet is planned, not driven yet: viaspline plan FILE")
+    if real_time:
+        raise click.UsageError("--real-time is for the mission of one robot; this is a fleet")
+    from viaspline.fleet_steps import run_fleet_file
+
+    run_fleet_file(asked, mission, out, improve=improve, seed=seed, animate=animate, quiet=quiet)
 
 
 @cli.command()
@@ -99,8 +104,8 @@ def run(
 def plan(mission: Path, out: Path | None, improve: float, quiet: bool) -> None:
     r"""Plan a mission: the path, its proof and what it was chosen from.
 
-    Writes plan.json, path.csv, plan.png and timing.json; of a fleet fleet.json and timing.json, and
-    for each robot a folder with its plan.json and path.csv.
+    Writes plan.json, path.csv, plan.png and timing.json; of a fleet fleet.json, fleet.png and
+    timing.json, and for each robot a folder with its plan.json and path.csv.
 
     \b
     Example:
@@ -111,11 +116,11 @@ def plan(mission: Path, out: Path | None, improve: float, quiet: bool) -> None:
 
     if isinstance(asked, Mission):
         check_of_fleets(improve)
-        from viaspline.mission_commands import plan_mission
+        from viaspline.mission_steps import plan_mission
 
         plan_mission(asked, mission, out, quiet=quiet)
     else:
-        from viaspline.fleet_commands import plan_fleet_file
+        from viaspline.fleet_steps import plan_fleet_file
 
         plan_fleet_file(asked, mission, out, improve=improve, quiet=quiet)
 
@@ -195,11 +200,11 @@ def check(mission: Path | None, schema: bool) -> None:
     from viaspline.mission.model import Mission
 
     if isinstance(loaded, Mission):
-        from viaspline.mission_commands import check_mission
+        from viaspline.mission_steps import check_mission
 
         lines = check_mission(loaded)
     else:
-        from viaspline.fleet_commands import check_fleet
+        from viaspline.fleet_steps import check_fleet
 
         lines = check_fleet(loaded)
     say(f"{mission} is sound", *(f"  {name:<7} {words}" for name, words in lines))

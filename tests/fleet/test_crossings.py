@@ -208,4 +208,4 @@ def test_too_many_robots_through_one_place_are_told_where() -> None:
     for most in (100, 15_000):
         with pytest.raises(GaveUpError, match=f"more than {most} places") as caught:
             crossings_of(courses, max_boxes=most)
-        assert np.hypot(*caught.value.where) < 5.0
+        assert np.hypot(*caught.value.where) < 15.0

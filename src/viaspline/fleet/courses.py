@@ -17,6 +17,8 @@ from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_paths import PackedPaths
 from viaspline.planner import Plan
 
+END_CELL_M = 0.01
+"""Length of the first and of the last cell of a course [m]."""
 OFF_PATH_SHARE = 1e-9
 """Of a path's length, by which its time law may end beyond it by rounding."""
 
@@ -80,7 +82,7 @@ def courses_of(plans: Mapping[str, Plan], separation: float) -> FleetCourses:
     paths = [
         FleetPath(
             plan.path,
-            plan.trajectory.distances,
+            _with_short_ends(plan.trajectory.distances, plan.path.length),
             plan.mission.robot.outer_radius + plan.tracking_error + 0.5 * separation,
         )
         for plan in plans.values()
@@ -128,6 +130,16 @@ def courses_along(names: Sequence[str], paths: Sequence[FleetPath]) -> FleetCour
             reach=np.array([one.reach for one in paths]),
         ),
     )
+
+
+def _with_short_ends(knots: Floats, length: float) -> Floats:
+    """Knots, and two more that make the first and the last cell short.
+
+    A robot that stands at an end counts as one that is anywhere in that cell.
+    """
+    if length <= 4.0 * END_CELL_M:
+        return knots
+    return np.sort(np.concatenate([knots, [END_CELL_M, length - END_CELL_M]]))
 
 
 def _firsts(arrays: Sequence[Floats]) -> Ints:

@@ -20,6 +20,9 @@ from viaspline.kernels.fleet.packed_pieces import PackedPieces, pieces_of
 MAX_BOXES = 50_000_000
 """How many boxes the crossings of a fleet may have: 2 GB."""
 
+BOXES_A_PAIR = 4
+"""How many boxes a pair of pieces that are near each other has at least, in the mean."""
+
 
 @dataclass(frozen=True, eq=False)
 class FleetCrossings:
@@ -68,13 +71,20 @@ def crossings_of(
         mark_neighbours(packed, np.ascontiguousarray(only, dtype=np.int64), takes_part)
     pieces = pieces_of(packed, takes_part)
     grid = grid_of(pieces)
-    first, near = near_pieces(pieces, grid, is_asked, max_boxes)
-    if len(near) > max_boxes:
+    max_pairs = max_boxes // BOXES_A_PAIR
+    first, near = near_pieces(pieces, grid, is_asked, max_pairs)
+    if len(near) > 2 * max_pairs:
         raise _too_many(courses, pieces, first[1:], max_boxes)
-    box_first, whole, real = near_boxes(packed, pieces, first, near, max_boxes)
-    if len(whole) > max_boxes:
+    boxes = near_boxes(packed, pieces, first, near, max_boxes)
+    if len(boxes.cell) > max_boxes:
         raise _too_many(courses, pieces, np.diff(first), max_boxes)
-    return FleetCrossings(joined_boxes(packed, box_first, whole, real))
+    pairs, span, box_first, crossing, count = joined_boxes(packed, boxes)
+    return FleetCrossings(
+        PackedCrossings(
+            pairs, span, box_first, boxes.cell[:count], crossing[:count], boxes.other[:count],
+            boxes.low[:count], boxes.high[:count],
+        )
+    )  # fmt: skip
 
 
 def _flags(count: int, chosen: Ints) -> Flags:

@@ -52,7 +52,6 @@ class FleetPlan:
         laws: When each robot is where on its course. Those that are not served stand at their
             starts for ever.
         rides: How each robot drives where nobody is in its way.
-        alone_laws: When it would be where if it were alone.
     """
 
     fleet: Fleet
@@ -65,12 +64,16 @@ class FleetPlan:
     crossings: FleetCrossings
     laws: FleetLaws
     rides: FleetRides
-    alone_laws: FleetLaws
 
     @property
     def served(self) -> bool:
         """Whether every robot of the fleet has a plan, and all are proven apart."""
         return not self.not_served and self.certificate.holds
+
+    @property
+    def alone_laws(self) -> FleetLaws:
+        """When each robot would be where if it were alone."""
+        return self.rides.laws
 
     @property
     def names(self) -> tuple[str, ...]:

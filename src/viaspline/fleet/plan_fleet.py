@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from viaspline.errors import GeometryError
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
-from viaspline.fleet.laying.lay_paths import LaidPaths
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
@@ -71,11 +70,11 @@ def plan_fleet(
     if paths is None:
         paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
     tell("timing", 0.0)
-    timed = _served(FleetWays.along(fleet.members, paths), fleet.separation_m)
+    timed = _served(FleetWays.of(fleet, paths), fleet.separation_m)
     if improve > 0.0:
         timed = timed.improved(improve, lambda share: tell("improving", share))
     tell("proving", 0.0)
-    return _planned(fleet, timed, paths.laid)
+    return _planned(fleet, timed, paths.laid.not_served)
 
 
 def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
@@ -88,8 +87,10 @@ def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
         fleet: What is asked for.
         paths: Of the very fleet.
     """
-    timed = TimedFleet.by_priority(FleetWays.along(fleet.members, paths))
-    return _planned(fleet, timed.past_standing_ones() if timed.blocked else timed, paths.laid)
+    timed = TimedFleet.by_priority(FleetWays.of(fleet, paths))
+    if timed.blocked:
+        timed = timed.past_standing_ones()
+    return _planned(fleet, timed, paths.laid.not_served)
 
 
 def _served(ways: FleetWays, separation: float) -> TimedFleet:
@@ -103,7 +104,7 @@ def _served(ways: FleetWays, separation: float) -> TimedFleet:
     return timed.past_standing_ones()
 
 
-def _planned(fleet: Fleet, timed: TimedFleet, laid: LaidPaths) -> FleetPlan:
+def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -> FleetPlan:
     """The plan of a fleet that is timed."""
     ways, timing = timed.ways, timed.timing
     courses, names = ways.courses, ways.courses.names
@@ -124,17 +125,15 @@ def _planned(fleet: Fleet, timed: TimedFleet, laid: LaidPaths) -> FleetPlan:
         for robot, other in sorted(timing.blocked.items())
     ]  # fmt: skip
     crossings = ordered_crossings(courses, ways.crossings, timing.laws)
-    alone = ways.rides.laws
     return FleetPlan(
         fleet=fleet,
         plans=plans,
-        not_served=(*laid.not_served, *unserved),
+        not_served=(*not_served, *unserved),
         certificate=certify_fleet(courses, timing.laws, fleet.separation_m),
-        precedences=precedences_of(courses, crossings, timing.laws, alone),
+        precedences=precedences_of(courses, crossings, timing.laws, ways.rides.laws),
         alone=dict(zip(names, ways.rides.alone.tolist(), strict=True)),
         courses=courses,
         crossings=crossings,
         laws=timing.laws,
         rides=ways.rides,
-        alone_laws=alone,
     )

@@ -5,7 +5,7 @@ Tested through ``fleet/test_plan_fleet``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,7 +19,7 @@ from viaspline.fleet.lattice_order.time_in_order import time_in_order
 from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import Timing, time_paths
-from viaspline.mission.fleet.fleet import FleetMember
+from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 
 
@@ -42,34 +42,29 @@ class FleetWays:
     rides: FleetRides
 
     @classmethod
-    def of(
-        cls, members: Sequence[FleetMember], plans: Sequence[Plan], separation: float
-    ) -> FleetWays:
-        """Cut paths into cells and find where they come near each other.
+    def of(cls, fleet: Fleet, paths: CrossingPaths) -> FleetWays:
+        """The ways of those robots of a fleet that have a path.
 
         Args:
-            members: The robots.
-            plans: Of each.
-            separation: Free space between any two bodies [m].
-        """
-        named = {one.name: plan for one, plan in zip(members, plans, strict=True)}
-        courses = courses_of(named, separation)
-        rides = rides_of(members, plans, courses)
-        return cls(tuple(members), tuple(plans), courses, crossings_of(courses), rides)
-
-    @classmethod
-    def along(cls, members: Sequence[FleetMember], paths: CrossingPaths) -> FleetWays:
-        """The ways of robots along paths that have been cut and compared.
-
-        Args:
-            members: The robots; those that have no path are left out.
-            paths: Theirs.
+            fleet: What is asked for.
+            paths: Of the fleet.
         """
         plans = paths.laid.plans
-        driving = tuple(one for one in members if one.name in plans)
-        own = tuple(plans[one.name] for one in driving)
-        rides = rides_of(driving, own, paths.courses)
-        return cls(driving, own, paths.courses, paths.crossings, rides)
+        members = tuple(one for one in fleet.members if one.name in plans)
+        rides = rides_of(members, list(plans.values()), paths.courses)
+        return cls(members, tuple(plans.values()), paths.courses, paths.crossings, rides)
+
+    def along(self, plans: Mapping[str, Plan], separation: float) -> FleetWays:
+        """The ways of the same robots along other paths.
+
+        Args:
+            plans: By name, in the order of the robots.
+            separation: Free space between any two bodies [m].
+        """
+        courses = courses_of(plans, separation)
+        laid = tuple(plans.values())
+        rides = rides_of(self.members, laid, courses)
+        return FleetWays(self.members, laid, courses, crossings_of(courses), rides)
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,6 +124,6 @@ def on_lattice(ways: FleetWays, separation: float) -> TimedFleet | NoLatticeOrde
     laid = lattice_paths(dict(zip(ways.courses.names, ways.plans, strict=True)), separation)
     if isinstance(laid, NoLatticeOrder):
         return laid
-    led = FleetWays.of(ways.members, list(laid.plans.values()), separation)
+    led = ways.along(laid.plans, separation)
     steps = list(laid.steps.values())
     return TimedFleet(led, time_in_order(led.courses, led.crossings, led.rides, steps))

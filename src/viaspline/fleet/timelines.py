@@ -21,7 +21,7 @@ JOINED_S = 0.5
 """Waits for one robot that are no farther apart are one [s]."""
 
 
-class Stretch(NamedTuple):
+class ActivitySpan(NamedTuple):
     """What a robot does from one time to another.
 
     Attributes:
@@ -51,11 +51,11 @@ class Timeline:
     """
 
     name: str
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[ActivitySpan, ...]
     late: float
 
     @property
-    def waits(self) -> tuple[Stretch, ...]:
+    def waits(self) -> tuple[ActivitySpan, ...]:
         """Those stretches in which it waits for another robot."""
         return tuple(one for one in self.stretches if one.kind == "waits")
 
@@ -104,39 +104,39 @@ def _timeline(plan: FleetPlan, lost: LostTimes, gaps: Floats, robot: int) -> Tim
     after = np.append(arrive[1:], arrive[-1])
     halts = (waited >= 0) & (stand > SAME_S)
     slow = (waited >= 0) & (drive > SLOW_SHARE * (after - leave))
-    pieces: list[Stretch] = []
+    pieces: list[ActivitySpan] = []
     names = plan.courses.names
     for k in np.flatnonzero((stays > SAME_S) | halts[:-1] | slow[:-1]).tolist():
-        _append(pieces, Stretch(arrive[k], goes[k], "stands"))
+        _append(pieces, ActivitySpan(arrive[k], goes[k], "stands"))
         for is_wait, since, until, more in (
             (halts[k], goes[k], leave[k], stand[k]),
             (slow[k], leave[k], after[k], drive[k]),
         ):
             if is_wait:
-                _append(pieces, Stretch(since, until, "waits", names[waited[k]], more))
+                _append(pieces, ActivitySpan(since, until, "waits", names[waited[k]], more))
     driven = _with_drives(float(arrive[0]), pieces, float(arrive[-1]))
     late = float(laws.arrive[end - 1] - plan.alone_laws.packed.arrive[end - 1])
     return Timeline(names[robot], driven, late)
 
 
-def _append(pieces: list[Stretch], new: Stretch) -> None:
+def _append(pieces: list[ActivitySpan], new: ActivitySpan) -> None:
     """Put a stretch behind others, as one with the last of them where it goes on with that."""
     if new.end - new.begin <= SAME_S:
         return
     new = new._replace(begin=float(new.begin), end=float(new.end), lost=float(new.lost))
-    last = pieces[-1] if pieces else Stretch(-np.inf, -np.inf, "stands")
+    last = pieces[-1] if pieces else ActivitySpan(-np.inf, -np.inf, "stands")
     if last[2:4] == new[2:4] and new.begin - last.end <= JOINED_S:
         pieces[-1] = last._replace(end=new.end, lost=last.lost + new.lost)
     else:
         pieces.append(new)
 
 
-def _with_drives(begin: float, pieces: list[Stretch], end: float) -> tuple[Stretch, ...]:
+def _with_drives(begin: float, pieces: list[ActivitySpan], end: float) -> tuple[ActivitySpan, ...]:
     """Stretches, and what is driven between them."""
     found, now = [], begin
-    for piece in [*pieces, Stretch(end, end, "stands")]:
+    for piece in [*pieces, ActivitySpan(end, end, "stands")]:
         if piece.begin - now > SAME_S:
-            found.append(Stretch(now, piece.begin, "drives"))
+            found.append(ActivitySpan(now, piece.begin, "drives"))
         if piece.end > piece.begin:
             found.append(piece)
         now = piece.end

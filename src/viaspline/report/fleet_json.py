@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.report.json_text import dumps
@@ -21,7 +22,6 @@ def fleet_json(plan: FleetPlan, name: str, folders: Mapping[str, str]) -> str:
         name: The fleet's name.
         folders: Of each robot, by its name.
     """
-    certificate = plan.certificate
     return dumps(
         {
             "fleet": {
@@ -32,14 +32,7 @@ def fleet_json(plan: FleetPlan, name: str, folders: Mapping[str, str]) -> str:
             },
             "served": plan.served,
             "robots": [_robot(plan, one, folders) for one in plan.fleet.members],
-            "certificate": {
-                "separation_m": certificate.separation,
-                "required_separation_m": certificate.required,
-                "holds": certificate.holds,
-                "pair": certificate.pair,
-                "at_s": certificate.at_s,
-                "at": certificate.at,
-            },
+            "certificate": certificate_of_fleet(plan.certificate),
             "precedences": [
                 {
                     "first": one.first,
@@ -61,6 +54,18 @@ def fleet_json(plan: FleetPlan, name: str, folders: Mapping[str, str]) -> str:
             ],
         }
     )
+
+
+def certificate_of_fleet(certificate: FleetCertificate) -> dict[str, Any]:
+    """What is proven of the distance between robots; no separation where there are no two."""
+    return {
+        "separation_m": certificate.separation,
+        "required_separation_m": certificate.required,
+        "holds": certificate.holds,
+        "pair": certificate.pair,
+        "at_s": certificate.at_s,
+        "at": certificate.at,
+    }
 
 
 def _robot(plan: FleetPlan, member: FleetMember, folders: Mapping[str, str]) -> dict[str, Any]:

@@ -8,13 +8,19 @@ from pathlib import Path
 from typing import Final
 
 from viaspline.errors import OutputError
+from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.report.fleet.fleet_picture import fleet_picture
+from viaspline.report.fleet.fleet_run_picture import fleet_run_picture
 from viaspline.report.fleet_json import fleet_json
+from viaspline.report.fleet_run_json import fleet_run_json
 from viaspline.report.result_files import ResultFolder
 from viaspline.report.results import Contents, path_contents
 
-FLEET_FILES: Final = ("fleet.json", "timing.json")
+FLEET_FILES: Final = ("fleet.json", "fleet.png", "timing.json")
 """What is written for a fleet as a whole."""
+FLEET_RUN_FILES: Final = (*FLEET_FILES, "run.json", "run.png")
+"""What is written for a fleet that was driven."""
 ROBOT_FILES: Final = ("plan.json", "path.csv")
 """What is written for each robot that is served."""
 
@@ -49,7 +55,15 @@ def folder_names(robots: Iterable[str]) -> dict[str, str]:
 def fleet_contents(plan: FleetPlan, name: str) -> Contents:
     """The files of a fleet as a whole: the same bytes every time."""
     folders = folder_names(one.name for one in plan.fleet.members)
-    return {"fleet.json": fleet_json(plan, name, folders)}
+    return {"fleet.json": fleet_json(plan, name, folders), "fleet.png": fleet_picture(plan, name)}
+
+
+def fleet_run_contents(plan: FleetPlan, run: FleetRun, name: str, *, seed: int = 0) -> Contents:
+    """The files of a drive of a fleet, without those of its plan: the same bytes every time."""
+    return {
+        "run.json": fleet_run_json(run, name, seed=seed),
+        "run.png": fleet_run_picture(plan, run, name),
+    }
 
 
 def check_robot_folders(path: Path, robots: Iterable[str]) -> None:

@@ -5,10 +5,14 @@ Tested through ``report/test_fleet_results``.
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterator
 from typing import Final
 
 from rich.console import RenderableType
 
+from viaspline.fleet.execution.fleet_run import FleetRun
+from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
 from viaspline.report.terminal_tables import facts_table
 from viaspline.report.units import asked_words, down, metres, place, seconds
@@ -21,7 +25,7 @@ MAX_UNSERVED_TOLD: Final = 20
 
 def fleet_tables(plan: FleetPlan, name: str) -> RenderableType:
     """Who is served and when all are home, what is proven, and who waits for whom."""
-    members, certificate = plan.fleet.members, plan.certificate
+    members = plan.fleet.members
     facts = facts_table(f"Fleet · {name}")
     facts.add_row("served", f"{len(plan.plans)} of {len(members)}")
     if plan.plans:
@@ -30,16 +34,8 @@ def fleet_tables(plan: FleetPlan, name: str) -> RenderableType:
         facts.add_row("driven", f"{metres(sum(lengths), 1)} in all")
         facts.add_row("all are home", f"after {seconds(max(ends))}")
         facts.add_row("later than alone", _late_words(plan))
-    asked = asked_words(certificate.required)
-    facts.add_row("separation, proven", f"{down(certificate.separation)} (asked {asked})")
-    if certificate.pair is not None and certificate.at is not None:
-        first, second = certificate.pair
-        where, there = certificate.at
-        facts.add_row(
-            "nearest",
-            f"'{first}' at {place(where)} and '{second}' at {place(there)}, "
-            f"after {certificate.at_s:.1f} s",
-        )
+    for title, words in _apart(plan.certificate):
+        facts.add_row(title, words)
     facts.add_row("crossings in order", str(len(plan.precedences)))
     waits = sorted(
         (one for one in plan.precedences if one.waits_s > 0.0), key=lambda one: -one.waits_s
@@ -49,6 +45,35 @@ def fleet_tables(plan: FleetPlan, name: str) -> RenderableType:
         facts.add_row("longest waits" if i == 0 else "", words)
     if len(waits) > MAX_WAITS_TOLD:
         facts.add_row("", f"… and {len(waits) - MAX_WAITS_TOLD} more in fleet.json")
+    return facts
+
+
+def _apart(certificate: FleetCertificate) -> Iterator[tuple[str, str]]:
+    """How far apart robots are proven to be, and which two are nearest, where and when."""
+    asked = asked_words(certificate.required)
+    yield "separation, proven", f"{down(certificate.separation)} (asked {asked})"
+    if certificate.pair is not None and certificate.at is not None:
+        (first, second), (where, there) = certificate.pair, certificate.at
+        when = f"after {certificate.at_s:.1f} s"
+        yield "nearest", f"'{first}' at {place(where)} and '{second}' at {place(there)}, {when}"
+
+
+def fleet_run_table(run: FleetRun, name: str) -> RenderableType:
+    """Who arrived and how late, and how near any two robots came.
+
+    Args:
+        run: What was driven.
+        name: The fleet's name.
+    """
+    facts = facts_table(f"Run · {name}")
+    facts.add_row("arrived", f"{len(run.arrivals)} of {len(run.names)}")
+    facts.add_row("ended", f"after {seconds(run.end_s)}")
+    facts.add_row("later than planned", f"{seconds(run.mean_delay)} in the mean")
+    for title, words in _apart(run.certificate):
+        facts.add_row(title, words)
+    kinds = Counter(event.kind for event in run.events if event.kind != "arrived")
+    for kind, many in kinds.items():
+        facts.add_row(kind, f"{many} {'time' if many == 1 else 'times'}")
     return facts
 
 

@@ -144,12 +144,12 @@ class Engine:
     def _planned_fleet(
         self, document: Document, base: Path, revision: int, before: Planned | None
     ) -> tuple[PlannedFleet, str]:
-        from viaspline.studio.fleet import fleet_messages, planned_fleet
+        from viaspline.studio.fleet import fleet_page_messages, planned_fleet
 
         known = before if isinstance(before, planned_fleet.PlannedFleet) else None
         planned = planned_fleet.planned_fleet(document, self._map_cache(), base, known)
         self._keep_pictures(planned)
-        return planned, encoded(fleet_messages.fleet_answer(planned, revision, known))
+        return planned, encoded(fleet_page_messages.fleet_answer(planned, revision, known))
 
     async def whole_fleet(
         self, planned: PlannedFleet, revision: int, running: Stoppable
@@ -163,10 +163,10 @@ class Engine:
         """
 
         def plan() -> tuple[Planned, str]:
-            from viaspline.studio.fleet import fleet_messages, planned_fleet
+            from viaspline.studio.fleet import fleet_page_messages, planned_fleet
 
             whole = planned_fleet.wholly_planned(planned)
-            return whole, encoded(fleet_messages.fleet_answer(whole, revision, planned))
+            return whole, encoded(fleet_page_messages.fleet_answer(whole, revision, planned))
 
         def work() -> tuple[Planned, str] | None:
             try:

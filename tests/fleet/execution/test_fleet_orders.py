@@ -73,7 +73,7 @@ def test_a_ring_of_robots_that_wait_for_each_other_is_named() -> None:
 
 def test_laws_that_meet_keep_no_order() -> None:
     fleet = driven_on(CROSS)
-    alone = FleetLaws(fleet.laws_alone())
+    alone = FleetLaws(fleet.alone)
     with pytest.raises(GeometryError, match=r"r0 and r1 are too near each other between 1[78]\.\d"):
         orders_of(replace(fleet, laws=alone))
 

@@ -37,7 +37,7 @@ ALL_DELAYS = st.builds(
     vanish=st.booleans(),
     swaps=st.booleans(),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @example(seed=3, delays=Delays(slowed=0.3, halts=1.0, lost=0.3), step=0.1, vanish=False, swaps=True)
 def test_whatever_the_delays_none_touch_and_all_arrive(
     seed: int, delays: Delays, step: float, vanish: bool, swaps: bool

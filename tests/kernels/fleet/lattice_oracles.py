@@ -1,7 +1,7 @@
 """Small lattices, and what is true of motions on them, by brute force."""
 
 from collections import deque
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 from hypothesis import strategies as st
@@ -58,10 +58,10 @@ def is_a_way(neighbours, starts, goals, places):
         and steps[-1] == tuple(goals)
         and all(
             a == b or b in neighbours[a]
-            for before, after in zip(steps, steps[1:], strict=False)
+            for before, after in pairwise(steps)
             for a, b in zip(before, after, strict=True)
         )
-        and all(may_follow(a, b) for a, b in zip(steps, steps[1:], strict=False))
+        and all(may_follow(a, b) for a, b in pairwise(steps))
     )
 
 

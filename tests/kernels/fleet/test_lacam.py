@@ -1,7 +1,12 @@
+import sys
+from pathlib import Path
+
 import numpy as np
 from hypothesis import given, settings
 
-from kernels.fleet.lattice_oracles import is_a_way, lattice_of, problems, there_is_a_way
+sys.path.insert(0, str(Path(__file__).parent))
+from lattice_oracles import is_a_way, lattice_of, problems, there_is_a_way
+
 from viaspline.kernels.fleet.lacam import FOUND, GAVE_UP, NONE, lacam
 from viaspline.kernels.fleet.lattice_distances import lattice_distances
 

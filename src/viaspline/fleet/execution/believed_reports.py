@@ -30,8 +30,9 @@ def believed(
         margin: How much farther than it says a robot has to be [m].
 
     Returns:
-        Whose reports they are, (k,); when and where each was, and how far it takes itself to be
-        let, (k, 3); and what is to be told of them and of the others.
+        Whose reports they are, (k,); when and where each was, how far it takes itself to be let,
+        and of when the last command is that it has heard, (k, 4); and what is to be told of them
+        and of the others.
     """
     known, robots, rows = state.known(fleet), [], []
     events: list[FleetEvent] = []
@@ -53,8 +54,10 @@ def believed(
         state.speeds[robot] = abs(report.speed)
         known.progress[robot] = max(known.progress[robot], place)
         robots.append(robot)
-        rows.append((report.time, place, math.inf if report.holds is None else report.holds))
-    return np.array(robots, np.int64), np.array(rows, float).reshape(-1, 3), events
+        says = report.holds is not None and report.heard is not None
+        holds, heard = (report.holds, report.heard) if says else (0.0, -math.inf)
+        rows.append((report.time, place, holds, heard))
+    return np.array(robots, np.int64), np.array(rows, float).reshape(-1, 4), events
 
 
 def _by_time(report: ProgressReport) -> tuple[float, str]:

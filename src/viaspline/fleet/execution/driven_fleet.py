@@ -1,8 +1,12 @@
-"""What is driven: courses, where they cross, the laws that were planned, and what robots can do."""
+"""What is driven: courses, where they cross, the laws that were planned, and what robots can do.
+
+Tested through ``fleet/execution/test_fleet_orders``.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -18,8 +22,6 @@ from viaspline.kernels.fleet.packed_rides import PackedRides
 @dataclass(frozen=True, eq=False)
 class DrivenFleet:
     """A fleet with its plan, as it is driven.
-
-    Tested through ``fleet/execution/test_fleet_orders``.
 
     Attributes:
         courses: Of the robots.
@@ -61,7 +63,8 @@ class DrivenFleet:
         nodes = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
         return packed.distance[nodes], packed.place[nodes]
 
-    def laws_alone(self) -> PackedLaws:
+    @cached_property
+    def alone(self) -> PackedLaws:
         """The laws of robots that set out at 0 s and never wait for another."""
         first, rides = self.courses.packed.first, self.rides
         spent = np.concatenate(([0.0], np.cumsum(rides.lasts + rides.stays)[:-1]))

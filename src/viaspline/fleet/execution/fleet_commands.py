@@ -9,7 +9,7 @@ from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_messages import FleetCommand
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.fleet.dispatching import speeds_ahead
+from viaspline.kernels.fleet.dispatching import states_ahead
 
 
 def commands_of(
@@ -24,7 +24,7 @@ def commands_of(
         period: Until the next step [s].
     """
     orders, packed, commands = state.orders.packed, state.packed, {}
-    speeds = speeds_ahead(
+    places, speeds = states_ahead(
         fleet.courses.packed, fleet.rides, packed.progress, state.speeds, grants, period
     )
     sets_out = fleet.rides.depart < state.time + period
@@ -40,7 +40,9 @@ def commands_of(
             waits, opens = fleet.names[orders.other[bar]], float(orders.passed[bar])
         commands[name] = FleetCommand(
             name=name,
+            time=state.time,
             granted=float(grants[robot]),
+            distance=float(places[robot]) if sets_out[robot] else 0.0,
             speed=float(speeds[robot]) if sets_out[robot] else 0.0,
             waits_for=waits,
             opens_at=opens,

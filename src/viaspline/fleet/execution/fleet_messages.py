@@ -23,6 +23,7 @@ class ProgressReport:
         arrived: Whether it stands at its goal; who leaves the world there has left it.
         holds: How far it takes itself to be let go [m]: the last grant that it has taken up. Only
             if it says so can a grant be taken back, for another robot to pass first.
+        heard: The time of the newest command that it has heard [s].
     """
 
     name: str
@@ -31,25 +32,33 @@ class ProgressReport:
     speed: float = 0.0
     arrived: bool = False
     holds: float | None = None
+    heard: float | None = None
 
 
 @dataclass(frozen=True)
 class FleetCommand:
     """What a robot of a fleet is to do until it hears more.
 
+    A robot takes up commands in the order of their times: one that is older than one that it has
+    heard is worth nothing.
+
     Attributes:
         name: Of the robot.
+        time: Of the step from which it is [s].
         granted: How far it may go along its path [m]; it has to be able to stop before that. A
             grant that is less than the one before is a request: who can't stop before it any more,
             or hasn't heard it, keeps the old one. ``ProgressReport.holds`` says which.
-        speed: How fast it should be a period from now on [m/s].
+        distance: How far it should be a period from now on [m].
+        speed: How fast it should be then [m/s].
         waits_for: For whom it has to stop where its grant ends; None if that is its goal.
         opens_at: How far that one has to come along its own path [m].
         arrived: Whether its drive is over.
     """
 
     name: str
+    time: float
     granted: float
+    distance: float
     speed: float
     waits_for: str | None = None
     opens_at: float | None = None

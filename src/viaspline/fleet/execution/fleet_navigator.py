@@ -122,13 +122,13 @@ class FleetNavigator:
         before = packed.leaders.copy()
         swaps = np.isfinite(self._state.time) and floor(time) > floor(self._state.time)
         grants, sequence = dispatch_step(
-            fleet.courses.packed, fleet.laws_alone(), orders, packed, robots, table,
+            fleet.courses.packed, fleet.alone, orders, packed, robots, table,
             state.sequence, bool(swaps), time,
         )  # fmt: skip
         for c in np.flatnonzero(before != packed.leaders).tolist():
             one, two = (fleet.names[r] for r in (packed.leaders[c], before[c]))
             events.append(swapped_event(one, two, time))
-        events += state.silences(SILENT_S)
+        events += state.silences(SILENT_S, fleet.rides.depart)
         commands = commands_of(fleet, state, grants, self._period)
         return commands, self._with(replace(state, sequence=sequence, events=tuple(events)))
 
@@ -255,6 +255,6 @@ class FleetNavigator:
             orders, state.packed.leaders, state.sequence, state.packed.head, begin
         )[1]
         ends = self._fleet.courses.packed.first[1:] - 1
-        arrive = last + self._fleet.laws_alone().arrive[ends]
+        arrive = last + self._fleet.alone.arrive[ends]
         arrive[self._state.stuck() >= 0] = np.inf
         return dict(zip(self.names, arrive.tolist(), strict=True))

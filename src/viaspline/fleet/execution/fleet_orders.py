@@ -169,7 +169,7 @@ def _packed(fleet: DrivenFleet, leaders: Ints, by_second: Flags) -> PackedOrders
         length=lengths,
         vanishes=vanishes,
     )
-    set_bar_times(courses, fleet.laws_alone(), orders)
+    set_bar_times(courses, fleet.alone, orders)
     return orders
 
 

@@ -86,13 +86,13 @@ class FleetProgressState:
             out=self.out,
         )
 
-    def silences(self, longest: float) -> list[FleetEvent]:
+    def silences(self, longest: float, departs: Floats) -> list[FleetEvent]:
         """Robots that haven't been heard of for so long [s], told once."""
         if np.isinf(self.time):
             return []
         found = []
         names = self.orders.names
-        late = self.time - np.maximum(self.heard, self.packed.begin)
+        late = self.time - np.maximum(self.heard, departs)
         for robot in np.flatnonzero((late > longest) & ~self.silent & ~self.out & ~self.arrived):
             self.silent[robot] = True
             words = f"{names[robot]} hasn't been heard of for {late[robot]:.1f} s"
@@ -125,6 +125,7 @@ class FleetProgressState:
         state = self.copied(self.time)
         packed, orders = state.packed, state.orders.packed
         packed.fixed[robot] = True
+        packed.promised[robot] = max(until, packed.progress[robot])
         packed.recall[robot], packed.recall_place[robot] = -1, np.inf
         state.out[robot] = True
         own = slice(int(orders.first[robot]), int(orders.first[robot + 1]))

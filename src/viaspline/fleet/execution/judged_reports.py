@@ -65,7 +65,7 @@ def _fault(
     robot = known.names.get(report.name)
     if robot is None:
         return "refused", "is of no robot of this fleet"
-    numbers = (report.time, report.distance, report.speed, report.holds)
+    numbers = (report.time, report.distance, report.speed, report.holds, report.heard)
     if not all(one is None or math.isfinite(one) for one in numbers):
         return "refused", "holds numbers that are not finite"
     if report.time > now + LATE_S:

@@ -104,7 +104,7 @@ def drive_fleet(
     longest = int(_longest(fleet, delays, trouble, begin) / step) + 1
     every = max(round(SWAPS_S / step), 1) if swaps else 0
     ticks = fleet_ticks(
-        fleet.courses.packed, rides, fleet.laws_alone(), orders.packed, orders.leaders, trouble,
+        fleet.courses.packed, rides, fleet.alone, orders.packed, orders.leaders, trouble,
         begin, step, longest, every,
     )  # fmt: skip
     return _run(fleet, ticks)
@@ -116,7 +116,7 @@ def _longest(fleet: DrivenFleet, delays: Delays, trouble: PackedTrouble, begin: 
     is_timed = fleet.laws.packed.is_timed
     planned = fleet.laws.packed.arrive[ends][is_timed].max(initial=begin) - begin
     slower = 1.0 / (1.0 - delays.slowed) / (1.0 - delays.lost)
-    alone = fleet.laws_alone().arrive[ends].sum()
+    alone = fleet.alone.arrive[ends].sum()
     return float(min(60.0 + 10.0 * slower * planned + alone + trouble.halts.sum(), LONGEST_S))
 
 

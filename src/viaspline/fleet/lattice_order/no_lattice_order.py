@@ -1,4 +1,7 @@
-"""Why a lattice gives no order in which robots could pass each other."""
+"""Why a lattice gives no order in which robots could pass each other.
+
+Tested through ``fleet/lattice_order/test_solve_lattice``.
+"""
 
 from __future__ import annotations
 

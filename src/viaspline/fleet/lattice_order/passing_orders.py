@@ -16,6 +16,8 @@ from viaspline.kernels.arrays import Flags, Floats, Ints
 
 SURE = 1e6
 """What an order counts that is forced, in steps and in boxes."""
+CLEAR_MAJORITY = 0.7
+"""Of the boxes of a crossing, those for one order less those for the other."""
 
 
 def passes_second(
@@ -23,7 +25,8 @@ def passes_second(
 ) -> Flags:
     """Whether the robot of each box passes after the other one.
 
-    The boxes of a crossing have one order, that of most of them. Who starts in a box passes first,
+    The boxes of a crossing have one order, that of most of them, unless it holds several places at
+    which robots pass in different orders. Who starts in a box passes first,
     and who rests there at its goal passes last.
 
     Args:
@@ -43,8 +46,11 @@ def passes_second(
     is_lower = robot == boxes.robots[boxes.crossing, 0]
     votes = np.sign(later) * np.where(is_lower, 1.0, -1.0)
     votes *= np.where(np.abs(later) == SURE, SURE, 1.0)
-    lower_is_later = np.bincount(boxes.crossing, votes, minlength=len(boxes.robots)) > 0.0
-    second: Flags = lower_is_later[boxes.crossing] == is_lower
+    total = np.bincount(boxes.crossing, votes, minlength=len(boxes.robots))[boxes.crossing]
+    count = np.bincount(boxes.crossing, minlength=len(boxes.robots))[boxes.crossing]
+    one_order = np.abs(total) >= CLEAR_MAJORITY * count
+    lower_is_later = np.where(one_order, total, votes) > 0.0
+    second: Flags = lower_is_later == is_lower
     return second
 
 

@@ -12,11 +12,10 @@ from viaspline.fleet.lattice_order.lattice_paths import PassingSteps
 from viaspline.fleet.lattice_order.passing_orders import passes_second
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.time_paths import Timing, standing_laws
-from viaspline.kernels.fleet.rides_in_order import UNSETTLED, rides_in_order
-from viaspline.kernels.fleet.yielding_ride import CLEAR
+from viaspline.kernels.fleet.rides_in_order import rides_in_order
 
 ROUNDS = 400
-"""In which rides are reckoned; each takes orders one robot further at least."""
+"""In which rides are reckoned, at most."""
 
 
 def time_in_order(
@@ -34,17 +33,15 @@ def time_in_order(
         steps: At which step each robot is where, in the order of the courses.
 
     Returns:
-        The laws of all. ``blocked`` names robots whose order could not be kept: then the laws are
+        The laws of all. ``blocked`` names robots whose order could not be kept, then the laws are
         not clear of each other.
     """
     second = passes_second(courses, crossings, steps)
-    boxes = crossings.packed._replace(crossing=2 * crossings.packed.crossing + second)
     ends = np.array([one.steps[-1] for one in steps])
     order = np.argsort(ends, kind="stable").astype(np.int64)
     laws = standing_laws(courses)
-    found = rides_in_order(courses.packed, boxes, rides.packed, laws.packed, second, order, ROUNDS)
-    blocked = {
-        robot: int(boxes.other[found[robot]]) if found[robot] >= 0 else robot
-        for robot in np.flatnonzero((found != CLEAR) | (found == UNSETTLED)).tolist()
-    }
+    keeps = rides_in_order(
+        courses.packed, crossings.packed, rides.packed, laws.packed, second, order, ROUNDS
+    )
+    blocked = {robot: robot for robot in np.flatnonzero(~keeps).tolist()}
     return Timing(laws, order, blocked)

@@ -113,7 +113,7 @@ def cell_path(
     """
     last = min(table.places.shape[1] - 1, latest)
     free = free_from(table, goal)
-    key = max(np.int64(distances[robot, start]), free)
+    key = max(int(distances[robot, start]), free)
     if key > last or table.robots[0, start] != 0:
         return -1
     for k in range(last + 2):
@@ -139,7 +139,7 @@ def cell_path(
             to = cell if k == 0 else search.neighbours[cell, (k + turn) % width]
             if to < 0 or distances[robot, to] >= FAR:
                 continue
-            reached = max(step + 1 + np.int64(distances[robot, to]), free)
+            reached = max(step + 1 + int(distances[robot, to]), free)
             if reached > last or not may_move(table, step, cell, to):
                 continue
             if count == len(search.cells):

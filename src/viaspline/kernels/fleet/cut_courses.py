@@ -58,7 +58,7 @@ def _distance(paths: PackedPaths, row: int, panel: int, w: float) -> float:
     return paths.along[panel] + panel_length(paths.rows, row, start, w)
 
 
-@inner
+@inlined
 def _parameter(paths: PackedPaths, row: int, panel: int, distance: float) -> tuple[int, float]:
     """The panel and the local parameter of a distance in a span, from an earlier panel of it on."""
     k = math.floor(paths.at[panel])
@@ -140,31 +140,39 @@ def _cell_end(
         there = _distance(paths, row, _panel_at(paths, panel, end), end)
 
 
-@inner
+@inlined
 def _cut_stretch(
     paths: PackedPaths, row: int, panel: int, nodes: Floats, count: int, w: float, last_w: float,
-    last_s: float, curvature: float,
-) -> tuple[Floats, int]:  # fmt: skip
-    """Cut a stretch of a span that begins at the last node so far.
+    last_s: float, curvature: float, longest: float,
+) -> tuple[int, float, float]:  # fmt: skip
+    """Cut a stretch of a span that begins at the last node so far, while there is room for nodes.
+
+    Args:
+        paths: PackedPaths.
+        row: The row of the span.
+        panel: One of w, or before that.
+        nodes: So far, (room, NODE_COLUMNS).
+        count: How many these are.
+        w: Local parameter of the last one.
+        last_w: Where the stretch ends.
+        last_s: The distance there [m].
+        curvature: Bound on the span [1/m].
+        longest: How long the next cell may be [m].
 
     Returns:
-        (nodes, how many).
+        (how many nodes there are, the parameter of the last one, how long the next cell may be).
     """
-    longest = LONGEST_CELL
-    while True:
+    while w < last_w and count < nodes.shape[0]:
+        panel = _panel_at(paths, panel, w)
         s = nodes[count - 1, DISTANCE]
         w, there, bow = _cell_end(paths, row, panel, w, s, last_w, last_s, curvature, longest)
         longest = min(LONGEST_CELL, 2.0 * max(there - s, SHORTEST_HALVED))
         if w < last_w and there <= s:
             continue  # the curve stands still to rounding: the cell goes on
         nodes[count - 1, BOW] = bow
-        if count == nodes.shape[0]:
-            nodes = _roomy(nodes, count)
         _set_node(paths, nodes, count, there if w < last_w else last_s, row, w)
         count += 1
-        if w >= last_w:
-            return nodes, count
-        panel = _panel_at(paths, panel, w)
+    return count, w, longest
 
 
 @inner
@@ -192,30 +200,31 @@ def _cut_span(
     end = paths.along[after]
     curvature = sharpest(paths.rows, row, 0.0, 1.0)
     w = 0.0
-    while knot < last_knot and paths.knots[knot] <= end + SAME_PLACE:
-        there = paths.knots[knot]
-        knot += 1
+    while True:
+        has_knot = knot < last_knot and paths.knots[knot] <= end + SAME_PLACE
+        if not has_knot and (w >= 1.0 or end <= nodes[count - 1, DISTANCE]):
+            return nodes, count, after, knot
+        there, to, held = end, 1.0, panel
+        if has_knot:
+            there = paths.knots[knot]
+            knot += 1
+            if there < end - SAME_PLACE:
+                held, to = _parameter(paths, row, panel, there)
         if there <= nodes[count - 1, DISTANCE]:
             continue
-        begin = w
-        if there >= end - SAME_PLACE:
-            w = 1.0
-        else:
-            _, w = _parameter(paths, row, panel, there)
-        if begin < w:
-            nodes, count = _cut_stretch(
-                paths, row, _panel_at(paths, panel, begin), nodes, count, begin, w, there, curvature
-            )
-        else:
-            nodes[count - 1, BOW] = there - nodes[count - 1, DISTANCE]
+        longest = LONGEST_CELL
+        to = max(to, w)
+        if to == w:
             nodes = _roomy(nodes, count)
+            nodes[count - 1, BOW] = there - nodes[count - 1, DISTANCE]
             _set_node(paths, nodes, count, there, row, w)
             count += 1
-    if w < 1.0 and end > nodes[count - 1, DISTANCE]:
-        nodes, count = _cut_stretch(
-            paths, row, _panel_at(paths, panel, w), nodes, count, w, 1.0, end, curvature
-        )
-    return nodes, count, after, knot
+        while w < to:
+            nodes = _roomy(nodes, count)
+            count, w, longest = _cut_stretch(
+                paths, row, panel, nodes, count, w, to, there, curvature, longest
+            )
+        panel = held
 
 
 @kernel

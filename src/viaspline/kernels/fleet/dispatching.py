@@ -32,7 +32,7 @@ def new_dispatch(orders: PackedOrders, leaders: Ints, depart: Floats) -> PackedD
     count = orders.length.size
     return PackedDispatch(
         leaders.copy(), np.zeros(count), orders.first[:-1].copy(), np.zeros(count),
-        np.full(count, -1), np.full(count, np.inf), depart.copy(), depart.copy(),
+        np.full(count, -1), np.full(count, np.inf), np.zeros(count), depart.copy(), depart.copy(),
         np.zeros(count, np.bool_),
     )  # fmt: skip
 
@@ -55,13 +55,14 @@ def dispatch_copy(dispatch: PackedDispatch) -> PackedDispatch:
     return PackedDispatch(
         dispatch.leaders.copy(), dispatch.progress.copy(), dispatch.head.copy(),
         dispatch.promised.copy(), dispatch.recall.copy(), dispatch.recall_place.copy(),
-        dispatch.begin.copy(), dispatch.moved_at.copy(), dispatch.fixed.copy(),
+        dispatch.recalled_at.copy(), dispatch.begin.copy(), dispatch.moved_at.copy(),
+        dispatch.fixed.copy(),
     )  # fmt: skip
 
 
 @inlined
 def take_report(
-    dispatch: PackedDispatch, robot: int, place: float, holds: float, now: float
+    dispatch: PackedDispatch, robot: int, place: float, holds: float, heard: float, now: float
 ) -> bool:
     """Note where a robot is, and whether it keeps before a crossing that it was asked to.
 
@@ -69,7 +70,8 @@ def take_report(
         dispatch: It is written to.
         robot: Which.
         place: Where it says it is [m]; infinite: it has left the world.
-        holds: How far it takes itself to be let [m]; infinite: it doesn't say.
+        holds: How far it takes itself to be let [m].
+        heard: Of when the last command is that it has heard [s]; minus infinity: it doesn't say.
         now: When it was there [s].
 
     Returns:
@@ -80,10 +82,10 @@ def take_report(
         dispatch.progress[robot] = place
     if place > before + MOVED_M or before >= dispatch.promised[robot] - HELD_M:
         dispatch.moved_at[robot] = max(now, dispatch.moved_at[robot])
-    if holds == np.inf:
+    if dispatch.recall[robot] < 0 or heard < dispatch.recalled_at[robot]:
         return False
     dispatch.promised[robot] = holds
-    return dispatch.recall[robot] >= 0
+    return True
 
 
 @inner
@@ -149,7 +151,8 @@ def dispatch_step(
         orders: PackedOrders.
         dispatch: It is written to.
         robots: Who reports, (k,).
-        reports: When [s], where it is [m] and how far it takes itself to be let [m], (k, 3).
+        reports: When [s], where it is [m], how far it takes itself to be let [m], and of when the
+            last command is that it has heard [s], (k, 4).
         sequence: Bars in an order in which they can be passed, as the leaders are, (m,).
         swaps: Whether orders that have become foolish are swapped.
         now: [s].
@@ -159,32 +162,31 @@ def dispatch_step(
     """
     swapped = 0
     for i in range(robots.size):
-        time, place, holds = reports[i]
-        if take_report(dispatch, robots[i], place, holds, time):
+        time, place, holds, heard = reports[i]
+        if take_report(dispatch, robots[i], place, holds, heard, time):
             swapped += settle_recall(orders, dispatch, robots[i])
     count = orders.length.size
-    grants = np.empty(count)
     for robot in range(count):
         set_begin(courses, alone, dispatch, robot, now)
-        grants[robot] = grant_of(orders, dispatch, robot)
     if swaps:
         swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
     if swapped > 0:
-        heads = orders.first[:-1]
         sequence, _ = order_flow(
-            orders, dispatch.leaders, dispatch.progress, heads, np.zeros(count), dispatch.fixed
-        )
-        for robot in range(count):
-            grants[robot] = grant_of(orders, dispatch, robot)
+            orders, dispatch.leaders, dispatch.progress, orders.first[:-1], np.zeros(count),
+            dispatch.fixed,
+        )  # fmt: skip
+    grants = np.empty(count)
+    for robot in range(count):
+        grants[robot] = grant_of(orders, dispatch, robot)
     return grants, sequence
 
 
 @kernel
-def speeds_ahead(
+def states_ahead(
     courses: PackedCourses, rides: PackedRides, progress: Floats, speeds: Floats, grants: Floats,
     period: float,
-) -> Floats:  # fmt: skip
-    """How fast robots go after a while, each as its law and its grant let it [m/s], (n,).
+) -> tuple[Floats, Floats]:  # fmt: skip
+    """Where robots are after a while and how fast, each as its law and its grant let it.
 
     Args:
         courses: PackedCourses.
@@ -193,6 +195,9 @@ def speeds_ahead(
         speeds: How fast they are [m/s], (n,).
         grants: How far they may go [m], (n,).
         period: How long that while is [s].
+
+    Returns:
+        The places [m] and the speeds [m/s], (n,).
     """
     nodes = courses.distance.size
     trouble = PackedTrouble(np.ones(nodes), np.zeros(nodes), 0.0, 0)
@@ -200,6 +205,7 @@ def speeds_ahead(
     for robot in range(grants.size):
         first, last = courses.first[robot], courses.first[robot + 1] - 1
         if progress[robot] >= courses.distance[last]:
+            drive.place[robot] = courses.distance[last]
             continue
         node = node_before(courses.distance, first, last, progress[robot])
         drive.cell[robot] = node
@@ -210,4 +216,4 @@ def speeds_ahead(
         time = 0.0
         while time < period and drive.arrived[robot] == np.inf:
             time = drive_stretch(drive, courses, rides, trouble, robot, grants[robot], time, period)
-    return np.sqrt(drive.square)
+    return drive.place, np.sqrt(drive.square)

@@ -118,7 +118,9 @@ def fleet_ticks(
     drive = new_drive(courses, rides, trouble)
     dispatch = new_dispatch(orders, leaders, rides.depart)
     seen = leaders.copy()
+    is_old = False  # what the sequence of bars is
     grants = np.zeros(count)
+    heard = np.full(count, -np.inf)
     waits = np.zeros(count, np.bool_)
     stretches, rows = new_floats(64 + 32 * count, 5), 0
     happened, events = new_floats(64, 5), 0
@@ -141,9 +143,15 @@ def fleet_ticks(
             place = drive.place[robot]
             if drive.arrived[robot] < np.inf and orders.vanishes[robot]:
                 place = np.inf
-            if take_report(dispatch, robot, place, grants[robot], now):
+            if take_report(dispatch, robot, place, grants[robot], heard[robot], now):
                 swapped += settle_recall(orders, dispatch, robot)
         if swap_every > 0 and tick % swap_every == 0:
+            if is_old:
+                sequence, _ = order_flow(
+                    orders, dispatch.leaders, dispatch.progress, orders.first[:-1], none,
+                    dispatch.fixed,
+                )  # fmt: skip
+                is_old = False
             swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
         if swapped > 0:
             for c in range(seen.size):
@@ -154,14 +162,12 @@ def fleet_ticks(
                     happened = _noted(happened, events, row)
                     events += 1
                     seen[c] = dispatch.leaders[c]
-            sequence, _ = order_flow(
-                orders, dispatch.leaders, dispatch.progress, orders.first[:-1], none,
-                dispatch.fixed,
-            )  # fmt: skip
+            is_old = True
         for robot in range(count):
             grant = grant_of(orders, dispatch, robot)
             if chance(trouble.seed, 2 * tick + 1, robot) < trouble.lost:
                 continue
+            heard[robot] = now
             room = 2.0 * rides.brake[robot] * (grant - drive.place[robot])
             if grant >= grants[robot] or drive.square[robot] <= room:
                 grants[robot] = grant

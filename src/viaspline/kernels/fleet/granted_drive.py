@@ -177,6 +177,8 @@ def drive_stretch(
         return now
     room = grant - drive.place[robot]
     if square == 0.0 and (room <= NEAR_M or pace < SLOWEST):
+        if 0.0 < room <= NEAR_M:
+            drive.place[robot] = grant  # others may wait for it to be just there
         return until
     if rides.square[node] == 0.0 and rides.square[node + 1] == 0.0:  # from rest to rest
         top, slope = np.inf, 0.0

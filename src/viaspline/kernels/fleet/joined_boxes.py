@@ -1,7 +1,7 @@
 """Crossings: connected sets of boxes of two robots, seen from either of them.
 
-Boxes of one robot in consecutive cells are connected where their intervals overlap, and a box of
-the one with a box of the other where they do as rectangles in the plane of both distances. Either
+Boxes of one robot in consecutive cells are connected where their intervals overlap, and boxes of
+the one with boxes of the other where they do as rectangles in the plane of both distances. Either
 side covers all that is too near, so a set that only one side has is none: it is left out.
 
 Tested through ``fleet/test_crossings``.
@@ -14,9 +14,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.near_boxes import CELL, HIGH, LOW, OTHER
+from viaspline.kernels.fleet.near_boxes import HIGH, LOW, RawBoxes
 from viaspline.kernels.fleet.packed_courses import PackedCourses
-from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.growable import new_floats, new_ints, sized_floats, sized_ints
 from viaspline.kernels.jit import inlined, inner, kernel
 
@@ -24,43 +23,65 @@ ROBOT: Final = 0
 AGAINST: Final = 1
 BEGIN: Final = 2
 END: Final = 3
+FROM: Final = 2
+UNTIL: Final = 3
 NOWHERE: Final = -1
 
 
 class GroupedBoxes(NamedTuple):
-    """The boxes of every robot, grouped by the other robot.
+    """The boxes of every robot, grouped by the other robot, and by cell within a group.
 
     Attributes:
-        first: (n + 1,), of ``whole``.
-        whole: CELL and OTHER, (b, 2).
-        real: LOW and HIGH [m], (b, 2).
-        order: The boxes, those of a group behind each other and ordered by cell, (b, 1).
-        groups: ROBOT, AGAINST, and from where to where in ``order``, (g, 4).
+        cell: (b, 1).
+        interval: LOW and HIGH [m], (b, 2).
+        crossing: Of each box, or NOWHERE, (b, 1).
+        groups: ROBOT, AGAINST, and from where to where in the above, (g, 4).
         of_robot: Where the groups of each robot begin, (n + 1, 1).
     """
 
-    first: Ints
-    whole: Ints
-    real: Floats
-    order: Ints
+    cell: Ints
+    interval: Floats
+    crossing: Ints
     groups: Ints
     of_robot: Ints
 
 
+class Runs(NamedTuple):
+    """Boxes of two groups that face each other, in runs: one box a cell, each overlapping the next.
+
+    Attributes:
+        part: From where to where in the grouped boxes, (r, 2).
+        bound: The lowest and the highest distance along the other's path [m], and where its cells
+            begin and end along its own, (r, 4).
+        parent: Of the sets that runs are joined to; the lowest run of a set is its own, (r, 1).
+        named: Room for a number each, (r, 1).
+    """
+
+    part: Ints
+    bound: Floats
+    parent: Ints
+    named: Ints
+
+
 @inner
-def _grouped(first: Ints, whole: Ints, real: Floats) -> GroupedBoxes:
-    """Group the boxes of every robot by the other one."""
-    robots = first.shape[0] - 1
-    order, groups = new_ints(whole.shape[0], 1), new_ints(4 * robots + 16, 4)
+def _room_for_runs(count: int) -> Runs:
+    """Runs that are yet to be written."""
+    return Runs(new_ints(count, 2), new_floats(count, 4), new_ints(count, 1), new_ints(count, 1))
+
+
+@inner
+def _groups(boxes: RawBoxes) -> tuple[Ints, Ints]:
+    """``groups`` and ``of_robot`` of ``GroupedBoxes``; the former end where they begin, as yet."""
+    robots = boxes.first.shape[0] - 1
+    groups, count = new_ints(4 * robots + 16, 4), 0
     of_robot, group_of = new_ints(robots + 1, 1), new_ints(robots, 1)
     for robot in range(robots):
         group_of[robot, 0] = NOWHERE
-    count = 0
     for robot in range(robots):
-        of_robot[robot, 0] = count
         begin = count
-        for box in range(first[robot], first[robot + 1]):
-            other = whole[box, OTHER]
+        of_robot[robot, 0] = begin
+        for box in range(boxes.first[robot], boxes.first[robot + 1]):
+            other = boxes.other[box]
             if group_of[other, 0] < begin:
                 group_of[other, 0] = count
                 if count == groups.shape[0]:
@@ -69,17 +90,34 @@ def _grouped(first: Ints, whole: Ints, real: Floats) -> GroupedBoxes:
                 groups[count, END] = 0
                 count += 1
             groups[group_of[other, 0], END] += 1
-        at = first[robot]
+        at = boxes.first[robot]
         for group in range(begin, count):
             size = groups[group, END]
             groups[group, BEGIN], groups[group, END] = at, at
             at += size
-        for box in range(first[robot], first[robot + 1]):
-            group = group_of[whole[box, OTHER], 0]
-            order[groups[group, END], 0] = box
-            groups[group, END] += 1
     of_robot[robots, 0] = count
-    return GroupedBoxes(first, whole, real, order, sized_ints(groups, count, count), of_robot)
+    return sized_ints(groups, count, count), of_robot
+
+
+@inner
+def _grouped(boxes: RawBoxes) -> GroupedBoxes:
+    """Group the boxes of every robot by the other one."""
+    robots, total = boxes.first.shape[0] - 1, boxes.cell.shape[0]
+    groups, of_robot = _groups(boxes)
+    cell, interval, crossing = new_ints(total, 1), new_floats(total, 2), new_ints(total, 1)
+    group_of = new_ints(robots, 1)
+    for robot in range(robots):
+        for group in range(of_robot[robot, 0], of_robot[robot + 1, 0]):
+            group_of[groups[group, AGAINST], 0] = group
+        for box in range(boxes.first[robot], boxes.first[robot + 1]):
+            group = group_of[boxes.other[box], 0]
+            at = groups[group, END]
+            cell[at, 0] = boxes.cell[box]
+            interval[at, LOW], interval[at, HIGH] = boxes.low[box], boxes.high[box]
+            groups[group, END] = at + 1
+    for at in range(total):
+        crossing[at, 0] = NOWHERE
+    return GroupedBoxes(cell, interval, crossing, groups, of_robot)
 
 
 @inner
@@ -125,181 +163,232 @@ def _root(parent: Ints, i: int) -> int:
 
 
 @inlined
-def _unite(parent: Ints, i: int, j: int) -> int:
-    """Make one set of two; the lower root stays. How many sets fewer there are."""
+def _unite(parent: Ints, i: int, j: int) -> None:
+    """Make one set of two; the lower root stays."""
     i, j = _root(parent, i), _root(parent, j)
     parent[max(i, j), 0] = min(i, j)
-    return 0 if i == j else 1
 
 
-@inner
-def _join_one_side(boxes: GroupedBoxes, group: int, offset: int, parent: Ints) -> int:
-    """Join the boxes of a group that are in consecutive cells. How many sets there are."""
+@inlined
+def _cut_runs(
+    boxes: GroupedBoxes, distance: Floats, group: int, offset: int, runs: Runs
+) -> tuple[int, bool]:
+    """Cut a group into runs, from a number of runs on.
+
+    Returns:
+        (how many runs there are then, whether any two boxes of the group have one cell).
+    """
     begin, end = boxes.groups[group, BEGIN], boxes.groups[group, END]
-    whole, real, order = boxes.whole, boxes.real, boxes.order
-    for i in range(end - begin):
-        parent[offset + i, 0] = offset + i
-    sets, following = end - begin, begin
+    cell, interval, count, is_shared = boxes.cell, boxes.interval, offset, False
     for at in range(begin, end):
-        box = order[at, 0]
-        cell = whole[box, CELL]
-        while following < end and whole[order[following, 0], CELL] <= cell:
-            following += 1
-        after = following
-        while after < end and whole[order[after, 0], CELL] == cell + 1:
-            other = order[after, 0]
-            if real[other, LOW] <= real[box, HIGH] and real[box, LOW] <= real[other, HIGH]:
-                sets -= _unite(parent, offset + at - begin, offset + after - begin)
-            after += 1
-    return sets
+        low, high = interval[at, LOW], interval[at, HIGH]
+        follows = at > begin and cell[at, 0] == cell[at - 1, 0] + 1
+        if follows and low <= interval[at - 1, HIGH] and interval[at - 1, LOW] <= high:
+            runs.bound[count - 1, LOW] = min(runs.bound[count - 1, LOW], low)
+            runs.bound[count - 1, HIGH] = max(runs.bound[count - 1, HIGH], high)
+        else:
+            is_shared = is_shared or (at > begin and cell[at, 0] == cell[at - 1, 0])
+            runs.part[count, 0] = at
+            runs.bound[count, LOW], runs.bound[count, HIGH] = low, high
+            runs.parent[count, 0] = count
+            count += 1
+        runs.part[count - 1, 1] = at + 1
+    for run in range(offset, count):
+        runs.bound[run, FROM] = distance[cell[runs.part[run, 0], 0]]
+        runs.bound[run, UNTIL] = distance[cell[runs.part[run, 1] - 1, 0] + 1]
+    return count, is_shared
+
+
+@inlined
+def _join_one_side(boxes: GroupedBoxes, first: int, last: int, runs: Runs) -> None:
+    """Join the runs of one side that have boxes in consecutive cells whose intervals overlap."""
+    cell, interval, part = boxes.cell, boxes.interval, runs.part
+    for run in range(first, last):
+        for other in range(run + 1, last):
+            for at in range(part[run, 0], part[run, 1]):
+                for at2 in range(part[other, 0], part[other, 1]):
+                    is_beside = abs(cell[at2, 0] - cell[at, 0]) == 1
+                    is_beside = is_beside and interval[at2, LOW] <= interval[at, HIGH]
+                    if is_beside and interval[at, LOW] <= interval[at2, HIGH]:
+                        _unite(runs.parent, run, other)
 
 
 @inlined
 def _from(boxes: GroupedBoxes, distance: Floats, begin: int, end: int, place: float) -> int:
-    """The first box in a part of ``order`` whose cell doesn't end before a distance [m]."""
+    """The first box from one to another whose cell doesn't end before a distance [m]."""
     while begin < end:
         middle = (begin + end) // 2
-        if distance[boxes.whole[boxes.order[middle, 0], CELL] + 1] < place:
+        if distance[boxes.cell[middle, 0] + 1] < place:
             begin = middle + 1
         else:
             end = middle
     return begin
 
 
-@inner
-def _join_sides(
-    boxes: GroupedBoxes, distance: Floats, one: int, two: int, parent: Ints, is_single: bool
-) -> None:
-    """Join boxes of two groups that face each other; the first that are found if both are one."""
-    whole, real, order, groups = boxes.whole, boxes.real, boxes.order, boxes.groups
-    begin, end = groups[one, BEGIN], groups[one, END]
-    begin2, end2 = groups[two, BEGIN], groups[two, END]
-    for at in range(begin, end):
-        box = order[at, 0]
-        low, high = distance[whole[box, CELL]], distance[whole[box, CELL] + 1]
-        for at2 in range(_from(boxes, distance, begin2, end2, real[box, LOW]), end2):
-            other = order[at2, 0]
-            if distance[whole[other, CELL]] > real[box, HIGH]:
+@inlined
+def _may_touch(bound: Floats, run: int, other: int) -> bool:
+    """Whether what holds a run of the one side overlaps what holds one of the other side."""
+    is_beside = bound[run, FROM] <= bound[other, HIGH] and bound[other, LOW] <= bound[run, UNTIL]
+    if not is_beside:
+        return False
+    return bound[other, FROM] <= bound[run, HIGH] and bound[run, LOW] <= bound[other, UNTIL]
+
+
+@inlined
+def _touch(boxes: GroupedBoxes, distance: Floats, runs: Runs, run: int, other: int) -> bool:
+    """Whether a box of a run of the one side overlaps one of a run of the other side."""
+    cell, interval, part = boxes.cell, boxes.interval, runs.part
+    for at in range(part[run, 0], part[run, 1]):
+        low, high = distance[cell[at, 0]], distance[cell[at, 0] + 1]
+        for at2 in range(
+            _from(boxes, distance, part[other, 0], part[other, 1], interval[at, LOW]),
+            part[other, 1],
+        ):
+            if distance[cell[at2, 0]] > interval[at, HIGH]:
                 break
-            if real[other, LOW] <= high and low <= real[other, HIGH]:
-                _unite(parent, at - begin, end - begin + at2 - begin2)
-                if is_single:
-                    return
+            if interval[at2, LOW] <= high and low <= interval[at2, HIGH]:
+                return True
+    return False
 
 
-@inner
+@inlined
+def _join_sides(
+    boxes: GroupedBoxes, distance: Floats, ours: int, all_runs: int, runs: Runs
+) -> None:
+    """Join runs of both sides that touch.
+
+    What is too near in a run lies in runs of the other side. So where each has but one that may
+    touch it, it is that one.
+    """
+    named, is_plain = runs.named, True
+    for run in range(all_runs):
+        named[run, 0] = NOWHERE
+    for run in range(ours):
+        for other in range(ours, all_runs):
+            if _may_touch(runs.bound, run, other):
+                is_plain = is_plain and named[run, 0] == NOWHERE and named[other, 0] == NOWHERE
+                named[run, 0], named[other, 0] = other, run
+    for run in range(ours):
+        for other in range(ours, all_runs):
+            if _may_touch(runs.bound, run, other) and (
+                is_plain or _touch(boxes, distance, runs, run, other)
+            ):
+                _unite(runs.parent, run, other)
+
+
+@inlined
 def _name(
-    boxes: GroupedBoxes, one: int, two: int, parent: Ints, named: Ints, span: Floats, found: int,
-    crossing: Ints,
-) -> int:  # fmt: skip
+    boxes: GroupedBoxes, ours: int, all_runs: int, runs: Runs, span: Floats, found: int
+) -> int:
     """Give sets that both sides have a number, in the order of the first side, and a span.
 
     Args:
         boxes: GroupedBoxes.
-        one: The group of the one side.
-        two: That of the other.
-        parent: Of their boxes.
-        named: Room for as many numbers.
-        span: Of all crossings, with room for as many more as the first side has boxes.
+        ours: How many runs the first side has.
+        all_runs: How many both have.
+        runs: Runs.
+        span: Of all crossings, with room for as many more as the first side has runs.
         found: How many crossings there are so far.
-        crossing: The crossing of every box, filled in for those of the two groups, (b, 1).
 
     Returns:
         How many crossings there are now.
     """
-    real, order, groups = boxes.real, boxes.order, boxes.groups
-    begin, size = groups[one, BEGIN], groups[one, END] - groups[one, BEGIN]
-    begin2, size2 = groups[two, BEGIN], groups[two, END] - groups[two, BEGIN]
-    for i in range(size + size2):
-        named[i, 0] = NOWHERE
-    for i in range(size2):  # roots are the lowest: one of the first side, if there is any
-        root = _root(parent, size + i)
-        if root < size:
+    named = runs.named
+    for run in range(all_runs):
+        named[run, 0] = NOWHERE
+    for run in range(ours, all_runs):  # roots are the lowest: of the first side, if it has any
+        root = _root(runs.parent, run)
+        if root < ours and named[root, 0] == NOWHERE:
             named[root, 0] = 0
-    for i in range(size):
-        root, box = _root(parent, i), order[begin + i, 0]
-        if named[root, 0] != NOWHERE and root == i:
+    for root in range(ours):
+        if named[root, 0] != NOWHERE:
             named[root, 0] = found
             span[found, 0], span[found, 2] = np.inf, np.inf
             span[found, 1], span[found, 3] = -np.inf, -np.inf
             found += 1
-        crossing[box, 0] = named[root, 0]
-        if named[root, 0] != NOWHERE:
-            row = named[root, 0]
-            span[row, 2] = min(span[row, 2], real[box, LOW])
-            span[row, 3] = max(span[row, 3], real[box, HIGH])
-    for i in range(size2):
-        root, box = _root(parent, size + i), order[begin2 + i, 0]
-        row = named[root, 0]
-        crossing[box, 0] = row
-        if row != NOWHERE:
-            span[row, 0] = min(span[row, 0], real[box, LOW])
-            span[row, 1] = max(span[row, 1], real[box, HIGH])
+    for run in range(all_runs):
+        row = named[_root(runs.parent, run), 0]
+        if row == NOWHERE:
+            continue
+        column = 2 if run < ours else 0  # a box is tight along the other's path
+        span[row, column] = min(span[row, column], runs.bound[run, LOW])
+        span[row, column + 1] = max(span[row, column + 1], runs.bound[run, HIGH])
+        for at in range(runs.part[run, 0], runs.part[run, 1]):
+            boxes.crossing[at, 0] = row
     return found
 
 
+@inner
+def _keep(boxes: RawBoxes, grouped: GroupedBoxes, first: Ints, crossing: Ints) -> int:
+    """Leave out what is in no crossing, in place. How many boxes there are then.
+
+    Args:
+        boxes: RawBoxes, changed.
+        grouped: With their crossings; the ends of its groups are changed.
+        first: Where the boxes of each robot begin then, (n + 1, 1), filled in.
+        crossing: Of each box then, (b, 1), filled in.
+    """
+    groups, robots = grouped.groups, boxes.first.shape[0] - 1
+    group_of = new_ints(robots, 1)
+    kept = 0
+    for robot in range(robots):
+        first[robot, 0] = kept
+        for group in range(grouped.of_robot[robot, 0], grouped.of_robot[robot + 1, 0]):
+            group_of[groups[group, AGAINST], 0] = group
+            groups[group, END] = groups[group, BEGIN]
+        for box in range(boxes.first[robot], boxes.first[robot + 1]):
+            group = group_of[boxes.other[box], 0]
+            row = grouped.crossing[groups[group, END], 0]
+            groups[group, END] += 1
+            if row != NOWHERE:
+                boxes.cell[kept], boxes.other[kept] = boxes.cell[box], boxes.other[box]
+                boxes.low[kept], boxes.high[kept] = boxes.low[box], boxes.high[box]
+                crossing[kept, 0] = row
+                kept += 1
+    first[robots, 0] = kept
+    return kept
+
+
 @kernel
-def joined_boxes(courses: PackedCourses, first: Ints, whole: Ints, real: Floats) -> PackedCrossings:
+def joined_boxes(courses: PackedCourses, boxes: RawBoxes) -> tuple[Ints, Floats, Ints, Ints, int]:
     """Crossings from the boxes of every robot.
 
     Args:
         courses: PackedCourses.
-        first: Where the boxes of each robot begin, (n + 1,).
-        whole: CELL and OTHER, (b, 2).
-        real: LOW and HIGH [m], (b, 2).
+        boxes: RawBoxes; those that are in no crossing are left out, in place.
+
+    Returns:
+        (robots (c, 2), span (c, 4), first (n + 1,), crossing, how many boxes are left): see
+        ``PackedCrossings``.
     """
-    boxes = _grouped(first, whole, real)
-    pairs = _facing(boxes)
-    groups, total = boxes.groups, whole.shape[0]
-    crossing = new_ints(total, 1)
-    for box in range(total):
-        crossing[box, 0] = NOWHERE
-    parent, named = new_ints(1024, 1), new_ints(1024, 1)
-    robots, span, found = (
-        new_ints(pairs.shape[0] + 1024, 2),
-        new_floats(pairs.shape[0] + 1024, 4),
-        0,
-    )
+    grouped = _grouped(boxes)
+    pairs = _facing(grouped)
+    groups = grouped.groups
+    runs = _room_for_runs(1024)
+    robots, span = new_ints(pairs.shape[0] + 1024, 2), new_floats(pairs.shape[0] + 1024, 4)
+    found = 0
     for pair in range(pairs.shape[0]):
         one, two = pairs[pair, 0], pairs[pair, 1]
-        size = groups[one, END] - groups[one, BEGIN]
-        both = size + groups[two, END] - groups[two, BEGIN]
-        if both > parent.shape[0]:
-            parent, named = new_ints(2 * both, 1), new_ints(2 * both, 1)
-        if found + size > span.shape[0]:
-            robots = sized_ints(robots, found, 2 * (found + size))
-            span = sized_floats(span, found, 2 * (found + size))
-        sets = _join_one_side(boxes, one, 0, parent)
-        sets2 = _join_one_side(boxes, two, size, parent)
-        _join_sides(boxes, courses.distance, one, two, parent, sets == 1 and sets2 == 1)
+        both = groups[one, END] - groups[one, BEGIN] + groups[two, END] - groups[two, BEGIN]
+        if both > runs.parent.shape[0]:
+            runs = _room_for_runs(2 * both)
+        ours, is_shared = _cut_runs(grouped, courses.distance, one, 0, runs)
+        all_runs, is_shared2 = _cut_runs(grouped, courses.distance, two, ours, runs)
+        if is_shared:
+            _join_one_side(grouped, 0, ours, runs)
+        if is_shared2:
+            _join_one_side(grouped, ours, all_runs, runs)
+        _join_sides(grouped, courses.distance, ours, all_runs, runs)
+        if found + ours > span.shape[0]:
+            robots = sized_ints(robots, found, 2 * (found + ours))
+            span = sized_floats(span, found, 2 * (found + ours))
         before = found
-        found = _name(boxes, one, two, parent, named, span, found, crossing)
+        found = _name(grouped, ours, all_runs, runs, span, before)
         for row in range(before, found):
             robots[row, 0], robots[row, 1] = groups[one, ROBOT], groups[two, ROBOT]
-    return _kept(
-        boxes, crossing, sized_ints(robots, found, found), sized_floats(span, found, found)
-    )
-
-
-@inner
-def _kept(boxes: GroupedBoxes, crossing: Ints, robots: Ints, span: Floats) -> PackedCrossings:
-    """The boxes that belong to a crossing."""
-    count = 0
-    for box in range(crossing.shape[0]):
-        count += 1 if crossing[box, 0] != NOWHERE else 0
-    first = new_ints(boxes.first.shape[0], 1)
-    cell, of, other = new_ints(count, 1), new_ints(count, 1), new_ints(count, 1)
-    low, high = new_floats(count, 1), new_floats(count, 1)
-    first[0, 0] = 0
-    at = 0
-    for robot in range(first.shape[0] - 1):
-        for box in range(boxes.first[robot], boxes.first[robot + 1]):
-            if crossing[box, 0] != NOWHERE:
-                cell[at, 0], other[at, 0] = boxes.whole[box, CELL], boxes.whole[box, OTHER]
-                low[at, 0], high[at, 0] = boxes.real[box, LOW], boxes.real[box, HIGH]
-                of[at, 0] = crossing[box, 0]
-                at += 1
-        first[robot + 1, 0] = at
-    return PackedCrossings(
-        robots, span, first[:, 0], cell[:, 0], of[:, 0], other[:, 0], low[:, 0], high[:, 0]
-    )
+    first, crossing = new_ints(boxes.first.shape[0], 1), new_ints(boxes.cell.shape[0], 1)
+    kept = _keep(boxes, grouped, first, crossing)
+    return (
+        sized_ints(robots, found, found), sized_floats(span, found, found), first[:, 0],
+        crossing[:, 0], kept,
+    )  # fmt: skip

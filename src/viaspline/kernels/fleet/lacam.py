@@ -77,9 +77,9 @@ def _successor(choice: StepChoice, order: Steps, constraints: Steps, constraint:
 @inner
 def _look_up(table: Steps, configurations: Steps, places: Steps) -> tuple[int, int]:
     """Where in a hash table a configuration belongs, and its number there, or -1."""
-    key = np.int64(1469598103)
+    key = 1469598103
     for robot in range(len(places)):
-        key = (key * 1000003 + places[robot]) & 0xFFFFFFFFFF
+        key = (key * 1000003 + int(places[robot])) & 0xFFFFFFFFFF
     mask = len(table) - 1
     at = (key ^ (key >> 17)) & mask
     while table[at] >= 0:

@@ -76,7 +76,7 @@ def free_from(table: LatticeTable, cell: int) -> int:
 
 @kernel
 def spaced_out(places: Steps, cells: int) -> tuple[Steps, int]:
-    """The same ways in the same order, but nobody goes to a cell before it has been left.
+    """Ways in the order that they have, but nobody goes to a cell before it has been left.
 
     Args:
         places: The cell of each robot at each step, without rings, (n, steps).

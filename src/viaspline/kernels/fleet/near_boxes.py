@@ -10,7 +10,7 @@ Tested through ``fleet/test_crossings``.
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -22,8 +22,6 @@ from viaspline.kernels.fleet.packed_pieces import MOST_CELLS, PackedPieces
 from viaspline.kernels.growable import new_floats, new_ints, sized_floats, sized_ints
 from viaspline.kernels.jit import inlined, kernel
 
-CELL: Final = 0
-OTHER: Final = 1
 LOW: Final = 0
 HIGH: Final = 1
 
@@ -36,6 +34,24 @@ ALONG: Final = 5  # where it begins along the evenly driven chord of its piece [
 CELL_COLUMNS: Final = 6
 
 ONE_GAP = 0.1  # intervals of one robot with no more between them are one [m]
+
+
+class RawBoxes(NamedTuple):
+    """Boxes as ``PackedCrossings`` has them, ordered alike, before they are joined.
+
+    Attributes:
+        first: (n + 1,).
+        cell: (b,).
+        other: (b,).
+        low: [m], (b,).
+        high: [m], (b,).
+    """
+
+    first: Ints
+    cell: Ints
+    other: Ints
+    low: Floats
+    high: Floats
 
 
 @inlined
@@ -163,7 +179,7 @@ def _fill(
 @kernel
 def near_boxes(
     courses: PackedCourses, pieces: PackedPieces, first: Ints, near: Ints, limit: int
-) -> tuple[Ints, Ints, Floats]:
+) -> RawBoxes:
     """The boxes of every robot, from pairs of pieces.
 
     Args:
@@ -174,13 +190,12 @@ def near_boxes(
         limit: The search ends when there are more boxes than that.
 
     Returns:
-        (box_first (n + 1,), CELL and OTHER (b, 2), LOW and HIGH (b, 2)), ordered by cell, by the
-        other robot and along its path.
+        The boxes; more than ``limit`` where it isn't all.
     """
-    robots = courses.reach.shape[0]
+    robots, room = courses.reach.shape[0], 3 * near.shape[0] + 16
     box_first = new_ints(robots + 1, 1)
-    room_at_first = 3 * near.shape[0] + 16  # what isn't written costs nothing
-    whole, real = new_ints(room_at_first, 2), new_floats(room_at_first, 2)
+    cell, other = new_ints(room, 1), new_ints(room, 1)  # what isn't written costs nothing
+    low, high = new_floats(room, 1), new_floats(room, 1)
     counts, cells = new_ints(MOST_CELLS, 1), new_floats(MOST_CELLS + 1, CELL_COLUMNS)
     others, intervals = new_ints(MOST_CELLS * 64, 1), new_floats(MOST_CELLS * 64, 2)
     boxes, robot = 0, 0
@@ -189,27 +204,30 @@ def near_boxes(
         while robot < pieces.whole[p, columns.ROBOT]:
             robot += 1
             box_first[robot, 0] = boxes
-        room = first[p + 1] - first[p]
-        if room == 0 or boxes > limit:
+        among = first[p + 1] - first[p]
+        if among == 0 or boxes > limit:
             continue
-        if room * MOST_CELLS > others.shape[0]:
-            others = new_ints(2 * room * MOST_CELLS, 1)
-            intervals = new_floats(2 * room * MOST_CELLS, 2)
+        if among * MOST_CELLS > others.shape[0]:
+            others = new_ints(2 * among * MOST_CELLS, 1)
+            intervals = new_floats(2 * among * MOST_CELLS, 2)
+        if boxes + among * MOST_CELLS > room:
+            room = 2 * (boxes + among * MOST_CELLS)
+            cell, other = sized_ints(cell, boxes, room), sized_ints(other, boxes, room)
+            low, high = sized_floats(low, boxes, room), sized_floats(high, boxes, room)
         for k in range(MOST_CELLS):
             counts[k, 0] = 0
         _look_at(courses, pieces, p, cells)
         for at in range(first[p], first[p + 1]):
-            _fill(pieces, p, near[at], cells, room, counts, others, intervals)
+            _fill(pieces, p, near[at], cells, among, counts, others, intervals)
         for k in range(MOST_CELLS):
-            if boxes + counts[k, 0] > whole.shape[0]:
-                more = 2 * (boxes + counts[k, 0])
-                whole, real = sized_ints(whole, boxes, more), sized_floats(real, boxes, more)
-            for c in range(k * room, k * room + counts[k, 0]):
-                whole[boxes, CELL] = pieces.whole[p, columns.BEGIN] + k
-                whole[boxes, OTHER] = others[c, 0]
-                real[boxes, LOW], real[boxes, HIGH] = intervals[c, LOW], intervals[c, HIGH]
+            for c in range(k * among, k * among + counts[k, 0]):
+                cell[boxes, 0] = pieces.whole[p, columns.BEGIN] + k
+                other[boxes, 0] = others[c, 0]
+                low[boxes, 0], high[boxes, 0] = intervals[c, LOW], intervals[c, HIGH]
                 boxes += 1
     while robot < robots:
         robot += 1
         box_first[robot, 0] = boxes
-    return box_first[:, 0], whole[:boxes], real[:boxes]
+    return RawBoxes(
+        box_first[:, 0], cell[:boxes, 0], other[:boxes, 0], low[:boxes, 0], high[:boxes, 0]
+    )

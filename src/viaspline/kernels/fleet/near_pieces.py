@@ -142,7 +142,7 @@ def near_pieces(
 
     Returns:
         (first (p + 1,), near): the pieces near piece p are those from first[p] to before
-        first[p + 1] in ``near``, increasing; it is longer than ``limit`` where it isn't all.
+        first[p + 1] in ``near``, increasing; it is longer than twice ``limit`` where it isn't all.
     """
     count = pieces.box.shape[0]
     pairs = new_ints(4 * count + 16, 2)
@@ -181,7 +181,7 @@ def near_pieces(
                     first[q + 1, 0] += 1
                     found += 1
         if found > limit:
-            return first[:, 0], pairs[:, 0]
+            return first[:, 0], new_ints(2 * found, 1)[:, 0]
     return _both_ways(first, pairs, found)
 
 

@@ -162,4 +162,5 @@ def consider_swaps(
         else:
             dispatch.recall[leader] = crossing
             dispatch.recall_place[leader] = orders.place[entry]
+            dispatch.recalled_at[leader] = now
     return swapped

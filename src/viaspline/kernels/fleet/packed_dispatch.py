@@ -1,4 +1,7 @@
-"""How far a fleet has come and how far it may go, as the kernels that drive it see it."""
+"""How far a fleet has come and how far it may go, as the kernels that drive it see it.
+
+Tested through ``fleet/execution/test_fleet_orders``.
+"""
 
 from __future__ import annotations
 
@@ -18,6 +21,7 @@ class PackedDispatch(NamedTuple):
         recall: The crossing that a robot is to let another pass first, if it still can; -1: none,
             (n,).
         recall_place: Before which it is to stay for that [m]; infinite: none, (n,).
+        recalled_at: Since when it is asked to [s], (n,).
         begin: When each robot would have set out to be where it is without any waits [s], (n,).
         moved_at: When it was last seen to get on, or held back [s], (n,).
         fixed: Whether a robot never gets on any more, (n,).
@@ -29,6 +33,7 @@ class PackedDispatch(NamedTuple):
     promised: Floats
     recall: Ints
     recall_place: Floats
+    recalled_at: Floats
     begin: Floats
     moved_at: Floats
     fixed: Flags

@@ -1,4 +1,7 @@
-"""Who lets whom pass where, as the kernels that drive a fleet see it."""
+"""Who lets whom pass where, as the kernels that drive a fleet see it.
+
+Tested through ``fleet/execution/test_fleet_orders``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""How the robots of a fleet would drive alone, as the kernels of fleets see it."""
+"""How the robots of a fleet would drive alone, as the kernels of fleets see it.
+
+Tested through ``kernels/fleet/test_yielding_ride``.
+"""
 
 from __future__ import annotations
 

@@ -85,7 +85,7 @@ def _running_start(ride: Ride, courses: PackedCourses, rides: PackedRides, entry
 
 
 @inner
-def _waits_at(ride: Ride, courses: PackedCourses, rides: PackedRides, entry: int) -> Ints:
+def waits_at(ride: Ride, courses: PackedCourses, rides: PackedRides, entry: int) -> Ints:
     """Nodes at which it can be slowed down for a crossing, the best first."""
     best = _running_start(ride, courses, rides, entry)
     places = np.empty(STEPS_BACK + STEPS_AHEAD + 2, np.int64)
@@ -120,7 +120,7 @@ def _give_way(
     blocked: Floats, entry: int, late: float,
 ) -> None:  # fmt: skip
     """Slow a ride down so that it comes later to a crossing, clear of all before it if it can."""
-    places = _waits_at(ride, courses, rides, entry)
+    places = waits_at(ride, courses, rides, entry)
     square, waits = ride.square.copy(), ride.waits.copy()
     for i in range(places.size + 1):  # after the last one, the first again
         slow_down(ride, courses, rides, places[i % places.size], entry, late + TIME_SLACK_S)
@@ -149,29 +149,9 @@ def yielding_ride(
         The ride, and -1; or a ride that isn't clear, and the number of a box in which it can't let
         the other one pass.
     """
-    blocked = blocked_times(courses, crossings, laws, robot)
-    return ride_past(courses, crossings, rides, robot, blocked)
-
-
-@inner
-def ride_past(
-    courses: PackedCourses, crossings: PackedCrossings, rides: PackedRides, robot: int,
-    blocked: Floats,
-) -> tuple[Ride, int]:  # fmt: skip
-    """The ride of a robot whose boxes are blocked from when to when [s], (boxes, 2).
-
-    Args:
-        courses: PackedCourses.
-        crossings: PackedCrossings.
-        rides: PackedRides.
-        robot: Its number.
-        blocked: See ``blocked_times``.
-
-    Returns:
-        As ``yielding_ride``.
-    """
     ride = new_ride(courses, rides, robot)
     begin = crossings.box_first[robot]
+    blocked = blocked_times(courses, crossings, laws, robot)
     yields = np.empty(blocked.shape[0], np.int64)  # crossings, in the order of their first cells
     count = 0
     while True:

@@ -17,8 +17,8 @@ from matplotlib.collections import PolyCollection
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.kernels.arrays import Floats
 from viaspline.report import style
-from viaspline.report.fleet.fleet_motion import span_of
 from viaspline.report.fleet.fleet_page import name_panel
+from viaspline.report.fleet.places_over_time import span_of
 
 LINE_PIECES = 600  # of the line that is driven, beside the points of both laws
 WINDOW_M = 30.0  # about the crossing that is passed by closest, either way [m]

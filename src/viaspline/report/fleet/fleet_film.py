@@ -14,15 +14,17 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Annotation, Text
 
+from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.timelines import Timeline, timelines_of
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.report import style
 from viaspline.report.canvas import any_name
+from viaspline.report.fleet.driven_timelines import driven_timelines
 from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART, colours_of
+from viaspline.report.fleet.fleet_map import scene_of
 from viaspline.report.fleet.fleet_marks import MAX_PLAIN, paths_of
-from viaspline.report.fleet.fleet_motion import FleetMotion, span_of
-from viaspline.report.fleet.fleet_picture import scene_of
+from viaspline.report.fleet.places_over_time import FleetMotion, span_of
 from viaspline.report.moving_film import arrow_line
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Box, new_sheet
@@ -35,6 +37,8 @@ LEAST_FRAMES: Final = 2
 FRAME_S: Final = 0.25  # from one frame to the next, if that gives no more than the most [s]
 FLEET_DPI: Final = 80
 TRAIL_S: Final = 12.0  # what is shown of the way behind a robot [s]
+TRAIL_STEP_S: Final = 0.25  # from one point of it to the next, at least [s]
+MOST_STEPS: Final = 40  # of a trail between two frames
 LEAST_BODY_PX: Final = 5.0  # of a body that can be seen: its radius [pixels]
 HEAD_PX: Final = 9.0  # of an arrow [pixels]
 
@@ -48,7 +52,8 @@ class FilmedFleet:
         scene: Its world.
         view: What is seen of it [m].
         paths: Of the robots [m], each (k, 2).
-        motion: Where the robots are at the times of the frames.
+        motion: Where the robots are, at least at the times of the frames.
+        frames: The numbers of these times, (f,).
         timelines: Who waits when.
     """
 
@@ -57,15 +62,25 @@ class FilmedFleet:
     view: Box
     paths: Sequence[Floats]
     motion: FleetMotion
+    frames: Ints
     timelines: Sequence[Timeline]
 
     @classmethod
     def of_plan(cls, plan: FleetPlan, name: str, count: int | None = None) -> FilmedFleet:
         """A plan, in so many frames; None: as many as its time asks for."""
-        begin, end = span_of(plan)
-        frames = frame_count(end - begin) if count is None else count
-        motion = FleetMotion.of_plan(plan, np.linspace(begin, end, frames))
-        return cls(name, *scene_of(plan), paths_of(plan), motion, timelines_of(plan))
+        times, frames = film_times(*span_of(plan), count)
+        motion = FleetMotion.of_plan(plan, times)
+        return cls(name, *scene_of(plan), paths_of(plan), motion, frames, timelines_of(plan))
+
+    @classmethod
+    def of_run(
+        cls, plan: FleetPlan, run: FleetRun, name: str, count: int | None = None
+    ) -> FilmedFleet:
+        """What was driven of a plan, in so many frames; None: as many as its time asks for."""
+        times, frames = film_times(span_of(plan)[0], run.end_s, count)
+        motion = FleetMotion.of_run(plan, run, times)
+        waits = driven_timelines(plan, run)
+        return cls(name, *scene_of(plan), paths_of(plan), motion, frames, waits)
 
 
 @any_name()
@@ -77,7 +92,7 @@ def film_fleet(filmed: FilmedFleet, film: VideoFile, progress: Callable[[float],
         film: Where to.
         progress: Hears how much is done, from 0 to 1.
     """
-    write_film(film, fleet_frames(filmed), len(filmed.motion.times), progress)
+    write_film(film, fleet_frames(filmed), len(filmed.frames), progress)
 
 
 def frame_count(lasts: float) -> int:
@@ -90,10 +105,26 @@ def frame_count(lasts: float) -> int:
     return int(np.clip(round(lasts / FRAME_S) + 1, LEAST_FRAMES, MOST_FRAMES))
 
 
+def film_times(begin: float, end: float, count: int | None = None) -> tuple[Floats, Ints]:
+    """Times at which a film has to know where robots are, and which of them have a frame.
+
+    Between frames that are far apart there are more, so that trails go round corners.
+
+    Args:
+        begin: Of the film [s].
+        end: Of the film [s].
+        count: Of frames; None: as many as its time asks for.
+    """
+    frames = frame_count(end - begin) if count is None else count
+    each = int(np.clip(np.ceil((end - begin) / max(frames - 1, 1) / TRAIL_STEP_S), 1, MOST_STEPS))
+    times = np.linspace(begin, max(end, begin + 1e-3), (frames - 1) * each + 1)
+    return times, np.arange(frames) * each
+
+
 def fleet_frames(filmed: FilmedFleet) -> Iterator[Frame]:
     """The pictures of a film, one for each of the times."""
     stage = _FleetStage(filmed)
-    for k in range(len(filmed.motion.times)):
+    for k in filmed.frames.tolist():
         yield stage.frame(k)
 
 
@@ -146,7 +177,7 @@ class _FleetStage:
         self._still = canvas.copy_from_bbox(sheet.figure.bbox)  # type: ignore[no-untyped-call]
 
     def frame(self, k: int) -> Frame:
-        """The picture at one of the times."""
+        """The picture at one of the times, by its number."""
         motion = self._filmed.motion
         time, here = float(motion.times[k]), motion.places[:, k]
         since = int(np.searchsorted(motion.times, time - TRAIL_S))

@@ -5,8 +5,8 @@ Tested through ``report/fleet/test_fleet_picture``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -17,13 +17,16 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.patheffects import Normal, Stroke
 
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.timelines import Stretch, Timeline
+from viaspline.fleet.timelines import ActivitySpan, Timeline
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.report import style
 from viaspline.report.canvas import polyline
 from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART
 from viaspline.report.labels import Labels
+
+PlaceAt: TypeAlias = Callable[[str, float], tuple[float, float]]
+"""Where the robot of a name is at a time [s], in [m]."""
 
 MAX_PLAIN = 60  # robots with wide lines and large markers
 MAX_ARROWS = 40  # the longest waits
@@ -103,10 +106,17 @@ def name_robots(labels: Labels, members: Sequence[FleetMember], colours: Mapping
 
 
 def draw_wait_arrows(
-    axes: Axes, labels: Labels, plan: FleetPlan, timelines: Sequence[Timeline],
+    axes: Axes, labels: Labels, place_at: PlaceAt, timelines: Sequence[Timeline],
     colours: Mapping[str, str],
 ) -> list[Artist]:  # fmt: skip
     """Arrows from where a robot waits to where the other one passes before it.
+
+    Args:
+        axes: Of the map.
+        labels: Takes how long the longest waits are.
+        place_at: Where a robot is at a time.
+        timelines: Who waits when.
+        colours: Of robots by name.
 
     Returns:
         What belongs in a legend.
@@ -114,8 +124,8 @@ def draw_wait_arrows(
     waits = longest_waits(timelines)
     for rank, (name, wait) in enumerate(waits):
         when = 0.5 * (wait.begin + wait.end)
-        tail = place_at(plan, name, when)
-        head = place_at(plan, wait.other, wait.end)
+        tail = place_at(name, when)
+        head = place_at(wait.other, wait.end)
         _draw_arrow(axes, tail, head)
         axes.plot(
             *tail,
@@ -137,20 +147,12 @@ def draw_wait_arrows(
     return [Line2D([], [], color=style.INK, marker=">", markersize=5, linewidth=1.1, label=words)]
 
 
-def longest_waits(timelines: Sequence[Timeline]) -> list[tuple[str, Stretch]]:
+def longest_waits(timelines: Sequence[Timeline]) -> list[tuple[str, ActivitySpan]]:
     """The longest waits of a fleet, each with who waits, the longest first."""
     waits = [
         (one.name, wait) for one in timelines for wait in one.waits if wait.lost >= WORTH_AN_ARROW_S
     ]
     return sorted(waits, key=lambda one: -one[1].lost)[:MAX_ARROWS]
-
-
-def place_at(plan: FleetPlan, name: str, time: float) -> tuple[float, float]:
-    """Where a robot is at a time [m]."""
-    one = plan.plans[name]
-    along = min(float(one.trajectory.distance_at(time)), one.path.length)
-    x, y = np.asarray(one.path.at_distance(along))[:2].tolist()
-    return x, y
 
 
 def _draw_arrow(axes: Axes, tail: tuple[float, float], head: tuple[float, float]) -> None:

@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.report import style
-from viaspline.report.fleet.fleet_motion import NearestTwo
 from viaspline.report.fleet.fleet_page import name_panel
+from viaspline.report.fleet.places_over_time import NearestTwo
 from viaspline.report.units import down
 
 TOP_SHARE = 4.0  # of what is asked: farther apart is more than anybody wants to see

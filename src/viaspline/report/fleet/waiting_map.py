@@ -14,7 +14,7 @@ from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.lost_times import lost_times
 from viaspline.kernels.arrays import Floats
 from viaspline.report.canvas import tidy
-from viaspline.report.fleet.fleet_page import name_panel
+from viaspline.report.fleet.fleet_page import SMALL_TALL, name_panel
 from viaspline.report.sheet import Box
 from viaspline.report.style import MUTED
 
@@ -31,6 +31,12 @@ def waiting_seconds(plan: FleetPlan, view: Box, squares: int = SQUARES) -> Float
         y, x, bins=counts, range=[(view[1], view[3]), (view[0], view[2])], weights=lost
     )[0]
     return sums
+
+
+def map_width(view: Box) -> float:
+    """How wide the map is, with its colour bar [inch]."""
+    across, up = view[2] - view[0], view[3] - view[1]
+    return float(np.clip(SMALL_TALL * across / up, 1.2, 3.6)) + 0.7
 
 
 def draw_waiting_map(axes: Axes, plan: FleetPlan, view: Box) -> None:

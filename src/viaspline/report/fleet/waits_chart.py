@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from matplotlib.axes import Axes
 from matplotlib.text import Text
 
-from viaspline.fleet.timelines import Stretch, Timeline
+from viaspline.fleet.timelines import ActivitySpan, Timeline
 from viaspline.report import style
 from viaspline.report.canvas import text_width
 from viaspline.report.fleet.fleet_page import name_panel
@@ -65,7 +65,7 @@ def draw_waits(
 
 
 def _draw_stretch(
-    axes: Axes, row: int, stretch: Stretch, colour: str, colours: Mapping[str, str]
+    axes: Axes, row: int, stretch: ActivitySpan, colour: str, colours: Mapping[str, str]
 ) -> None:
     lasts = stretch.end - stretch.begin
     if stretch.kind == "drives":
@@ -83,7 +83,7 @@ def _draw_stretch(
         _name_other(axes, row, stretch, other)
 
 
-def _name_other(axes: Axes, row: int, stretch: Stretch, colour: str) -> None:
+def _name_other(axes: Axes, row: int, stretch: ActivitySpan, colour: str) -> None:
     """The name of whom a robot waits for, where it fits on the bar."""
     words = style.short(stretch.other, 10)
     text = Text(0, 0, words, size=style.SMALL_PT - 0.5, parse_math=False, figure=axes.figure)

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
+from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.planner import Plan
+
+INSTANTS: Final = 700  # at which a whole drive is looked at
+PLACES: Final = 700_000  # of all robots at all these instants, at most
 
 
 class NearestTwo(NamedTuple):
@@ -52,6 +56,27 @@ class FleetMotion:
             plan.names, times, np.array(places).reshape(-1, len(times), 2), np.array(bodies, float)
         )
 
+    @classmethod
+    def of_run(cls, plan: FleetPlan, run: FleetRun, times: Floats) -> FleetMotion:
+        """What the robots of a plan drove, those that it serves."""
+        rests = {one.name: one.rest for one in plan.fleet.members}
+        driven = set(run.names)
+        places, bodies = [], []
+        for name, one in plan.plans.items():
+            along = run.distance_at(name, times) if name in driven else np.zeros(len(times))
+            leaves = run.arrivals.get(name, np.inf) if rests[name] == "leave" else np.inf
+            places.append(_along(one, along, times > leaves))
+            bodies.append(one.mission.robot.outer_radius + one.tracking_error)
+        return cls(
+            plan.names, times, np.array(places).reshape(-1, len(times), 2), np.array(bodies, float)
+        )
+
+    def place_at(self, name: str, time: float) -> tuple[float, float]:
+        """Where a robot is at one of the times, or about that between two of them [m]."""
+        way = self.places[self.names.index(name)]
+        x, y = (float(np.interp(time, self.times, way[:, axis])) for axis in (0, 1))
+        return x, y
+
     def nearest_two(self) -> NearestTwo:
         """How far apart the two nearest bodies are at each of the times."""
         gaps = [self._least_gap(k) for k in range(len(self.times))]
@@ -90,6 +115,20 @@ def least_gap(places: Floats, bodies: Floats) -> float:
     return min(gap, float(gaps.min(initial=np.inf)))
 
 
+def instants(begin: float, end: float, robots: int, *more: float) -> Floats:
+    """Times at which robots are looked at: close together, fewer where there are many robots.
+
+    Args:
+        begin: From when [s].
+        end: Until when [s].
+        robots: How many.
+        more: Times that have to be among them, if they are between the two [s].
+    """
+    count = int(np.clip(PLACES // max(robots, 1), 100, INSTANTS))
+    between = [time for time in more if begin < time < end]
+    return np.unique(np.append(np.linspace(begin, max(end, begin + 1e-3), count), between))
+
+
 def span_of(plan: FleetPlan) -> tuple[float, float]:
     """From when to when a fleet's plan goes: the first departure, the last arrival [s]."""
     laws = [one.trajectory for one in plan.plans.values()]
@@ -100,8 +139,11 @@ def span_of(plan: FleetPlan) -> tuple[float, float]:
 def _places(plan: Plan, rest: str, times: Floats) -> Floats:
     """Where a robot is at some times [m], (t, 2)."""
     law = plan.trajectory
-    along = np.minimum(np.asarray(law.distance_at(times)), plan.path.length)
-    places = np.asarray(plan.path.at_distance(along))[:, :2].copy()
-    if rest == "leave":
-        places[times > law.end_time] = np.nan
-    return places
+    is_gone = (times > law.end_time) & (rest == "leave")
+    return _along(plan, np.asarray(law.distance_at(times)), is_gone)
+
+
+def _along(plan: Plan, distances: Floats, is_gone: Flags) -> Floats:
+    """Places along a path [m], (t, 2); not a number where a robot is gone."""
+    places = np.asarray(plan.path.at_distance(np.minimum(distances, plan.path.length)))
+    return np.where(is_gone[:, None], np.nan, places[:, :2])

@@ -62,7 +62,7 @@ def test_plan_writes_the_fleet_and_a_folder_for_each_robot(fleet: Path, tmp_path
     assert result.exit_code == 0, result.stderr
     files = {file.relative_to(out).as_posix() for file in out.rglob("*") if file.is_file()}
     assert files == {
-        "fleet.json", "timing.json", "east/plan.json", "east/path.csv", "north/plan.json",
+        "fleet.json", "fleet.png", "timing.json", "east/plan.json", "east/path.csv", "north/plan.json",
         "north/path.csv",
     }  # fmt: skip
     assert json.loads((out / "fleet.json").read_text())["served"] is True
@@ -71,6 +71,18 @@ def test_plan_writes_the_fleet_and_a_folder_for_each_robot(fleet: Path, tmp_path
     assert "each of 2 robots: east, north" in result.stdout
     timing = json.loads((out / "timing.json").read_text())
     assert {"laying_paths_s", "proving_s", "report_s"} <= set(timing)
+
+
+def test_run_drives_the_fleet_as_well(fleet: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    result = call("run", fleet, "--out", out, "--seed", 5)
+    assert result.exit_code == 0, result.stderr
+    run = json.loads((out / "run.json").read_text())
+    assert run["reached"] is True
+    assert run["fleet"]["seed"] == 5
+    assert (out / "fleet.json").exists()
+    assert (out / "north" / "path.csv").exists()
+    assert "Run · yard" in result.stdout
 
 
 def test_quiet_says_nothing_of_a_fleet(fleet: Path, tmp_path: Path) -> None:
@@ -112,6 +124,7 @@ def test_options_of_one_kind_of_file_are_refused_with_the_other(
         (("run", one, "--improve", 3), "--improve is for fleets"),
         (("plan", fleet, "--improve", -1), "is not in the range"),
         (("tension", fleet), "this is a fleet"),
+        (("run", fleet, "--real-time"), "--real-time is for the mission of one robot"),
     ):
         result = call(*arguments)
         assert result.exit_code == 2
