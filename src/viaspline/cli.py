@@ -245,9 +245,9 @@ def figures(out: Path, quiet: bool) -> None:
 @click.option("--token", help="What the page's address has to hold.  [default: made up for --host]")
 @click.option("--no-browser", is_flag=True, help="Only say where the page is.")
 def studio(mission: Path | None, port: int, host: str, token: str | None, no_browser: bool) -> None:
-    r"""Lay out a mission in the browser, planned live and driven.
+    r"""Lay out a mission or a fleet in the browser, planned live and driven.
 
-    MISSION is a mission file, or a folder of them; only that folder is read and written.
+    MISSION is the file of either, or a folder of them; only that folder is read and written.
 
     \b
     Example:

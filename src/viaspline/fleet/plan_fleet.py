@@ -12,6 +12,7 @@ from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
+from viaspline.fleet.relaid_ways import relaid_ways
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.handed_in import check_callable, check_kind, number_from
@@ -70,22 +71,43 @@ def plan_fleet(
     if paths is None:
         paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
     tell("timing", 0.0)
-    timed = _served(FleetWays.of(fleet, paths), fleet.separation_m)
+    timed = _served(fleet, FleetWays.of(fleet, paths))
     if improve > 0.0:
         timed = timed.improved(improve, lambda share: tell("improving", share))
     tell("proving", 0.0)
     return _planned(fleet, timed, paths.laid.not_served)
 
 
-def _served(ways: FleetWays, separation: float) -> TimedFleet:
+def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
+    """Plan a fleet along its paths, by priority alone.
+
+    Those that can't be timed so stand at their starts: ``plan_fleet`` looks for other ways then,
+    which takes longer.
+
+    Args:
+        fleet: What is asked for.
+        paths: Of the very fleet.
+    """
+    timed = TimedFleet.by_priority(FleetWays.of(fleet, paths))
+    if timed.blocked:
+        timed = timed.past_standing_ones()
+    return _planned(fleet, timed, paths.laid.not_served)
+
+
+def _served(fleet: Fleet, ways: FleetWays) -> TimedFleet:
     """Robots timed along their paths, with other paths where that leaves some without a law."""
     timed = TimedFleet.by_priority(ways)
     if not timed.blocked:
         return timed
-    led = on_lattice(ways, separation)
+    led = on_lattice(ways, fleet.separation_m)
     if isinstance(led, TimedFleet) and not led.blocked:
         return led
-    return timed.past_standing_ones()
+    relaid = relaid_ways(fleet, timed)
+    if relaid is not None:
+        other = TimedFleet.by_priority(relaid)
+        if len(other.blocked) < len(timed.blocked):
+            timed = other
+    return timed.past_standing_ones() if timed.blocked else timed
 
 
 def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -> FleetPlan:

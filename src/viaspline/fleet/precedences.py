@@ -54,15 +54,16 @@ def precedences_of(
     mine = (gaps >= 0.0) & (owner == packed.robots[packed.crossing, 0])
     is_first_later[packed.crossing[mine]] = True
     waits = _waits(courses, crossings, laws, alone, gaps)
-    found = []
-    for c, (a, b) in enumerate(packed.robots.tolist()):
-        a_low, a_high, b_low, b_high = packed.span[c].tolist()
-        first, last, left, entered = (a, b, a_high, b_low)
-        if is_first_later[c]:
-            first, last, left, entered = (b, a, b_high, a_low)
-        names = courses.names
-        found.append(Precedence(names[first], names[last], left, entered, float(waits[c])))
-    return tuple(found)
+    later = is_first_later[:, None]
+    ranked = np.where(later, packed.robots[:, ::-1], packed.robots).tolist()
+    places = np.where(later, packed.span[:, [3, 0]], packed.span[:, [1, 2]]).tolist()
+    names = courses.names
+    return tuple(
+        Precedence(names[first], names[second], left, entered, waited)
+        for (first, second), (left, entered), waited in zip(
+            ranked, places, waits.tolist(), strict=True
+        )
+    )
 
 
 def _waits(

@@ -144,12 +144,37 @@ class Engine:
     def _planned_fleet(
         self, document: Document, base: Path, revision: int, before: Planned | None
     ) -> tuple[PlannedFleet, str]:
-        from viaspline.studio.fleet import fleet_messages, planned_fleet
+        from viaspline.studio.fleet import fleet_page_messages, planned_fleet
 
         known = before if isinstance(before, planned_fleet.PlannedFleet) else None
         planned = planned_fleet.planned_fleet(document, self._map_cache(), base, known)
         self._keep_pictures(planned)
-        return planned, encoded(fleet_messages.fleet_answer(planned, revision, known))
+        return planned, encoded(fleet_page_messages.fleet_answer(planned, revision, known))
+
+    async def whole_fleet(
+        self, planned: PlannedFleet, revision: int, running: Stoppable
+    ) -> tuple[Planned, str] | None:
+        """A fleet with everything tried for those that aren't served, and the answer as text.
+
+        Args:
+            planned: What the page was told of.
+            revision: What the page calls this state of the document.
+            running: Stops it; then there is no answer.
+        """
+
+        def plan() -> tuple[Planned, str]:
+            from viaspline.studio.fleet import fleet_page_messages, planned_fleet
+
+            whole = planned_fleet.wholly_planned(planned)
+            return whole, encoded(fleet_page_messages.fleet_answer(whole, revision, planned))
+
+        def work() -> tuple[Planned, str] | None:
+            try:
+                return running.run(plan)
+            except StoppedCallError:
+                return None
+
+        return await self._planner.run(work)
 
     def _map_cache(self) -> MapCache:
         from viaspline.studio.map_cache import MapCache

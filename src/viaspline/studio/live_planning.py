@@ -20,6 +20,7 @@ from viaspline.studio.refused_error import RefusedError
 from viaspline.studio.stoppable_calls import Stoppable
 
 if TYPE_CHECKING:
+    from viaspline.studio.fleet.planned_fleet import PlannedFleet
     from viaspline.studio.plan_document import PlannedDocument
 
 LEDGER_AFTER_S: Final = 0.1  # so long without an edit, and an expensive ledger is drawn up [s]
@@ -87,13 +88,30 @@ class LivePlan:
         await self._send(text)
         from viaspline.studio.plan_document import PlannedDocument
 
-        if not isinstance(planned, PlannedDocument) or planned.plan is None:
+        if not isinstance(planned, PlannedDocument):
+            await self._whole(planned, revision)
+            return
+        if planned.plan is None:
             return
         if not (self._engine.ledgers_are_cheap or await self._is_idle()):
             return
         await self._send(await self._engine.ledger(planned, revision))
         if planned.plan.timed is not None:
             await self._send(await self._engine.space_time(planned, revision))
+
+    async def _whole(self, planned: PlannedFleet, revision: int) -> None:
+        """Try everything for a fleet of which not all are served, once nobody drags any more."""
+        if planned.is_whole or not await self._is_idle():
+            return
+        self._running = running = Stoppable()
+        overtaking = asyncio.create_task(self._overtake(running))
+        try:
+            found = await self._engine.whole_fleet(planned, revision, running)
+        finally:
+            overtaking.cancel()
+        if found is not None:
+            self._latest, text = found
+            await self._send(text)
 
     async def _overtake(self, running: Stoppable) -> None:
         await asyncio.sleep(OVERTAKEN_AFTER_S)

@@ -128,6 +128,20 @@ def test_who_is_not_served_is_told_with_the_reason(start: Start, file: Path) -> 
     assert robots["north"]["missing"] is None
 
 
+def test_what_priority_leaves_out_is_served_once_nobody_drags(start: Start, file: Path) -> None:
+    there, back = {"start": [0, 0], "goal": [40, 0]}, {"start": [40, 0], "goal": [0, 0]}
+    members = [{"name": "there", "route": there}, {"name": "back", "route": back}]
+    with start(file).client() as client:
+        first = client.edit([["fleet"], members], [["separation_m"], 0.5])
+        assert not first["fleet"]["served"]
+        then = client.hear("planned")
+        client.ask("save", "saved", name="swapped.yaml")
+    assert then["rev"] == first["rev"]
+    plan = planned(file.parent / "swapped.yaml")
+    assert then["fleet"]["served"] == plan.served
+    assert {name for name, one in by_name(then).items() if not one["missing"]} == set(plan.plans)
+
+
 def test_a_saved_fleet_keeps_its_comments(start: Start, file: Path) -> None:
     with start(file).client() as client:
         client.edit(

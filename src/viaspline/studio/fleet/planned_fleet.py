@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from viaspline.errors import MissionError, ViasplineError
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.plan_fleet import plan_fleet
+from viaspline.fleet.plan_fleet import plan_by_priority, plan_fleet
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.mission.world_spec import WorldSpec
 from viaspline.studio.document import Document
@@ -37,6 +37,7 @@ class PlannedFleet:
         problems: If it isn't.
         seconds: How long it took [s].
         missions: Of the robots that have files, by the files' names.
+        is_whole: Whether everything was tried to serve the robots: see ``wholly_planned``.
         paths: The newest paths, of this document or of one before it.
         drawn: The newest plan, of this document or of one before it: what the page has.
     """
@@ -48,6 +49,7 @@ class PlannedFleet:
     problems: tuple[PlanFault, ...]
     seconds: float
     missions: Mapping[str, MemberMission] = field(default_factory=dict)
+    is_whole: bool = True
     paths: CrossingPaths | None = None
     drawn: FleetPlan | None = None
 
@@ -80,16 +82,35 @@ def planned_fleet(
         unfolded, missions = found.expanded, found.missions
         fleet = Fleet.model_validate(_with_same_world(unfolded.data, before))
         paths = crossing_paths(fleet, before=paths)
-        plan = plan_fleet(fleet, paths=paths)
+        plan = plan_by_priority(fleet, paths)
     except MissionError as error:
         problems = faults_of(error, unfolded)
     except ViasplineError as error:
         problems = (PlanFault(str(error)),)
     drawn = plan if plan is not None or before is None else before.drawn
     seconds = time.perf_counter() - start
+    is_whole = plan is None or not _has_blocked(plan, paths)
     return PlannedFleet(
-        document, unfolded, fleet, plan, problems, seconds, missions, paths, drawn
-    )  # fmt: skip
+        document, unfolded, fleet, plan, problems, seconds, missions, is_whole, paths, drawn
+    )
+
+
+def wholly_planned(planned: PlannedFleet) -> PlannedFleet:
+    """The same with everything tried for robots that priority alone leaves without a law.
+
+    That is the plan of the command line; it may take longer than a frame.
+    """
+    if planned.is_whole or planned.fleet is None:
+        return planned
+    start = time.perf_counter()
+    plan = plan_fleet(planned.fleet, paths=planned.paths)
+    seconds = time.perf_counter() - start
+    return replace(planned, plan=plan, drawn=plan, seconds=seconds, is_whole=True)
+
+
+def _has_blocked(plan: FleetPlan, paths: CrossingPaths | None) -> bool:
+    """Whether a robot that has a path couldn't be timed along it."""
+    return paths is not None and len(plan.plans) < len(paths.laid.plans)
 
 
 def _with_same_world(data: Document, before: PlannedFleet | None) -> Document:

@@ -8,7 +8,6 @@ import { drawDisc, drawRoute, drawTrail, drawWait } from "./robot_marks.js";
 /** @typedef {import("../draw/pen.js").Pen} Pen */
 
 const MOST_NAMED = 40;
-const GONE_AFTER_S = 0; // a robot that leaves is gone as soon as it has arrived
 
 export class FleetLayer {
   /** @param {import("../core/store.js").Store} store @param {import("../preview.js").Preview} preview */
@@ -47,7 +46,7 @@ export class FleetLayer {
     for (const robot of plan.driving) {
       const { times } = robot.law;
       const i = index.get(robot.name);
-      if (i === undefined || (robot.leaves && now > times.at(-1) + GONE_AFTER_S)) continue;
+      if (i === undefined || (robot.leaves && now > times.at(-1))) continue;
       const colour = robotColour(i, pen.isDark);
       if (preview.isOn && now > times[0]) drawTrail(pen, robot.curve, now, colour);
       placed.set(robot.name, { ...robot.curve.at(robot.curve.distanceAt(now)), radius: robot.radius, colour, isChosen: i === store.robot });
