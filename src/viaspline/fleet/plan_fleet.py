@@ -12,7 +12,7 @@ from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
-from viaspline.fleet.relaid_ways import relaid_ways
+from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.handed_in import check_callable, check_kind, number_from
@@ -102,11 +102,7 @@ def _served(fleet: Fleet, ways: FleetWays) -> TimedFleet:
     led = on_lattice(ways, fleet.separation_m)
     if isinstance(led, TimedFleet) and not led.blocked:
         return led
-    relaid = relaid_ways(fleet, timed)
-    if relaid is not None:
-        other = TimedFleet.by_priority(relaid)
-        if len(other.blocked) < len(timed.blocked):
-            timed = other
+    timed = relaid_fleet(fleet, timed) or timed
     return timed.past_standing_ones() if timed.blocked else timed
 
 
