@@ -96,7 +96,7 @@ def planned_fleet(
 
 
 def wholly_planned(planned: PlannedFleet) -> PlannedFleet:
-    """The same with everything tried for robots that priority alone leaves without a law.
+    """Try everything for robots that priority alone leaves without a law.
 
     That is the plan of the command line; it may take longer than a frame.
     """
