@@ -151,7 +151,10 @@ def longest_waits(timelines: Sequence[Timeline]) -> list[tuple[str, ActivitySpan
     """The longest waits of a fleet, each with who waits, the longest first."""
     there = {one.name for one in timelines}
     waits = [
-        (one.name, wait) for one in timelines for wait in one.waits if wait.lost >= WORTH_AN_ARROW_S
+        (one.name, wait)
+        for one in timelines
+        for wait in one.waits
+        if wait.lost >= WORTH_AN_ARROW_S and wait.other in there
     ]
     return sorted(waits, key=lambda one: -one[1].lost)[:MAX_ARROWS]
 
