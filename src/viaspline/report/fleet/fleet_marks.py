@@ -88,6 +88,19 @@ def draw_ends(
     return handles, places
 
 
+def draw_stations(axes: Axes, members: Sequence[FleetMember]) -> list[Artist]:
+    """The places where robots stop on their way; returns what belongs in a legend."""
+    stops = [via.at[:2] for one in members for via in one.mission.route.via if via.dwell_s > 0.0]
+    if not stops:
+        return []
+    size = 5.5 if len(members) <= MAX_TOLD_APART else 2.5
+    look: dict[str, Any] = {
+        "marker": "D", "markersize": size, "markerfacecolor": style.STATION, "linestyle": "none",
+        "markeredgecolor": style.INK, "markeredgewidth": 0.6,
+    }  # fmt: skip
+    return axes.plot(*np.array(stops).T, zorder=10, label="station", **look)  # type: ignore[return-value]
+
+
 def goal_of(member: FleetMember) -> tuple[float, float]:
     """Where a robot's route ends [m]."""
     route = member.mission.route
