@@ -22,6 +22,7 @@ from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART, ROBOT_COLOURS, 
 from viaspline.report.fleet.fleet_marks import (
     draw_ends,
     draw_paths,
+    draw_stations,
     draw_wait_arrows,
     goal_of,
     name_robots,
@@ -62,7 +63,9 @@ def draw_fleet_map(
         for path, colour in zip(paths, colours.values(), strict=True):
             draw_arrows(sheet.map, path, colour, every=HEADS_PX)
     marks, places = draw_ends(sheet.map, members, colours)
+    marks += draw_stations(sheet.map, members)
     name_robots(labels, members, colours)
+    scene.name(labels)
     arrows = draw_wait_arrows(sheet.map, labels, motion.place_at, timelines, colours)
     labels.place(np.vstack([*paths, np.zeros((0, 2))]), places, marker_size=5.0)
     column = SideColumn(sheet)

@@ -88,6 +88,19 @@ def draw_ends(
     return handles, places
 
 
+def draw_stations(axes: Axes, members: Sequence[FleetMember]) -> list[Artist]:
+    """The places where robots stop on their way; returns what belongs in a legend."""
+    stops = [via.at[:2] for one in members for via in one.mission.route.via if via.dwell_s > 0.0]
+    if not stops:
+        return []
+    size = 5.5 if len(members) <= MAX_TOLD_APART else 2.5
+    look: dict[str, Any] = {
+        "marker": "D", "markersize": size, "markerfacecolor": style.STATION, "linestyle": "none",
+        "markeredgecolor": style.INK, "markeredgewidth": 0.6,
+    }  # fmt: skip
+    return axes.plot(*np.array(stops).T, zorder=10, label="station", **look)  # type: ignore[return-value]
+
+
 def goal_of(member: FleetMember) -> tuple[float, float]:
     """Where a robot's route ends [m]."""
     route = member.mission.route
@@ -149,8 +162,12 @@ def draw_wait_arrows(
 
 def longest_waits(timelines: Sequence[Timeline]) -> list[tuple[str, ActivitySpan]]:
     """The longest waits of a fleet, each with who waits, the longest first."""
+    there = {one.name for one in timelines}
     waits = [
-        (one.name, wait) for one in timelines for wait in one.waits if wait.lost >= WORTH_AN_ARROW_S
+        (one.name, wait)
+        for one in timelines
+        for wait in one.waits
+        if wait.lost >= WORTH_AN_ARROW_S and wait.other in there
     ]
     return sorted(waits, key=lambda one: -one[1].lost)[:MAX_ARROWS]
 

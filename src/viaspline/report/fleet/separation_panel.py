@@ -31,9 +31,10 @@ def draw_separation(axes: Axes, near: NearestTwo, certificate: FleetCertificate)
     axes.set_xlabel("time [s]", labelpad=2)
     required = certificate.required
     seen = near.gaps[np.isfinite(near.gaps)]
-    top = max(TOP_SHARE * required, 1.6 * float(seen.min(initial=1.0)), 0.1)
+    least = float(seen.min()) if seen.size else 0.0
+    top = max(TOP_SHARE * required, 1.6 * least, 0.1)
     top = min(top, 1.15 * max(float(seen.max(initial=0.0)), 1.3 * required, 0.1))
-    axes.set_ylim(min(0.0, float(seen.min(initial=0.0))), top)
+    axes.set_ylim(min(0.0, least), top)
     axes.plot(near.times, near.gaps, color=style.PATH, linewidth=1.1)
     axes.fill_between(near.times, near.gaps, top, color=style.PATH, alpha=0.08, linewidth=0)
     axes.axhline(required, color=style.TIGHTEST, linewidth=1.0, linestyle=(0, (4, 2)))
