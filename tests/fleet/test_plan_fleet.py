@@ -11,6 +11,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
+from viaspline.fleet.execution.delays import Delays
+from viaspline.fleet.execution.simulate_fleet import simulate_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.plan_fleet import plan_fleet
 from viaspline.kernels.arrays import Floats
@@ -112,6 +114,29 @@ def test_who_passes_no_resting_place_and_whose_own_none_passes_is_served(seed: i
     for name, plan in planned.plans.items():
         assert plan.certificate.holds
         assert plan.trajectory.duration >= planned.alone[name] - 1e-9
+
+
+@given(seed=st.integers(0, 100_000))
+@settings(max_examples=12)
+def test_what_is_driven_late_stays_apart_and_arrives(seed: int) -> None:
+    fleet = random_fleet(seed, 7)
+    planned = plan_fleet(fleet)
+    delays = Delays(slowed=0.3, halts=0.5, halts_s=20, lost=0.2)
+    for trouble in (Delays(), delays):
+        run = simulate_fleet(fleet, trouble, planned, seed=seed)
+        assert set(run.arrivals) == set(planned.plans)
+        assert run.certificate.separation >= SEPARATION - 0.045
+
+
+def test_ten_that_meet_in_the_middle_are_led_past_each_other_and_driven() -> None:
+    angles = np.linspace(0.0, 2.0 * np.pi, 10, endpoint=False)
+    ends = 15.0 * np.column_stack([np.cos(angles), np.sin(angles)])
+    planned = plan_fleet(fleet_of(*(robot([end, -end]) for end in ends)))
+    assert planned.served
+    assert free_space(planned) >= SEPARATION - 1e-6
+    run = simulate_fleet(planned.fleet, Delays(slowed=0.3), planned)
+    assert len(run.arrivals) == 10
+    assert run.certificate.separation >= SEPARATION - 0.045
 
 
 def test_a_fleet_gets_the_same_laws_each_time() -> None:

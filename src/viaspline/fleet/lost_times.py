@@ -42,7 +42,7 @@ def lost_times(plan: FleetPlan) -> LostTimes:
         >>> mission = lambda start, goal: Mission.model_validate(
         ...     {"route": {"start": start, "goal": goal}})
         >>> a, b = mission((0, 0), (40, 0)), mission((20, -20), (20, 20))
-        >>> plan = plan_fleet(Fleet((FleetMember("a", a), FleetMember("b", b)), 1.0))
+        >>> plan = plan_fleet(Fleet.of([FleetMember("a", a), FleetMember("b", b)], 1.0))
         >>> lost = lost_times(plan)
         >>> (waiting,) = [one.waits_s for one in plan.precedences]
         >>> bool(lost.all.sum() >= waiting > 0.0)

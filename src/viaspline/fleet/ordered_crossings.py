@@ -1,7 +1,8 @@
 """Crossings in each of which one robot passes first.
 
-Two robots may pass each other twice in one connected set of places, once the one first and once the
-other: by laws that a lattice gives, say. Then it is two crossings.
+In a connected set of places one robot passes first. But the boxes of a crossing hold a little more
+than it, and may touch those of another one: then laws that pass between the two are on either side
+of what is taken for one crossing, and it is two.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.passing_order import passing_gaps
 
@@ -30,22 +32,23 @@ def ordered_crossings(
         The crossings themselves where none has to be divided.
     """
     packed = crossings.packed
+    leaders, _ = crossing_leaders(courses.packed, packed, laws.packed)
+    if not (leaders == UNSETTLED).any():
+        return crossings
     gaps = passing_gaps(courses.packed, packed, laws.packed)
     owner = np.repeat(np.arange(len(courses.names)), np.diff(packed.box_first))
     is_lower = owner == packed.robots[packed.crossing, 0]
-    lower_leads = (is_lower != (gaps >= 0.0)).astype(np.int64)
-    count = len(packed.robots)
-    leads = np.bincount(packed.crossing, lower_leads, count)
-    boxes = np.bincount(packed.crossing, minlength=count)
-    if not ((leads > 0) & (leads < boxes)).any():
-        return crossings
+    is_divided = leaders[packed.crossing] == UNSETTLED
+    lower_leads = (is_divided & (is_lower != (gaps >= 0.0))).astype(np.int64)
     kinds, crossing = np.unique(2 * packed.crossing + lower_leads, return_inverse=True)
     robots = packed.robots[kinds // 2]
+    whole = (leaders != UNSETTLED)[kinds // 2, None]
+    spans = _spans(courses, packed, owner, crossing, robots)
     return FleetCrossings(
         packed._replace(
             robots=robots,
             crossing=crossing.astype(np.int64),
-            span=_spans(courses, packed, owner, crossing, robots),
+            span=np.where(whole, packed.span[kinds // 2], spans),
         )
     )
 

@@ -10,6 +10,7 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.crossing_leaders import crossing_leaders
 from viaspline.kernels.fleet.passing_order import passing_gaps
 
 TIGHT_S = 1e-3
@@ -47,14 +48,10 @@ def precedences_of(
         alone: When each would be where if it were alone.
     """
     packed, nodes = crossings.packed, courses.packed
-    count = len(packed.robots)
-    owner = np.repeat(np.arange(nodes.reach.size), np.diff(packed.box_first))
     gaps = passing_gaps(nodes, packed, laws.packed)
-    is_first_later = np.zeros(count, np.bool_)  # of the two, the one with the lower number
-    mine = (gaps >= 0.0) & (owner == packed.robots[packed.crossing, 0])
-    is_first_later[packed.crossing[mine]] = True
+    leaders, _ = crossing_leaders(nodes, packed, laws.packed)
     waits = _waits(courses, crossings, laws, alone, gaps)
-    later = is_first_later[:, None]
+    later = (leaders == packed.robots[:, 1])[:, None]
     ranked = np.where(later, packed.robots[:, ::-1], packed.robots).tolist()
     places = np.where(later, packed.span[:, [3, 0]], packed.span[:, [1, 2]]).tolist()
     names = courses.names

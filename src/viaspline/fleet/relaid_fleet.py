@@ -19,7 +19,6 @@ from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_laws import FleetLaws, static_laws
 from viaspline.fleet.laying.relay_paths import relay_paths
-from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.fleet.timing.time_paths import Timing
@@ -100,14 +99,13 @@ def _as_laid(
         if leaves:
             packed.leave[last] = packed.arrive[last]
     laws = FleetLaws(packed)
-    ordered = ordered_crossings(courses, crossings, laws)
-    leaders, _ = crossing_leaders(courses.packed, ordered.packed, packed)
+    leaders, _ = crossing_leaders(courses.packed, crossings.packed, packed)
     if (leaders == UNSETTLED).any():
         return None
     if not certify_fleet(courses, laws, fleet.separation_m).holds:
         return None
     durations = np.array([plan.trajectory.duration for plan in alone.values()])
-    led = FleetWays(ways.members, plans, courses, ordered, replace(rides, alone=durations))
+    led = FleetWays(ways.members, plans, courses, crossings, replace(rides, alone=durations))
     order = np.argsort([plan.trajectory.end_time for plan in plans]).astype(np.int64)
     return TimedFleet(led, Timing(laws, order, {}))
 

@@ -77,7 +77,7 @@ def timelines_of(plan: FleetPlan) -> tuple[Timeline, ...]:
         >>> mission = lambda start, goal: Mission.model_validate(
         ...     {"route": {"start": start, "goal": goal}})
         >>> a, b = mission((0, 0), (40, 0)), mission((20, -20), (20, 20))
-        >>> plan = plan_fleet(Fleet((FleetMember("a", a), FleetMember("b", b)), 1.0))
+        >>> plan = plan_fleet(Fleet.of([FleetMember("a", a), FleetMember("b", b)], 1.0))
         >>> [(one.name, [wait.other for wait in one.waits]) for one in timelines_of(plan)]
         [('a', []), ('b', ['a'])]
     """

@@ -154,5 +154,5 @@ def test_the_bytes_do_not_depend_on_workers_nor_on_one_that_is_killed() -> None:
 
     here = fingerprint(lay_paths(fleet))
     assert len(here) == 28
-    assert fingerprint(lay_paths(fleet, kill_one, Processes(2))) == here
+    assert fingerprint(lay_paths(fleet, kill_one, workers=Processes(2))) == here
     assert killed

@@ -36,7 +36,7 @@ def test_a_cluster_lays_the_same_bytes_though_one_of_its_workers_is_killed() -> 
                 nanny.process.process.kill()
                 killed.append(nanny)
 
-        there = lay_paths(fleet, kill_one, Cluster(client))
+        there = lay_paths(fleet, kill_one, workers=Cluster(client))
     assert killed
     assert list(there.plans) == list(here.plans)
     for name, plan in there.plans.items():

@@ -100,7 +100,7 @@ class _Told:
 
     def more(self, pieces: int) -> None:
         self._done += pieces
-        if self._progress is not None:
+        if self._progress is not None and pieces:
             self._progress(self._done, self._pieces)
 
 

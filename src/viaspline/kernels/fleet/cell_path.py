@@ -70,7 +70,7 @@ def _is_new(search: CellSearch, cell: int, step: int, state: int) -> bool:
     """Whether a state wasn't met in this search yet; it then is entered."""
     mask = len(search.seen) - 1
     now = search.searches[mask + 1]
-    at = (cell * 73856093 + step * 19349663) & mask
+    at = (int(cell) * 73856093 + int(step) * 19349663) & mask
     while search.searches[at] == now:
         other = search.seen[at]
         if search.cells[other] == cell and search.steps[other] == step:
