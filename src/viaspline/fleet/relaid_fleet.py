@@ -32,6 +32,9 @@ from viaspline.whole_plan import stations
 
 MOST_RELAID = 24
 """So many robots are laid anew at most."""
+ROOM_M = 0.3
+"""So much farther apart than they must be robots are laid, if they can [m]: then the boxes of their
+crossings, which are half a metre long, tell who passes first."""
 MOST_AMONG = 120
 """Among so many, each of which is a moving obstacle to those that are laid."""
 
@@ -51,7 +54,12 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
         return None
     fixed = _timed_plans(timed)
     wanted = sorted(blocked, key=lambda k: (-ways.members[k].priority, k))
-    found = relay_paths(fleet, fixed, [ways.members[k].name for k in wanted]).plans
+    names = [ways.members[k].name for k in wanted]
+    wider = fleet.model_copy(update={"separation_m": fleet.separation_m + ROOM_M})
+    found = relay_paths(wider, fixed, names).plans
+    if len(found) < len(ways.members):
+        exactly = relay_paths(fleet, fixed, names).plans
+        found = exactly if len(exactly) > len(found) else found
     if len(found) <= len(fixed):
         return None
     plans = {

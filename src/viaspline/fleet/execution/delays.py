@@ -12,6 +12,8 @@ from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.handed_in import number_from
 from viaspline.kernels.fleet.granted_drive import PackedTrouble
 
+SEEDS = 1 << 62
+"""So many seeds the kernels tell apart."""
 MOST_HALTS = 1000.0
 """Of a robot in the mean."""
 
@@ -75,4 +77,4 @@ def trouble_of(delays: Delays, fleet: DrivenFleet, seed: int) -> PackedTrouble:
         where = random.uniform(0.0, length, random.poisson(delays.halts))
         at = np.minimum(np.searchsorted(along, where), along.size - 2)
         np.add.at(halts[nodes], at, delays.halts_s)
-    return PackedTrouble(pace, halts, delays.lost, seed)
+    return PackedTrouble(pace, halts, delays.lost, seed % SEEDS)

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from viaspline.handed_in import check_kind, number_from
+
 
 @dataclass(frozen=True)
 class ProgressReport:
@@ -24,6 +26,9 @@ class ProgressReport:
         holds: How far it takes itself to be let go [m]: the last grant that it has taken up. Only
             if it says so can a grant be taken back, for another robot to pass first.
         heard: The time of the newest command that it has heard [s].
+
+    Raises:
+        GeometryError: The name is no text, or one of the others no number.
     """
 
     name: str
@@ -33,6 +38,13 @@ class ProgressReport:
     arrived: bool = False
     holds: float | None = None
     heard: float | None = None
+
+    def __post_init__(self) -> None:
+        check_kind("name", self.name, str, "give the name of a robot")
+        for key in ("time", "distance", "speed", "holds", "heard"):
+            value = getattr(self, key)
+            if value is not None or key in ("time", "distance", "speed"):
+                object.__setattr__(self, key, number_from(key, value))
 
 
 @dataclass(frozen=True)
