@@ -32,10 +32,10 @@ from viaspline.whole_plan import stations
 
 MOST_RELAID = 24
 """So many robots are laid anew at most."""
-ROOM_M = 0.3
-"""So much farther apart than they must be robots are laid, if they can [m]: then the boxes of their
-crossings, which are half a metre long, tell who passes first."""
-MOST_AMONG = 120
+ROOMS_M = (0.3, 0.6, 0.15, 0.0)
+"""So much farther apart than they must be robots are laid, if they can, one value after the other
+[m]: the boxes of crossings, which are half a metre long, tell who passes first if there is room."""
+MOST_AMONG = 12
 """Among so many, each of which is a moving obstacle to those that are laid."""
 
 
@@ -55,13 +55,24 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
     fixed = _timed_plans(timed)
     wanted = sorted(blocked, key=lambda k: (-ways.members[k].priority, k))
     names = [ways.members[k].name for k in wanted]
-    wider = fleet.model_copy(update={"separation_m": fleet.separation_m + ROOM_M})
-    found = relay_paths(wider, fixed, names).plans
-    if len(found) < len(ways.members):
-        exactly = relay_paths(fleet, fixed, names).plans
-        found = exactly if len(exactly) > len(found) else found
-    if len(found) <= len(fixed):
-        return None
+    best: TimedFleet | None = None
+    for room in ROOMS_M:
+        wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
+        found = relay_paths(wider, fixed, names).plans
+        if len(found) <= len(fixed):
+            continue
+        again = _along(fleet, ways, fixed, found)
+        if len(again.blocked) < len((best or timed).blocked):
+            best = again
+        if not again.blocked:
+            break
+    return best
+
+
+def _along(
+    fleet: Fleet, ways: FleetWays, fixed: Mapping[str, Plan], found: Mapping[str, Plan]
+) -> TimedFleet:
+    """A fleet along paths of which some were laid anew: timed anew, or else as they were laid."""
     plans = {
         member.name: plan
         if found.get(member.name) is fixed.get(member.name)
@@ -71,8 +82,8 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
     again = TimedFleet.by_priority(ways.along(plans, fleet.separation_m))
     if again.blocked and len(found) == len(ways.members):
         laid = _as_laid(ways, {one.name: found[one.name] for one in ways.members}, plans, fleet)
-        again = again if laid is None else laid
-    return again if len(again.blocked) < len(blocked) else None
+        return again if laid is None else laid
+    return again
 
 
 def _timed_plans(timed: TimedFleet) -> dict[str, Plan]:
