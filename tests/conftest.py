@@ -11,6 +11,7 @@ import shapely
 from hypothesis import HealthCheck, settings
 from numpy.typing import NDArray
 
+import viaspline as vs
 from viaspline.maps.grid import Grid
 from viaspline.mission.shapes.obstacle import Obstacle
 
@@ -118,3 +119,77 @@ def spoiled() -> Callable[[str, Any], dict[str, Any]]:
         return data
 
     return spoil
+
+
+FENCES = [
+    [(-5, -5), (105, -5), (105, 45), (55, 50), (50, 105), (-5, 105)],
+    [(-5, -5), (60, 20), (105, -5), (90, 50), (105, 105), (-5, 105)],
+]
+
+
+def _random_shapes(rng: np.random.Generator, count: int, size: float) -> list[dict[str, Any]]:
+    """Circles and star-shaped polygons, overlapping as they please."""
+    made: list[dict[str, Any]] = []
+    for _ in range(count):
+        x, y, reach = *rng.uniform(0, size, 2), rng.uniform(0.01, 0.07) * size
+        if rng.random() < 0.5:
+            made.append({"circle": {"center": [x, y], "radius": reach}})
+            continue
+        corners = int(rng.integers(3, 9))
+        angle = np.linspace(0, 2 * np.pi, corners, endpoint=False) + rng.uniform(0, 0.3, corners)
+        arm = reach * rng.uniform(0.4, 1.5, corners)
+        ring = np.column_stack((x + arm * np.cos(angle), y + arm * np.sin(angle)))
+        made.append({"polygon": ring[:: rng.choice([1, -1])].tolist()})
+    for i in rng.permutation(len(made))[: len(made) // 6]:
+        made[i][str(rng.choice(["pass_on", "never_pass_on"]))] = str(rng.choice(["left", "right"]))
+    return made
+
+
+def _random_mission(seed: int, most: int = 30, *, sides: bool = True) -> vs.Mission | None:
+    """A mission in a square of 100 m; None where the via points find no room."""
+    rng = np.random.default_rng(seed)
+    shapes = _random_shapes(rng, int(rng.integers(0, most + 1)), 100.0)
+    if not sides:
+        shapes = [{k: v for k, v in s.items() if "pass" not in k} for s in shapes]
+    radius, clearance = rng.uniform(0, 1, 2) * (rng.random(2) < 0.9)
+    bounds = [-5.0, -5.0, 105.0, 105.0]
+    fences = FENCES[: seed % 3]
+    known = [vs.Obstacle(**shape) for shape in shapes]
+    world = vs.World(known, bounds=bounds, fences=fences)
+    places = rng.uniform(0, 100, (60, 3 if rng.random() < 0.2 else 2))
+    free = places[world.distance(places) >= radius + clearance]
+    count = int(rng.integers(2, 7))
+    if len(free) < count:
+        return None
+    stops = free[:count].tolist()
+    closed = bool(rng.random() < 0.2)
+    spans = count if closed else count - 1
+    tension: Any = float(rng.choice([1.0, 0.5, 0.0, -1.0]))
+    if rng.random() < 0.3:
+        tension = rng.uniform(-1, 1, spans).tolist()
+    route: dict[str, Any] = {"start": {"at": stops[0]}, "closed": closed}
+    if closed:
+        route["via"] = stops[1:]
+    else:
+        route |= {"via": stops[1:-1], "goal": {"at": stops[-1]}}
+        for end in ("start", "goal"):
+            if rng.random() < 0.3:
+                route[end]["heading_deg"] = float(rng.uniform(-180, 180))
+    return vs.Mission.model_validate(
+        {
+            "world": {"bounds": bounds, "known": shapes, "fences": fences},
+            "robot": {"radius_m": radius, "clearance_m": clearance},
+            "route": route,
+            "spline": {
+                "tension": tension,
+                "knots": str(rng.choice(["uniform", "centripetal", "chordal"])),
+                "tangents": str(rng.choice(["cardinal", "cardinal", "continuous"])),
+            },
+        }
+    )
+
+
+@pytest.fixture(scope="session")
+def random_mission() -> Callable[..., vs.Mission | None]:
+    """Makes a mission of a seed in a square of 100 m; None where its points find no room."""
+    return _random_mission

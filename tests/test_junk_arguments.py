@@ -21,6 +21,11 @@ CART = vs.Obstacle(
 MOVING = vs.MovingObstacles([CART])
 NAV = vs.Navigator(MISSION)
 STATE = vs.RobotState((0.0, 0.0), 0.0, 0.0)
+FLEET = vs.Fleet.model_validate(
+    {"fleet": [{"name": "a", "route": {"start": [0, 0], "goal": [9, 0]}}]}
+)
+FLEET_PLAN = vs.plan_fleet(FLEET)
+FLEET_NAV = vs.FleetNavigator(FLEET_PLAN)
 
 JUNK: list[Any] = [
     None, "x", b"x", float("nan"), 10**400, -1, [], {}, [[1]], [["a", "b"]], [None], object(),
@@ -123,8 +128,33 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "certify_moving moving": lambda junk: vs.certify_moving(CURVE, LAW, junk, 1.0),
     "certify_moving clearance": lambda junk: vs.certify_moving(CURVE, LAW, MOVING, junk),
     "certify_moving hold": lambda junk: vs.certify_moving(CURVE, LAW, MOVING, 1.0, hold=junk),
+    "Fleet": vs.Fleet.model_validate,
+    "Fleet separation": lambda junk: vs.Fleet.of(FLEET.members, junk),
+    "plan_fleet": vs.plan_fleet,
+    "plan_fleet improve": lambda junk: vs.plan_fleet(FLEET, improve=junk),
+    "plan_fleet progress": lambda junk: vs.plan_fleet(FLEET, progress=uncallable(junk)),
+    "simulate_fleet": vs.simulate_fleet,
+    "simulate_fleet delays": lambda junk: vs.simulate_fleet(FLEET, junk, FLEET_PLAN),
+    "simulate_fleet plan": lambda junk: vs.simulate_fleet(FLEET, plan=junk),
+    "simulate_fleet seed": lambda junk: vs.simulate_fleet(FLEET, plan=FLEET_PLAN, seed=junk),
+    "simulate_fleet step": lambda junk: vs.simulate_fleet(FLEET, plan=FLEET_PLAN, step=junk),
+    "Delays": lambda junk: vs.Delays(slowed=junk),
+    "Delays halts": lambda junk: vs.Delays(halts=junk),
+    "FleetNavigator": vs.FleetNavigator,
+    "FleetNavigator margin": lambda junk: vs.FleetNavigator(FLEET_PLAN, margin_m=junk),
+    "FleetNavigator period": lambda junk: vs.FleetNavigator(FLEET_PLAN, period=junk),
+    "FleetNavigator reports": lambda junk: FLEET_NAV.step(junk, 0.0),
+    "FleetNavigator time": lambda junk: FLEET_NAV.step([], junk),
+    "ProgressReport name": lambda junk: FLEET_NAV.step([vs.ProgressReport(junk, 0.0, 0.0)], 0.0),
+    "ProgressReport time": lambda junk: FLEET_NAV.step([vs.ProgressReport("a", junk, 0.0)], 0.0),
+    "ProgressReport distance": lambda junk: FLEET_NAV.step(
+        [vs.ProgressReport("a", 0.0, junk)], 0.0
+    ),
 }
-RESULTS = {"Certificate", "Command", "MovingCertificate", "Plan", "Run", "TensionAdvice"}
+RESULTS = {
+    "Certificate", "Command", "FleetCommand", "FleetPlan", "FleetRun", "MovingCertificate", "Plan",
+    "Run", "TensionAdvice",
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("verb", VERBS)

@@ -36,8 +36,16 @@ if TYPE_CHECKING:
         PlanningError,
         ViasplineError,
     )
+    from viaspline.fleet.execution.delays import Delays
+    from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
+    from viaspline.fleet.execution.fleet_navigator import FleetNavigator
+    from viaspline.fleet.execution.fleet_run import FleetRun
+    from viaspline.fleet.execution.simulate_fleet import simulate_fleet
+    from viaspline.fleet.fleet_plan import FleetPlan
+    from viaspline.fleet.plan_fleet import plan_fleet
     from viaspline.formats.load import load
     from viaspline.maps.grid import Grid
+    from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.load_map import load_map
     from viaspline.mission.model import Mission
     from viaspline.mission.shapes.obstacle import Obstacle
@@ -61,6 +69,12 @@ _HOMES = {
     "CardinalSpline": "curve.cardinal",
     "Certificate": "curve.certificate",
     "Command": "robot.state",
+    "Delays": "fleet.execution.delays",
+    "Fleet": "mission.fleet.fleet",
+    "FleetCommand": "fleet.execution.fleet_messages",
+    "FleetNavigator": "fleet.execution.fleet_navigator",
+    "FleetPlan": "fleet.fleet_plan",
+    "FleetRun": "fleet.execution.fleet_run",
     "GaveUpError": "errors",
     "GeometryError": "errors",
     "Grid": "maps.grid",
@@ -79,6 +93,7 @@ _HOMES = {
     "Path": "curve.path",
     "PiecewiseCubic": "curve.piecewise",
     "Plan": "planner",
+    "ProgressReport": "fleet.execution.fleet_messages",
     "PlanningError": "errors",
     "RobotState": "robot.state",
     "Run": "robot.run",
@@ -95,9 +110,11 @@ _HOMES = {
     "load": "formats.load",
     "load_map": "mission.load_map",
     "plan": "planner",
+    "plan_fleet": "fleet.plan_fleet",
     "retime": "trajectory.retime",
     "retime_lap": "trajectory.lap",
     "simulate": "robot.simulator",
+    "simulate_fleet": "fleet.execution.simulate_fleet",
 }
 
 __all__ = [*sorted(_HOMES), "__version__"]

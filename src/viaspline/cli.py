@@ -14,16 +14,13 @@ import click
 from viaspline import __version__
 from viaspline.command_steps import (
     default_folder,
-    film_file,
-    load_mission,
+    load_asked,
     progress_bar,
     result_folder,
-    say_remarks,
     say_written,
-    watched_plan,
 )
-from viaspline.exit_codes import NOT_REACHED, Commands
-from viaspline.report.terminal_lines import say, say_error
+from viaspline.exit_codes import Commands
+from viaspline.report.terminal_lines import say
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
@@ -37,8 +34,6 @@ def cli() -> None:
     """
 
 
-PLAN_NAMES = ("plan.json", "path.csv", "plan.png", "timing.json")
-RUN_NAMES = (*PLAN_NAMES, "run.json", "run.csv", "run.png")
 FIGURE_NAMES = tuple(
     f"{name}.png" for name in ("fig2", "fig3", "fig5", "fig6", "fig7", "fig8", "curvature")
 )
@@ -48,12 +43,17 @@ OUT = click.option(
     "--out", type=click.Path(path_type=Path), metavar="DIR",
     help="Folder for the results.  [default: viaspline-out/<name of the mission>]",
 )  # fmt: skip
+IMPROVE = click.option(
+    "--improve", type=click.FloatRange(min=0.0, max=1e6), default=0.0, metavar="SECONDS",
+    help="For so long sooner orders of a fleet's robots are sought.  [default: 0]",
+)  # fmt: skip
 QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
 
 
 @cli.command()
 @MISSION
 @OUT
+@IMPROVE
 @click.option("--seed", type=int, default=0, show_default=True, help="Of what is random.")
 @click.option(
     "--animate", type=click.Path(path_type=Path), metavar="FILE", help="A .gif or .mp4 of the run."
@@ -65,87 +65,70 @@ QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all g
 )
 @QUIET
 def run(
-    mission: Path, out: Path | None, seed: int, animate: Path | None, real_time: bool, quiet: bool
-) -> None:
+    mission: Path, out: Path | None, improve: float, seed: int, animate: Path | None,
+    real_time: bool, quiet: bool,
+) -> None:  # fmt: skip
     r"""Plan a mission, drive it and report: the main job.
 
-    Writes plan.json, path.csv, plan.png, run.json, run.csv, run.png and timing.json.
+    Writes plan.json, path.csv, plan.png, run.json, run.csv, run.png and timing.json; of a fleet
+    fleet.json, fleet.png, run.json, run.png and timing.json, and for each robot a folder with its
+    plan.json and path.csv.
 
     \b
     Example:
       viaspline run examples/fig8-patrol.yaml --out patrol --animate patrol/run.gif
     """
-    asked = load_mission(mission)
-    with (
-        result_folder(out or default_folder(mission), RUN_NAMES) as folder,
-        film_file(animate) as film,
-        progress_bar(quiet, asked.robot) as watch,
-    ):
-        plan = watched_plan(asked, watch)
-        with watch.stage("simulate", "driving"):
-            from viaspline.robot.simulation.pace import by_clock, by_work
-            from viaspline.robot.simulator import simulate
+    asked = load_asked(mission)
+    from viaspline.mission.model import Mission
 
-            pace = by_clock if real_time else by_work
-            done = simulate(plan.mission, seed=seed, progress=watch.driven, plan=plan, pace=pace)
-        with watch.stage("report", "drawing and writing"):
-            from viaspline.report import results
+    if isinstance(asked, Mission):
+        check_of_fleets(improve)
+        from viaspline.mission_steps import run_mission
 
-            contents = results.plan_contents(plan, mission.stem)
-            contents |= results.run_contents(done, mission.stem, seed=seed)
-            if film is not None:
-                from viaspline.report.animation import film_run
-
-                with watch.stage("animate", f"filming {film.path.name}"):
-                    film_run(done, mission.stem, film, watch.fraction)
-        files = results.write_all(folder, contents, watch.times, done)
-    if not quiet:
-        from viaspline.report.terminal_tables import plan_tables, run_tables, show
-
-        show(plan_tables(plan, mission.stem), run_tables(done, mission.stem))
-        say_remarks(asked)
-        say_written([*files, *([] if film is None else [film.path])])
-    if not done.reached:
-        from viaspline.report.units import place, seconds
-
-        where = place(tuple(done.positions[-1].tolist()))
-        say_error(
-            f"the robot did not reach its goal: {done.reason}",
-            f"  it stands at {where} since {seconds(done.duration)}",
+        run_mission(
+            asked, mission, out, seed=seed, animate=animate, real_time=real_time, quiet=quiet
         )
-        click.get_current_context().exit(NOT_REACHED)
+        return
+    if real_time:
+        raise click.UsageError("--real-time is for the mission of one robot; this is a fleet")
+    from viaspline.fleet_steps import run_fleet_file
+
+    run_fleet_file(asked, mission, out, improve=improve, seed=seed, animate=animate, quiet=quiet)
 
 
 @cli.command()
 @MISSION
 @OUT
+@IMPROVE
 @QUIET
-def plan(mission: Path, out: Path | None, quiet: bool) -> None:
+def plan(mission: Path, out: Path | None, improve: float, quiet: bool) -> None:
     r"""Plan a mission: the path, its proof and what it was chosen from.
 
-    Writes plan.json, path.csv, plan.png and timing.json.
+    Writes plan.json, path.csv, plan.png and timing.json; of a fleet fleet.json, fleet.png and
+    timing.json, and for each robot a folder with its plan.json and path.csv.
 
     \b
     Example:
       viaspline plan examples/fig7-obstacles.yaml --out detour
     """
-    asked = load_mission(mission)
-    with (
-        result_folder(out or default_folder(mission), PLAN_NAMES) as folder,
-        progress_bar(quiet, asked.robot) as watch,
-    ):
-        planned = watched_plan(asked, watch)
-        with watch.stage("report", "drawing and writing"):
-            from viaspline.report import results
+    asked = load_asked(mission)
+    from viaspline.mission.model import Mission
 
-            contents = results.plan_contents(planned, mission.stem)
-        files = results.write_all(folder, contents, watch.times)
-    if not quiet:
-        from viaspline.report.terminal_tables import plan_tables, show
+    if isinstance(asked, Mission):
+        check_of_fleets(improve)
+        from viaspline.mission_steps import plan_mission
 
-        show(plan_tables(planned, mission.stem))
-        say_remarks(asked)
-        say_written(files)
+        plan_mission(asked, mission, out, quiet=quiet)
+    else:
+        from viaspline.fleet_steps import plan_fleet_file
+
+        plan_fleet_file(asked, mission, out, improve=improve, quiet=quiet)
+
+
+def check_of_fleets(improve: float) -> None:
+    """Refuse an option that means nothing to a single robot."""
+    if improve > 0.0:
+        raise click.UsageError("--improve is for fleets; this is the mission of one robot")
 
 
 @cli.command()
@@ -164,7 +147,11 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
     Example:
       viaspline tension examples/fig8-patrol.yaml --out advice
     """
-    asked = load_mission(mission)
+    asked = load_asked(mission)
+    from viaspline.mission.model import Mission
+
+    if not isinstance(asked, Mission):
+        raise click.UsageError("a tension is advised for the mission of one robot; this is a fleet")
     with (
         result_folder(out or default_folder(mission), ("tension.png",)) as folder,
         progress_bar(quiet, asked.robot) as watch,
@@ -189,7 +176,9 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
 
 @cli.command()
 @click.argument("mission", type=click.Path(path_type=Path), required=False)
-@click.option("--schema", is_flag=True, help="Print the JSON Schema of missions, for editors.")
+@click.option(
+    "--schema", is_flag=True, help="Print the JSON Schema of missions and fleets, for editors."
+)
 def check(mission: Path | None, schema: bool) -> None:
     r"""Say whether a mission is sound: every fault at once, as file:line:column: key: what.
 
@@ -201,17 +190,23 @@ def check(mission: Path | None, schema: bool) -> None:
     if schema:
         import json
 
-        from viaspline.mission.json_schema import json_schema
+        from viaspline.mission.fleet.file_schema import file_schema
 
-        say(json.dumps(json_schema(), indent=2))
+        say(json.dumps(file_schema(), indent=2))
         return
     if mission is None:
         raise click.UsageError("give a mission, or --schema")
-    from viaspline.report.remarks import remarks
-    from viaspline.report.summary import summary
+    loaded = load_asked(mission)
+    from viaspline.mission.model import Mission
 
-    loaded = load_mission(mission)
-    lines = [*summary(loaded), *(("note", words) for words in remarks(loaded))]
+    if isinstance(loaded, Mission):
+        from viaspline.mission_steps import check_mission
+
+        lines = check_mission(loaded)
+    else:
+        from viaspline.fleet_steps import check_fleet
+
+        lines = check_fleet(loaded)
     say(f"{mission} is sound", *(f"  {name:<7} {words}" for name, words in lines))
 
 
@@ -250,9 +245,9 @@ def figures(out: Path, quiet: bool) -> None:
 @click.option("--token", help="What the page's address has to hold.  [default: made up for --host]")
 @click.option("--no-browser", is_flag=True, help="Only say where the page is.")
 def studio(mission: Path | None, port: int, host: str, token: str | None, no_browser: bool) -> None:
-    r"""Lay out a mission in the browser, planned live and driven.
+    r"""Lay out a mission or a fleet in the browser, planned live and driven.
 
-    MISSION is a mission file, or a folder of them; only that folder is read and written.
+    MISSION is the file of either, or a folder of them; only that folder is read and written.
 
     \b
     Example:

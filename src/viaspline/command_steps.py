@@ -14,6 +14,7 @@ from viaspline.report.interrupts import undone_at_the_end
 from viaspline.report.terminal_lines import say, say_error
 
 if TYPE_CHECKING:
+    from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.model import Mission
     from viaspline.mission.robot_parts import RobotSpec
     from viaspline.planner import Plan
@@ -27,8 +28,8 @@ def default_folder(mission: Path) -> Path:
     return Path("viaspline-out") / (mission.stem or "mission")
 
 
-def load_mission(path: Path) -> Mission:
-    """Read a mission; what takes longer than a second is said."""
+def load_asked(path: Path) -> Mission | Fleet:
+    """Read a mission or a fleet; what takes longer than a second is said."""
     from threading import Timer
 
     from viaspline.formats.load import load

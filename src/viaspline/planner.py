@@ -6,8 +6,9 @@ from viaspline.advice import advise_tension
 from viaspline.handed_in import check_kind
 from viaspline.mission.model import Mission
 from viaspline.whole_plan import Plan, in_order, whole_plan
+from viaspline.world.world import World
 
-__all__ = ["Plan", "plan"]
+__all__ = ["Plan", "plan", "plan_in"]
 
 
 def plan(mission: Mission) -> Plan:
@@ -35,7 +36,19 @@ def plan(mission: Mission) -> Plan:
         (True, 50.9, 'right')
     """
     check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
-    mission, world = in_order(mission)
+    return plan_in(*in_order(mission))
+
+
+def plan_in(mission: Mission, world: World) -> Plan:
+    """Plan a mission in a world that is at hand: as ``plan``, which builds one for each mission.
+
+    Args:
+        mission: Its via points in the order in which they are served; see ``in_order``.
+        world: What it keeps clear of: at least what the mission has on its map.
+
+    Raises:
+        NoPathError, GaveUpError, GeometryError: As ``plan``.
+    """
     if mission.spline.tension == "auto":
         return advise_tension(mission, world=world).plan
     return whole_plan(mission, world)

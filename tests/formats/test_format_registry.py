@@ -25,6 +25,10 @@ def test_every_format_of_the_list_is_there_with_all_that_a_format_has() -> None:
     [
         ("a.yaml", "", "MissionYaml"),
         ("a.YML", "{}", "MissionYaml"),
+        ("a.yaml", "route: {start: [0, 0], goal: [9, 0]}  # fleet: none", "MissionYaml"),
+        ("a.yml", "world: {}\nfleet: []\n", "FleetYaml"),
+        ("a.yml", "separation_m: 2\n'robots' : {}\n", "FleetYaml"),
+        ("a.yaml", '{"fleet": []}', "FleetYaml"),
         ("a.plan", "", "QgcPlan"),
         ("a.plan", TABLE, "QgcWpl"),
         ("a.mission", " {}", "QgcPlan"),
@@ -47,8 +51,9 @@ def test_what_is_of_no_kind_is_refused_with_those_that_there_are(text: str, prob
     (fault,) = caught.value.faults
     assert problem in fault.problem
     assert fault.remedy == (
-        "understood are viaspline's YAML (.yaml, .yml), QGroundControl's plans (.plan, and "
-        ".mission in JSON) and texts that begin with QGC WPL 110 (.txt, .waypoints, .mission)"
+        "understood are viaspline's YAML of a fleet (.yaml, .yml), viaspline's YAML (.yaml, .yml), "
+        "QGroundControl's plans (.plan, and .mission in JSON) and texts that begin with "
+        "QGC WPL 110 (.txt, .waypoints, .mission)"
     )
 
 

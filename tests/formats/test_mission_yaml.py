@@ -204,3 +204,14 @@ def test_whatever_is_written_reads_back_equal(tmp_path: Path, data: dict[str, An
     write_yaml(mission, tmp_path / "m.yaml")
     assert load(tmp_path / "m.yaml") == mission
     assert yaml_text(load(tmp_path / "m.yaml")) == yaml_text(mission)
+
+
+def test_whole_numbers_are_written_as_numbers(tmp_path: Path) -> None:
+    mission = Mission.model_validate(
+        {
+            "robot": {"sensor": {"lidar": {"range_m": 5, "beams": 72}}},
+            "route": {"start": [0, 0], "via": [[9, 0], [5, 5]], "closed": True, "laps": 3},
+        }
+    )
+    write_yaml(mission, tmp_path / "m.yaml")
+    assert load(tmp_path / "m.yaml") == mission

@@ -114,13 +114,11 @@ class Harbour(MissionParts):
     beacons: tuple[Beacon, ...] = ()
 
 
-def test_a_new_model_needs_no_table_to_be_known_by_words_keys_and_schema(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr("viaspline.mission.key_words.MissionParts", Harbour)
-    assert expectation(("beacons", 0)) == "a beacon"
+def test_a_new_model_needs_no_table_to_be_known_by_words_keys_and_schema() -> None:
+    assert expectation(("beacons", 0), Harbour) == "a beacon"
     words = "a number of degrees greater than -90, less than 90"
-    assert expectation(("beacons", 0, "turn_deg")) == words
-    assert suggestion("height_m", ("robot",)) == ("'height_m' belongs under beacons", None)
+    assert expectation(("beacons", 0, "turn_deg"), Harbour) == words
+    home = "'height_m' belongs under beacons"
+    assert suggestion("height_m", ("robot",), Harbour) == (home, None)
     schema = Harbour.model_json_schema()["$defs"]["Beacon"]
     assert schema["properties"]["height_m"]["description"] == "Over the ground [m]."

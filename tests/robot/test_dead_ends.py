@@ -129,6 +129,7 @@ def test_a_robot_that_has_no_time_to_search_stays_clear_and_gets_out_later(
 ) -> None:
     """It had stopped a hair behind where it was held, and then went on along a blocked path."""
     monkeypatch.setattr(deadline, "STEP_WORK_S", work)
+    monkeypatch.setattr(deadline, "STANDING_WORK_S", work)
     walls = spiral(2, 1.4)
     run = drive(walls, {}, 0.01, seed)
     assert_it_goes_where_the_flood_goes(walls, run)

@@ -269,3 +269,15 @@ def test_a_sensor_limits_the_speed_and_one_inside_the_body_is_refused() -> None:
 def test_who_stops_within_the_rounding_of_its_place_stands_already(speed: float) -> None:
     law = braking(4.267, speed, max_accel=1.0, start_time=12.0)
     assert law.state_at(12.0)[1] == law.state_at(13.0)[1] == 0.0
+
+
+@pytest.mark.parametrize("max_jerk", [None, 2.0])
+def test_a_longer_wait_at_a_rest_delays_all_that_comes_after_it(max_jerk: float | None) -> None:
+    line = Path([[[0, 0], [10, 0], [20, 0], [30, 0]]], vias=[])
+    limits = Limits(max_speed=2, max_accel=1, max_jerk=max_jerk)
+    law = retime(line, limits, [Station(12.0, 3.0)])
+    later = law.waiting(0.0, 4.0).waiting(12.0, 5.0)
+    for place, late in ((5.0, 4.0), (11.9, 4.0), (12.1, 9.0), (30.0, 9.0)):
+        assert later.time_at(place) == pytest.approx(law.time_at(place) + late)
+    assert len(later.times) == len(law.times) + 1  # it stays at 12 m anyway, and now at its start
+    assert later.duration == pytest.approx(law.duration + 9.0)

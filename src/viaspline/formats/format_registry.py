@@ -1,21 +1,32 @@
-"""The kinds of mission files that there are, in the order in which they are asked."""
+"""The kinds of files with missions that there are, in the order in which they are asked."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
-from typing import Final, cast
+from typing import TYPE_CHECKING, Final, TypeAlias, cast
 
 from viaspline.formats.file_faults import refusal
 from viaspline.formats.items import Place
 from viaspline.formats.mission_format import MissionFormat
 
-FORMATS: Final = ("mission_yaml:MissionYaml", "qgc_plan:QgcPlan", "qgc_wpl:QgcWpl")
-"""The file of each here, and its class."""
+if TYPE_CHECKING:
+    from viaspline.mission.fleet.fleet import Fleet
+    from viaspline.mission.model import Mission
+
+AnyFormat: TypeAlias = "MissionFormat[Mission] | MissionFormat[Fleet]"
+
+FORMATS: Final = (
+    "fleet_yaml:FleetYaml",
+    "mission_yaml:MissionYaml",
+    "qgc_plan:QgcPlan",
+    "qgc_wpl:QgcWpl",
+)
+"""The file of each here, and its class. Fleets are YAML as well, told by their keys."""
 
 
-def formats() -> Iterator[MissionFormat]:
+def formats() -> Iterator[AnyFormat]:
     """All formats. Each is imported when its turn comes: YAML doesn't wait for what others need.
 
     >>> [ending for each in formats() for ending in each.saved_endings]
@@ -23,10 +34,10 @@ def formats() -> Iterator[MissionFormat]:
     """
     for entry in FORMATS:
         module, _, name = entry.partition(":")
-        yield cast(MissionFormat, getattr(import_module(f"viaspline.formats.{module}"), name)())
+        yield cast("AnyFormat", getattr(import_module(f"viaspline.formats.{module}"), name)())
 
 
-def format_of(path: Path, text: str) -> MissionFormat:
+def format_of(path: Path, text: str) -> AnyFormat:
     """The format of a file.
 
     Args:
@@ -46,6 +57,7 @@ def format_of(path: Path, text: str) -> MissionFormat:
     raise refusal(str(path), Place(""), problem, remedy)
 
 
-def format_to_save(path: Path) -> MissionFormat | None:
-    """The format in which a file of such a name is written, None if there is none."""
-    return next((each for each in formats() if path.suffix.lower() in each.saved_endings), None)
+def format_to_save(path: Path) -> MissionFormat[Mission] | None:
+    """The format in which a mission is written to a file of such a name, None if there is none."""
+    found = (each for each in formats() if path.suffix.lower() in each.saved_endings)
+    return cast("MissionFormat[Mission] | None", next(found, None))

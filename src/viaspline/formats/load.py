@@ -6,30 +6,34 @@ Tested through ``formats/test_format_registry``.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from viaspline.bounded_file import MISSION_FILE, read_text
 from viaspline.formats.format_registry import format_of
 from viaspline.formats.items import LatLon
 from viaspline.handed_in import check_kind
-from viaspline.mission.model import Mission
+
+if TYPE_CHECKING:
+    from viaspline.mission.fleet.fleet import Fleet
+    from viaspline.mission.model import Mission
 
 
-def load(path: str | Path) -> Mission:
-    """Read a mission from a file of any kind that is understood.
+def load(path: str | Path) -> Mission | Fleet:
+    """Read a mission, or a fleet, from a file of any kind that is understood.
 
-    YAML (``.yaml``, ``.yml``), QGroundControl's ``.plan`` and older JSON, and ``QGC WPL`` texts
-    whatever their suffix. In files with latitudes and longitudes the start, and the origin of the
-    mission's frame, is the home position if there is a plausible one (not 0/0), else the first
-    item with a position.
+    YAML (``.yaml``, ``.yml``; with the key ``fleet`` it is a fleet), QGroundControl's ``.plan`` and
+    older JSON, and ``QGC WPL`` texts whatever their suffix. In files with latitudes and longitudes
+    the start, and the origin of the mission's frame, is the home position if there is a plausible
+    one (not 0/0), else the first item with a position.
 
     Args:
         path: The file.
 
     Returns:
-        The mission, sound in itself.
+        The mission or the fleet, sound in itself.
 
     Raises:
-        MissionError: The file can't be read, its kind isn't known, or its mission has faults.
+        MissionError: The file can't be read, its kind isn't known, or what it asks for has faults.
 
     Warns:
         MissionWarning: One for each kind of thing in the file that a mission can't represent.

@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, Protocol
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, Protocol, TypeVar
 
 if TYPE_CHECKING:
     from viaspline.formats.items import LatLon
-    from viaspline.mission.model import Mission
+
+Asked = TypeVar("Asked")
+"""What a file asks for: a mission, or a fleet."""
 
 
 class Whereabouts(NamedTuple):
@@ -38,8 +40,8 @@ class Written(NamedTuple):
     lost: tuple[str, ...]
 
 
-class MissionFormat(Protocol):
-    """A kind of mission file: one file here, and one line in ``format_registry``.
+class MissionFormat(Protocol[Asked]):
+    """A kind of file with a mission or a fleet: one file here, one line in ``format_registry``.
 
     Attributes:
         description: What it is called, with the endings of its files.
@@ -57,8 +59,8 @@ class MissionFormat(Protocol):
         ...
 
     @abstractmethod
-    def read(self, text: str, source: str) -> Mission:
-        """The mission that a text describes.
+    def read(self, text: str, source: str) -> Asked:
+        """The mission (or the fleet) that a text describes.
 
         Args:
             text: What the file holds.
@@ -82,8 +84,8 @@ class MissionFormat(Protocol):
         ...
 
     @abstractmethod
-    def write(self, mission: Mission, where: Whereabouts) -> Written:
-        """A mission as a text, and what of it isn't in there.
+    def write(self, asked: Asked, where: Whereabouts) -> Written:
+        """A mission (or a fleet) as a text, and what of it isn't in there.
 
         Raises:
             OutputError: It can't be written.

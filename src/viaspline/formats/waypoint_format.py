@@ -11,7 +11,7 @@ from viaspline.formats.mission_format import MissionFormat
 from viaspline.mission.model import Mission
 
 
-class WaypointFormat(MissionFormat, Protocol):
+class WaypointFormat(MissionFormat[Mission], Protocol):
     """A format whose files hold an itinerary in latitudes and longitudes.
 
     It is read by ``interpret`` and written from what ``outgoing`` makes of a mission.

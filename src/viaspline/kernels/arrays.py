@@ -24,3 +24,6 @@ Columns: TypeAlias = NDArray[np.int16]
 
 Bytes: TypeAlias = NDArray[np.uint8]
 """Cells of a lattice, or levels of a picture."""
+
+Steps: TypeAlias = NDArray[np.int32]
+"""Cells, robots and steps of a lattice: four bytes each, for there are tables of all by all."""

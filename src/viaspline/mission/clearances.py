@@ -56,7 +56,7 @@ def clearance_faults(partial: PartialMission, misshapen: Collection[Path]) -> li
         for i, nears in _too_near(
             space, points, known, [path for path, _ in rings], partial.edge
         ).items()
-        for remedy, changes in [_remedy(*points[i], nears, robot, space)]
+        for remedy, changes in [_remedy(points[i], nears, robot, space, partial.robot_path)]
         for near in nears
     ]
 
@@ -124,8 +124,13 @@ def _metres(length: float) -> str:
 
 
 def _remedy(
-    path: Path, point: ViaPoint, nears: list[_Near], robot: RobotSpec, space: FreeSpace
+    where: tuple[Path, ViaPoint],
+    nears: list[_Near],
+    robot: RobotSpec,
+    space: FreeSpace,
+    robot_path: Path,
 ) -> tuple[str, tuple[Change, ...]]:
+    path, point = where
     remedies = []
     changes = []
     place = space.nearest(point.at[:2])
@@ -138,15 +143,16 @@ def _remedy(
     # Rounded down, so that what is said is enough.
     clearance = math.floor((tightest - robot.inner_radius - 1e-6) * 1e3) / 1e3
     if clearance >= 0:
-        remedies.append(f"set robot.clearance_m to at most {number(clearance)}")
-        changes.append(Change("robot.clearance_m", clearance))
+        key = spell((*robot_path, "clearance_m"))
+        remedies.append(f"set {key} to at most {number(clearance)}")
+        changes.append(Change(key, clearance))
     if not remedies:
         return "there is no room for the robot near it: move it, or make the robot smaller", ()
     return " or ".join(remedies), tuple(changes)
 
 
 def _label(path: Path, point: ViaPoint) -> str:
-    kind = str(path[1])
+    kind = next(part for part in reversed(path) if isinstance(part, str))
     if point.name is not None:
         return f"{kind} '{point.name}'"
     return "the via point" if kind == "via" else kind

@@ -107,6 +107,8 @@ def _inside(option: Option, part: str | int) -> tuple[Option, ...]:
         items = get_args(option.kind)
         index = 0 if items[-1] is Ellipsis else part
         found = options(items[index]) if index < len(items) else ()
+    elif get_origin(option.kind) is dict and isinstance(part, str):
+        found = options(get_args(option.kind)[1])
     # What stands in a form of files only, does so itself.
     return tuple(each._replace(is_read=each.is_read or option.is_read) for each in found)
 
@@ -145,7 +147,7 @@ def models_below(root: Model) -> Iterator[tuple[str, Model]]:
             found = list(options(field.annotation, tuple(field.metadata)))
             while found:
                 option = found.pop(0)
-                if get_origin(option.kind) is tuple:
+                if get_origin(option.kind) in (tuple, dict):
                     found += [inner for item in get_args(option.kind) for inner in options(item)]
                 elif option.model is not None and option.model not in seen:
                     seen.add(option.model)

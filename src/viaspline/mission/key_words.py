@@ -12,7 +12,7 @@ from typing import Any, Literal, get_args, get_origin
 
 from viaspline.mission.annotations import Expects, Unit
 from viaspline.mission.fields import MAX_LENGTH_M
-from viaspline.mission.key_places import Option, keys_of, models_below, options_at
+from viaspline.mission.key_places import Model, Option, keys_of, models_below, options_at
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.unplaced_faults import LIMIT_DECIMALS, Path, number
 
@@ -22,13 +22,17 @@ def field_of(path: Path) -> str:
     return next((part for part in reversed(path) if isinstance(part, str)), "")
 
 
-def expectation(path: Path) -> str:
+def expectation(path: Path, root: Model = MissionParts) -> str:
     """What would be right at a path.
+
+    Args:
+        path: From the root down.
+        root: What the file holds: a mission, if nothing else is said.
 
     >>> expectation(("robot", "radius_m"))
     'a number of metres, 0 or more'
     """
-    found = options_at(path, MissionParts)
+    found = options_at(path, root)
     return _expected(found[0]) if found else "something else"
 
 
@@ -87,25 +91,25 @@ def _list(words: Iterable[str], last: str = "and") -> str:
     return f"{', '.join(most)} {last} {final}" if most else final
 
 
-def keys_at(path: Path) -> tuple[str, ...]:
+def keys_at(path: Path, root: Model = MissionParts) -> tuple[str, ...]:
     """The keys that the mapping at a path may have.
 
     >>> keys_at(("robot", "sensor"))
     ('range_m', 'lidar', 'velocity_noise_mps')
     """
-    models = [option.model for option in options_at(path, MissionParts) if option.model is not None]
+    models = [option.model for option in options_at(path, root) if option.model is not None]
     return tuple(dict.fromkeys(key for model in models for key in keys_of(model)))
 
 
-def suggestion(key: str, path: Path) -> tuple[str, str | None]:
+def suggestion(key: str, path: Path, root: Model = MissionParts) -> tuple[str, str | None]:
     """What to do about an unknown key in the mapping at ``path``, and the key that was meant.
 
     >>> suggestion("raduis", ("world", "known", 0, "circle"))
     ("did you mean 'radius'?", 'radius')
     """
-    known = keys_at(path)
+    known = keys_at(path, root)
     folded = key.strip().lower().replace("-", "_").replace(" ", "_")
-    home = "" if folded in known else _home(folded)
+    home = "" if folded in known else _home(folded, root)
     if home:
         return f"'{folded}' belongs under {home}", None
     near: Sequence[str] = difflib.get_close_matches(folded, known, n=1, cutoff=0.6)
@@ -116,6 +120,6 @@ def suggestion(key: str, path: Path) -> tuple[str, str | None]:
     return "the keys here are " + ", ".join(known), None
 
 
-def _home(key: str) -> str:
+def _home(key: str, root: Model) -> str:
     """The key under which a key stands; empty if there is none."""
-    return next((home for home, model in models_below(MissionParts) if key in keys_of(model)), "")
+    return next((home for home, model in models_below(root) if key in keys_of(model)), "")

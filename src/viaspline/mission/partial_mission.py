@@ -44,6 +44,7 @@ class PartialMission:
         edge: Paths of the bounds or the fence that maps brought.
         corridor: What the route is to stay inside of; None if there is none, or it is faulty.
         laps: How often a closed route is driven; 1 if that can't be said.
+        robot_path: Where the robot stands in what was given.
     """
 
     bounds: tuple[float, float, float, float] | None = None
@@ -59,6 +60,7 @@ class PartialMission:
     edge: frozenset[Path] = frozenset()
     corridor: Corridor | None = None
     laps: int = 1
+    robot_path: Path = ("robot",)
 
     @property
     def is_line(self) -> bool:

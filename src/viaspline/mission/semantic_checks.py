@@ -30,30 +30,42 @@ SAME_POINT_M: Final = 1e-6
 def semantic_faults(partial: PartialMission) -> list[UnplacedFault]:
     """Everything that is wrong with the meaning of a mission."""
     from viaspline.mission.clearances import clearance_faults
-    from viaspline.mission.corridors import corridor_faults
+
+    of_world, misshapen = world_faults(partial)
+    of_route, is_strange = route_faults(partial)
+    if is_strange:
+        partial = replace(partial, corridor=None)
+    too_near = clearance_faults(partial, misshapen)
+    return [*of_world, *_sensor(partial), *robot_faults(partial), *of_route, *too_near]
+
+
+def world_faults(partial: PartialMission) -> tuple[list[UnplacedFault], set[Path]]:
+    """What is wrong with a world by itself, and the paths of what has no usable shape."""
     from viaspline.mission.motion_checks import motion_faults
     from viaspline.mission.shape_checks import shape_faults
 
-    faults = _bounds(partial)
     misshapen = shape_faults(partial)
-    faults += misshapen
-    faults += motion_faults(partial)
-    faults += _sides(partial)
-    faults += _names(partial)
-    faults += _sensor(partial)
-    faults += _footprint(partial)
-    faults += _drive(partial)
-    faults += _route(partial)
-    faults += _same_places(partial)
-    faults += _dimensions(partial)
+    obstacles = [(path, obstacle.name) for path, obstacle in partial.known + partial.unseen]
+    faults = [*_bounds(partial), *misshapen, *motion_faults(partial), *_sides(partial)]
+    return [*faults, *_repeated(obstacles, "obstacle")], {fault.path[:3] for fault in misshapen}
+
+
+def robot_faults(partial: PartialMission) -> list[UnplacedFault]:
+    """What is wrong with a robot by itself."""
+    return [*_footprint(partial), *_drive(partial)]
+
+
+def route_faults(partial: PartialMission) -> tuple[list[UnplacedFault], bool]:
+    """What is wrong with a route and its spline by themselves, and whether its corridor is."""
+    from viaspline.mission.corridors import corridor_faults
+
+    points = [(path, point.name) for path, point in partial.points if point is not None]
+    faults = [*_repeated(points, "point"), *_route(partial)]
+    faults += [*_same_places(partial), *_dimensions(partial)]
     if partial.spline is not None:
         faults += _spline(partial, partial.spline)
     strange = corridor_faults(partial)
-    faults += strange
-    if strange:
-        partial = replace(partial, corridor=None)
-    faults += clearance_faults(partial, {fault.path[:3] for fault in misshapen})
-    return faults
+    return [*faults, *strange], bool(strange)
 
 
 def _bounds(partial: PartialMission) -> list[UnplacedFault]:
@@ -88,12 +100,6 @@ def _sides(partial: PartialMission) -> list[UnplacedFault]:
         for path, obstacle in partial.known + partial.unseen
         if obstacle.pass_on is not None and obstacle.pass_on == obstacle.never_pass_on
     ]
-
-
-def _names(partial: PartialMission) -> list[UnplacedFault]:
-    points = [(path, point.name) for path, point in partial.points if point is not None]
-    obstacles = [(path, obstacle.name) for path, obstacle in partial.known + partial.unseen]
-    return _repeated(points, "point") + _repeated(obstacles, "obstacle")
 
 
 def _repeated(named: list[tuple[Path, str | None]], kind: str) -> list[UnplacedFault]:

@@ -18,8 +18,10 @@ from viaspline.mission.resolve_files import resolve_maps
 from viaspline.mission.semantic_checks import semantic_faults
 from viaspline.mission.track_file import given_twice, resolve_corridor
 from viaspline.mission.unplaced_faults import Origin, UnplacedFault, located
+from viaspline.mission.world_spec import WorldSpec
 
 Sound = TypeVar("Sound", bound=MissionParts)
+Modelled = TypeVar("Modelled")
 
 
 class Context:
@@ -56,7 +58,7 @@ def sound_mission(
     faults += resolved.faults
     mission: Sound | None = None
     try:
-        mission = _validated(resolved.data, handler)
+        mission = validated(resolved.data, handler)
         partial = PartialMission.of(mission, resolved)
     except ValidationError as error:
         # Imported late: a sound mission needs no words for what is wrong.
@@ -68,13 +70,13 @@ def sound_mission(
     faults += semantic_faults(partial)
     if faults or mission is None:
         raise MissionError(located(faults, data, origin)) from None
-    _warn_of_jumps(mission)
+    warn_of_jumps(mission.world)
     return mission
 
 
-def _warn_of_jumps(mission: MissionParts) -> None:
+def warn_of_jumps(world: WorldSpec) -> None:
     """Say what moves in a way that nothing can."""
-    obstacles = (*mission.world.known, *mission.world.unseen)
+    obstacles = (*world.known, *world.unseen)
     if all(obstacle.motion is None for obstacle in obstacles):
         return
     from viaspline.mission.motion_checks import jumps_in_words
@@ -84,7 +86,7 @@ def _warn_of_jumps(mission: MissionParts) -> None:
         warnings.warn(words, MissionWarning, 3)
 
 
-def _validated(data: Any, handler: ModelWrapValidatorHandler[Sound]) -> Sound:
+def validated(data: Any, handler: ModelWrapValidatorHandler[Modelled]) -> Modelled:
     """Validate; if that fails because of numpy's numbers, once more with Python's."""
     try:
         return handler(data)

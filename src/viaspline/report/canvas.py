@@ -16,6 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.path import Path as Outline
+from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats
@@ -46,6 +47,15 @@ def png(figure: Figure) -> bytes:
         pil_kwargs={"compress_level": 4},
     )  # fmt: skip
     return buffer.getvalue()
+
+
+def text_width(text: Text) -> float:
+    """How wide a text of a figure is [pixels]."""
+    figure = text.get_figure(root=True)
+    assert figure is not None
+    assert isinstance(figure.canvas, FigureCanvasAgg)
+    extent = text.get_window_extent(figure.canvas.get_renderer())  # type: ignore[no-untyped-call]
+    return float(extent.width)
 
 
 def polyline(spans: Floats, per_span: int = 40) -> Floats:

@@ -22,13 +22,17 @@ TIMING_FILE = "timing.json"
 Contents = dict[str, bytes | str]
 
 
-def plan_contents(plan: Plan, name: str) -> Contents:
-    """The files of a plan: the same bytes every time."""
+def path_contents(plan: Plan, name: str) -> Contents:
+    """The files of a plan without its picture: the same bytes every time."""
     return {
         "plan.json": plan_json(plan, name, spacing=spacing(plan.path.length)),
         "path.csv": path_csv(plan),
-        "plan.png": plan_picture(plan, name),
     }
+
+
+def plan_contents(plan: Plan, name: str) -> Contents:
+    """The files of a plan: the same bytes every time."""
+    return {**path_contents(plan, name), "plan.png": plan_picture(plan, name)}
 
 
 def run_contents(run: Run, name: str, *, seed: int = 0) -> Contents:

@@ -108,14 +108,14 @@ def new_sheet(
             strip.tick_params(labelbottom=False)
         below_map.append(strip)
     figure.align_ylabels(below_map)
-    _heading(figure, title, subtitles)
+    draw_heading(figure, title, subtitles)
     side = LEFT + width + 0.25, 0.2, RIGHT - 0.45, total_h - TOP - 0.2
     sheet = Sheet(figure, sheet_map, tuple(below_map), side, scale * dpi)
-    _scale_bar(sheet, scale, LEFT + width, total_h - TOP + 0.14)
+    draw_scale_bar(sheet, scale, LEFT + width, total_h - TOP + 0.14)
     return sheet
 
 
-def _heading(figure: Figure, title: str, subtitles: Sequence[str]) -> None:
+def draw_heading(figure: Figure, title: str, subtitles: Sequence[str]) -> None:
     """Title and subtitles at the left of the page, small enough to fit on it."""
     across, up = (float(size) for size in figure.get_size_inches())
     canvas = figure.canvas
@@ -132,7 +132,7 @@ def _heading(figure: Figure, title: str, subtitles: Sequence[str]) -> None:
             text.set_fontsize((TEXT_PT if i else TITLE_PT) * room / width)
 
 
-def _scale_bar(sheet: Sheet, scale: float, right: float, bottom: float) -> None:
+def draw_scale_bar(sheet: Sheet, scale: float, right: float, bottom: float) -> None:
     """A bar above the right end of the map, where it hides nothing."""
     length = nice(0.9 / scale)
     inches = length * scale

@@ -14,6 +14,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.sensor_spec import Sensor
 from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
+from viaspline.mission.world_spec import WorldSpec
 from viaspline.report.units import metres
 
 MAX_MAPS_NAMED = 4  # in the words about a world, before the rest is only counted
@@ -67,8 +68,8 @@ def summary(mission: Mission) -> list[tuple[str, str]]:
     """Route, world, robot and spline: what each of them is, on one line."""
     return [
         ("route", _route(mission)),
-        ("world", _world(mission)),
-        ("robot", _robot(mission)),
+        ("world", world_words(mission.world, mission.route.corridor)),
+        ("robot", robot_words(mission.robot)),
         ("spline", spline_words(mission)),
     ]
 
@@ -77,21 +78,25 @@ def _route(mission: Mission) -> str:
     points = [point for _, point in mission.route.points()]
     places = [point.at for point in points] + ([points[0].at] if mission.route.closed else [])
     straight = sum(math.dist(a, b) for a, b in pairwise(places))
-    words = [_count(len(points), "point"), f"{metres(straight, 1)} from point to point"]
+    words = [counted(len(points), "point"), f"{metres(straight, 1)} from point to point"]
     if mission.route.closed:
         words.insert(1, "back to the start")
         if mission.route.laps > 1:
             words.append(f"{mission.route.laps} laps")
     dwells = [point.dwell_s for point in points if point.dwell_s > 0]
     if dwells:
-        words.append(f"{_count(len(dwells), 'station')} with stops of {sum(dwells):g} s together")
+        words.append(f"{counted(len(dwells), 'station')} with stops of {sum(dwells):g} s together")
     if len(points[0].at) == 3:
         words.append("with heights")
     return ", ".join(words)
 
 
-def _world(mission: Mission) -> str:
-    world = mission.world
+def world_words(world: WorldSpec, corridor: Corridor | None = None) -> str:
+    """What a world holds, and how far it goes.
+
+    >>> world_words(WorldSpec(bounds=(0, 0, 9, 5)))
+    'no known obstacles, bounds 9 m x 5 m'
+    """
     grids = [obstacle.grid for obstacle in (*world.known, *world.unseen) if obstacle.grid]
     words = [map_words(grid) for grid in grids[:MAX_MAPS_NAMED]]
     if len(grids) > MAX_MAPS_NAMED:
@@ -106,9 +111,9 @@ def _world(mission: Mission) -> str:
         x0, y0, x1, y1 = world.bounds
         words.append(f"bounds {x1 - x0:g} m x {y1 - y0:g} m")
     if world.fences:
-        words.append(_count(len(world.fences), "fence"))
-    if mission.route.corridor is not None:
-        words.append(_corridor(mission.route.corridor))
+        words.append(counted(len(world.fences), "fence"))
+    if corridor is not None:
+        words.append(_corridor(corridor))
     elif world.bounds is None and not world.fences:
         words.append("no bounds")
     return ", ".join(words)
@@ -140,13 +145,17 @@ def map_words(grid: Grid) -> str:
 
 def _obstacles(obstacles: Sequence[Obstacle], kind: str) -> str:
     given = Counter(key for key in SHAPES for o in obstacles if getattr(o, key) is not None)
-    parts = [_count(n, what) for what, n in given.items()]
+    parts = [counted(n, what) for what, n in given.items()]
     of = f" ({' and '.join(parts)})" if parts else ""
-    return f"{_count(len(obstacles), f'{kind} obstacle')}{of}"
+    return f"{counted(len(obstacles), f'{kind} obstacle')}{of}"
 
 
-def _robot(mission: Mission) -> str:
-    robot = mission.robot
+def robot_words(robot: RobotSpec) -> str:
+    """Body, limits and sensor of a robot.
+
+    >>> robot_words(RobotSpec())
+    'of radius 0.5 m, clearance 0.5 m, at most 2 m/s and 1 m/s²'
+    """
     words = [
         body_words(robot).removeprefix("robot "),
         f"clearance {robot.clearance_m:g} m",
@@ -162,9 +171,14 @@ def _sensor(sensor: Sensor) -> str:
         return f"sees {sensor.reach:g} m far"
     lidar = sensor.lidar
     noise = f" and {lidar.noise_m:g} m of noise" if lidar.noise_m > 0 else ""
-    beams = f"{_count(lidar.beams, 'beam')} of {lidar.range_m:g} m in {lidar.fov_deg:g}°"
+    beams = f"{counted(lidar.beams, 'beam')} of {lidar.range_m:g} m in {lidar.fov_deg:g}°"
     return f"a lidar with {beams}{noise}"
 
 
-def _count(number: int, what: str) -> str:
+def counted(number: int, what: str) -> str:
+    """So many of something.
+
+    >>> counted(1, "robot"), counted(0, "fence")
+    ('1 robot', 'no fences')
+    """
     return f"{number or 'no'} {what}{'' if number == 1 else 's'}"

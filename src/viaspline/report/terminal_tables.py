@@ -39,7 +39,7 @@ def console() -> Console:
 def plan_tables(plan: Plan, name: str) -> RenderableType:
     """The path in figures, and its ledger."""
     path, certificate = plan.path, plan.certificate
-    facts = _facts(f"Plan · {name}")
+    facts = facts_table(f"Plan · {name}")
     users = [via for via in path.vias if via.kind == "user"]
     detours = sum(via.kind == "detour" and via.name != GUIDE for via in path.vias)
     for obstacle in plan.world.obstacles:
@@ -157,7 +157,7 @@ def _candidate(candidate: Candidate) -> tuple[str, str, str, str, str]:
 
 def run_tables(run: Run, name: str) -> RenderableType:
     """What was driven in figures, the via points and the re-plans."""
-    facts = _facts(f"Run · {name}")
+    facts = facts_table(f"Run · {name}")
     facts.add_row("reached its goal", "yes" if run.reached else f"NO: {run.reason}")
     facts.add_row("driven", f"{metres(run.path.length, 1)} in {seconds(run.duration)}")
     planned = f"{metres(run.plan.path.length, 1)} in {seconds(run.plan.trajectory.duration)}"
@@ -243,7 +243,8 @@ def _beyond(run: Run) -> str:
     )
 
 
-def _facts(title: str) -> Table:
+def facts_table(title: str) -> Table:
+    """A table of names and what they are, without lines between."""
     table = Table(title=title, title_justify="left", show_header=False, box=box.SIMPLE_HEAD)
     table.add_column(style="dim", no_wrap=True)
     table.add_column()

@@ -12,7 +12,6 @@ from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind, number_from, numbers_from, time_from
 from viaspline.machine.machine_limits import limits_of
-from viaspline.machine.pose_filter import PoseFilter
 from viaspline.machine.robot_model import PERIOD_S, drive_model_of, is_driven
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -21,21 +20,19 @@ from viaspline.planner import plan as plan_mission
 from viaspline.planning.turning.hybrid_astar.pose_search import prepare_body
 from viaspline.robot.controller import Controller
 from viaspline.robot.navigation.arrivals import note_arrivals
+from viaspline.robot.navigation.at_start import at_start, set_off
 from viaspline.robot.navigation.drive_task import DriveTask, requirements_under_way
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.navigation_state import NavigationState
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.reschedule import caught_up, renewed_at, rescheduled
-from viaspline.robot.navigation.rounds import first_round, grows_after, is_due, next_part
+from viaspline.robot.navigation.rounds import grows_after, is_due, next_part
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.navigation.track_path import track, with_command
 from viaspline.robot.path_following import command_for
-from viaspline.robot.perception.belief import Belief
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.motion_sensor import MovingSighting
-from viaspline.robot.perception.moving.track_hits import TrackedHits
-from viaspline.robot.perception.moving.tracking_premises import TrackingPremises
 from viaspline.robot.perception.perceive import perceive, told_apart
 from viaspline.robot.replanning.decide import decide, look_again
 from viaspline.robot.run import Event, Replan, Visit
@@ -46,7 +43,6 @@ from viaspline.robot.yielding.give_way import give_way
 from viaspline.robot.yielding.stoppable import kept_to_path, sight_of, stoppable
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.trajectory.trajectory import Trajectory
-from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
 TIME_ROUNDING = 1e-12
@@ -83,9 +79,10 @@ class Navigator:
     that it meant to, unless the other is shorter by as much.
 
     A step is bounded. Where something is in its way, a robot under way looks for a new path no
-    longer than it can and still stop, and no longer than a tenth of a second of work in each step;
-    meanwhile it goes on as it meant to (see ``work``). What it had no time for goes on in the steps
-    to come, while it brakes; at rest each step goes on from what the one before it has found.
+    longer than it can and still stop, and no longer than 0.03 s of work in each step; meanwhile it
+    goes on as it meant to (see ``work``). What it had no time for goes on in the steps to come,
+    while it brakes: also whether a new path on another side is worth it. At rest each step goes on
+    from what the one before it has found.
 
     A robot with a drive, or with a localisation that is not exact, is controlled in a closed loop:
     its commands bring it to where it should be when they take effect, after the delay of the drive.
@@ -144,7 +141,7 @@ class Navigator:
             prepare_body(requirements)
         self._plan = plan
         self._task = DriveTask(mission, requirements, limits, reaction, model)
-        self._state = _at_start(self._task, plan, period)
+        self._state = at_start(self._task, plan, period)
 
     def step(
         self, state: RobotState, sensed: Iterable[Obstacle | MovingSighting] | Scan, time: float
@@ -169,7 +166,7 @@ class Navigator:
         task, measured = self._task, state
         before = replace(self._state, log=Log())
         if not before.progress.set_off:
-            before = _set_off(before, time, self._plan)
+            before = set_off(before, time, self._plan)
         progress, knowledge = before.progress, before.knowledge
         schedule = proven = before.schedule
         log = before.log
@@ -340,33 +337,6 @@ class Navigator:
         return self._state.log.compute_times
 
 
-def _at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
-    """A robot that stands at the start, with its plan."""
-    robot, world = task.mission.robot, plan.world
-    has_lidar = robot.sensor is not None and robot.sensor.lidar is not None
-    belief = Belief.at_start(world, robot) if has_lidar else None
-    controller = None
-    if task.model is not None:
-        pose_filter = PoseFilter.of(robot, period)
-        controller = Controller.of(task.model, period, plan.path, plan.trajectory, pose_filter)
-    progress = Progress(time=0.0, controller=controller)
-    moving = MovingObstacles.known(task.mission)
-    hits = None
-    if belief is not None and robot.moving is not None:
-        premises = TrackingPremises(robot.moving.max_speed_mps, noise=belief.surfaces.noise)
-        hits = TrackedHits(premises)
-    knowledge = Knowledge(
-        world, frozenset(world.obstacles), belief, moving=moving, charted=len(moving), hits=hits
-    )
-    path, laps = first_round(task, plan.path)
-    schedule = Schedule(path, plan.trajectory, laid_in=world, laps=laps)
-    has_jerk = task.limits.max_jerk is not None
-    changes = not has_jerk or belief is not None or laps is not None or task.reaction != REACTION_S
-    if changes and plan.timed is None:
-        schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
-    return NavigationState(progress, knowledge, schedule, Log())
-
-
 def _next_part(
     task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule, log: Log
 ) -> tuple[Progress, Schedule, Log]:
@@ -375,24 +345,6 @@ def _next_part(
     log = log.with_driven(behind)
     speed = float(schedule.trajectory.state_at(progress.time)[1])
     return progress, rescheduled(task, progress, knowledge, schedule, speed), log
-
-
-def _set_off(state: NavigationState, time: float, plan: Plan) -> NavigationState:
-    """The state at its first step, at a time [s].
-
-    A law among what moves is one of the mission's clock; any other begins when the robot does.
-    """
-    progress, schedule = state.progress, state.schedule
-    if progress.controller is not None:
-        time += progress.controller.ahead
-    words = f"sets off on a path of {schedule.path.length:.1f} m"
-    law = schedule.trajectory
-    return replace(
-        state,
-        progress=replace(progress, time=time, set_off=True),
-        schedule=replace(schedule, trajectory=law.delayed(time) if plan.timed is None else law),
-        log=state.log.with_events(Event("started", time, schedule.place(0.0), words)),
-    )
 
 
 def _check(measured: RobotState, time: float, state: NavigationState) -> None:

@@ -16,6 +16,7 @@ Document = Mapping[str, Any]
 MAX_NESTING_LEVELS: Final = 16
 MAX_DOCUMENT_VALUES: Final = 400_000  # numbers, texts, lists and mappings in all
 MAX_LIST_ITEMS: Final = {"known": 5_000, "unseen": 5_000, "fences": 500, "via": 2_000}
+MAX_ROBOTS: Final = 1_000  # that the page draws
 MAX_CHANGES_PER_MESSAGE: Final = 20_000
 
 EMPTY_DOCUMENT: Final[Document] = {
@@ -24,6 +25,15 @@ EMPTY_DOCUMENT: Final[Document] = {
     "route": {"start": [10, 50], "goal": [90, 50]},
 }
 """What a new mission holds."""
+
+
+def is_fleet(document: Document) -> bool:
+    """Whether a document holds a fleet rather than a mission.
+
+    >>> is_fleet({"fleet": []}), is_fleet(EMPTY_DOCUMENT)
+    (True, False)
+    """
+    return "fleet" in document
 
 
 def changed(document: Document, changes: Any) -> Document:
@@ -112,6 +122,9 @@ def check_size(document: Document) -> None:
             items = section.get(key)
             if isinstance(items, list) and len(items) > most:
                 raise RefusedError(f"{part}.{key} has {len(items)} items; the studio takes {most}")
+    members = document.get("fleet")
+    if isinstance(members, list) and len(members) > MAX_ROBOTS:
+        raise RefusedError(f"the fleet has {len(members)} robots; the studio takes {MAX_ROBOTS}")
     level: list[Any] = [document]
     count = 0
     for _ in range(MAX_NESTING_LEVELS):

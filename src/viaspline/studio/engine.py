@@ -15,9 +15,9 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from threading import Event as Flag
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-from viaspline.studio.document import EMPTY_DOCUMENT, Document
+from viaspline.studio.document import EMPTY_DOCUMENT, Document, is_fleet
 from viaspline.studio.folder import Folder
 from viaspline.studio.page_messages import encoded
 from viaspline.studio.stoppable_calls import Stoppable, StoppedCallError
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from viaspline.mission.model import Mission
     from viaspline.planner import Plan
     from viaspline.robot.run import Run
+    from viaspline.studio.fleet.planned_fleet import PlannedFleet
     from viaspline.studio.map_cache import MapCache
     from viaspline.studio.plan_document import PlannedDocument
 
@@ -39,6 +40,7 @@ WARM_UP_DOCUMENT: Final[Document] = {
 }
 """What is planned before anybody asks, so that the kernels are there when somebody does."""
 
+Planned: TypeAlias = "PlannedDocument | PlannedFleet"
 Hears = Callable[[str, int], None]
 Tells = Callable[[float], None]
 
@@ -100,20 +102,31 @@ class Engine:
             tell(kernel, self._compiled)
 
     async def plan(
-        self, document: Document, base: Path, revision: int, running: Stoppable
-    ) -> tuple[PlannedDocument, str] | None:
+        self,
+        document: Document,
+        base: Path,
+        revision: int,
+        running: Stoppable,
+        before: Planned | None = None,
+    ) -> tuple[Planned, str] | None:
         """Plan a document: what came of it, and the answer as text.
 
         Args:
-            document: What is planned.
-            base: The folder of the mission's file.
+            document: What is planned: a mission or a fleet.
+            base: The folder of its file.
             revision: What the page calls this state of the document.
             running: Stops it; then there is no answer.
+            before: What the page was told of last: of a fleet only what is new is laid and told.
         """
 
-        def work() -> tuple[PlannedDocument, str] | None:
+        def plan() -> tuple[Planned, str]:
+            if is_fleet(document):
+                return self._planned_fleet(document, base, revision, before)
+            return self._planned(document, base, revision)
+
+        def work() -> tuple[Planned, str] | None:
             try:
-                return running.run(lambda: self._planned(document, base, revision))
+                return running.run(plan)
             except StoppedCallError:
                 return None
 
@@ -123,13 +136,52 @@ class Engine:
         self, document: Document, base: Path, revision: int
     ) -> tuple[PlannedDocument, str]:
         from viaspline.studio import plan_document, plan_messages
+
+        planned = plan_document.planned(document, self._map_cache(), base)
+        self._keep_pictures(planned)
+        return planned, encoded(plan_messages.answer(planned, revision))
+
+    def _planned_fleet(
+        self, document: Document, base: Path, revision: int, before: Planned | None
+    ) -> tuple[PlannedFleet, str]:
+        from viaspline.studio.fleet import fleet_page_messages, planned_fleet
+
+        known = before if isinstance(before, planned_fleet.PlannedFleet) else None
+        planned = planned_fleet.planned_fleet(document, self._map_cache(), base, known)
+        self._keep_pictures(planned)
+        return planned, encoded(fleet_page_messages.fleet_answer(planned, revision, known))
+
+    async def whole_fleet(
+        self, planned: PlannedFleet, revision: int, running: Stoppable
+    ) -> tuple[Planned, str] | None:
+        """A fleet with everything tried for those that aren't served, and the answer as text.
+
+        Args:
+            planned: What the page was told of.
+            revision: What the page calls this state of the document.
+            running: Stops it; then there is no answer.
+        """
+
+        def plan() -> tuple[Planned, str]:
+            from viaspline.studio.fleet import fleet_page_messages, planned_fleet
+
+            whole = planned_fleet.wholly_planned(planned)
+            return whole, encoded(fleet_page_messages.fleet_answer(whole, revision, planned))
+
+        def work() -> tuple[Planned, str] | None:
+            try:
+                return running.run(plan)
+            except StoppedCallError:
+                return None
+
+        return await self._planner.run(work)
+
+    def _map_cache(self) -> MapCache:
         from viaspline.studio.map_cache import MapCache
 
         if self._maps is None:
             self._maps = MapCache(self._folder)
-        planned = plan_document.planned(document, self._maps, base)
-        self._keep_pictures(planned)
-        return planned, encoded(plan_messages.answer(planned, revision))
+        return self._maps
 
     @property
     def ledgers_are_cheap(self) -> bool:
@@ -180,12 +232,12 @@ class Engine:
 
         return await self._others.run(work)
 
-    def _keep_pictures(self, planned: PlannedDocument) -> None:
+    def _keep_pictures(self, planned: Planned) -> None:
         from viaspline.studio.map_cache import grid_name, grid_png
 
-        if planned.mission is None:
+        world = planned.world
+        if world is None:
             return
-        world = planned.mission.world
         for obstacle in (*world.known, *world.unseen):
             grid = obstacle.grid
             if grid is not None and grid_name(grid) not in self._pictures:

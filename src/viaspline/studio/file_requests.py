@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 from viaspline.bounded_file import MISSION_FILE, read_bytes
 from viaspline.errors import ViasplineError
 from viaspline.studio import yaml_round_trip
-from viaspline.studio.document import Document
-from viaspline.studio.engine import Engine
+from viaspline.studio.document import Document, is_fleet
+from viaspline.studio.engine import Engine, Planned
 from viaspline.studio.load_document import opened
 from viaspline.studio.open_mission import OpenMission
 from viaspline.studio.page_messages import Message, text_of
@@ -23,6 +23,7 @@ from viaspline.studio.refused_error import RefusedError
 from viaspline.studio.save_document import is_yaml, origin_from, waypoints_of
 
 if TYPE_CHECKING:
+    from viaspline.planner import Plan
     from viaspline.robot.run import Run
     from viaspline.studio.plan_document import PlannedDocument
 
@@ -65,6 +66,8 @@ async def save(
     """
     name = text_of(message, "name")
     path = current.folder.to_save(name)
+    if is_fleet(current.document) and not is_yaml(path):
+        raise RefusedError(f"fleets are saved as YAML: call it '{path.stem}.yaml'")
     if not is_yaml(path):
         return await _save_waypoints(current, message, path, planned)
     if path.exists() and message.get("replace") is not True:
@@ -115,14 +118,14 @@ async def export(
     current: OpenMission,
     message: Message,
     engine: Engine,
-    planned: Callable[[], Awaitable[PlannedDocument]],
+    planned: Callable[[], Awaitable[Planned]],
     driven: Driven | None,
 ) -> Answer:
     """A file of the plan or of the newest drive.
 
     Args:
         current: Of whose document.
-        message: With the ``kind``.
+        message: With the ``kind``, and of a fleet the name of a ``robot``.
         engine: Writes the file.
         planned: Gives the plan.
         driven: The document that was driven last, the run and its seed.
@@ -137,12 +140,25 @@ async def export(
             raise RefusedError("drive the mission first; it has changed since")
         content = await engine.run_file(driven[1], kind, stem, driven[2])
     else:
-        plan = (await planned()).plan
-        if plan is None:
-            raise RefusedError("there is no path to export")
+        plan = _plan_of(await planned(), message)
+        stem = f"{stem}-{message['robot']}" if "robot" in message else stem
         content = await engine.plan_file(plan, kind, stem)
     data = base64.b64encode(content).decode()
     return {"type": "exported", "name": f"{stem}-{kind}", "kind": kind, "data": data}
+
+
+def _plan_of(planned: Planned, message: Message) -> Plan:
+    """The plan that is to be exported: the mission's, or that of the robot that is named."""
+    from viaspline.studio.plan_document import PlannedDocument
+
+    if isinstance(planned, PlannedDocument):
+        found = planned.plan
+    else:
+        plans = {} if planned.plan is None else planned.plan.plans
+        found = plans.get(text_of(message, "robot"))
+    if found is None:
+        raise RefusedError("there is no path to export")
+    return found
 
 
 def _text_of(path: Path) -> str:
@@ -160,11 +176,13 @@ def _not_understood(path: Path) -> tuple[str, ...]:
 
 def _moved(document: Document, old: Path, new: Path) -> Document:
     """The document for another folder: maps are named from there."""
+    if isinstance(members := document.get("fleet"), list):
+        document = {**document, "fleet": [_renamed(one, old, new, "mission") for one in members]}
     world = dict(document.get("world") or {})
     for key in ("known", "unseen"):
         items = world.get(key)
         if isinstance(items, list):
-            world[key] = [_renamed(item, old, new) for item in items]
+            world[key] = [_renamed(item, old, new, "map") for item in items]
     return {**document, "world": world} if "world" in document else document
 
 
@@ -174,7 +192,7 @@ def _maps_in(document: Document) -> list[str]:
     return [str(item["map"]) for item in items if isinstance(item, dict) and "map" in item]
 
 
-def _renamed(item: Any, old: Path, new: Path) -> Any:
-    if not isinstance(item, dict) or not isinstance(item.get("map"), str):
+def _renamed(item: Any, old: Path, new: Path, key: str) -> Any:
+    if not isinstance(item, dict) or not isinstance(item.get(key), str):
         return item
-    return {**item, "map": Path(os.path.relpath(old / item["map"], new)).as_posix()}
+    return {**item, key: Path(os.path.relpath(old / item[key], new)).as_posix()}

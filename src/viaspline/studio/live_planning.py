@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING, Final
 
 from starlette.websockets import WebSocketDisconnect
 
-from viaspline.studio.engine import Engine
+from viaspline.studio.engine import Engine, Planned
 from viaspline.studio.open_mission import OpenMission
+from viaspline.studio.refused_error import RefusedError
 from viaspline.studio.stoppable_calls import Stoppable
 
 if TYPE_CHECKING:
+    from viaspline.studio.fleet.planned_fleet import PlannedFleet
     from viaspline.studio.plan_document import PlannedDocument
 
 LEDGER_AFTER_S: Final = 0.1  # so long without an edit, and an expensive ledger is drawn up [s]
@@ -47,7 +49,7 @@ class LivePlan:
         self._wanted = asyncio.Event()
         self._revision = 0
         self._running = Stoppable()
-        self._latest: PlannedDocument | None = None
+        self._latest: Planned | None = None
 
     def want(self, revision: int) -> None:
         """The document has changed: plan it."""
@@ -75,20 +77,41 @@ class LivePlan:
         overtaking = asyncio.create_task(self._overtake(running))
         try:
             found = await self._engine.plan(
-                self._current.document, self._current.base, revision, running
+                self._current.document, self._current.base, revision, running, self._latest
             )
         finally:
             overtaking.cancel()
         if found is None:
             return  # overtaken
-        self._latest, text = found
+        planned, text = found
+        self._latest = planned
         await self._send(text)
-        plan = self._latest.plan
-        if plan is None or not (self._engine.ledgers_are_cheap or await self._is_idle()):
+        from viaspline.studio.plan_document import PlannedDocument
+
+        if not isinstance(planned, PlannedDocument):
+            await self._whole(planned, revision)
             return
-        await self._send(await self._engine.ledger(self._latest, revision))
-        if plan.timed is not None:
-            await self._send(await self._engine.space_time(self._latest, revision))
+        if planned.plan is None:
+            return
+        if not (self._engine.ledgers_are_cheap or await self._is_idle()):
+            return
+        await self._send(await self._engine.ledger(planned, revision))
+        if planned.plan.timed is not None:
+            await self._send(await self._engine.space_time(planned, revision))
+
+    async def _whole(self, planned: PlannedFleet, revision: int) -> None:
+        """Try everything for a fleet of which not all are served, once nobody drags any more."""
+        if planned.is_whole or not await self._is_idle():
+            return
+        self._running = running = Stoppable()
+        overtaking = asyncio.create_task(self._overtake(running))
+        try:
+            found = await self._engine.whole_fleet(planned, revision, running)
+        finally:
+            overtaking.cancel()
+        if found is not None:
+            self._latest, text = found
+            await self._send(text)
 
     async def _overtake(self, running: Stoppable) -> None:
         await asyncio.sleep(OVERTAKEN_AFTER_S)
@@ -104,14 +127,29 @@ class LivePlan:
             return True
         return False
 
-    async def planned(self) -> PlannedDocument:
+    async def planned(self) -> Planned:
         """The plan of the document as it is now."""
         document = self._current.document
         if self._latest is not None and self._latest.document is document:
             return self._latest
-        found = await self._engine.plan(document, self._current.base, self._revision, Stoppable())
+        found = await self._engine.plan(
+            document, self._current.base, self._revision, Stoppable(), self._latest
+        )
         assert found is not None
         return found[0]
+
+    async def planned_mission(self) -> PlannedDocument:
+        """The plan of the document as it is now, which has to be that of one robot.
+
+        Raises:
+            RefusedError: It is a fleet.
+        """
+        from viaspline.studio.plan_document import PlannedDocument
+
+        planned = await self.planned()
+        if not isinstance(planned, PlannedDocument):
+            raise RefusedError("that is asked of one robot: this is a fleet")
+        return planned
 
     def forget(self) -> None:
         """Another document has been opened."""

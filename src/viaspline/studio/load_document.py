@@ -13,6 +13,7 @@ from pathlib import Path
 from viaspline.errors import Fault, MissionError
 from viaspline.formats.items import LatLon
 from viaspline.formats.yaml_document import read_document
+from viaspline.mission.model import Mission
 from viaspline.mission.unplaced_faults import located
 from viaspline.studio import yaml_round_trip
 from viaspline.studio.document import Document, check_size
@@ -84,5 +85,6 @@ def _understood(path: Path) -> tuple[Document, tuple[str, ...], LatLon | None]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         mission = load(path)
+    assert isinstance(mission, Mission), "what isn't YAML is no fleet"
     document = yaml_round_trip.read(yaml_text(mission, path.parent))
     return document, tuple(str(warning.message) for warning in caught), origin_of(path)

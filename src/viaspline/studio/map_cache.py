@@ -73,7 +73,7 @@ class MapCache:
         Raises:
             MissionError: A map can't be read or lies outside of the folder.
         """
-        document = self._with_corridor(document, base)
+        document = self.with_corridor(document, base)
         world = document.get("world")
         if not isinstance(world, Mapping):
             return ExpandedDocument(document, {})
@@ -93,18 +93,27 @@ class MapCache:
                 places[key] += [i] * len(found)
         return ExpandedDocument({**document, "world": unfolded} if places else document, places)
 
-    def _with_corridor(self, document: Document, base: Path) -> Document:
-        """The document with the file of its corridor named from anywhere."""
+    def with_corridor(self, document: Document, base: Path, prefix: str = "") -> Document:
+        """What has a route, with the file of its corridor named from anywhere.
+
+        Args:
+            document: A mission, or a robot of a fleet.
+            base: The folder of its file.
+            prefix: Of its keys: where it stands.
+
+        Raises:
+            MissionError: The corridor lies outside of the folder.
+        """
         route = document.get("route")
         corridor = route.get("corridor") if isinstance(route, Mapping) else None
         name = corridor.get("csv") if isinstance(corridor, Mapping) else None
         if not isinstance(route, Mapping) or not isinstance(name, str) or not corridor:
             return document
         try:
-            path = self._within(name, base)
+            path = self.within(name, base)
         except MissionError as error:
             fault = error.faults[0]
-            key = "route.corridor.csv"
+            key = f"{prefix}route.corridor.csv"
             raise MissionError([Fault(key, f"{name}: {fault.problem}", fault.remedy)]) from None
         return {**document, "route": {**route, "corridor": {**corridor, "csv": str(path)}}}
 
@@ -120,7 +129,7 @@ class MapCache:
             raise MissionError(located(schema_faults(error, (*path, index)), {}, None)) from None
         try:
             files = self._files(spec, base)
-            stamp = tuple(_stamp(file) for file in files)
+            stamp = tuple(file_stamp(file) for file in files)
             name = (json.dumps(item, sort_keys=True), str(base), stamp)
             if name not in self._kept:
                 while len(self._kept) >= MAX_KEPT_MAPS:
@@ -137,14 +146,19 @@ class MapCache:
     def _files(self, spec: MapSpec | TracksSpec, base: Path) -> list[Path]:
         """The files of a map or of tracks, all of them within the folder."""
         if isinstance(spec, TracksSpec):
-            return [self._within(spec.tracks, base)]
-        path = self._within(spec.map, base)
+            return [self.within(spec.tracks, base)]
+        path = self.within(spec.map, base)
         if path.suffix.lower() not in (".yaml", ".yml"):
             return [path]
         image = MapServerKeys.parse(path, read_text(path, MAP_FILE)).image.text or ""
-        return [path, self._within(str(Path(image).expanduser()), path.parent)]
+        return [path, self.within(str(Path(image).expanduser()), path.parent)]
 
-    def _within(self, name: str, base: Path) -> Path:
+    def within(self, name: str, base: Path) -> Path:
+        """The path of a file that is named from a folder.
+
+        Raises:
+            MissionError: It lies outside of the studio's folder.
+        """
         try:
             path = (base / name).resolve()
         except (OSError, RuntimeError):
@@ -161,7 +175,8 @@ def _is_file(item: Any) -> bool:
     return isinstance(item, Mapping) and ("map" in item or "tracks" in item)
 
 
-def _stamp(path: Path) -> tuple[str, int, int]:
+def file_stamp(path: Path) -> tuple[str, int, int]:
+    """What changes when a file does: path, time and size."""
     try:
         stat = path.stat()
     except OSError:

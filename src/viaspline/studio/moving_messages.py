@@ -18,6 +18,7 @@ from viaspline.report.moving_json import moving_certificate_data, timing_choices
 from viaspline.report.space_time import SpaceTime, line_of
 from viaspline.studio.page_numbers import finite, rounded
 from viaspline.studio.plan_document import PlannedDocument
+from viaspline.studio.shows_world import ShowsWorld
 from viaspline.world.moving_obstacles import MovingObstacles
 
 ACROSS, UP = 120, 90  # places and instants that are looked at while somebody waits
@@ -25,11 +26,11 @@ DEEPEST_M: Final = 1e6  # inside of something, as far as a picture cares
 MAX_TRACK_ROWS: Final = 20_000  # keyframes of recorded tracks that are sent with a plan
 
 
-def tracks(planned: PlannedDocument) -> list[dict[str, Any]]:
+def tracks(planned: ShowsWorld) -> list[dict[str, Any]]:
     """The discs of recorded tracks: each as an item of a document, and where it comes from."""
-    if planned.mission is None or planned.unfolded is None:
+    if planned.world is None or planned.unfolded is None:
         return []
-    world, found, room = planned.mission.world, list[dict[str, Any]](), MAX_TRACK_ROWS
+    world, found, room = planned.world, list[dict[str, Any]](), MAX_TRACK_ROWS
     for key, obstacles in (("known", world.known), ("unseen", world.unseen)):
         for i, obstacle in enumerate(obstacles):
             if key not in planned.unfolded.places or obstacle.motion is None:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from viaspline.errors import Change, GaveUpError, MissionError, PlanningError, ViasplineError
 from viaspline.mission.model import Mission
+from viaspline.mission.world_spec import WorldSpec
 from viaspline.planner import Plan, plan
 from viaspline.studio.document import Document
 from viaspline.studio.key_paths import Path as Keys
@@ -59,6 +60,11 @@ class PlannedDocument:
     seconds: float
     gave_up: bool = False
 
+    @property
+    def world(self) -> WorldSpec | None:
+        """The world of the mission, if that is sound."""
+        return None if self.mission is None else self.mission.world
+
 
 def planned(document: Document, maps: MapCache, base: Path) -> PlannedDocument:
     """Plan a document.
@@ -79,7 +85,7 @@ def planned(document: Document, maps: MapCache, base: Path) -> PlannedDocument:
         mission = Mission.model_validate(unfolded.data)
         found = plan(mission)
     except MissionError as error:
-        problems = _faults(error, unfolded)
+        problems = faults_of(error, unfolded)
     except PlanningError as error:
         problems = (_blocked(error, unfolded, mission),)
         gave_up = isinstance(error, GaveUpError)
@@ -89,7 +95,8 @@ def planned(document: Document, maps: MapCache, base: Path) -> PlannedDocument:
     return PlannedDocument(document, unfolded, mission, found, problems, seconds, gave_up)
 
 
-def _faults(error: MissionError, unfolded: ExpandedDocument | None) -> tuple[PlanFault, ...]:
+def faults_of(error: MissionError, unfolded: ExpandedDocument | None) -> tuple[PlanFault, ...]:
+    """What is wrong with a document, each fault with its place in it."""
     return tuple(
         PlanFault(
             text=fault.problem,

@@ -18,6 +18,8 @@ from viaspline.studio.map_cache import grid_name
 from viaspline.studio.moving_messages import timing, tracks
 from viaspline.studio.page_numbers import finite, flat, rounded
 from viaspline.studio.plan_document import PlanFault, PlannedDocument
+from viaspline.studio.shows_world import ShowsWorld
+from viaspline.trajectory.trajectory import Trajectory
 
 
 def answer(planned: PlannedDocument, revision: int) -> dict[str, Any]:
@@ -26,12 +28,15 @@ def answer(planned: PlannedDocument, revision: int) -> dict[str, Any]:
     head["ms"] = round(1e3 * planned.seconds, 3)
     head.update(grids=grids(planned), tracks=tracks(planned))
     if planned.plan is None:
-        problems = [_problem(problem) for problem in planned.problems]
+        problems = [problem_data(problem) for problem in planned.problems]
         return {**head, "ok": False, "gave_up": planned.gave_up, "problems": problems}
-    return {**head, "ok": True, **_plan(planned.plan), "timing": timing(planned)}
+    plan = planned.plan
+    shown = {**path_data(plan), **law_data(plan.trajectory)}
+    return {**head, "ok": True, **shown, "timing": timing(planned)}
 
 
-def _problem(problem: PlanFault) -> dict[str, Any]:
+def problem_data(problem: PlanFault) -> dict[str, Any]:
+    """A reason why there is no plan."""
     return {
         "text": problem.text,
         "remedy": problem.remedy,
@@ -41,8 +46,9 @@ def _problem(problem: PlanFault) -> dict[str, Any]:
     }
 
 
-def _plan(plan: Plan) -> dict[str, Any]:
-    path, trajectory, proof = plan.path, plan.trajectory, plan.certificate
+def path_data(plan: Plan) -> dict[str, Any]:
+    """A path, what is proven of it and how it drives."""
+    path, proof = plan.path, plan.certificate
     joints = np.asarray(path.distance(np.linspace(*path.domain, len(path.spans) + 1)))
     return {
         "spans": flat(path.spans),
@@ -61,15 +67,21 @@ def _plan(plan: Plan) -> dict[str, Any]:
             "distance": finite(proof.tightest_distance),
             "nearest": proof.obstacle,
         },
+        "drivability": plain(drivability_data(plan.drivability)),
+        "order": _order(plan),
+        "corridor": [[rounded(point, 3) for point in ring] for ring in plan.world.corridor],
+    }
+
+
+def law_data(trajectory: Trajectory) -> dict[str, Any]:
+    """When the robot is where."""
+    return {
         "law": {
             "distances": rounded(trajectory.distances),
             "speeds": rounded(trajectory.speeds),
             "times": rounded(trajectory.times),
         },
         "duration": trajectory.duration,
-        "drivability": plain(drivability_data(plan.drivability)),
-        "order": _order(plan),
-        "corridor": [[rounded(point, 3) for point in ring] for ring in plan.world.corridor],
     }
 
 
@@ -116,15 +128,12 @@ def _candidate(candidate: Candidate) -> dict[str, Any]:
     }
 
 
-def grids(planned: PlannedDocument) -> list[dict[str, Any]]:
+def grids(planned: ShowsWorld) -> list[dict[str, Any]]:
     """The maps of squares of a mission: their pictures' names and where they lie."""
-    if planned.mission is None or planned.unfolded is None:
+    if planned.world is None or planned.unfolded is None:
         return []
     found = []
-    for key, obstacles in (
-        ("known", planned.mission.world.known),
-        ("unseen", planned.mission.world.unseen),
-    ):
+    for key, obstacles in (("known", planned.world.known), ("unseen", planned.world.unseen)):
         for i, obstacle in enumerate(obstacles):
             if obstacle.grid is not None:
                 place = planned.unfolded.original(("world", key, i))

@@ -160,7 +160,7 @@ class Session:
         self._live.want(revision)
 
     async def _advise(self, message: Message) -> None:
-        planned = await self._live.planned()
+        planned = await self._live.planned_mission()
         if planned.mission is None:
             raise RefusedError("the mission isn't sound")
         await self._answer(message, await self._engine.advise(planned.mission))
@@ -169,7 +169,7 @@ class Session:
         seed, number = count_of(message, "seed"), message.get("id")
         self._stop.set()
         self._stop = stop = Flag()
-        planned = await self._live.planned()
+        planned = await self._live.planned_mission()
         if planned.plan is None:
             raise RefusedError("there is no path to drive")
 
@@ -205,7 +205,7 @@ class Session:
 
     async def _save(self, message: Message) -> None:
         await self._answer(
-            message, await file_requests.save(self._current, message, self._live.planned)
+            message, await file_requests.save(self._current, message, self._live.planned_mission)
         )
 
     async def _export(self, message: Message) -> None:

@@ -18,12 +18,13 @@ from ruamel.yaml.error import YAMLError
 
 from viaspline.studio.document import Document
 
-_BLOCK_MAPPINGS: Final = (("world",), ("robot",), ("route",), ("spline",), ())
+_BLOCK_MAPPINGS: Final = (("world",), ("robot",), ("robots",), ("route",), ("spline",), ())
 _BLOCK_SEQUENCES: Final = (
     ("world", "known"),
     ("world", "unseen"),
     ("world", "fences"),
     ("route", "via"),
+    ("fleet",),
 )
 LINE_WIDTH_CHARACTERS: Final = 4096  # an item stays on its line
 

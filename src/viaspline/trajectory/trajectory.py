@@ -114,6 +114,36 @@ class Trajectory:
             over_jerk_until=None if jerky is None else jerky + by,
         )
 
+    def waiting(self, distance: float, seconds: float) -> Trajectory:
+        """The time law with a longer stay at a rest, at a distance along the path [m], [s]."""
+        at_rest = np.flatnonzero((self.speeds == 0.0) & (self.distances >= distance))
+        i = int(at_rest[0])
+        while i + 1 < len(self.times) and self.distances[i + 1] == self.distances[i]:
+            i += 1  # a stay that there is becomes longer
+        return self.waiting_after(i, seconds)
+
+    def waiting_after(self, i: int, seconds: float) -> Trajectory:
+        """The time law that goes on so much later from its point i, the last one of a rest."""
+        if i > 0 and self.distances[i - 1] == self.distances[i]:
+            times = np.concatenate((self.times[:i], self.times[i:] + seconds))
+            return replace(self, times=times)
+
+        def twice(values: Floats) -> Floats:
+            return np.concatenate((values[: i + 1], values[i:]))
+
+        def none_between(values: Floats) -> Floats:
+            return np.concatenate((values[:i], [0.0], values[i:]))
+
+        return replace(
+            self,
+            distances=twice(self.distances),
+            speeds=twice(self.speeds),
+            times=np.concatenate((self.times[: i + 1], self.times[i:] + seconds)),
+            accelerations=none_between(self.accelerations),
+            changes=None if self.changes is None else none_between(self.changes),
+            jerks=None if self.jerks is None else none_between(self.jerks),
+        )
+
     def until(self, distance: float) -> Trajectory:
         """The time law as far as the first rest at a distance along the path [m] or beyond it."""
         rests = np.flatnonzero((self.speeds == 0.0) & (self.distances >= distance))

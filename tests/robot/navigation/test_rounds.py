@@ -232,6 +232,7 @@ def test_a_search_that_has_no_time_on_a_round_goes_on_at_rest_and_serves_every_l
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(deadline, "STEP_WORK_S", 1e-3)
+    monkeypatch.setattr(deadline, "STANDING_WORK_S", 1e-3)
     run = simulate(patrol(5, [disc(*BESIDE, 1.0, "rock")]))
     assert run.reached, run.reason
     assert run.certificate.holds
@@ -249,6 +250,7 @@ def test_a_search_that_has_no_time_on_a_round_keeps_the_side_that_is_asked_for(
             straight = patrol(4, [rock]).model_copy(update={"spline": SplineSpec(tension=0.95)})
             for limit in (1e-3, 0.1):
                 monkeypatch.setattr(deadline, "STEP_WORK_S", limit)
+                monkeypatch.setattr(deadline, "STANDING_WORK_S", limit)
                 run = simulate(straight)
                 assert run.reached, run.reason
                 assert run.replans

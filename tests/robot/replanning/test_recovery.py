@@ -17,9 +17,9 @@ from viaspline.robot.navigation.drive_task import DriveTask, requirements_under_
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import ReducedClearance, Schedule
+from viaspline.robot.replanning.first_way_on import first_candidate
 from viaspline.robot.replanning.recovery import restore_clearance, way_out
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
-from viaspline.robot.replanning.replan_search import first_candidate
 from viaspline.world.world import World
 
 MISSION = Mission.model_validate(

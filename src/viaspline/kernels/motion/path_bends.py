@@ -63,8 +63,11 @@ def _across_squared(rows: Floats, k: int, v: float, w: float) -> float:
 
 @inner
 def sharpest(rows: Floats, k: int, v: float, w: float) -> float:
-    """Upper bound of the curvature between two local parameters of a span [1/m]."""
-    g0, g1, g2, g3, g4, bend = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    """Upper bound of the curvature between two local parameters of a span [1/m].
+
+    Infinite where it may stand still and go back, on a straight line as well.
+    """
+    g0, g1, g2, g3, g4, bend, ends = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(rows.shape[2]):
         x, y, z = _slope(rows, k, i, v, v), _slope(rows, k, i, v, w), _slope(rows, k, i, w, w)
         g0 += x * x
@@ -72,10 +75,12 @@ def sharpest(rows: Floats, k: int, v: float, w: float) -> float:
         g2 += (x * z + 2.0 * y * y) / 3.0
         g3 += y * z
         g4 += z * z
+        ends += x * z
         bend += max(_bend(rows, k, i, v) ** 2, _bend(rows, k, i, w) ** 2)
     across = _across_squared(rows, k, v, w)
     if across <= ROUNDING_SHARE * ROUNDING_SHARE * bend * max(g0, max(g2, g4)):
-        return 0.0
+        turns_back = min(ends, min(g1, g3)) < -ROUNDING_SHARE * max(g0, max(g2, g4))
+        return np.inf if turns_back else 0.0
     least = min(min(min(g0, g1), min(g2, g3)), g4)
     return math.sqrt(across / least) / least if least > 0.0 else np.inf
 

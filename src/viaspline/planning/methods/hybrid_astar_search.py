@@ -15,6 +15,7 @@ from viaspline.planning.turning.driven_problem import DrivenProblem, TurnProblem
 from viaspline.planning.turning.hybrid_astar.pose_search import SEARCH_EFFORTS, Effort
 from viaspline.planning.turning.hybrid_astar.search_outcome import NotFound
 from viaspline.planning.turning.hybrid_astar.via_route import via_route_chains
+from viaspline.planning.turning.laid_turns import through_spans
 from viaspline.planning.turning.turn_path import RAMP
 
 
@@ -47,7 +48,7 @@ class HybridAStar:
         if not path.is_clear(spans):  # the search knows the body by the discs that cover it
             return GaveUp(("a search among poses, whose path the body itself doesn't clear",))
         joints = np.cumsum([0, *(len(chain.spans) for chain in chains)])
-        spline_path = path.through(spans, joints, ())
+        spline_path = through_spans(path.sequence, spans, joints, ())
         if not path.keeps_sides(spline_path):
             return GaveUp(("a search among poses, whose path takes another side",))
         return Found(spline_path, path.cost(spline_path))

@@ -13,6 +13,7 @@ from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.driven_problem import TurnProblem
 from viaspline.planning.turning.headings import HEADING_COUNT, costs_between, legs_of, posed
+from viaspline.planning.turning.laid_turns import through_turns
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 
 
@@ -49,5 +50,5 @@ class JointHeadings:
             poses = posed(legs, costs, closed, pushed, rows, pairs, bound)
         if poses is None:
             return GaveUp((f"{self.max_rows} rows of headings at the via points",))
-        spline_path = path.through_turns(poses.turn_paths)
+        spline_path = through_turns(path.sequence, poses.turn_paths)
         return Found(spline_path, path.cost(spline_path))

@@ -18,6 +18,7 @@ from viaspline.planning.problem.method import Found, GaveUp
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.turning.bend_row import bends_along
 from viaspline.planning.turning.driven_problem import TurnProblem
+from viaspline.planning.turning.laid_turns import through_turns
 from viaspline.planning.turning.repair import clear_turn_path_or_why
 from viaspline.planning.turning.turn_path import TurnPath
 
@@ -53,7 +54,7 @@ class NextHomotopyClasses:
         if found is None:
             return GaveUp((f"turns on up to {self.max_rows} longer ways",))
         is_settled = found.length <= self.settled_within * first.length
-        spline_path = path.through_turns([found])
+        spline_path = through_turns(path.sequence, [found])
         return Found(spline_path, path.cost(spline_path), is_settled)
 
 

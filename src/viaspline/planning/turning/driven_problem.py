@@ -14,13 +14,12 @@ import numpy as np
 
 from viaspline.curve.bending import curvature_bound
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats
 from viaspline.planning.alternatives.cleared_spline import ClearedSpline
 from viaspline.planning.alternatives.homotopy_classes import TautRow
 from viaspline.planning.alternatives.leg_search import LegSearch
 from viaspline.planning.checking.conflicts import is_clear
 from viaspline.planning.checking.driving_time import driving_time, leg_time
-from viaspline.planning.problem.heights import with_heights
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.routing.asked_sides import AskedSides
@@ -28,6 +27,7 @@ from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import on_the_line
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.bend_row import DETOUR, Bends, LegBends, bends_along, bends_of_legs
+from viaspline.planning.turning.laid_turns import through_spans, through_turns
 from viaspline.planning.turning.lane_stays import LegLane
 from viaspline.planning.turning.local_detours import LANE_REACHES, LaneTurns, local_bends
 from viaspline.planning.turning.repair import clear_turn_path
@@ -135,7 +135,7 @@ class DrivenProblem(PathProblem):
 
     def passed_wrong(self, turn_path: TurnPath) -> tuple[tuple[int, Floats], ...]:
         """What a turn path passes on the wrong side: the leg, and the middle of it [m], (2,)."""
-        spline_path = self.through_turns([turn_path])
+        spline_path = through_turns(self.sequence, [turn_path])
         return tuple(
             (k, barrier[:2])
             for k, sides in enumerate(self.sides)
@@ -202,7 +202,7 @@ class DrivenProblem(PathProblem):
             turn_path = self._turns_round(bends_of_legs(self.sequence, legs), rho)
             if turn_path is None:
                 continue
-            spline_path = self.through_turns([turn_path])
+            spline_path = through_turns(self.sequence, [turn_path])
             if self.keeps_sides(spline_path):
                 return spline_path
         return None
@@ -225,7 +225,7 @@ class DrivenProblem(PathProblem):
             if found is None:
                 continue
             spans, joints, detours = found
-            spline_path = self.through(spans, np.array(joints), detours)
+            spline_path = through_spans(self.sequence, spans, np.array(joints), detours)
             if self.is_drivable(spline_path.spans) and self.keeps_sides(spline_path):
                 return spline_path
         return None
@@ -350,43 +350,6 @@ class DrivenProblem(PathProblem):
         if turn_path is None or self.sides[leg].crossed(turn_path.spans).any():
             return None
         return turn_path
-
-    def through_turns(self, turn_paths: Sequence[TurnPath]) -> SplinePath:
-        """The curve of turn paths that follow each other, with heights if the vias have them."""
-        joints, detours, first = [], [], 0
-        for turn_path in turn_paths:
-            vias = turn_path.bends.vias
-            if len(turn_paths) > 1:
-                joints.append(first)
-                detours += (first + turn_path.begins[1:-1]).tolist()
-            else:
-                begins = turn_path.begins[: len(vias)]
-                joints = begins[vias != DETOUR].tolist()
-                detours = begins[vias == DETOUR].tolist()
-            first += len(turn_path.spans)
-        if len(joints) < len(self.sequence.vias) + self.sequence.closed:
-            joints.append(first)
-        spans = np.concatenate([turn_path.spans for turn_path in turn_paths])
-        return self.through(spans, np.array(joints), detours)
-
-    def through(self, spans: Floats, joints: Ints, detours: Sequence[int]) -> SplinePath:
-        """Planar spans with the heights of the via points, and exactly through their places.
-
-        Args:
-            spans: [m], (m, 4, 2).
-            joints: The span that begins at each via point, as in ``SplinePath``.
-            detours: Spans that begin at a detour via point.
-        """
-        sequence = self.sequence
-        ends = [*sequence.vias, sequence.vias[0]] if sequence.closed else sequence.vias
-        spans = with_heights(spans, joints, np.array([via.at[2:] for via in ends]))
-        spans[1:, 0] = spans[:-1, 3]  # they meet but for rounding
-        for u, via in zip(joints, ends, strict=True):
-            if u < len(spans):
-                spans[u, 0] = via.at
-            if u > 0:
-                spans[u - 1, 3] = via.at
-        return SplinePath.through(sequence, spans, joints, detours)
 
 
 @dataclass(frozen=True)

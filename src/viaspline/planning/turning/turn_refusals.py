@@ -21,6 +21,7 @@ from viaspline.planning.routing.side_refusals import (
 )
 from viaspline.planning.turning.driven_problem import DrivenProblem
 from viaspline.planning.turning.headings import Poses, costs_between, legs_of, posed
+from viaspline.planning.turning.laid_turns import through_turns
 from viaspline.planning.turning.repair import clear_turn_path, turn_path_if_clear
 from viaspline.planning.turning.turn_path import OVERSHOOT
 
@@ -93,7 +94,7 @@ def _sides_in_the_way(problem: DrivenProblem) -> list[int]:
     spline_path = free.turns_along(free.shortest_row.taut_paths)
     if spline_path is None:
         poses = _poses(free, free.sharpest)
-        spline_path = None if poses is None else free.through_turns(poses.turn_paths)
+        spline_path = None if poses is None else through_turns(free.sequence, poses.turn_paths)
     if spline_path is None:
         return []
     wrong = [sides.wrong(spline_path.leg(k)) for k, sides in enumerate(problem.sides)]

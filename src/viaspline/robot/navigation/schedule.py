@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from viaspline.curve.path import Path, PathVia
 from viaspline.robot.navigation.laps_ahead import LapsAhead
+from viaspline.robot.navigation.pending_search import PendingSearch
 from viaspline.trajectory.slow_zones import Slow
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
-
-FIRST_STAGE, NO_STAGE = (0, 0), (4, 0)
-"""With which stage a search begins, and what comes after the last one."""
 
 
 @dataclass(frozen=True)
@@ -32,46 +29,6 @@ class Wait:
     since: float
     again: float
     reason: str | None = None
-
-
-@dataclass(frozen=True)
-class SearchSoFar:
-    """What a search has come to, as its next step takes it on.
-
-    Attributes:
-        limit: What the next step of a robot that stands may spend [s of the reference machine].
-        spent: What it has spent in all since it stands [s of the reference machine].
-        world: What it is to keep clear of.
-        finished: What the parts of the search came to that are over; see ``WorkBudget``.
-    """
-
-    limit: float
-    spent: float
-    world: World
-    finished: Mapping[Hashable, object]
-
-
-@dataclass(frozen=True)
-class PendingSearch:
-    """A search for a new path that is not over yet.
-
-    Attributes:
-        since: When it began [s].
-        obstacles: What is in the way.
-        names: Of those that are new.
-        begin_with: The stage with which it goes on.
-        again: Under way it waits until then: it has tried all that it has time for [s].
-        free_until: Up to this distance along the path it was certainly clear then [m].
-        so_far: What it takes on to its next step.
-    """
-
-    since: float
-    obstacles: World
-    names: tuple[str, ...]
-    begin_with: tuple[int, int]
-    so_far: SearchSoFar
-    again: float = -math.inf
-    free_until: float = math.inf
 
 
 @dataclass(frozen=True)

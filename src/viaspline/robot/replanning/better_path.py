@@ -10,9 +10,9 @@ from viaspline.errors import PlanningError
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.replanning.deadline import unhurried
+from viaspline.robot.replanning.first_way_on import first_candidate
 from viaspline.robot.replanning.passing_sides import is_better
 from viaspline.robot.replanning.replan_context import ReplanContext
-from viaspline.robot.replanning.replan_search import first_candidate
 from viaspline.robot.replanning.transitions import take_over
 
 SPARE_RATIO = 0.1

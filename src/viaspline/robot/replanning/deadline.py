@@ -7,11 +7,23 @@ from __future__ import annotations
 
 import math
 
-from viaspline.robot.navigation.schedule import FIRST_STAGE, NO_STAGE, PendingSearch, SearchSoFar
+from viaspline.robot.navigation.pending_search import (
+    FIRST_STAGE,
+    NO_STAGE,
+    PendingSearch,
+    SearchSoFar,
+    SideInDoubt,
+    Stage,
+)
 from viaspline.robot.replanning.replan_context import NOTHING, ReplanContext
 
-STEP_WORK_S = 0.1
-"""What one step of a robot under way spends on a search, at most [s of the reference machine]."""
+STEP_WORK_S = 0.03
+"""What one step of a robot under way spends on a search, at most [s of the reference machine]: with
+what it perceives, and on a busy machine, the step then takes 50 ms."""
+
+STANDING_WORK_S = 0.1
+"""What one that stands spends on it at first: nothing comes nearer to it meanwhile, and what it
+sees hardly changes, but with noise it does, and then its search begins anew."""
 
 SHARES = (1.0, 0.5, 0.25)
 """Parts of that which are tried where the robot has to brake before."""
@@ -46,7 +58,7 @@ def with_time_to_search(context: ReplanContext) -> ReplanContext:
     if pending is not None and pending.so_far.world is context.knowledge.world:
         found = pending.so_far.finished
     if context.speed == 0.0:
-        limit = STEP_WORK_S if pending is None else pending.so_far.limit
+        limit = STANDING_WORK_S if pending is None else pending.so_far.limit
         standing = context.searching(limit, found)
         if standing.speed == 0.0:
             return standing
@@ -61,7 +73,7 @@ def with_time_to_search(context: ReplanContext) -> ReplanContext:
 
 
 def gone_on(
-    context: ReplanContext, begin_with: tuple[int, int], held_at: float
+    context: ReplanContext, begin_with: Stage, held_at: float, doubt: SideInDoubt | None
 ) -> PendingSearch | None:
     """How a search that was stopped goes on; None if it has spent all that it may, at rest.
 
@@ -69,6 +81,7 @@ def gone_on(
         context: The robot that has searched.
         held_at: Where it stops meanwhile, along the path [m].
         begin_with: The stage that comes next, or ``NO_STAGE``.
+        doubt: What it was found to pass on another side, if that is not decided yet.
     """
     before, obstacles = context.schedule.pending, context.obstruction.world
     names = context.obstruction.names
@@ -80,17 +93,17 @@ def gone_on(
         if begin_with == NO_STAGE:
             left = (held_at - context.progress.distance) / context.speed
             pause = max(RETRY_INTERVAL_S, PAUSE_RATIO * left)
-            begin_with, again = FIRST_STAGE, context.progress.time + pause
-        so_far = SearchSoFar(STEP_WORK_S, 0.0, world, budget.finished)
+            begin_with, again, doubt = FIRST_STAGE, context.progress.time + pause, None
+        so_far = SearchSoFar(STANDING_WORK_S, 0.0, world, budget.finished)
         free = context.obstruction.free_until
-        return PendingSearch(since, obstacles, names, begin_with, so_far, again, free)
+        return PendingSearch(since, obstacles, names, begin_with, so_far, again, free, doubt)
     spent = budget.spent + (0.0 if before is None else before.so_far.spent)
     is_further = budget.has_gained and (before is None or before.so_far.world is world)
-    limit = max(budget.limit if is_further else 2.0 * budget.limit, STEP_WORK_S)
+    limit = max(budget.limit if is_further else 2.0 * budget.limit, STANDING_WORK_S)
     if spent + limit > MAX_STANDING_WORK_S:
         return None
     so_far = SearchSoFar(limit, spent, world, budget.finished)
-    return PendingSearch(since, obstacles, names, begin_with, so_far)
+    return PendingSearch(since, obstacles, names, begin_with, so_far, doubt=doubt)
 
 
 def is_paused(context: ReplanContext, free: float) -> bool:

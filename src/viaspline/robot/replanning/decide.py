@@ -8,7 +8,7 @@ from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
-from viaspline.robot.navigation.schedule import FIRST_STAGE, Schedule
+from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.perception.belief import News
 from viaspline.robot.perception.perceive import Sighting
 from viaspline.robot.replanning.deadline import is_paused, with_time_to_search
@@ -81,8 +81,9 @@ def _round_obstacles(context: ReplanContext, new: World) -> Decision:
         return Decision(context.schedule, _detected(context, new))
     pending, met, names = context.schedule.pending, new, new.names
     if pending is not None:
-        met = World((*pending.obstacles.obstacles, *new.obstacles))
-        names = (*pending.names, *new.names)
+        pending = pending.with_new(new)
+        met, names = pending.obstacles, pending.names
+        context = replace(context, schedule=replace(context.schedule, pending=pending))
     free = context.free_until(met)
     if free is None:
         free = context.on_side_until(met)
@@ -90,9 +91,6 @@ def _round_obstacles(context: ReplanContext, new: World) -> Decision:
         return Decision(let_go(context), _detected(context, new))
     if not len(new) and is_paused(context, free):
         return Decision(context.schedule)
-    if pending is not None and len(new):  # what has just been seen may bar what was tried
-        begun = replace(pending, obstacles=met, begin_with=FIRST_STAGE)
-        context = replace(context, schedule=replace(context.schedule, pending=begun))
     return _go_round(context, Obstruction(met, names, free), new)
 
 

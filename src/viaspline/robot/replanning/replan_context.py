@@ -17,6 +17,7 @@ from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.planning.sides_ahead import spans_on_wrong_side
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.pending_search import FIRST_STAGE
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
 from viaspline.robot.run import Event
@@ -192,6 +193,14 @@ class ReplanContext:
             requirements=replace(self.requirements, budget=budget),
             motion=MotionAhead.of(task, self.progress, self.knowledge, schedule),
         )
+
+    def searching_from_the_first(self) -> ReplanContext:
+        """The robot with a search that begins with its first stage, whatever was tried before."""
+        pending = self.schedule.pending
+        if pending is None:
+            return self
+        begun = replace(pending, begin_with=FIRST_STAGE)
+        return replace(self, schedule=replace(self.schedule, pending=begun))
 
     def free_until(self, world: World) -> float | None:
         """Start of the first span ahead that comes too close to a world [m]; None if none does."""

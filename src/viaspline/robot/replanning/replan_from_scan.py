@@ -18,12 +18,8 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError
 from viaspline.planning.routing.leg_errors import BlockedLegError, UnfinishedLegError
 from viaspline.robot.navigation.decision import Decision
-from viaspline.robot.navigation.schedule import (
-    FIRST_STAGE,
-    ReducedClearance,
-    Schedule,
-    Wait,
-)
+from viaspline.robot.navigation.pending_search import FIRST_STAGE
+from viaspline.robot.navigation.schedule import ReducedClearance, Schedule, Wait
 from viaspline.robot.replanning.better_path import better_path, with_spare
 from viaspline.robot.replanning.deadline import RETRY_INTERVAL_S, is_paused, with_time_to_search
 from viaspline.robot.replanning.recovery import restore_clearance, way_out

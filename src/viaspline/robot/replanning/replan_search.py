@@ -1,56 +1,23 @@
-"""A new path for a robot under way: from the least change of the old one to the greatest.
+"""The search for a new path under way: past lost points, on the sides that the robot meant.
 
 Tested through ``robot/test_navigator`` and ``robot/replanning/test_decide``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import TypeAlias
 
 import numpy as np
 
-from viaspline.errors import GaveUpError, PlanningError
-from viaspline.machine.allowance import TRACKING_REMEDY
-from viaspline.planning import replan
-from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.problem.work_budget import SpentBudgetError
-from viaspline.planning.routing.leg_errors import BlockedLegError
+from viaspline.errors import PlanningError
+from viaspline.robot.navigation.pending_search import NO_STAGE, UNDER_WAY, SideInDoubt, Stage
 from viaspline.robot.navigation.progress import SAME_PLACE_M
-from viaspline.robot.navigation.schedule import FIRST_STAGE, NO_STAGE
-from viaspline.robot.replanning.hold_to_path import CREEP_MPS
+from viaspline.robot.replanning.first_way_on import UnfinishedSearchError, first_candidate
 from viaspline.robot.replanning.passing_sides import changed_side, is_better
-from viaspline.robot.replanning.path_candidate import PathCandidate, timed
+from viaspline.robot.replanning.path_candidate import PathCandidate
 from viaspline.robot.replanning.replan_context import ReplanContext
-from viaspline.robot.run import Mode
-from viaspline.world.world import World
-
-MODES: tuple[Mode, ...] = ("reflex", "planned")
-"""In which a path is left under way, in this order."""
-
-TURN_BACK_SAMPLES = 129
-"""Places along a path at which it is seen whether it leads back."""
-
-Stage: TypeAlias = tuple[int, int]
-"""A part of a search: which of the order, and which place at which the path so far is left."""
-
-ORDER: tuple[Mode, ...] = (*MODES, "from_rest", "from_rest")
-"""The modes, from the least change to the greatest. From rest the path is laid anew nearby first,
-as far as something is in its way, then all of it."""
-
-NEARBY = 2
-"""The first of the latter."""
-
-NEARBY_WORK_S = 3.2
-"""What a robot that stands spends before it lays all of its path anew [s of the reference machine],
-if a search nearby comes on."""
-
-LAST_STAGE: Stage = (len(ORDER) - 1, 0)
-
-MAX_SHARE_BEFORE = 0.2
-"""A part of a search that was stopped had a step for itself if no more was spent before."""
 
 
 @dataclass(frozen=True)
@@ -62,24 +29,14 @@ class ReplanResult:
         refusal: Why there is none.
         skip: Indices of points of the route that are given up for it, each with the reason.
         begin_with: The stage with which the search goes on; None if it is over.
+        doubt: What it was found to pass on another side, if that is not decided yet.
     """
 
     candidate: PathCandidate | None
     refusal: PlanningError | str = ""
     skip: Mapping[int, str] = field(default_factory=dict)
     begin_with: Stage | None = None
-
-
-class UnfinishedSearchError(SpentBudgetError):
-    """A search for a new path has spent what it may in one step.
-
-    Attributes:
-        begin_with: The stage with which it goes on.
-    """
-
-    def __init__(self, spent: SpentBudgetError, begin_with: Stage) -> None:
-        super().__init__(spent.reason, where=spent.where, remedy=spent.remedy, tried=spent.tried)
-        self.begin_with = begin_with
+    doubt: SideInDoubt | None = None
 
 
 def search(context: ReplanContext) -> ReplanResult:
@@ -93,7 +50,7 @@ def search(context: ReplanContext) -> ReplanResult:
         try:
             return ReplanResult(_on_kept_sides(context, frozenset(skip)), skip=skip)
         except UnfinishedSearchError as error:
-            return ReplanResult(None, error, begin_with=error.begin_with)
+            return ReplanResult(None, error, begin_with=error.begin_with, doubt=error.doubt)
         except PlanningError as error:
             lost = _lost(context, skip, error)
             if lost is None:
@@ -105,179 +62,81 @@ def _on_kept_sides(context: ReplanContext, skip: Collection[int]) -> PathCandida
     """The first candidate, unless it passes something on another side than the path so far.
 
     Nothing that the robot knew is passed on another side than it meant to, unless that is clearly
-    better.
-
-    Raises:
-        PlanningError: If there is no way to the goal, or none was found.
-    """
-    world, schedule = context.knowledge.world, context.schedule
-    candidate = first_candidate(context, world, skip)
-    changed = changed_side(
-        schedule.path, candidate.solution.path, candidate.solution.changed_from,
-        context.progress.last_via, schedule.laid_in, context.requirements.required,
-        candidate.solution.rejoins_at,
-    )  # fmt: skip
-    if changed is None:
-        return candidate
-    place, side = changed
-    now = int(world.nearest(place)[1])
-    if now < 0 or world.obstacles[now].forced_side is not None:
-        return candidate
-    try:
-        modes = MODES if candidate.mode == "reflex" else ("planned",)
-        sided = context.requirements.once(
-            ("side", world, now, side), partial(world.with_side, now, side)
-        )
-        kept = first_candidate(context, sided, skip, modes)
-    except PlanningError:
-        return candidate
-    here = context.progress.distance
-    rest, other = (c.solution.path.length - here for c in (candidate, kept))
-    return candidate if is_better(rest, other) else kept
-
-
-def first_candidate(
-    context: ReplanContext,
-    world: World,
-    skip: Collection[int] = (),
-    modes: tuple[Mode, ...] = MODES,
-) -> PathCandidate:
-    """The first way on that the robot can take: in these modes under way, then from rest.
-
-    A robot under way doesn't turn back on the spot: a path that leads behind it is left for a
-    robot that has come to rest.
-
-    Args:
-        context: The robot under way.
-        world: What the path keeps clear of.
-        skip: Points of the route that are left out; the spans to them can't stay as they are.
-        modes: In this order.
+    better. Where a step has no time left to find that out, the next one begins with it: by then the
+    robot is elsewhere, and the candidate would have to be found anew.
 
     Raises:
         UnfinishedSearchError: When it has spent what it may.
         PlanningError: If there is no way to the goal, or none was found.
     """
-    forced = bool(context.knowledge.world.sided.size)
-    laid_anew = set()  # from there a reflex has laid all that a planned path would
-    closed = set()  # parts of the order by which nothing leads on, wherever the path is left
-    for stage, mode, leave in _stages(context, ("planned",) if skip else modes):
-        if stage[0] in closed or (mode == "planned" and leave in laid_anew):
-            continue
-        if stage[0] == NEARBY and skip:
-            continue  # what would stay leads to them
-        before = context.work
-        try:
-            solution = context.requirements.once(
-                ("laid", stage[0], leave, world, context.schedule.path, frozenset(skip)),
-                partial(_laid, context, stage[0], leave, world, skip),
-            )
-            candidate = timed(context, mode, solution)
-        except SpentBudgetError as error:
-            raise UnfinishedSearchError(error, _next(stage, before, context)) from error
-        except BlockedLegError:
-            if stage == LAST_STAGE or (mode == "planned" and not forced):
-                raise  # nor does anything lead on from rest: a clear path joins the places
-            closed.add(stage[0])
-            continue
-        except PlanningError:
-            if stage == LAST_STAGE:
-                raise
-            continue  # a robot that leaves later, or that stands, may find a way
-        if mode == "from_rest":
-            if candidate is not None:
-                return candidate
-            if stage == LAST_STAGE:
-                raise _not_followed(context)
-            continue
-        if solution.rejoins_at is None and solution.changed_from <= leave + SAME_PLACE_M:
-            laid_anew.add(leave)
-        if candidate is not None and not _turns_back(context, solution):
+    world, pending = context.knowledge.world, context.schedule.pending
+    candidate, doubt = None, None if pending is None else pending.doubt
+    if doubt is None:
+        candidate = first_candidate(context, world, skip)
+        doubt = _doubt_about(context, candidate)
+        if doubt is None:
             return candidate
-    raise AssertionError("the last stage of a search finds something or says why there is nothing")
+        context = context.searching_from_the_first()
+    if doubt.is_open:
+        kept = _on_side(context, doubt, skip)
+        if kept is not None and _is_worth(context, doubt, kept):
+            return kept
+        if candidate is not None:
+            return candidate
+        context = context.searching_from_the_first()
+    try:
+        return first_candidate(context, world, skip)
+    except UnfinishedSearchError as error:
+        decided = replace(doubt, is_open=False)
+        raise UnfinishedSearchError(error, error.begin_with, decided) from error
 
 
-def _stages(context: ReplanContext, modes: tuple[Mode, ...]) -> Iterator[tuple[Stage, Mode, float]]:
-    """What is tried one after the other, from the stage with which a search goes on.
+def _doubt_about(context: ReplanContext, candidate: PathCandidate) -> SideInDoubt | None:
+    """What a candidate passes on another side than the robot meant to, if it does."""
+    schedule, solution = context.schedule, candidate.solution
+    changed = changed_side(
+        schedule.path, solution.path, solution.changed_from, context.progress.last_via,
+        schedule.laid_in, context.requirements.required, solution.rejoins_at,
+    )  # fmt: skip
+    if changed is None:
+        return None
+    (x, y), side = changed[0].tolist(), changed[1]
+    modes = UNDER_WAY if candidate.mode == "reflex" else ("planned",)
+    return SideInDoubt((x, y), side, modes, solution.path.length)
 
-    Yields:
-        The stage, the mode, and where the path so far is left [m].
+
+def _is_worth(context: ReplanContext, doubt: SideInDoubt, kept: PathCandidate) -> bool:
+    """Whether a candidate that keeps to its side isn't clearly worse than the other one."""
+    here = context.progress.distance
+    return not is_better(doubt.other - here, kept.solution.path.length - here)
+
+
+def _on_side(
+    context: ReplanContext, doubt: SideInDoubt, skip: Collection[int]
+) -> PathCandidate | None:
+    """The first candidate on the side that the robot meant; None if there is none.
+
+    Raises:
+        UnfinishedSearchError: When it has spent what it may under way. A robot that stands spends
+            the rest of its step on that at most.
     """
-    pending = context.schedule.pending
-    first = FIRST_STAGE if pending is None else pending.begin_with
-    leaves = context.clear_leaves()
-    for mode in modes:
-        for k, leave in enumerate(leaves):
-            stage = (ORDER.index(mode), k)
-            if stage >= first:
-                yield stage, mode, leave
-    for k in (NEARBY, LAST_STAGE[0]):
-        if (k, 0) >= first and not (k == NEARBY and context.schedule.is_round):
-            yield (k, 0), "from_rest", context.stop
-
-
-def _laid(
-    context: ReplanContext, order: int, leave: float, world: World, skip: Collection[int]
-) -> Solution:
-    """The path of one stage, by its part of the order."""
-    path, requirements = context.schedule.path, context.requirements
-    until = context.schedule.looked_at
-    if ORDER[order] == "reflex":
-        return replan.reflex(path, leave, world, requirements, until)
-    if order == NEARBY:
-        return replan.from_rest_nearby(path, leave, world, requirements, until)
-    lay = replan.planned if ORDER[order] == "planned" else replan.from_rest
-    return lay(path, leave, world, requirements, skip, until)
-
-
-def _next(stage: Stage, before: float, context: ReplanContext) -> Stage:
-    """With which stage a search goes on that was stopped at one.
-
-    One that had a step for itself isn't tried again, unless it is the last and the robot stands.
-
-    Args:
-        stage: At which it was stopped.
-        before: What had been spent before that [s of the reference machine].
-        context: The robot that has searched.
-    """
-    budget = context.requirements.budget
-    assert budget is not None  # it has been spent
-    had_most = before <= MAX_SHARE_BEFORE * budget.limit and budget.limit > 0.0
-    if not had_most or (stage[0] == NEARBY and _comes_on_nearby(context)):
-        return stage
-    if stage < LAST_STAGE:
-        return (stage[0], stage[1] + 1)
-    return NO_STAGE if context.speed > 0.0 else stage
-
-
-def _comes_on_nearby(context: ReplanContext) -> bool:
-    """Whether a robot that stands has found out more, and may spend more on its first search."""
-    budget, pending = context.requirements.budget, context.schedule.pending
-    if context.speed > 0.0 or budget is None or not budget.has_gained:
-        return False
-    return budget.spent + (0.0 if pending is None else pending.so_far.spent) < NEARBY_WORK_S
-
-
-def _not_followed(context: ReplanContext) -> GaveUpError:
-    """Why a robot that stands doesn't go on, though a path would lead on."""
-    kept = context.task.requirements.tracking_error
-    return GaveUpError(
-        f"the robot would get farther beside its path than the {kept:.3f} m that are kept for that",
-        where=context.here,
-        remedy=f"give it {TRACKING_REMEDY}, or more room by tracking_error_m",
-        tried=(f"as slowly as {CREEP_MPS:g} m/s where it has to be",),
-    )
-
-
-def _turns_back(context: ReplanContext, solution: Solution) -> bool:
-    """Whether a path leads farther behind the place where it begins than the old one does."""
-    at, old, new = solution.changed_from, context.schedule.path, solution.path
-    place, ahead = np.asarray(old.at_distance(at)), old.tangent(float(old.parameter(at)))
-    samples = (np.linspace(at, line.length, TURN_BACK_SAMPLES) for line in (old, new))
-    depths = [
-        float(((line.at_distance(along) - place) @ ahead).min())
-        for line, along in zip((old, new), samples, strict=True)
-    ]
-    return depths[1] < depths[0] - context.requirements.required
+    world = context.knowledge.world
+    now = int(world.nearest(doubt.place)[1])
+    if now < 0 or world.obstacles[now].forced_side is not None:
+        return None
+    try:
+        sided = context.requirements.once(
+            ("side", world, now, doubt.side), partial(world.with_side, now, doubt.side)
+        )
+        return first_candidate(
+            context, sided, skip, doubt.modes, partial(_is_worth, context, doubt)
+        )
+    except UnfinishedSearchError as error:
+        if context.speed == 0.0 or error.begin_with == NO_STAGE:
+            return None
+        raise UnfinishedSearchError(error, error.begin_with, doubt) from error
+    except PlanningError:
+        return None
 
 
 def _too_late(context: ReplanContext) -> str:

@@ -74,7 +74,7 @@ def keep_searching(context: ReplanContext, result: ReplanResult) -> Decision:
     assert result.begin_with is not None
     before, schedule = context.schedule, context.schedule
     held_at = context.stop if must_brake(context) else min(last_place(context), before.held_at)
-    pending = gone_on(context, result.begin_with, held_at)
+    pending = gone_on(context, result.begin_with, held_at, result.doubt)
     if pending is None:
         return stop_for_good(context, str(result.refusal))
     held = replace(schedule, pending=pending, held_at=held_at)

@@ -14,19 +14,15 @@ from viaspline.kernels.arrays import Floats
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.pending_search import FIRST_STAGE, PendingSearch, SearchSoFar
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.reschedule import rescheduled
-from viaspline.robot.navigation.schedule import (
-    FIRST_STAGE,
-    PendingSearch,
-    Schedule,
-    SearchSoFar,
-)
+from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.foretell import Foresight, foretold
 from viaspline.robot.perception.moving.mouths import reach_and_mouths
 from viaspline.robot.perception.perceive import Sighting
-from viaspline.robot.replanning.deadline import STEP_WORK_S
+from viaspline.robot.replanning.deadline import STANDING_WORK_S
 from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
 from viaspline.trajectory.passive_safety import (
@@ -161,13 +157,11 @@ def kept_to_path(
     event = Event("braked", progress.time, schedule.place(progress.distance), words)
     if not isinstance(sighting, World) or not len(sighting):
         return schedule, event
-    met, names, since = sighting, sighting.names, progress.time
+    so_far = SearchSoFar(STANDING_WORK_S, 0.0, knowledge.world, {})
+    pending = PendingSearch(progress.time, sighting, sighting.names, FIRST_STAGE, so_far)
     if schedule.pending is not None:
-        met = World((*schedule.pending.obstacles.obstacles, *sighting.obstacles))
-        names, since = (*schedule.pending.names, *names), schedule.pending.since
-    so_far = SearchSoFar(STEP_WORK_S, 0.0, knowledge.world, {})
-    again = PendingSearch(since, met, names, FIRST_STAGE, so_far)
-    return replace(schedule, pending=again), event
+        pending = replace(schedule.pending.with_new(sighting), so_far=so_far)
+    return replace(schedule, pending=pending), event
 
 
 def _stands_until(law: Trajectory, now: float, later: float) -> bool:

@@ -18,8 +18,8 @@ from viaspline.kernels.timing.yielding.time_lattice import (
     Tube,
     allowed_steps,
     earliest_arrivals,
-    way_back,
 )
+from viaspline.kernels.timing.yielding.way_back import way_back
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.trajectory.yielding.law_knots import LawKnots
 from viaspline.trajectory.yielding.leg_lattice import DrivenLeg, Dynamics, on_lattice

@@ -73,7 +73,7 @@ def _begun_later(road: Road, traffic: Traffic, law: Trajectory, i: int) -> Traje
     asked = traffic if is_last else replace(traffic, hold=0.0)
     for k in range(1 + int((min(free, begin + LONGEST_WAIT_S) - begin) / DELAY_S)):
         if asked.conflict(road, part.delayed(k * DELAY_S)) is None:
-            return _waited(law, i, k * DELAY_S) if k else law
+            return law.waiting_after(i, k * DELAY_S) if k else law
     return None
 
 
@@ -88,27 +88,4 @@ def _part(law: Trajectory, first: int, last: int) -> Trajectory:
         changes=None if law.changes is None else law.changes[pieces],
         jerks=None if law.jerks is None else law.jerks[pieces],
         stations=(),
-    )
-
-
-def _waited(law: Trajectory, i: int, wait: float) -> Trajectory:
-    """The law that goes on from a point so much later [s]."""
-    if i > 0 and law.distances[i - 1] == law.distances[i]:
-        return replace(law, times=np.concatenate((law.times[:i], law.times[i:] + wait)))
-    before, after = slice(None, i + 1), slice(i, None)
-
-    def twice(values: np.ndarray) -> np.ndarray:
-        return np.concatenate((values[before], values[after]))
-
-    def none_between(values: np.ndarray) -> np.ndarray:
-        return np.concatenate((values[:i], [0.0], values[i:]))
-
-    return replace(
-        law,
-        distances=twice(law.distances),
-        speeds=twice(law.speeds),
-        times=np.concatenate((law.times[before], law.times[after] + wait)),
-        accelerations=none_between(law.accelerations),
-        changes=None if law.changes is None else none_between(law.changes),
-        jerks=None if law.jerks is None else none_between(law.jerks),
     )

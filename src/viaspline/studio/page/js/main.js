@@ -9,6 +9,7 @@ import { Drive } from "./replay.js";
 import { onTheme } from "./draw/theme.js";
 import { Scene } from "./draw/scene.js";
 import { Files } from "./files/files.js";
+import { Fleet } from "./fleet/fleet.js";
 import { keepSaving, kept } from "./files/autosave.js";
 import { unpacked } from "./files/share.js";
 import { boxAll, boxOfInterest } from "./files/svg.js";
@@ -100,7 +101,7 @@ async function greet(hello) {
   app.drives = hello.drives;
   store.tell("status");
   if (greeted) { // the studio came back: go on with what is here
-    app.link.plan(store.doc, store.revision, store.inputAt);
+    app.link.plan(store.file, store.revision, store.inputAt);
     return;
   }
   greeted = true;
@@ -109,7 +110,7 @@ async function greet(hello) {
   store.open(hello.document, hello.name);
   store.origin = hello.origin;
   if (scene) {
-    if (JSON.stringify(scene.doc) !== JSON.stringify(store.doc)) store.edit(scene.doc);
+    if (JSON.stringify(scene.doc) !== JSON.stringify(store.file)) store.editFile(scene.doc);
     app.toast("The scene of this address is open.");
   } else restore();
   app.fitSoon();
@@ -122,26 +123,29 @@ async function greet(hello) {
 /** Bring back what wasn't saved. */
 function restore() {
   const { store } = app;
-  const found = kept(store.folder, store.name, store.doc);
+  const found = kept(store.folder, store.name, store.file);
   if (!found) return;
-  const file = store.doc;
-  store.edit(found.doc);
+  const { file } = store;
+  store.editFile(found.doc);
   const text = found.isOfOtherFile ? "Unsaved changes are back; the file has changed since." : "Your unsaved changes are back.";
-  app.toast(text, "", { label: "Drop them", act: () => store.edit(file) });
+  app.toast(text, "", { label: "Drop them", act: () => store.editFile(file) });
 }
 
 /** @param {any} answer */
 function planned(answer) {
   const { store } = app;
   app.summary.busy = "";
-  store.plan = answer;
-  if (answer.rev === store.revision) store.isLate = false;
-  if (answer.ok) {
-    store.goodPlan = answer;
-    store.curve = new Curve(answer);
-    if (answer.ledger) putLedger(answer.ledger);
-    if (store.cursor !== null && store.cursor > answer.length) store.lookAt(null);
+  if (answer.fleet !== undefined) app.fleet.take(answer);
+  else {
+    store.plan = answer;
+    if (answer.ok) {
+      store.goodPlan = answer;
+      store.curve = new Curve(answer);
+      if (answer.ledger) putLedger(answer.ledger);
+    }
   }
+  if (answer.rev === store.revision) store.isLate = false;
+  if (answer.ok && store.cursor !== null && store.cursor > (store.curve?.length ?? 0)) store.lookAt(null);
   if (app.fitWhenPlanned) {
     app.fitWhenPlanned = false;
     app.fit();
@@ -198,15 +202,15 @@ app.opened = (answer) => {
   if (answer.warnings.length) app.toast(answer.warnings.join("; "));
 };
 
-/** @param {any} answer @param {any} doc as it was when it was sent */
-app.saved = (answer, doc) => {
+/** @param {any} answer @param {any} file what it held when it was sent */
+app.saved = (answer, file) => {
   const { store } = app;
-  if (JSON.stringify(answer.document) !== JSON.stringify(doc) && store.doc === doc) {
-    app.link.sent = doc = answer.document; // maps have other names from another folder
-    store.put(doc);
+  if (JSON.stringify(answer.document) !== JSON.stringify(file) && store.file === file) {
+    app.link.sent = file = answer.document; // maps have other names from another folder
+    store.put(file);
   }
   store.name = answer.name;
-  store.savedDoc = doc;
+  store.savedFile = file;
   store.tell("file");
 };
 
@@ -261,6 +265,7 @@ app.openSheet = (name) => {
 
 // --- everything together
 
+app.fleet = new Fleet(app);
 app.pointer = new Pointer(app.store, app.camera, app.scene, app.say);
 app.files = new Files(app);
 app.lists = new Lists(app);
@@ -274,8 +279,10 @@ listenToKeys(app);
 listenToBars(app);
 keepSaving(app.store);
 
+let asked = -1; // the newest revision that the server was told of
 app.store.on("document", () => {
-  app.link.plan(app.store.doc, app.store.revision, app.store.inputAt);
+  if (app.store.revision !== asked) app.link.plan(app.store.file, app.store.revision, app.store.inputAt);
+  asked = app.store.revision;
   app.scene.soon();
 });
 let lateness = 0;
@@ -289,7 +296,7 @@ app.store.on("document", () => {
     app.scene.later();
   }, LATE_MS);
 });
-app.store.on("selection view hover run", () => app.scene.later());
+app.store.on("selection view hover run robot", () => app.scene.later());
 app.drive.on(() => app.scene.later());
 app.preview.on(() => app.scene.later());
 onTheme(() => app.scene.later());

@@ -1,5 +1,6 @@
 /** The plan as it is played: where the robot and all that moves are at an instant of the mission's clock. */
 
+import { robotName } from "./core/fleet.js";
 import { Playback } from "./playback.js";
 
 const MOST_VIAS = 60; // via points that are told one by one
@@ -16,8 +17,11 @@ export class Preview extends Playback {
   /** The newest plan is what is played; who draws plans hears of it by itself. */
   follow() {
     const before = this.time;
-    const plan = this.store.goodPlan;
-    if (!plan) {
+    const { goodPlan: plan, fleetPlan } = this.store;
+    if (fleetPlan?.driving.length) {
+      this.over(...fleetPlan.lasts);
+      this.factor = Math.max(1, Math.round((this.end - this.begin) / 30));
+    } else if (!plan) {
       this.isPlaying = false;
       this.over(0, 0);
     } else {
@@ -30,7 +34,7 @@ export class Preview extends Playback {
 
   /** Whether there is something to be seen that isn't on the map anyway. */
   get isOn() {
-    return !!this.store.goodPlan && (this.isPlaying || this.time > this.begin || this.hasMotion);
+    return (!!this.store.goodPlan || !!this.store.fleetPlan) && (this.isPlaying || this.time > this.begin || this.hasMotion);
   }
 
   /** Whether anything moves but the robot. */
@@ -55,6 +59,11 @@ export class Preview extends Playback {
     const vias = (users.length > MOST_VIAS ? [users[0], users.at(-1)] : users).map((/** @type {any} */ via, /** @type {number} */ i, /** @type {any[]} */ all) => ({
       time: curve.timeAt(via[5]), kind: via[6] > 0 ? "arrived" : i === all.length - 1 ? "reached" : i ? "via" : "started", text: via[0], at: [via[1], via[2]],
     }));
+    const { fleetPlan, file, robot } = this.store;
+    if (fleetPlan && robot !== null) {
+      const held = fleetPlan.waitsOf(robotName(file, robot)).map((wait) => ({ time: Math.max(this.begin, wait.from), kind: "waits", text: `waits ${wait.seconds.toFixed(1)} s for ${wait.waits_for}`, at: null }));
+      return [...vias, ...held].sort((a, b) => a.time - b.time);
+    }
     const waits = (plan.timing?.waits ?? []).map((/** @type {any} */ wait) => ({ time: wait.at_s, kind: "waits", text: waitWords(wait), at: null }));
     const proof = plan.timing?.certificate;
     const tightest = proof?.obstacle && proof.tightest_at_s !== null ? [{ time: proof.tightest_at_s, kind: "tightest", text: `nearest to ${proof.obstacle}`, at: proof.tightest_at }] : [];

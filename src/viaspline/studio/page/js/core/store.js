@@ -1,13 +1,16 @@
 /**
  * The state of the page: the document and its history, what is selected, the newest plan.
  *
+ * What is edited is a mission: all of the file, or of a fleet's that of the robot that is chosen.
+ *
  * Whoever wants to know of changes listens for a topic: `document`, `selection`, `plan`, `ledger`,
- * `space-time`, `run`, `view`, `file`, `tool`, `hover`, `status`.
+ * `space-time`, `run`, `view`, `file`, `tool`, `hover`, `status`, `robot`, `elsewhere`.
  */
 
+import { isFleet, membersOf, missionOf, withMission } from "./fleet.js";
 import { exists } from "./mission.js";
 
-/** @typedef {{doc: any, selection: string|null, merge: string|null, time: number}} Entry */
+/** @typedef {{file: any, robot: number|null, selection: string|null, merge: string|null, time: number}} Entry */
 
 const MAX_UNDO_STEPS = 500;
 const MERGE_MS = 900;
@@ -16,11 +19,14 @@ export class Store {
   constructor() {
     /** @type {Map<string, Set<() => void>>} */
     this.listeners = new Map();
-    /** @type {any} */ this.doc = {};
+    /** @type {any} */ this.file = {}; // what the file holds
+    /** @type {any} */ this.doc = {}; // the mission that is edited
+    /** @type {number|null} */ this.robot = null; // whose mission that is, of a fleet
+    /** @type {Record<string, any>} */ this.missions = {}; // what stands in the files of a fleet's robots
     /** @type {string|null} */ this.name = null;
     this.folder = "";
     /** @type {number[]|null} */ this.origin = null; // latitude and longitude of 0, 0, if known
-    /** @type {any} */ this.savedDoc = null;
+    /** @type {any} */ this.savedFile = null;
     /** @type {string|null} */ this.selection = null;
     this.revision = 0;
     /** When the newest input came that the document follows [ms]. */ this.inputAt = 0;
@@ -29,6 +35,7 @@ export class Store {
     /** @type {any} */ this.plan = null; // the newest answer, with a path or with problems
     /** @type {import("../geometry/curve.js").Curve|null} */ this.curve = null;
     /** @type {any} */ this.goodPlan = null; // the newest answer with a path
+    /** @type {import("./fleet_plan.js").FleetPlan|null} */ this.fleetPlan = null;
     /** @type {any[]} */ this.ledger = [];
     /** @type {any} */ this.spaceTime = null; // when the path is blocked by what moves, of the newest plan that said it
     this.isLate = false; // the newest plan is of another document than the one on the screen
@@ -55,52 +62,92 @@ export class Store {
   }
 
   get dirty() {
-    return this.doc !== this.savedDoc;
+    return this.file !== this.savedFile;
+  }
+
+  /** Whether the mission stands in a file of its own, and can't be edited here. */
+  get isElsewhere() {
+    return this.robot !== null && !!membersOf(this.file)[this.robot]?.mission;
   }
 
   /**
-   * Change the document.
+   * Change the mission that is edited.
    * @param {any} doc
    * @param {{merge?: string|null, select?: string|null, inputAt?: number}} [options] edits in a row
    *   with the same `merge` are undone together
    */
-  edit(doc, { merge = null, select, inputAt } = {}) {
-    if (doc === this.doc && (select === undefined || select === this.selection)) return;
-    if (doc !== this.doc) {
+  edit(doc, options = {}) {
+    const file = this.robot === null ? doc : withMission(this.file, this.robot, this.doc, doc);
+    if (doc !== this.doc && file === this.file) this.tell("elsewhere");
+    this.editFile(doc === this.doc ? this.file : file, options);
+  }
+
+  /**
+   * Change what the file holds.
+   * @param {any} file
+   * @param {{merge?: string|null, select?: string|null, inputAt?: number, robot?: number|null}} [options] `robot` is chosen
+   */
+  editFile(file, { merge = null, select, inputAt, robot } = {}) {
+    if (file === this.file && (select === undefined || select === this.selection)) return;
+    if (file !== this.file) {
       const now = performance.now();
       const last = this.past.at(-1);
       const joins = merge !== null && last?.merge === merge && (merge.startsWith("drag") || now - last.time < MERGE_MS);
       if (joins && last) last.time = now;
       else {
-        this.past.push({ doc: this.doc, selection: this.selection, merge, time: now });
+        this.past.push({ ...this.now, merge, time: now });
         if (this.past.length > MAX_UNDO_STEPS) this.past.shift();
       }
       this.future = [];
-      this.put(doc, inputAt);
+      this.put(file, inputAt, robot);
     }
     if (select !== undefined) this.select(select);
   }
 
-  /** @param {any} doc @param {number} [inputAt] */
-  put(doc, inputAt) {
-    this.doc = doc;
+  get now() {
+    return { file: this.file, robot: this.robot, selection: this.selection };
+  }
+
+  /** @param {any} file @param {number} [inputAt] @param {number|null} [robot] the one that is edited from now on */
+  put(file, inputAt, robot = this.robot) {
+    const before = this.robot;
+    this.file = file;
+    this.robot = robot;
+    this.take();
     this.revision += 1;
     this.inputAt = inputAt ?? performance.now();
     if (this.run) {
       this.run = null; // it was driven on another mission
       this.tell("run");
     }
-    if (this.selection && !exists(doc, this.selection)) this.select(null);
+    if (this.selection && !exists(this.doc, this.selection)) this.select(null);
     this.tell("document");
+    if (this.robot !== before) this.tell("robot");
+  }
+
+  /** Take the mission that is edited out of the file. */
+  take() {
+    const count = membersOf(this.file).length;
+    this.robot = isFleet(this.file) && count ? Math.min(this.robot ?? 0, count - 1) : null;
+    this.doc = this.robot === null ? this.file : missionOf(this.file, this.robot, this.missions);
+  }
+
+  /** Edit another robot of the fleet. @param {number} robot */
+  choose(robot) {
+    if (robot === this.robot || this.robot === null) return;
+    this.robot = robot;
+    this.take();
+    this.select(null);
+    this.tell("robot");
   }
 
   /** @param {Entry[]} from @param {Entry[]} to */
   travel(from, to) {
     const entry = from.pop();
     if (!entry) return false;
-    to.push({ doc: this.doc, selection: this.selection, merge: null, time: 0 });
-    this.put(entry.doc);
-    this.select(exists(entry.doc, entry.selection) ? entry.selection : null);
+    to.push({ ...this.now, merge: null, time: 0 });
+    this.put(entry.file, undefined, entry.robot);
+    this.select(exists(this.doc, entry.selection) ? entry.selection : null);
     return true;
   }
 
@@ -112,17 +159,21 @@ export class Store {
     return this.travel(this.future, this.past);
   }
 
-  /** Begin with another document; nothing can be undone. @param {any} doc @param {string|null} name */
-  open(doc, name) {
+  /** Begin with another document; nothing can be undone. @param {any} file @param {string|null} name */
+  open(file, name) {
     this.past = [];
     this.future = [];
     this.name = name;
-    this.savedDoc = doc;
+    this.savedFile = file;
+    this.robot = null;
+    this.missions = {};
+    this.fleetPlan = null;
     this.selection = null;
     this.goodPlan = this.plan = this.curve = null;
     this.ledger = [];
     this.spaceTime = null;
-    this.put(doc);
+    this.show.speed = !isFleet(file); // each robot of a fleet has a colour of its own
+    this.put(file);
     this.tell("selection");
     this.tell("file");
   }

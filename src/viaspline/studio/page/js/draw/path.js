@@ -7,8 +7,8 @@ import { viridis } from "./theme.js";
 
 const SPEED_SHADES = 24;
 
-/** @param {Pen} pen @param {Curve} curve @param {{speed: boolean, isStale: boolean, maxSpeed: number}} how */
-export function drawPath(pen, curve, { speed, isStale, maxSpeed }) {
+/** @param {Pen} pen @param {Curve} curve @param {{speed: boolean, isStale: boolean, maxSpeed: number, colour?: string|null}} how `colour` is that of a robot of a fleet */
+export function drawPath(pen, curve, { speed, isStale, maxSpeed, colour = null }) {
   const { ctx, colours } = pen;
   ctx.lineCap = ctx.lineJoin = "round";
   ctx.beginPath();
@@ -19,7 +19,8 @@ export function drawPath(pen, curve, { speed, isStale, maxSpeed }) {
   }
   pen.stroke(colours.casing, 6);
   if (!speed) {
-    pen.stroke(colours.path, 3);
+    if (colour) pen.stroke(colours.ink, 5);
+    pen.stroke(colour ?? colours.path, 3);
     return;
   }
   pen.stroke(colours.ink, 4.4);

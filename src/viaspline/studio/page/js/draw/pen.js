@@ -1,5 +1,7 @@
 /** A canvas context that takes metres: the few strokes that every layer is made of. */
 
+import { isDark } from "./theme.js";
+
 /** @typedef {import("../geometry/camera.js").Camera} Camera */
 
 export class Pen {
@@ -8,6 +10,7 @@ export class Pen {
     this.ctx = ctx;
     this.camera = camera;
     this.colours = colours;
+    this.isDark = isDark();
   }
 
   /** @param {number[][]} ring */

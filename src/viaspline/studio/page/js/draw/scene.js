@@ -3,6 +3,7 @@
 import { areasOf, bodyOf, movingOf, obstaclesOf, outlined, pointsOf, requiredOf, tracksOf, whole } from "../core/mission.js";
 import { polygon } from "../shapes/polygon.js";
 import { down, metres, seconds } from "../units.js";
+import { FleetLayer } from "../fleet/layer.js";
 import { drawCorridor, drawZones, wordsOf } from "./areas.js";
 import { drawBody, drawSwept } from "./body.js";
 import { drawFollowed, drawRobot, drawSight, drawTrail } from "./drive_marks.js";
@@ -37,6 +38,7 @@ export class Scene {
     this.preview = preview;
     this.ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
     this.maps = new MapPictures(() => this.later());
+    this.fleet = new FleetLayer(store, preview);
     this.isDue = false;
     this.patience = 0;
     /** @type {HTMLCanvasElement|undefined} */ this.still = undefined;
@@ -160,6 +162,7 @@ export class Scene {
     drawTrails(pen, moving, this.preview, store.selection && whole(store.selection));
     if (isDriving) drawSight(pen, drive);
     drawUnseen(pen, unseen, ({ index }) => isDriving && drive.hasSeen(index), store.hover);
+    this.fleet.drawRoutes(pen);
     this.drawWays(pen, isDriving, maxSpeed);
     drawMoving(pen, moving, {
       time: this.time, required: show.rings ? requiredOf(doc) : null, marked: [store.hover, store.selection].map((id) => id && whole(id)),
@@ -182,6 +185,7 @@ export class Scene {
     }
     if (store.cursor !== null && store.curve && !isDriving) drawCursor(pen, store.curve.at(store.cursor), body);
     if (isDriving) drawRobot(pen, drive.state(), body, { colour: colours.robot, stop: drive.stay() });
+    else if (store.fleetPlan) this.fleet.drawRobots(pen);
     else if (this.preview.isOn && !store.isLate && store.plan?.ok) this.drawPreviewed(pen, body);
     if (this.draft) drawDraft(pen, this.draft);
     if (this.cross) drawCross(pen, this.cross);
@@ -223,7 +227,7 @@ export class Scene {
     if (show.losers && !isStale) drawLosers(pen, store.ledger, this.hoveredSide);
     if (store.selection?.startsWith("span:") && !isStale) drawLeg(pen, curve, Number(store.selection.slice(5)));
     if (show.comb && !isStale) drawComb(pen, curve);
-    drawPath(pen, curve, { speed: show.speed, isStale, maxSpeed });
+    drawPath(pen, curve, { speed: show.speed, isStale, maxSpeed, colour: this.fleet.chosenColour(pen) });
     if (!isStale) drawArrows(pen, curve);
   }
 
@@ -304,6 +308,6 @@ export class Scene {
         }
       }
     }
-    drawLabels(pen, labels, avoid, line);
+    drawLabels(pen, [...labels, ...this.fleet.labels(pen)], avoid, line);
   }
 }

@@ -36,6 +36,9 @@ const query = matchMedia("(prefers-color-scheme: dark)");
 /** @returns {Theme} */
 export const theme = () => (query.matches ? DARK : LIGHT);
 
+/** Whether the screen is dark. */
+export const isDark = () => query.matches;
+
 /** @param {() => void} listener */
 export const onTheme = (listener) => query.addEventListener("change", listener);
 

@@ -14,7 +14,7 @@ export function keepSaving(store) {
     timer = 0;
     const key = keyOf(store.folder, store.name);
     try {
-      if (store.dirty) localStorage.setItem(key, JSON.stringify({ doc: store.doc, base: store.savedDoc, time: Date.now() }));
+      if (store.dirty) localStorage.setItem(key, JSON.stringify({ doc: store.file, base: store.savedFile, time: Date.now() }));
       else localStorage.removeItem(key);
     } catch {
       forgetOldest();

@@ -125,7 +125,7 @@ export class Files {
   async write(name, replace, origin = "") {
     const { app } = this;
     await app.settled();
-    const doc = app.store.doc;
+    const { file } = app.store;
     const answer = await app.link.ask({ type: "save", name, replace, origin: /\.ya?ml$/i.test(name) ? "" : origin });
     if (answer.type === "exists") {
       this.show("Replace the file?", h("p", {}, `${name} is there already.`), ...listed("What stands there and would be lost:", answer.lost), h("div", { class: "dialog-buttons" },
@@ -141,7 +141,7 @@ export class Files {
       return;
     }
     this.dialog.close();
-    app.saved(answer, doc);
+    app.saved(answer, file);
     app.toast(`Saved ${name}`);
   }
 
@@ -192,7 +192,7 @@ export class Files {
     this.attempt(async () => {
       const { store } = this.app;
       const url = new URL(location.href);
-      url.hash = `m=${await packed({ name: store.name, doc: store.doc })}`;
+      url.hash = `m=${await packed({ name: store.name, doc: store.file })}`;
       history.replaceState(null, "", url);
       try {
         await navigator.clipboard.writeText(url.href);

@@ -1,5 +1,7 @@
 /** The scene as SVG: the path as the very Bézier curves that were proven, in metres. */
 
+import { robotColour } from "../fleet/colours.js";
+import { membersOf, missionOf, robotName } from "../core/fleet.js";
 import { areasOf, obstaclesOf, outlined, pointsOf, requiredOf, tracksOf } from "../core/mission.js";
 import { boxOf } from "../geometry/rings.js";
 import { polygon } from "../shapes/polygon.js";
@@ -23,7 +25,8 @@ export function svgOf(store) {
     ...obstacles.filter((o) => o.list === "known").map((o) => o.shape.svg(o.item, `fill="#f0f2f5" stroke="#f0f2f5" stroke-width="${2 * required}" stroke-linejoin="round"`)),
     ...obstacles.map((o) => o.shape.svg(o.item, o.list === "known" ? `fill="#aeb5bf" stroke="#4d5661" stroke-width="${line / 2}"` : `fill="#fbe3d3" stroke="#c24e00" stroke-width="${line / 2}" stroke-dasharray="${2 * line} ${line}"`)),
     Array.isArray(bounds) ? `<rect x="${bounds[0]}" y="${bounds[1]}" width="${bounds[2] - bounds[0]}" height="${bounds[3] - bounds[1]}" fill="none" stroke="#6f7985" stroke-width="${line / 2}"/>` : "",
-    `<path d="${pathData(spans)}" fill="none" stroke="#0072b2" stroke-width="${line}" stroke-linecap="round"/>`,
+    ...otherPaths(store).map(([d, colour]) => `<path d="${d}" fill="none" stroke="${colour}" stroke-width="${line / 2}" stroke-linecap="round"/>`),
+    `<path d="${pathData(spans)}" fill="none" stroke="${store.robot === null ? "#0072b2" : robotColour(store.robot, false)}" stroke-width="${line}" stroke-linecap="round"/>`,
     ...pointsOf(doc).filter((p) => p.at).map((p) => {
       const [x, y] = /** @type {number[]} */ (p.at);
       const fill = p.id === "start" ? "#008f68" : p.id === "goal" ? "#1b1f24" : p.dwell ? "#f0e442" : "#ffffff";
@@ -33,6 +36,17 @@ export function svgOf(store) {
   ];
   const [w, h] = [box[2] - box[0] + 2 * pad, box[3] - box[1] + 2 * pad];
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${box[0] - pad} ${-box[3] - pad} ${w} ${h}" width="${w}" height="${h}">\n<rect x="${box[0] - pad}" y="${-box[3] - pad}" width="${w}" height="${h}" fill="#fff"/>\n<g transform="scale(1 -1)">\n${parts.filter(Boolean).join("\n")}\n</g>\n</svg>\n`;
+}
+
+/** The spans of every path there is. @param {import("../core/store.js").Store} store @returns {number[][]} */
+const spansOf = (store) => [store.goodPlan?.spans ?? [], ...(store.fleetPlan?.driving ?? []).map((robot) => robot.path.spans)];
+
+/** The paths of the robots of a fleet that aren't chosen, with their colours. @param {import("../core/store.js").Store} store @returns {string[][]} */
+function otherPaths(store) {
+  return membersOf(store.file).flatMap((_, i) => {
+    const path = i === store.robot ? null : store.fleetPlan?.byName.get(robotName(store.file, i))?.path;
+    return path ? [[pathData(path.spans), robotColour(i, false)]] : [];
+  });
 }
 
 /** @param {number[]} p */
@@ -58,14 +72,15 @@ export function boxOfInterest(store) {
 /** The box round everything in a scene [m]. @param {import("../core/store.js").Store} store @param {{bounds: boolean}} [what] */
 export function boxAll(store, what = { bounds: true }) {
   const { doc } = store;
-  const points = pointsOf(doc).flatMap((p) => (p.at ? [p.at] : []));
+  const routes = store.robot === null ? [doc] : membersOf(store.file).map((_, i) => missionOf(store.file, i, store.missions));
+  const points = routes.flatMap((route) => pointsOf(route)).flatMap((p) => (p.at ? [p.at] : []));
   for (const { shape, item } of [...obstaclesOf(doc), ...tracksOf(store.plan?.tracks ?? [])]) {
     const box = shape?.box(item);
     if (box) points.push(box.slice(0, 2), box.slice(2));
   }
   const bounds = doc.world?.bounds;
   if (!what.bounds) {
-    for (const span of [store.goodPlan?.spans ?? []]) for (let i = 0; i < span.length; i += 2) points.push([span[i], span[i + 1]]);
+    for (const span of spansOf(store)) for (let i = 0; i < span.length; i += 2) points.push([span[i], span[i + 1]]);
     for (const grid of store.plan?.grids ?? []) if (grid.extent) points.push(grid.extent.slice(0, 2), grid.extent.slice(2));
     return boxOf(points);
   }

@@ -10,6 +10,7 @@ const SAMPLES_PER_SPAN = 20;
 export class Curve {
   /** @param {any} plan the server's answer */
   constructor(plan) {
+    this.plan = plan;
     /** @type {number[]} */ this.spans = plan.spans;
     this.count = plan.spans.length / 8;
     /** @type {number[]} */ this.joints = plan.joints; // distances of the spans' ends [m]
@@ -19,6 +20,19 @@ export class Curve {
     /** Parameters of the route's points: the legs are between them. @type {number[]} */
     this.stops = plan.vias.filter((/** @type {any} */ via) => via[3] === "user").map((/** @type {any} */ via) => Math.round(via[4]));
     /** @type {Sample[]|null} */ this.cached = null;
+    /** Samples of the same path with another law. @type {Sample[]|null} */ this.earlier = null;
+  }
+
+  /** The same path, driven otherwise. @param {any} law */
+  timed(law) {
+    const next = new Curve({ ...this.plan, law });
+    next.earlier = this.cached ?? this.earlier;
+    return next;
+  }
+
+  /** Samples of where it runs; their speeds may be those of an earlier law. @returns {Sample[]} */
+  get shape() {
+    return this.cached ?? this.earlier ?? this.samples;
   }
 
   /** Evaluate a span. @param {number} k @param {number} w from 0 to 1 */
@@ -45,6 +59,7 @@ export class Curve {
   /** @returns {Sample[]} */
   get samples() {
     if (this.cached) return this.cached;
+    if (this.earlier) return (this.cached = this.earlier.map((sample) => ({ ...sample, speed: this.speedAt(sample.s) })));
     const found = [];
     const per = this.count > 400 ? 6 : this.count > 120 ? 10 : SAMPLES_PER_SPAN;
     for (let k = 0; k < this.count; k += 1) {
@@ -76,7 +91,7 @@ export class Curve {
 
   /** @param {number} s @returns {Sample} */
   at(s) {
-    const list = this.samples;
+    const list = this.shape;
     const i = Math.min(Math.max(search(list, s), 0), list.length - 2);
     const a = list[i], b = list[i + 1];
     const t = b.s > a.s ? Math.min(Math.max((s - a.s) / (b.s - a.s), 0), 1) : 0;
@@ -116,7 +131,7 @@ export class Curve {
 
   /** The nearest place on the path. @param {number} x @param {number} y @returns {{s: number, away: number, span: number, x: number, y: number}} */
   nearest(x, y) {
-    const list = this.samples;
+    const list = this.shape;
     const per = list.length / this.count;
     let best = { s: 0, away: Infinity, span: 0, x: 0, y: 0 };
     for (let i = 0; i + 1 < list.length; i += 1) {

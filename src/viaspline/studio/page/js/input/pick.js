@@ -3,12 +3,14 @@
 import { areasOf, movingOf, obstaclesOf, outlined, pointsOf, spanCount } from "../core/mission.js";
 import { frameAt, into, outOf } from "../geometry/motion.js";
 import { HEADING_REACH_PX, handlesOf } from "../draw/route.js";
+import { pickOtherPoint, pickOtherRobot } from "../fleet/pick_robot.js";
 import { toRing } from "../geometry/rings.js";
 
 /**
  * @typedef {{kind: "handle", handle: {id: string, role: string}}
  *   | {kind: "item", id: string}
  *   | {kind: "side", entry: any, candidate: any}
+ *   | import("../fleet/pick_robot.js").PickedRobot
  *   | {kind: "path", leg: number, s: number, span: number}} Picked
  */
 
@@ -44,6 +46,7 @@ export function pick(store, camera, px, py, reach, time) {
       }
     }
   }
+  found ??= pickOtherPoint(store, camera, px, py, reach);
   if (found) return found;
   const moving = movingOf(obstaclesOf(store.doc)).reverse();
   const keyframe = pickKeyframe(moving, camera, px, py, reach * 0.8);
@@ -58,6 +61,8 @@ export function pick(store, camera, px, py, reach, time) {
   if (curve && onPath && pathAway < reach) {
     return { kind: "path", leg: curve.legOf(onPath.span) % Math.max(spanCount(store.doc), 1), s: onPath.s, span: onPath.span };
   }
+  const robot = pickOtherRobot(store, camera, px, py, reach, time);
+  if (robot) return robot;
   for (const { id, shape, item } of outlined(obstaclesOf(store.doc)).reverse()) {
     if (shape.covers(at, item)) return { kind: "item", id };
     const edge = shape.edgeNear(at, item);

@@ -166,7 +166,7 @@ export class Pointer {
     if (goesByCorners(store.tool)) return this.drawing.corner(px, py);
     if (shapeToolOf(store.tool)) return this.drawing.drag(at);
     const found = pick(store, camera, px, py, reach, scene.time);
-    if (store.tool === "via" && found?.kind !== "item" && found?.kind !== "handle") {
+    if (store.tool === "via" && found?.kind !== "item" && found?.kind !== "handle" && found?.kind !== "robot") {
       const id = this.dragging.addVia(at, found?.kind === "path" ? found.leg : null);
       return this.dragging.item(id, at);
     }
@@ -176,6 +176,12 @@ export class Pointer {
     }
     if (found.kind === "handle") return this.dragging.handle(found.handle, at);
     if (found.kind === "item") {
+      store.select(found.id);
+      return this.dragging.item(found.id, at);
+    }
+    if (found.kind === "robot") {
+      store.choose(found.robot);
+      if (found.id === null) return { move: () => {} };
       store.select(found.id);
       return this.dragging.item(found.id, at);
     }

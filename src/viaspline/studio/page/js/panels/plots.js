@@ -12,6 +12,8 @@ export class Plots {
     this.app = app;
     this.canvas = /** @type {HTMLCanvasElement} */ (document.querySelector("#plots"));
     this.ctx = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext("2d"));
+    this.width = 0; // [CSS pixel]
+    this.height = 0;
     const draw = lazily(() => this.draw(), 60);
     app.store.on("plan hover run document", draw);
     app.drive.on(draw);

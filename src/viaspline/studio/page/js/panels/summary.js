@@ -2,6 +2,7 @@
 
 import { forceSide, replaced } from "../core/edits.js";
 import { idAt, obstaclesOf, part, pointsOf } from "../core/mission.js";
+import { missionOf, robotName } from "../core/fleet.js";
 import { timingRows } from "./timing.js";
 import { bend, down, metres, number, place, seconds } from "../units.js";
 import { fill, h, icon, lazily } from "./dom.js";
@@ -29,15 +30,24 @@ export class Summary {
   }
 
   render() {
-    const { plan } = this.app.store;
+    const { store } = this.app;
+    const { plan } = store;
     if (this.busy) this.pill("is-busy", "…", this.busy);
     else if (!plan) this.pill("is-busy", "…", "planning");
+    else if (store.fleetPlan?.answer.ok) this.fleetPill(store.fleetPlan);
     else if (plan.ok) this.pill("is-good", "check", `proven clear · ${metres(plan.length, 1)} · ${seconds(plan.duration)}`);
     else if (plan.gave_up) this.pill("is-bad", "warn", plan.problems[0]?.text ?? "gave up");
     else this.pill("is-bad", "warn", `no path: ${plan.problems[0]?.text ?? ""}`);
     if (!plan) return;
     if (plan.ok) fill(this.panel, ...this.good(plan));
     else fill(this.panel, ...this.bad(plan));
+  }
+
+  /** @param {import("../core/fleet_plan.js").FleetPlan} fleet */
+  fleetPill({ driving, byName, certificate, missing, served, lasts }) {
+    if (served) this.pill("is-good", "check", `proven apart · ${byName.size} robots · ${seconds(lasts[1])}`);
+    else if (missing.length) this.pill("is-bad", "warn", `${driving.length} of ${byName.size} served: ${missing[0].name}: ${missing[0].missing?.reason ?? ""}`);
+    else this.pill("is-bad", "warn", `too near: ${metres(certificate.separation)} of ${metres(certificate.required)}`);
   }
 
   /** @param {string} kind @param {string} sign @param {string} text */
@@ -59,7 +69,7 @@ export class Summary {
       this.drives(plan.drivability),
       h("dl", { class: "figures" },
         ...row("Length", metres(plan.length, 1)), ...row("Duration", seconds(plan.duration)),
-        ...row("Sharpest", bend(plan.curvature)), ...row("Planned in", plan.ms < 1000 ? `${plan.ms.toFixed(1)} ms` : seconds(plan.ms / 1000))),
+        ...row("Sharpest", bend(plan.curvature)), ...(this.app.store.robot !== null ? [] : row("Planned in", plan.ms < 1000 ? `${plan.ms.toFixed(1)} ms` : seconds(plan.ms / 1000)))),
       ...timingRows(this.app, plan),
       ...this.groups(),
     ];
@@ -123,15 +133,15 @@ export class Summary {
 
   /** @param {any} plan */
   bad(plan) {
-    const { store } = this.app;
+    const { store, fleet } = this.app;
     const shown = plan.problems.slice(0, 6);
     return [
       h("div", { class: "problem-head" }, icon("warn", 18), h("span", {}, plan.gave_up ? "Not known whether there is a path" : plan.problems.length > 1 ? `No path: ${plan.problems.length} faults` : "No path")),
       ...shown.map((/** @type {any} */ problem) => {
         const id = idAt(problem.path);
-        const key = problem.path.length ? this.nameOf(problem.path) : null;
+        const key = problem.path.length ? this.nameOf(problem.path, problem.robot) : null;
         return h("div", { class: "problem" },
-          key ? h("button", { type: "button", class: "link problem-key", onclick: () => id && store.select(id) }, key) : null,
+          key ? h("button", { type: "button", class: "link problem-key", onclick: () => { fleet.choose(problem.robot); if (id) store.select(id); } }, key) : null,
           h("p", {}, sentence(problem.text)),
           h("div", { class: "remedies" }, ...this.remedies(problem)),
           problem.changes.length ? null : h("p", { class: "hint" }, sentence(problem.remedy)));
@@ -148,6 +158,7 @@ export class Summary {
       return h("button", {
         type: "button", class: "button is-remedy",
         onclick: () => {
+          app.fleet.choose(problem.robot);
           let { path } = change;
           const isAt = path.at(-1) === "at";
           if (isAt && Array.isArray(part(store.doc, path.slice(0, -1)))) path = path.slice(0, -1); // the short form [x, y]
@@ -158,18 +169,24 @@ export class Summary {
     });
   }
 
-  /** @param {{path: (string|number)[], value: any}} change */
-  changeLabel({ path, value }) {
+  /** @param {{path: (string|number)[], value: any, robot?: number|null}} change */
+  changeLabel({ path, value, robot }) {
     const last = path.at(-1);
-    if (last === "at") return `Move ${this.nameOf(path)} to ${place(value)}`;
+    if (last === "at") return `Move ${this.nameOf(path, robot)} to ${place(value)}`;
     if (last === "clearance_m") return `Set the clearance to ${number(value)} m`;
     if (last === "pass_on" || last === "never_pass_on") return `Let ${this.nameOf(path)} be passed on either side`;
     return `Set ${path.join(".")} to ${value}`;
   }
 
-  /** @param {(string|number)[]} path */
-  nameOf(path) {
-    const { doc } = this.app.store;
+  /** @param {(string|number)[]} path @param {number|null} [robot] of a fleet, whose it is */
+  nameOf(path, robot = null) {
+    const { file, doc: chosen, missions } = this.app.store;
+    if (robot !== null) return `${robotName(file, robot)}: ${this.nameIn(missionOf(file, robot, missions), path)}`;
+    return this.nameIn(chosen, path);
+  }
+
+  /** @param {any} doc @param {(string|number)[]} path */
+  nameIn(doc, path) {
     const id = idAt(path);
     const point = pointsOf(doc).find((p) => p.id === id) ?? obstaclesOf(doc).find((o) => id?.startsWith(o.id));
     return point?.name ?? path.reduce((/** @type {string} */ text, step) => (typeof step === "number" ? `${text}[${step}]` : text ? `${text}.${step}` : String(step)), "");

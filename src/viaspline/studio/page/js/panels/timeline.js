@@ -35,8 +35,9 @@ export class Timeline {
     this.button.addEventListener("click", () => (app.drive.run ? this.toggle() : this.drive()));
     this.watch.addEventListener("click", () => this.toggle());
     this.scrub.addEventListener("input", () => {
+      const time = Number(this.scrub.value); // a pause draws the line of time anew
       this.played.pause();
-      this.played.seek(Number(this.scrub.value));
+      this.played.seek(time);
     });
     this.scrub.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
       const way = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
@@ -78,6 +79,10 @@ export class Timeline {
   /** Drive the mission as it is now, then play it. */
   async drive() {
     const { store, link, drive, toast } = this.app;
+    if (store.robot !== null) { // a fleet's plan is played
+      this.toggle();
+      return;
+    }
     if (this.isAsked) {
       link.send({ type: "halt" });
       return;
@@ -133,16 +138,17 @@ export class Timeline {
     const { run } = drive;
     this.panel.classList.toggle("is-driving", !!run);
     document.body.classList.toggle("is-driving", !!run);
-    const verb = this.isAsked ? "Stop" : run ? (drive.isPlaying ? "Pause" : "Play") : "Drive";
+    const isFleet = store.robot !== null;
+    const verb = this.isAsked ? "Stop" : isFleet ? (preview.isPlaying ? "Pause" : "Play") : run ? (drive.isPlaying ? "Pause" : "Play") : "Drive";
     this.dress(this.button, verb, icon(verb === "Pause" ? "pause" : verb === "Stop" ? "stop" : "play", 16), verb);
-    this.button.disabled = !run && !this.isAsked && !store.plan?.ok;
     const canPlay = this.played.end > this.played.begin;
+    this.button.disabled = isFleet ? !canPlay : !run && !this.isAsked && !store.plan?.ok;
     const watch = preview.isPlaying ? "Pause the plan" : "Play the plan";
     this.dress(this.watch, watch, icon(preview.isPlaying ? "pause" : "watch"));
     this.watch.setAttribute("aria-label", watch);
     this.watch.title = `${watch} (W)`;
     this.watch.disabled = this.scrub.disabled = !canPlay;
-    const shown = run ?? store.goodPlan;
+    const shown = run ?? store.fleetPlan?.answer ?? store.goodPlan;
     if (shown !== this.shown) {
       this.shown = shown;
       this.scrub.min = String(this.played.begin);
@@ -171,8 +177,8 @@ export class Timeline {
     const speed = store.curve?.speedAt(store.curve.distanceAt(preview.time)) ?? 0;
     this.clock.textContent = !store.plan?.ok ? "–" : isMoved ? `${clock(preview.time)} · ${speed.toFixed(2)} m/s` : seconds(store.plan.duration);
     if (this.isAsked) return;
-    const last = preview.moments().filter(({ time }) => time <= preview.time + 1e-6).at(-1);
-    this.note.textContent = isMoved && last ? `${clock(last.time)} ${last.text}` : "Drive the mission in simulation, with what is not on the map.";
+    const last = preview.moments().filter((/** @type {{time: number}} */ { time }) => time <= preview.time + 1e-6).at(-1);
+    this.note.textContent = isMoved && last ? `${clock(last.time)} ${last.text}` : store.robot === null ? "Drive the mission in simulation, with what is not on the map." : "All robots, as they are planned.";
   }
 
   renderDrive() {

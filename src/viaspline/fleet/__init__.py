@@ -1,0 +1,1 @@
+"""Many robots in one world: paths, conflicts, timing, proof, grants."""

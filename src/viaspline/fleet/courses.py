@@ -1,0 +1,152 @@
+"""The paths of a fleet as the courses that its robots drive, cut into cells."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import GeometryError
+from viaspline.handed_in import number_from
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.fleet import cut_courses as columns
+from viaspline.kernels.fleet.cut_courses import cut_courses
+from viaspline.kernels.fleet.packed_courses import PackedCourses
+from viaspline.kernels.fleet.packed_paths import PackedPaths
+from viaspline.planner import Plan
+
+END_CELL_M = 0.01
+"""Length of the first and of the last cell of a course [m]."""
+OFF_PATH_SHARE = 1e-9
+"""Of a path's length, by which its time law may end beyond it by rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class FleetCourses:
+    """Paths of robots, cut into cells.
+
+    Attributes:
+        names: The robots, in the order of the courses.
+        packed: The courses as kernels see them.
+    """
+
+    names: tuple[str, ...]
+    packed: PackedCourses
+
+
+@dataclass(frozen=True, eq=False)
+class FleetPath:
+    """What becomes a course: a path, and how far its robot keeps others away.
+
+    Attributes:
+        path: What is driven, all of its laps.
+        knots: Distances along it that have to be nodes, not decreasing [m], (k,).
+        reach: Of the robot, with its half of the separation [m]; see ``PackedCourses``.
+    """
+
+    path: PiecewiseCubic
+    knots: Floats
+    reach: float
+
+
+def courses_of(plans: Mapping[str, Plan], separation: float) -> FleetCourses:
+    """The paths of plans, cut into cells; the time laws of the plans change at nodes alone.
+
+    Args:
+        plans: By the names of their robots.
+        separation: Free space between any two bodies [m].
+
+    Returns:
+        Courses in the order of the plans. A robot's reach is the smallest circle about its
+        reference point that holds its body, what it gets beside its path, and half of the
+        separation.
+
+    Raises:
+        GeometryError: The separation is no finite number of 0 or more.
+
+    Example:
+        >>> from viaspline.mission.model import Mission
+        >>> from viaspline.planner import plan
+        >>> route = {"start": [0, 0], "via": [[5, 3]], "goal": [9, 0]}
+        >>> courses = courses_of({"r1": plan(Mission.model_validate({"route": route}))}, 1.0)
+        >>> courses.names, courses.packed.reach
+        (('r1',), array([1.]))
+        >>> bool(np.diff(courses.packed.distance).max() <= 0.5)
+        True
+    """
+    separation = number_from("separation", separation)
+    if not 0.0 <= separation < np.inf:
+        raise GeometryError(f"separation is {separation} m; give a finite distance of 0 or more")
+    paths = [
+        FleetPath(
+            plan.path,
+            _with_short_ends(plan.trajectory.distances, plan.path.length),
+            plan.mission.robot.outer_radius + plan.tracking_error + 0.5 * separation,
+        )
+        for plan in plans.values()
+    ]
+    return courses_along(tuple(plans), paths)
+
+
+def courses_along(names: Sequence[str], paths: Sequence[FleetPath]) -> FleetCourses:
+    """Paths cut into cells: at their knots, where spans meet, and in between.
+
+    Cells are at most 0.5 m long. They are halved while a bound of how far the curve is from the
+    evenly driven chord is above 0.02 m, where the curvature allows that.
+
+    Args:
+        names: Of the robots.
+        paths: Theirs.
+
+    Raises:
+        GeometryError: A knot lies beyond the end of its path.
+    """
+    for name, one in zip(names, paths, strict=True):
+        length = one.path.length
+        if one.knots.size and one.knots[-1] > length + OFF_PATH_SHARE * (1.0 + length):
+            raise GeometryError(
+                f"the time law of '{name}' ends at {one.knots[-1]:g} m of a path of {length:g} m; "
+                "give the law of this path"
+            )
+    if not paths:
+        return FleetCourses((), _empty())
+    tables = [one.path.packed_length for one in paths]
+    rows, at, along = (tuple(parts) for parts in zip(*tables, strict=True))
+    knots = tuple(one.knots for one in paths)
+    packed = PackedPaths(
+        np.concatenate(rows), _firsts(rows), np.concatenate(at), np.concatenate(along),
+        _firsts(at), np.concatenate(knots), _firsts(knots),
+    )  # fmt: skip
+    nodes, first = cut_courses(packed)
+    return FleetCourses(
+        tuple(names),
+        PackedCourses(
+            first=first,
+            distance=nodes[:, columns.DISTANCE].copy(),
+            place=nodes[:, columns.X : columns.Y + 1].copy(),
+            bow=nodes[:, columns.BOW].copy(),
+            reach=np.array([one.reach for one in paths]),
+        ),
+    )
+
+
+def _with_short_ends(knots: Floats, length: float) -> Floats:
+    """Knots, and two more that make the first and the last cell short.
+
+    A robot that stands at an end counts as one that is anywhere in that cell.
+    """
+    if length <= 4.0 * END_CELL_M:
+        return knots
+    return np.sort(np.concatenate([knots, [END_CELL_M, length - END_CELL_M]]))
+
+
+def _firsts(arrays: Sequence[Floats]) -> Ints:
+    """Where each array begins in all of them behind each other, and where the last one ends."""
+    return np.cumsum([0, *(len(array) for array in arrays)], dtype=np.int64)
+
+
+def _empty() -> PackedCourses:
+    none = np.zeros(0)
+    return PackedCourses(np.zeros(1, np.int64), none, np.zeros((0, 2)), none.copy(), none.copy())

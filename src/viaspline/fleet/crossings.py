@@ -1,0 +1,110 @@
+"""Where the paths of a fleet come nearer each other than two robots may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.errors import GaveUpError
+from viaspline.fleet.courses import FleetCourses
+from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.fleet import packed_pieces as columns
+from viaspline.kernels.fleet.joined_boxes import joined_boxes
+from viaspline.kernels.fleet.near_boxes import near_boxes
+from viaspline.kernels.fleet.near_pieces import grid_of, near_pieces
+from viaspline.kernels.fleet.neighbouring import mark_neighbours
+from viaspline.kernels.fleet.packed_crossings import PackedCrossings
+from viaspline.kernels.fleet.packed_pieces import PackedPieces, pieces_of
+
+MAX_BOXES = 50_000_000
+"""How many boxes the crossings of a fleet may have: 2 GB."""
+
+BOXES_A_PAIR = 4
+"""How many boxes a pair of pieces that are near each other has at least, in the mean."""
+
+
+@dataclass(frozen=True, eq=False)
+class FleetCrossings:
+    """Pairs of places on two paths at which two robots would be too near each other.
+
+    Attributes:
+        packed: As kernels see them.
+    """
+
+    packed: PackedCrossings
+
+
+def crossings_of(
+    courses: FleetCourses, only: Ints | None = None, *, max_boxes: int = MAX_BOXES
+) -> FleetCrossings:
+    """Every pair of places on two courses at which their robots would be too near each other.
+
+    All of them are found: curves are bounded, not sampled. Beyond what is too near, boxes hold what
+    is nearer than the reaches and the bounds of both curves, some centimetres.
+
+    Args:
+        courses: The courses of the fleet.
+        only: The robots of which one has to be in each pair, (k,); None: any.
+        max_boxes: So many boxes may be found.
+
+    Raises:
+        GaveUpError: There are more boxes than that: too many robots pass one place.
+
+    Example:
+        >>> from viaspline.curve.path import Path
+        >>> from viaspline.fleet.courses import FleetPath, courses_along
+        >>> def line(*ends):
+        ...     a, b = np.array(ends, float)
+        ...     path = Path([[a, a + (b - a) / 3, b - (b - a) / 3, b]], vias=[])
+        ...     return FleetPath(path, np.array([0.0, path.length]), reach=1.0)
+        >>> courses = courses_along(["a", "b"], [line((0, 0), (20, 0)), line((12, 9), (12, -9))])
+        >>> found = crossings_of(courses).packed
+        >>> found.robots.tolist(), found.span.round(3).tolist()
+        ([[0, 1]], [[10.0, 14.0, 7.0, 11.0]])
+    """
+    packed = courses.packed
+    robots = len(courses.names)
+    is_asked, takes_part = np.ones(robots, dtype=np.bool_), np.ones(robots, dtype=np.bool_)
+    if only is not None:
+        is_asked = _flags(robots, only)
+        mark_neighbours(packed, np.ascontiguousarray(only, dtype=np.int64), takes_part)
+    pieces = pieces_of(packed, takes_part)
+    grid = grid_of(pieces)
+    max_pairs = max_boxes // BOXES_A_PAIR
+    first, near = near_pieces(pieces, grid, is_asked, max_pairs)
+    if len(near) > 2 * max_pairs:
+        raise _too_many(courses, pieces, first[1:], max_boxes)
+    boxes = near_boxes(packed, pieces, first, near, max_boxes)
+    if len(boxes.cell) > max_boxes:
+        raise _too_many(courses, pieces, np.diff(first), max_boxes)
+    pairs, span, box_first, crossing, count = joined_boxes(packed, boxes)
+    return FleetCrossings(
+        PackedCrossings(
+            pairs, span, box_first, boxes.cell[:count], crossing[:count], boxes.other[:count],
+            boxes.low[:count], boxes.high[:count],
+        )
+    )  # fmt: skip
+
+
+def _flags(count: int, chosen: Ints) -> Flags:
+    flags = np.zeros(count, dtype=np.bool_)
+    flags[chosen] = True
+    return flags
+
+
+def _too_many(
+    courses: FleetCourses, pieces: PackedPieces, counts: Ints, max_boxes: int
+) -> GaveUpError:
+    """What is said where too many robots pass one place: the busiest of those that were met."""
+    busiest = int(np.argmax(counts))
+    where: Floats = pieces.real[busiest, columns.X : columns.Y + 1]
+    x, y = where.tolist()
+    name = courses.names[int(pieces.whole[busiest, columns.ROBOT])]
+    return GaveUpError(
+        f"the {len(courses.names)} paths of the fleet come near each other in more than "
+        f"{max_boxes} places, most of them about ({x:.6g}, {y:.6g}), where '{name}' passes",
+        where=where,
+        remedy="send fewer robots through one place",
+        tried=("crossings",),
+    )

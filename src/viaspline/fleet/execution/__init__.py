@@ -1,0 +1,1 @@
+"""Driving the plan of a fleet: orders, grants, delays."""

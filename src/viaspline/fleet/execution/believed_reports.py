@@ -1,0 +1,65 @@
+"""Reports of robots as kernels take them, and what became of those that aren't believed.
+
+Tested through ``fleet/execution/test_fleet_navigator``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.fleet.execution.fleet_messages import ProgressReport
+from viaspline.fleet.execution.fleet_progress import FleetProgressState
+from viaspline.fleet.execution.fleet_run import FleetEvent
+from viaspline.fleet.execution.judged_reports import judged
+from viaspline.kernels.arrays import Floats, Ints
+
+
+def believed(
+    fleet: DrivenFleet, state: FleetProgressState, reports: Sequence[ProgressReport], margin: float
+) -> tuple[Ints, Floats, list[FleetEvent]]:
+    """The reports that can be true, in the order of their times, and why the others can't.
+
+    Args:
+        fleet: What is driven.
+        state: How far it has come; who was heard, has arrived and how fast it is are written to.
+        reports: In any order.
+        margin: How much farther than it says a robot has to be [m].
+
+    Returns:
+        Whose reports they are, (k,); when and where each was, how far it takes itself to be let,
+        and of when the last command is that it has heard, (k, 4); and what is to be told of them
+        and of the others.
+    """
+    known, robots, rows = state.known(fleet), [], []
+    events: list[FleetEvent] = []
+    for report in sorted(reports, key=_by_time):
+        event = judged(report, known, state.time)
+        if event is not None:
+            events.append(event)
+            continue
+        robot = known.names[report.name]
+        length = float(known.lengths[robot])
+        place = min(max(report.distance - margin, 0.0), length)
+        if report.arrived:
+            place = math.inf if fleet.rides.vanishes[robot] else length
+            if not state.arrived[robot]:
+                words = f"{report.name} arrives"
+                events.append(FleetEvent("arrived", report.time, report.name, words))
+            state.arrived[robot] = True
+        state.heard[robot], state.silent[robot] = report.time, False
+        state.speeds[robot] = abs(report.speed)
+        known.progress[robot] = max(known.progress[robot], place)
+        robots.append(robot)
+        says = report.holds is not None and report.heard is not None
+        holds, heard = (report.holds, report.heard) if says else (0.0, -math.inf)
+        rows.append((report.time, place, holds, heard))
+    return np.array(robots, np.int64), np.array(rows, float).reshape(-1, 4), events
+
+
+def _by_time(report: ProgressReport) -> tuple[float, str]:
+    """A time that is no number has its place as well."""
+    return (-math.inf if math.isnan(report.time) else report.time, str(report.name))

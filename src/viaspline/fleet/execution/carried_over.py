@@ -1,0 +1,111 @@
+"""What a fleet under way keeps when it gets another plan: who keeps its path goes on.
+
+Tested through ``fleet/execution/test_changed_fleets``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from viaspline.errors import GeometryError
+from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.fleet.execution.fleet_orders import FleetOrders, decided, orders_led
+from viaspline.fleet.execution.fleet_progress import FleetProgressState
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.fleet.open_bars import open_bars
+
+SAME_M = 1e-6
+"""Places that differ by less are one."""
+
+
+def carried_over(
+    state: FleetProgressState, before: DrivenFleet, after: DrivenFleet
+) -> FleetProgressState:
+    """The state of a fleet with another plan.
+
+    Args:
+        state: Under the plan before.
+        before: That plan.
+        after: The other one.
+
+    Raises:
+        GeometryError: A robot is to pass before one that may be in the crossing already, or the
+            orders have a cycle.
+    """
+    kept = _kept(before, after)
+    leaders, by_second = decided(after)
+    leaders = leaders.copy()
+    for c, found in _same_crossings(before, after, kept).items():
+        old_leader = int(state.packed.leaders[found])
+        if old_leader >= 0:
+            number = int(np.flatnonzero(kept == old_leader)[0])
+            is_planned = leaders[c] == number
+            by_second[c] = bool(state.orders.by_second[found]) if is_planned else True
+            leaders[c] = number
+    orders = orders_led(after, leaders, by_second)
+    new = FleetProgressState.at_start(after, orders)
+    packed = new.packed
+    for robot in np.flatnonzero(kept >= 0):
+        old = kept[robot]
+        for now, was in zip(packed[1:], state.packed[1:], strict=True):
+            now[robot] = was[old]
+        for name in ("speeds", "heard", "arrived", "silent", "out"):
+            getattr(new, name)[robot] = getattr(state, name)[old]
+    packed.head[:] = orders.packed.first[:-1]
+    packed.recall[:] = -1
+    packed.recall_place[:] = np.inf
+    packed.begin[kept < 0] = np.maximum(packed.begin[kept < 0], state.time)
+    _check_let_in(orders, packed.promised, packed.progress)
+    open_bars(orders.packed, packed)
+    return replace(new, time=state.time, events=state.events)
+
+
+def _kept(before: DrivenFleet, after: DrivenFleet) -> Ints:
+    """For each robot its number before if its path is the same, else -1, (n,)."""
+    numbers = {name: robot for robot, name in enumerate(before.names)}
+    kept = np.full(len(after.names), -1)
+    for robot, name in enumerate(after.names):
+        old = numbers.get(name, -1)
+        if old >= 0:
+            (d0, p0), (d1, p1) = before.course(old), after.course(robot)
+            same = d0.shape == d1.shape and np.allclose(d0, d1, rtol=0.0, atol=SAME_M)
+            if same and np.allclose(p0, p1, rtol=0.0, atol=SAME_M):
+                kept[robot] = old
+    return kept
+
+
+def _same_crossings(before: DrivenFleet, after: DrivenFleet, kept: Ints) -> dict[int, int]:
+    """Crossings of robots that keep their paths, and what their numbers were before."""
+
+    def key(pair: list[int], span: Floats) -> tuple[object, ...]:
+        ends = span.reshape(2, 2) if pair[0] < pair[1] else span.reshape(2, 2)[::-1]
+        return (*sorted(pair), *np.round(ends.ravel() / SAME_M / 10.0).tolist())
+
+    old = before.crossings.packed
+    known = {key(old.robots[c].tolist(), old.span[c]): c for c in range(len(old.robots))}
+    new, found = after.crossings.packed, {}
+    for c, pair in enumerate(new.robots.tolist()):
+        was = [int(kept[robot]) for robot in pair]
+        if min(was) >= 0:
+            number = known.get(key(was, new.span[c]))
+            if number is not None:
+                found[c] = number
+    return found
+
+
+def _check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> None:
+    """Refuse a leader of a crossing into which the other robot has been let already."""
+    packed = orders.packed
+    robot = np.repeat(np.arange(len(orders.names)), np.diff(packed.first))
+    counts = orders.leaders[packed.crossing] == packed.other
+    late = counts & (promised[robot] > packed.place + SAME_M)
+    wrong = late & (progress[packed.other] < packed.passed)
+    if wrong.any():
+        b = int(np.flatnonzero(wrong)[0])
+        first, second = orders.names[packed.other[b]], orders.names[robot[b]]
+        raise GeometryError(
+            f"{first} is to pass before {second}, which may have gone beyond "
+            f"{packed.place[b]:.1f} m already; plan {first} so that it passes after {second}"
+        )

@@ -1,0 +1,81 @@
+"""What is driven: courses, where they cross, the laws that were planned, and what robots can do.
+
+Tested through ``fleet/execution/test_fleet_orders``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_rides import PackedRides
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenFleet:
+    """A fleet with its plan, as it is driven.
+
+    Attributes:
+        courses: Of the robots.
+        crossings: Where these come near each other.
+        laws: That were planned: they say who passes first.
+        rides: How each robot drives where nobody is in its way; who departs at infinity never does.
+        separation: The free space that the plan keeps between bodies [m].
+    """
+
+    courses: FleetCourses
+    crossings: FleetCrossings
+    laws: FleetLaws
+    rides: PackedRides
+    separation: float
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The robots, in the order of the courses."""
+        return self.courses.names
+
+    @property
+    def lengths(self) -> Floats:
+        """Of the robots' paths [m], (n,)."""
+        packed = self.courses.packed
+        lengths: Floats = packed.distance[packed.first[1:] - 1]
+        return lengths
+
+    @property
+    def fastest(self) -> Floats:
+        """The largest speed of each robot [m/s], (n,)."""
+        if not self.names:
+            return np.empty(0)
+        first = self.courses.packed.first[:-1]
+        return np.sqrt(np.maximum.reduceat(self.rides.square, first))
+
+    def course(self, robot: int) -> tuple[Floats, Floats]:
+        """Distances and places of the nodes of a robot's course [m], (m,) and (m, 2)."""
+        packed = self.courses.packed
+        nodes = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
+        return packed.distance[nodes], packed.place[nodes]
+
+    @cached_property
+    def alone(self) -> PackedLaws:
+        """The laws of robots that set out at 0 s and never wait for another."""
+        first, rides = self.courses.packed.first, self.rides
+        spent = np.concatenate(([0.0], np.cumsum(rides.lasts + rides.stays)[:-1]))
+        arrive = spent - np.repeat(spent[first[:-1]], np.diff(first))
+        timed = np.ones(len(self.names), np.bool_)
+        return PackedLaws(arrive, arrive + rides.stays, np.sqrt(rides.square), timed)
+
+
+def driven_fleet_of(plan: FleetPlan) -> DrivenFleet:
+    """What is driven of a plan: robots that are not served stay at their starts for ever."""
+    rides = plan.rides.packed
+    departs = np.where(plan.laws.packed.is_timed, rides.depart, np.inf)
+    rides, separation = rides._replace(depart=departs), plan.fleet.separation_m
+    return DrivenFleet(plan.courses, plan.crossings, plan.laws, rides, separation)

@@ -1,0 +1,260 @@
+"""The navigator of a fleet: reports in, grants and commands out; state in, state out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from math import floor
+
+import numpy as np
+
+from viaspline.errors import GeometryError
+from viaspline.fleet.execution.believed_reports import believed
+from viaspline.fleet.execution.carried_over import carried_over
+from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
+from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
+from viaspline.fleet.execution.fleet_orders import index_of, orders_of
+from viaspline.fleet.execution.fleet_progress import FleetProgressState
+from viaspline.fleet.execution.fleet_run import FleetEvent, swapped_event
+from viaspline.fleet.execution.granted_commands import commands_of
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.handed_in import all_of, check_kind, number_from, time_from
+from viaspline.kernels.fleet.dispatching import dispatch_step
+from viaspline.kernels.fleet.order_flow import expected_shifts
+from viaspline.mission.fleet.fleet import FleetMember
+
+PERIOD_S = 0.1
+"""Usual time between two steps."""
+SILENT_S = 5.0
+"""A robot that isn't heard of for longer is said to be silent."""
+
+
+class FleetNavigator:
+    """Drives the plan of a fleet in a person's own control room; immutable.
+
+    Every step takes what robots have reported, and gives a command for each of them and the
+    navigator of the next step. It has no clock and no network: time is what the caller says it is,
+    and reports that never come, or come late, are simply not there.
+
+    What it keeps to is the order in which the plan has robots pass wherever their paths come near
+    each other, and not its times: each may drive as soon and as fast as those before it let it.
+    A robot is let into a crossing when the ones that are to pass before it have *reported* that
+    they have left it. Where a report is lost, those who wait for it wait longer, and that is all:
+    what a robot has been granted is never taken away from it, unless it says itself that it does
+    without. The graph of who waits for whom has no cycle, so any delay that ends is a wait.
+
+    An order that a delay has made foolish is swapped, where neither robot is in the crossing, the
+    first one says that it will stop before it, and the graph stays without a cycle.
+
+    Args:
+        plan: What is driven.
+        margin_m: How much farther than it says a robot has to be until others take it to have
+            passed [m]. The tracking error of its plan is kept in any case, round its body.
+        period: Usual time between two steps [s].
+
+    Raises:
+        GeometryError: The laws of the plan keep no order, or with the margin one with a cycle.
+
+    Example:
+        >>> import viaspline as vs
+        >>> plan = vs.plan_fleet(vs.Fleet.model_validate({"separation_m": 1, "fleet": [
+        ...     {"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}},
+        ...     {"name": "b", "route": {"start": [20, -20], "goal": [20, 20]}},
+        ... ]}))
+        >>> nav = FleetNavigator(plan)
+        >>> reports = [ProgressReport("a", 0.0, 0.0), ProgressReport("b", 0.0, 0.0)]
+        >>> commands, nav = nav.step(reports, 0.0)
+        >>> commands["a"].granted, commands["b"].waits_for, commands["b"].granted < 20
+        (40.0, 'a', True)
+    """
+
+    def __init__(self, plan: FleetPlan, *, margin_m: float = 0.0, period: float = PERIOD_S) -> None:
+        check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
+        self._begin(driven_fleet_of(plan), number_from("margin_m", margin_m), period)
+        self._plan: FleetPlan | None = plan
+
+    @classmethod
+    def of(
+        cls, fleet: DrivenFleet, *, margin_m: float = 0.0, period: float = PERIOD_S
+    ) -> FleetNavigator:
+        """The navigator of a fleet that was planned by other means."""
+        navigator = object.__new__(cls)
+        navigator._begin(fleet, margin_m, period)
+        navigator._plan = None
+        return navigator
+
+    def _begin(self, fleet: DrivenFleet, margin: float, period: float) -> None:
+        if not 0.0 <= margin < np.inf:
+            raise GeometryError(f"margin_m is {margin}; give a number of 0 or more")
+        orders = orders_of(fleet, np.full(len(fleet.names), margin))
+        self._fleet, self._margin = fleet, margin
+        self._period = time_from("period", period)
+        self._state = FleetProgressState.at_start(fleet, orders)
+
+    def _with(self, state: FleetProgressState) -> FleetNavigator:
+        navigator = object.__new__(FleetNavigator)
+        navigator.__dict__.update(self.__dict__)
+        navigator._state = state
+        return navigator
+
+    def step(
+        self, reports: Iterable[ProgressReport], time: float
+    ) -> tuple[dict[str, FleetCommand], FleetNavigator]:
+        """What every robot is to do from now on until it hears more.
+
+        Args:
+            reports: What has come in since the last step, in any order.
+            time: Now [s], never less than in the step before.
+
+        Returns:
+            A command for each robot that drives, and the navigator for the next step.
+
+        Raises:
+            GeometryError: Time runs backwards or is no number, or a report is something else.
+        """
+        time = number_from("time", time)
+        if not self._state.time <= time < np.inf:
+            raise GeometryError(f"time {time} s is before the last step's, {self._state.time} s")
+        given = all_of("reports", reports, ProgressReport, "give ProgressReport(name, time, …)")
+        fleet, state = self._fleet, self._state.copied(time)
+        packed, orders = state.packed, state.orders.packed
+        robots, table, events = believed(fleet, state, given, self._margin)
+        before = packed.leaders.copy()
+        swaps = np.isfinite(self._state.time) and floor(time) > floor(self._state.time)
+        grants, sequence = dispatch_step(
+            fleet.courses.packed, fleet.alone, orders, packed, robots, table,
+            state.sequence, bool(swaps), time,
+        )  # fmt: skip
+        for c in np.flatnonzero(before != packed.leaders).tolist():
+            one, two = (fleet.names[r] for r in (packed.leaders[c], before[c]))
+            events.append(swapped_event(one, two, time))
+        events += state.silences(SILENT_S, fleet.rides.depart)
+        commands = commands_of(fleet, state, grants, self._period)
+        return commands, self._with(replace(state, sequence=sequence, events=tuple(events)))
+
+    def without(self, name: str) -> FleetNavigator:
+        """The fleet without a robot that was taken out of the world: nobody waits for it.
+
+        Raises:
+            GeometryError: There is no such robot.
+        """
+        robot = index_of(self._fleet.names, name)
+        words = f"{name} is taken out"
+        event = FleetEvent("taken out", self._state.time, name, words)
+        return self._with(self._state.taken_out(robot, event))
+
+    def dead(self, name: str, until_m: float | None = None) -> FleetNavigator:
+        """The fleet with a robot that stands where it is for ever: it is an obstacle now.
+
+        Whoever was to pass after it where it will never come to goes first. Those whose way it
+        stands in are stopped before it: ``blocked`` names them, and who waits for them. They need
+        other paths: plan them anew, and give ``with_plan`` what comes of it.
+
+        Args:
+            name: Of the robot.
+            until_m: How far along its path it may stand at most [m]; if it isn't given, as far as
+                it was let go. It is at its last report or farther in any case.
+
+        Raises:
+            GeometryError: There is no such robot, or the place isn't on its path.
+        """
+        robot = index_of(self._fleet.names, name)
+        most = float(self._state.packed.promised[robot])
+        until = most if until_m is None else number_from("until_m", until_m)
+        if not 0.0 <= until <= self._fleet.lengths[robot]:
+            raise GeometryError(
+                f"until_m is {until}; give a place on the path of {name}, which is "
+                f"{self._fleet.lengths[robot]:.2f} m long"
+            )
+        words = f"{name} is dead and stands in the way"
+        event = FleetEvent("dead", self._state.time, name, words)
+        return self._with(self._state.with_dead(robot, until, event))
+
+    def with_plan(self, plan: FleetPlan) -> FleetNavigator:
+        """The fleet with another plan: robots are added, taken out or have other paths.
+
+        Who keeps its path goes on as it was, and in the order that holds among such robots. Who
+        has another path, or is new, begins it at its start.
+
+        Raises:
+            GeometryError: A robot is to pass before one that may be in the crossing already, or
+                the orders have a cycle.
+        """
+        check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
+        navigator = self.with_fleet(driven_fleet_of(plan))
+        navigator._plan = plan
+        return navigator
+
+    def with_fleet(self, fleet: DrivenFleet) -> FleetNavigator:
+        """``with_plan`` for a fleet that was planned by other means."""
+        navigator = self._with(carried_over(self._state, self._fleet, fleet))
+        navigator._fleet, navigator._plan = fleet, None
+        return navigator
+
+    def with_robot(
+        self, member: FleetMember, planned: Callable[[FleetPlan, FleetMember], FleetPlan]
+    ) -> FleetNavigator:
+        """The fleet with one robot more.
+
+        Args:
+            member: The robot.
+            planned: Plans it among the others, whose paths and laws stay as they are.
+
+        Raises:
+            GeometryError: As ``with_plan``; or this navigator has no plan.
+        """
+        if self._plan is None:
+            raise GeometryError("this navigator has no FleetPlan; give one to FleetNavigator")
+        return self.with_plan(planned(self._plan, member))
+
+    @property
+    def plan(self) -> FleetPlan | None:
+        """What is driven; None if it was planned by other means."""
+        return self._plan
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All robots of the fleet, those that don't drive any more as well."""
+        return self._fleet.names
+
+    @property
+    def time(self) -> float:
+        """Of the last step [s]; minus infinity before the first one."""
+        return self._state.time
+
+    @property
+    def events(self) -> tuple[FleetEvent, ...]:
+        """What happened in the last step, or when the fleet was changed after it."""
+        return self._state.events
+
+    @property
+    def progress(self) -> dict[str, float]:
+        """How far each robot has come at least [m]; infinite: it has left the world."""
+        return dict(zip(self.names, self._state.packed.progress.tolist(), strict=True))
+
+    @property
+    def reached(self) -> bool:
+        """Whether all robots that drive have arrived."""
+        return bool((self._state.arrived | self._state.out).all())
+
+    @property
+    def blocked(self) -> dict[str, str]:
+        """Robots that will never get on for a dead one, and for whom each of them waits."""
+        stuck = self._state.stuck()
+        others = self._state.orders.packed.other
+        return {self.names[r]: self.names[others[stuck[r]]] for r in np.flatnonzero(stuck >= 0)}
+
+    def expected(self) -> dict[str, float]:
+        """When each robot will arrive, if none is delayed any more [s]; infinite: never.
+
+        Inertia is left out, so it is a little sooner than they will.
+        """
+        state, orders = self._state, self._state.orders.packed
+        begin = np.where(state.packed.fixed, np.inf, state.packed.begin)
+        last = expected_shifts(
+            orders, state.packed.leaders, state.sequence, state.packed.head, begin
+        )[1]
+        ends = self._fleet.courses.packed.first[1:] - 1
+        arrive = last + self._fleet.alone.arrive[ends]
+        arrive[self._state.stuck() >= 0] = np.inf
+        return dict(zip(self.names, arrive.tolist(), strict=True))

@@ -1,0 +1,193 @@
+"""Who passes first wherever two paths of a fleet come near each other, and that this ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.errors import GeometryError
+from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.fleet.crossing_bars import crossing_bars, set_bar_times
+from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
+from viaspline.kernels.fleet.order_flow import expected_shifts, order_flow
+from viaspline.kernels.fleet.packed_orders import PackedOrders
+
+END_M = 1e-9
+"""So near its end a place is the end of a path."""
+
+
+@dataclass(frozen=True, eq=False)
+class FleetOrders:
+    """The orders of a fleet: an acyclic graph of who waits for whose coming where.
+
+    As long as every robot goes on when it may, all arrive, whatever the delays.
+
+    Attributes:
+        names: The robots.
+        packed: As kernels see them.
+        leaders: Who passes each crossing first, by the plan; negative: a robot in it has no law,
+            (c,).
+        by_second: Whether the bars of the second robot of a crossing are made from its own boxes,
+            else from the leader's, (c,).
+        sequence: All bars in an order in which they can be passed, (bars,).
+    """
+
+    names: tuple[str, ...]
+    packed: PackedOrders
+    leaders: Ints
+    by_second: Flags
+    sequence: Ints
+
+    def delays(self, name: str, seconds: float) -> Floats:
+        """How much later robots arrive when one of them sets out later [s], (n,).
+
+        Robots drive as fast as they may, and inertia is left out.
+
+        Args:
+            name: Of that robot.
+            seconds: By how much it sets out later.
+
+        Raises:
+            GeometryError: There is no such robot.
+        """
+        begin = np.zeros(len(self.names))
+        begin[index_of(self.names, name)] = seconds
+        return self.arrivals(begin) - self.arrivals(np.zeros(len(self.names)))
+
+    def arrivals(self, begin: Floats) -> Floats:
+        """When robots arrive that set out at some times [s], less what they take alone, (n,)."""
+        orders = self.packed
+        heads = orders.first[:-1]
+        return expected_shifts(orders, self.leaders, self.sequence, heads, begin)[1]
+
+
+def index_of(names: tuple[str, ...], name: str) -> int:
+    """The number of a robot.
+
+    Raises:
+        GeometryError: There is no robot of that name.
+    """
+    if name not in names:
+        known = ", ".join(names[:5]) + (", …" if len(names) > 5 else "")
+        raise GeometryError(f"there is no robot {name!r} in this fleet; it has {known or 'none'}")
+    return names.index(name)
+
+
+def orders_of(fleet: DrivenFleet, margin: Floats | None = None) -> FleetOrders:
+    """The orders that the laws of a fleet keep.
+
+    Args:
+        fleet: With laws that keep clear of all crossings.
+        margin: How much farther than it says each robot has to be before others take it to be
+            there, but at its end [m], (n,); none if it isn't given.
+
+    Raises:
+        GeometryError: The laws keep no order in a crossing, or the orders have a cycle: each of
+            some robots waits for the next one.
+    """
+    leaders, by_second = decided(fleet)
+    return orders_led(fleet, leaders, by_second, margin)
+
+
+def decided(fleet: DrivenFleet) -> tuple[Ints, Flags]:
+    """Who passes each crossing first by the laws of a fleet, and by whose boxes.
+
+    Returns:
+        ``leaders`` and ``by_second``, as ``orders_led`` takes them.
+
+    Raises:
+        GeometryError: The laws keep no order in a crossing.
+    """
+    courses, crossings = fleet.courses.packed, fleet.crossings.packed
+    leaders, by_second = crossing_leaders(courses, crossings, fleet.laws.packed)
+    if (leaders == UNSETTLED).any():
+        c = int(np.flatnonzero(leaders == UNSETTLED)[0])
+        one, two = (fleet.names[r] for r in crossings.robots[c])
+        begin, end = crossings.span[c, :2]
+        raise GeometryError(
+            f"{one} and {two} are too near each other between {begin:.1f} m and {end:.1f} m along "
+            f"the path of {one}: neither passes first; time the fleet anew"
+        )
+    return leaders, by_second
+
+
+def orders_led(
+    fleet: DrivenFleet, leaders: Ints, by_second: Flags, margin: Floats | None = None
+) -> FleetOrders:
+    """The orders in which given robots pass each crossing first.
+
+    Args:
+        fleet: Its laws don't matter.
+        leaders: Who passes each crossing first; negative: there is no order in it, (c,).
+        by_second: Whether the second robot is kept away by its own boxes, else by the leader's,
+            (c,).
+        margin: As for ``orders_of``.
+
+    Raises:
+        GeometryError: The orders have a cycle.
+    """
+    packed = _packed(fleet, leaders, by_second)
+    heads = packed.first[:-1].copy()
+    none = np.zeros(len(fleet.names))
+    fixed = np.zeros(len(fleet.names), np.bool_)
+    sequence, stuck = order_flow(
+        packed, leaders, none, heads, none if margin is None else margin, fixed
+    )
+    if (stuck >= 0).any():
+        raise GeometryError(_cycle(fleet.names, packed, stuck))
+    return FleetOrders(fleet.names, packed, leaders, by_second, sequence)
+
+
+def _packed(fleet: DrivenFleet, leaders: Ints, by_second: Flags) -> PackedOrders:
+    """The bars of all crossings, ordered along each path."""
+    courses, crossings = fleet.courses.packed, fleet.crossings.packed
+    who, where = crossing_bars(courses, crossings, leaders, by_second)
+    lengths, vanishes = fleet.lengths, fleet.rides.vanishes
+    order = np.lexsort((where[:, 1], who[:, 2], where[:, 0], who[:, 0]))
+    who, where = who[order], where[order]
+    robot, other, crossing = np.ascontiguousarray(who.T)
+    place, passed = np.ascontiguousarray(where.T)
+    at_end = passed >= lengths[other] - END_M
+    passed[at_end & vanishes[other]] = np.inf
+    may_lead = np.ones((len(leaders), 2), np.bool_)
+    never = (at_end & ~vanishes[other]) | (place <= 0.0)
+    side = (crossings.robots[crossing, 1] == other).astype(np.int64)
+    may_lead[crossing[never], side[never]] = False
+    orders = PackedOrders(
+        first=np.searchsorted(robot, np.arange(len(fleet.names) + 1)).astype(np.int64),
+        place=place,
+        other=other,
+        passed=passed,
+        crossing=crossing,
+        comes=np.empty(len(place)),
+        other_comes=np.empty(len(place)),
+        since=np.empty(len(place), np.int64),
+        robots=crossings.robots,
+        may_lead=may_lead,
+        length=lengths,
+        vanishes=vanishes,
+    )
+    set_bar_times(courses, fleet.alone, orders)
+    return orders
+
+
+def _cycle(names: tuple[str, ...], orders: PackedOrders, stuck: Ints) -> str:
+    """Who waits for whom, and for whom that one waits, until somebody comes again."""
+    robot, met = int(np.flatnonzero(stuck >= 0)[0]), []
+    while robot not in met:
+        met.append(robot)
+        if stuck[robot] < 0:  # it has arrived, where another wants to pass
+            break
+        robot = int(orders.other[stuck[robot]])
+    ring = met[met.index(robot) :] if stuck[robot] >= 0 else met[-2:]
+    words = []
+    for one in ring:
+        if stuck[one] >= 0:
+            bar = stuck[one]
+            words.append(
+                f"{names[one]} waits at {orders.place[bar]:.1f} m for {names[orders.other[bar]]} "
+                f"to come to {orders.passed[bar]:.1f} m"
+            )
+    return "the orders have a cycle: " + ", ".join(words) + "; time the fleet anew"

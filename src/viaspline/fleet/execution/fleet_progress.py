@@ -1,0 +1,140 @@
+"""How far a fleet has come: all that a navigator of a fleet keeps from step to step.
+
+Tested through ``fleet/execution/test_fleet_navigator``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.fleet.execution.fleet_orders import FleetOrders
+from viaspline.fleet.execution.fleet_run import FleetEvent
+from viaspline.fleet.execution.judged_reports import KnownFleet
+from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.fleet.dispatching import dispatch_at_start, dispatch_copy
+from viaspline.kernels.fleet.order_flow import order_flow
+from viaspline.kernels.fleet.packed_dispatch import PackedDispatch
+
+
+@dataclass(frozen=True, eq=False)
+class FleetProgressState:
+    """What is known of a fleet under way.
+
+    Attributes:
+        orders: Who waits for whom, as it was planned.
+        packed: How far each robot has come and may go, and who passes each crossing first now.
+        sequence: Bars in an order in which they can be passed, as the leaders are, (m,).
+        time: Of the last step [s]; minus infinity before the first one.
+        speeds: As last reported [m/s], (n,).
+        heard: When each robot was last believed [s], (n,).
+        arrived: Whether each has arrived, (n,).
+        silent: Whether it was said that a robot isn't heard of, (n,).
+        out: Whether a robot doesn't drive any more: dead, taken out, or never had a law, (n,).
+        events: What happened in the last step.
+    """
+
+    orders: FleetOrders
+    packed: PackedDispatch
+    sequence: Ints
+    time: float
+    speeds: Floats
+    heard: Floats
+    arrived: Flags
+    silent: Flags
+    out: Flags
+    events: tuple[FleetEvent, ...] = ()
+
+    @classmethod
+    def at_start(cls, fleet: DrivenFleet, orders: FleetOrders) -> FleetProgressState:
+        """All robots stand at their starts."""
+        count = len(fleet.names)
+        packed = dispatch_at_start(orders.packed, orders.leaders, fleet.rides.depart)
+        out = ~fleet.laws.packed.is_timed
+        packed.fixed[:] = out
+        return cls(
+            orders, packed, orders.sequence, -np.inf, np.zeros(count), np.full(count, -np.inf),
+            np.zeros(count, np.bool_), np.zeros(count, np.bool_), out,
+        )  # fmt: skip
+
+    def copied(self, time: float) -> FleetProgressState:
+        """A state of its own for the step at a time [s], in which nothing has happened yet."""
+        return replace(
+            self,
+            packed=dispatch_copy(self.packed),
+            time=time,
+            speeds=self.speeds.copy(),
+            heard=self.heard.copy(),
+            arrived=self.arrived.copy(),
+            silent=self.silent.copy(),
+            out=self.out.copy(),
+            events=(),
+        )
+
+    def known(self, fleet: DrivenFleet) -> KnownFleet:
+        """What reports are judged by."""
+        return KnownFleet(
+            names={name: robot for robot, name in enumerate(fleet.names)},
+            lengths=fleet.lengths,
+            fastest=fleet.fastest,
+            progress=self.packed.progress.copy(),
+            promised=self.packed.promised,
+            departs=fleet.rides.depart,
+            heard=self.heard,
+            out=self.out,
+        )
+
+    def silences(self, longest: float, departs: Floats) -> list[FleetEvent]:
+        """Robots that haven't been heard of for so long [s], told once."""
+        if np.isinf(self.time):
+            return []
+        found = []
+        names = self.orders.names
+        late = self.time - np.maximum(self.heard, departs)
+        for robot in np.flatnonzero((late > longest) & ~self.silent & ~self.out & ~self.arrived):
+            self.silent[robot] = True
+            words = f"{names[robot]} hasn't been heard of for {late[robot]:.1f} s"
+            found.append(FleetEvent("silent", self.time, names[robot], words))
+        return found
+
+    def stuck(self) -> Ints:
+        """For each robot the bar at which it will wait for ever, or -1, (n,)."""
+        packed, orders = self.packed, self.orders.packed
+        none = np.zeros(packed.head.size)
+        stuck: Ints = order_flow(
+            orders, packed.leaders, packed.progress, packed.head, none, packed.fixed
+        )[1]
+        return stuck
+
+    def taken_out(self, robot: int, event: FleetEvent) -> FleetProgressState:
+        """A robot has left the world."""
+        state = self.copied(self.time)
+        state.packed.progress[robot] = np.inf
+        state.packed.fixed[robot] = True
+        state.out[robot] = True
+        return replace(state, events=(*self.events, event))
+
+    def with_dead(self, robot: int, until: float, event: FleetEvent) -> FleetProgressState:
+        """A robot stands for ever between its progress and a place [m].
+
+        Of crossings that it has not come to the other robot becomes the leader. That only takes
+        away from what robots wait for.
+        """
+        state = self.copied(self.time)
+        packed, orders = state.packed, state.orders.packed
+        packed.fixed[robot] = True
+        packed.promised[robot] = max(until, packed.progress[robot])
+        packed.recall[robot], packed.recall_place[robot] = -1, np.inf
+        state.out[robot] = True
+        own = slice(int(orders.first[robot]), int(orders.first[robot + 1]))
+        met: set[int] = set()
+        for c, place, other in zip(
+            orders.crossing[own].tolist(), orders.place[own].tolist(),
+            orders.other[own].tolist(), strict=True,
+        ):  # fmt: skip
+            if c not in met and packed.leaders[c] == robot and place >= until:
+                packed.leaders[c] = other
+            met.add(c)
+        return replace(state, events=(*self.events, event))

@@ -1,0 +1,113 @@
+"""What a fleet drove: the result of a simulation.
+
+Tested through ``fleet/execution/test_simulate_fleet``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.execution.fleet_orders import index_of
+from viaspline.fleet.fleet_certificate import FleetCertificate, certify_fleet
+from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.kernels.arrays import Floats
+
+FleetEventKind = Literal[
+    "waits", "goes on", "swapped", "arrived", "refused", "ignored", "dead", "taken out", "silent",
+]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class FleetEvent:
+    """Something that happened to a fleet under way.
+
+    Attributes:
+        kind: What.
+        time: When [s].
+        name: To which robot.
+        message: A sentence about it.
+        other: The other robot that has to do with it.
+        at_m: Where along the path of ``name`` [m].
+    """
+
+    kind: FleetEventKind
+    time: float
+    name: str
+    message: str
+    other: str | None = None
+    at_m: float | None = None
+
+
+def swapped_event(first: str, second: str, time: float) -> FleetEvent:
+    """The order of two robots in a crossing was swapped."""
+    return FleetEvent("swapped", time, first, f"{first} passes before {second}", second)
+
+
+@dataclass(frozen=True, eq=False)
+class FleetRun:
+    """A drive of a fleet that was simulated.
+
+    Attributes:
+        arrivals: When each robot arrived [s], by name; those that never did are left out.
+        delays: How much later than planned that was [s], by name.
+        events: What happened, in the order of time.
+        deadlock: The robots that wait for each other for ever; none if the orders are acyclic.
+        courses: As far as they were driven, with a node wherever a robot's acceleration changed.
+        laws: When each robot was where on these: exactly what was driven.
+        required: The separation that the plan keeps [m].
+        end_s: When the simulation ended [s].
+    """
+
+    arrivals: dict[str, float]
+    delays: dict[str, float]
+    events: tuple[FleetEvent, ...]
+    deadlock: tuple[str, ...]
+    courses: FleetCourses
+    laws: FleetLaws
+    required: float
+    end_s: float
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The robots, in the order of the courses."""
+        return self.courses.names
+
+    @property
+    def reached(self) -> bool:
+        """Whether all robots arrived."""
+        return len(self.arrivals) == len(self.names)
+
+    @cached_property
+    def certificate(self) -> FleetCertificate:
+        """The least separation of any two robots as they drove, proven over continuous time."""
+        return certify_fleet(self.courses, self.laws, self.required)
+
+    @property
+    def mean_delay(self) -> float:
+        """Of those that arrived [s]; 0 if none did."""
+        return float(np.mean(list(self.delays.values()))) if self.delays else 0.0
+
+    def distance_at(self, name: str, times: Floats) -> Floats:
+        """How far a robot had come at some times [m], exactly, (t,).
+
+        Raises:
+            GeometryError: There is no such robot.
+        """
+        courses, laws = self.courses.packed, self.laws.packed
+        robot = index_of(self.names, name)
+        nodes = slice(int(courses.first[robot]), int(courses.first[robot + 1]))
+        along, arrive, leave = courses.distance[nodes], laws.arrive[nodes], laws.leave[nodes]
+        square = laws.speed[nodes] ** 2
+        k = np.clip(np.searchsorted(arrive, times, side="right") - 1, 0, along.size - 2)
+        late = np.maximum(times - leave[k], 0.0)
+        width = along[k + 1] - along[k]
+        rise = np.divide(square[k + 1] - square[k], width, out=np.zeros_like(late), where=width > 0)
+        gone = (np.sqrt(square[k]) + 0.25 * rise * late) * late
+        is_over = late >= arrive[k + 1] - leave[k]
+        distance: Floats = along[k] + np.where(is_over, width, np.minimum(gone, width))
+        return distance

@@ -1,0 +1,51 @@
+"""What each robot of a fleet is to do, from how far it may go.
+
+Tested through ``fleet/execution/test_fleet_navigator``.
+"""
+
+from __future__ import annotations
+
+from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.fleet.execution.fleet_messages import FleetCommand
+from viaspline.fleet.execution.fleet_progress import FleetProgressState
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.dispatching import states_ahead
+
+
+def commands_of(
+    fleet: DrivenFleet, state: FleetProgressState, grants: Floats, period: float
+) -> dict[str, FleetCommand]:
+    """A command for each robot that drives, by name.
+
+    Args:
+        fleet: What is driven.
+        state: How far it has come.
+        grants: How far each robot may go [m], (n,).
+        period: Until the next step [s].
+    """
+    orders, packed, commands = state.orders.packed, state.packed, {}
+    places, speeds = states_ahead(
+        fleet.courses.packed, fleet.rides, packed.progress, state.speeds, grants, period
+    )
+    sets_out = fleet.rides.depart < state.time + period
+    for robot, name in enumerate(fleet.names):
+        if state.out[robot]:
+            continue
+        bar, recall = int(packed.head[robot]), int(packed.recall[robot])
+        waits, opens = None, None
+        if recall >= 0:
+            one, two = orders.robots[recall].tolist()
+            waits = fleet.names[two if one == robot else one]
+        elif bar < orders.first[robot + 1]:
+            waits, opens = fleet.names[orders.other[bar]], float(orders.passed[bar])
+        commands[name] = FleetCommand(
+            name=name,
+            time=state.time,
+            granted=float(grants[robot]),
+            distance=float(places[robot]) if sets_out[robot] else 0.0,
+            speed=float(speeds[robot]) if sets_out[robot] else 0.0,
+            waits_for=waits,
+            opens_at=opens,
+            arrived=bool(state.arrived[robot]),
+        )
+    return commands

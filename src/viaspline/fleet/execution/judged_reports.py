@@ -1,0 +1,91 @@
+"""Which reports of robots are believed: a wrong one would let others in where a robot still is.
+
+Tested through ``fleet/execution/test_fleet_navigator``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from viaspline.fleet.execution.fleet_messages import ProgressReport
+from viaspline.fleet.execution.fleet_run import FleetEvent, FleetEventKind
+from viaspline.kernels.arrays import Flags, Floats
+
+LATE_S = 1e-9
+"""So much later than now a report may say it is, for rounding."""
+NOISE_M = 0.1
+"""By so much a report may be wrong without being refused."""
+
+
+@dataclass(frozen=True, eq=False)
+class KnownFleet:
+    """What reports are judged by.
+
+    Attributes:
+        names: The robots, by their numbers.
+        lengths: Of their paths [m], (n,).
+        fastest: Each one's speed [m/s], (n,).
+        progress: How far each has come [m], (n,).
+        promised: How far each may go [m], (n,).
+        departs: When each sets out [s], (n,).
+        heard: When each was last believed [s]; minus infinity: never, (n,).
+        out: Whether a robot isn't listened to any more, (n,).
+    """
+
+    names: dict[str, int]
+    lengths: Floats
+    fastest: Floats
+    progress: Floats
+    promised: Floats
+    departs: Floats
+    heard: Floats
+    out: Flags
+
+
+def judged(report: ProgressReport, known: KnownFleet, now: float) -> FleetEvent | None:
+    """Why a report isn't believed; None if it is.
+
+    A report from the future, of a place that the robot can't have come to or wasn't let to, of no
+    robot of the fleet, or without numbers is refused. An old one, or one of a place farther back,
+    is ignored: where a robot has been, it doesn't come back.
+    """
+    found = _fault(report, known, now)
+    if found is None:
+        return None
+    kind, why = found
+    name = str(report.name)
+    return FleetEvent(kind, now, name, f"the report of {name} {why}")
+
+
+def _fault(
+    report: ProgressReport, known: KnownFleet, now: float
+) -> tuple[FleetEventKind, str] | None:
+    """What becomes of a report that isn't believed, and why."""
+    robot = known.names.get(report.name)
+    if robot is None:
+        return "refused", "is of no robot of this fleet"
+    numbers = (report.time, report.distance, report.speed, report.holds, report.heard)
+    if not all(one is None or math.isfinite(one) for one in numbers):
+        return "refused", "holds numbers that are not finite"
+    if report.time > now + LATE_S:
+        return "refused", f"is from the future, of {report.time:.2f} s"
+    if known.out[robot]:
+        return "ignored", "is of a robot that doesn't drive any more"
+    if report.time < known.heard[robot]:
+        return "ignored", f"is old, of {report.time:.2f} s"
+    length, come = float(known.lengths[robot]), float(known.progress[robot])
+    come, says = min(come, length), f"says {report.distance:.2f} m"
+    if not -NOISE_M <= report.distance <= length + NOISE_M:
+        return "refused", f"{says} of a path of {length:.2f} m"
+    if report.arrived and report.distance < length - NOISE_M:
+        return "refused", f"{says} and that it has arrived, which is at {length:.2f} m"
+    since = max(float(known.heard[robot]), float(known.departs[robot]))
+    can = float(known.fastest[robot]) * max(report.time - since, 0.0)
+    if report.distance > come + can + NOISE_M:
+        return "refused", f"{says}, but it can't have come farther than {come + can:.2f} m"
+    if report.distance > known.promised[robot] + NOISE_M:
+        return "refused", f"{says}, but it may go to {known.promised[robot]:.2f} m only"
+    if report.distance < come - NOISE_M:
+        return "ignored", f"{says}, but it has been at {come:.2f} m"
+    return None

@@ -1,0 +1,81 @@
+"""What a fleet's plan is: every robot's path and law, proven apart, and who passes first where.
+
+Tested through ``fleet/test_plan_fleet``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.fleet_certificate import FleetCertificate
+from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.precedences import Precedence
+from viaspline.fleet.timing.rides import FleetRides
+from viaspline.mission.fleet.fleet import Fleet
+from viaspline.planner import Plan
+
+
+@dataclass(frozen=True)
+class NotServed:
+    """A robot that has no plan.
+
+    Attributes:
+        name: The robot.
+        outcome: ``refused``: proven that there is none; ``gave up``: none was found.
+        reason: Why, in words, with the robots and places that are in the way.
+        remedy: The least change that would help.
+    """
+
+    name: str
+    outcome: Literal["refused", "gave up"]
+    reason: str
+    remedy: str
+
+
+@dataclass(frozen=True, eq=False)
+class FleetPlan:
+    """Paths and time laws of a fleet, proven apart over continuous time.
+
+    Attributes:
+        fleet: What was asked for.
+        plans: The plan of every robot that is served, by name, in the order of the fleet. Its
+            trajectory begins when its robot departs, by the clock of the fleet.
+        not_served: The others, with the reason.
+        certificate: The least separation of any two robots that have a path, over all time.
+        precedences: Who passes first, wherever two paths come near each other.
+        alone: How long each robot would drive if it were alone [s], by name.
+        courses: Their paths, cut into cells, and those of robots that have a path but no law.
+        crossings: Where these come near each other; in each of them one robot passes first.
+        laws: When each robot is where on its course. Those that are not served stand at their
+            starts for ever.
+        rides: How each robot drives where nobody is in its way.
+    """
+
+    fleet: Fleet
+    plans: dict[str, Plan]
+    not_served: tuple[NotServed, ...]
+    certificate: FleetCertificate
+    precedences: tuple[Precedence, ...]
+    alone: dict[str, float]
+    courses: FleetCourses
+    crossings: FleetCrossings
+    laws: FleetLaws
+    rides: FleetRides
+
+    @property
+    def served(self) -> bool:
+        """Whether every robot of the fleet has a plan, and all are proven apart."""
+        return not self.not_served and self.certificate.holds
+
+    @property
+    def alone_laws(self) -> FleetLaws:
+        """When each robot would be where if it were alone."""
+        return self.rides.laws
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The robots that have a path, in the order of the courses."""
+        return self.courses.names

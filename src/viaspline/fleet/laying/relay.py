@@ -1,0 +1,186 @@
+"""A robot's path and law laid anew at once, among robots that are timed already.
+
+Where robots want each other's places, or meet head-on where two can't pass, no timing along fixed
+paths serves all of them: one has to get out of the other's way. So those that are timed are things
+that move as it is known to the next one, which finds a path and a law together: on another side,
+later, or aside into a bay until the others are past.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from viaspline.errors import Change, GeometryError, NoPathError, PlanningError
+from viaspline.fleet.laying.lay_among_rests import KEPT_MORE_M
+from viaspline.fleet.laying.resting_places import RestingPlaces, rests_of
+from viaspline.fleet.laying.robot_as_obstacle import as_obstacle
+from viaspline.kernels.arrays import Floats
+from viaspline.mission.fleet.fleet import Fleet, FleetMember
+from viaspline.mission.model import Mission
+from viaspline.mission.shapes.circle import Circle
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.planner import Plan, plan_in
+from viaspline.planning.checking.conflicts import proven
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.whole_plan import in_order
+from viaspline.world.moving_obstacles import MovingObstacles
+from viaspline.world.world import World
+
+SETTLED_S = 1.0
+"""For so long beyond the last arrival of others a robot holds its goal [s]."""
+LEAST_DISC_M = 0.01
+"""The radius of an obstacle that a robot's own clearance would make up for [m]."""
+
+
+def relay(fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan]) -> Plan:
+    """Lay and time one robot's path among robots that are timed.
+
+    Those that are neither timed nor this one stand at their starts as long as that is possible:
+    where there is no way round one of them, it is taken to have left.
+
+    Args:
+        fleet: What is asked for.
+        member: The robot.
+        fixed: Plans of those that are timed, by name: with laws by the clock of the fleet.
+
+    Returns:
+        A plan whose law begins when the robot may depart; it may wait at its start first.
+
+    Raises:
+        NoPathError: When there is none, whatever is tried.
+        GaveUpError: When none was found.
+
+    Example:
+        >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
+        ...     {"name": "a", "route": {"start": [0, 0], "goal": [30, 0]}},
+        ...     {"name": "b", "route": {"start": [30, 0], "goal": [0, 0]}},
+        ... ]})
+        >>> a, b = fleet.members
+        >>> first = relay(fleet, a, {})
+        >>> second = relay(fleet, b, {"a": first})
+        >>> second.path.length < 40.0, second.trajectory.end_time < 30.0
+        (True, True)
+    """
+    mission, world = in_order(member.mission)
+    moving = _moving(fleet, member, fixed)
+    _refuse_overrun(member, moving)
+    rests = _standing(fleet, member, fixed)
+    among = _among(mission, member, moving, fixed)
+    if rests.places:
+        try:
+            found = plan_in(among, _with_discs(world, fleet, member, rests))
+            return _as_asked(found, mission, world)
+        except (PlanningError, GeometryError):
+            pass  # somebody who stands in the way now may have left by then
+    return _as_asked(plan_in(among, world), mission, world)
+
+
+def _needed(fleet: Fleet, member: FleetMember, reach: float) -> float:
+    """The radius of an obstacle that keeps a robot as far off as one of another reach [m].
+
+    A robot keeps its own clearance to obstacles; the rest is the obstacle's.
+    """
+    robot = member.mission.robot
+    return max(reach + 0.5 * fleet.separation_m - robot.clearance_m + KEPT_MORE_M, LEAST_DISC_M)
+
+
+def _moving(fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan]) -> tuple[Obstacle, ...]:
+    """The robots that are timed, as obstacles to this one."""
+    found = []
+    for other in fleet.members:
+        plan = fixed.get(other.name)
+        if plan is None or other.name == member.name:
+            continue
+        body = plan.mission.robot.outer_radius + plan.tracking_error
+        radius = _needed(fleet, member, body + 0.5 * fleet.separation_m)
+        found.append(as_obstacle(other.name, plan, radius, other.rest))
+    return tuple(found)
+
+
+def _standing(fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan]) -> RestingPlaces:
+    """The starts of robots that aren't timed, but for those where this one has to get to."""
+    starts = []
+    for other in fleet.members:
+        if other.name not in fixed and other.name != member.name:
+            robot = other.mission.robot
+            reach = robot.outer_radius + (robot.tracking_error_m or 0.0) + 0.5 * fleet.separation_m
+            starts.append(next(rests_of(other, reach)))
+    rests = RestingPlaces(tuple(starts))
+    robot = member.mission.robot
+    own = robot.outer_radius + (robot.tracking_error_m or 0.0) + 0.5 * fleet.separation_m
+    points = np.array([via.at[:2] for _, via in member.mission.route.points()])
+    taken = rests.at(points, own + 2.0 * KEPT_MORE_M)
+    return RestingPlaces(tuple(one for k, one in enumerate(rests.places) if k not in taken))
+
+
+def _with_discs(world: World, fleet: Fleet, member: FleetMember, rests: RestingPlaces) -> World:
+    """The world with robots standing in it."""
+    rows: Floats = rests.rows.copy()
+    rows[:, 2] = [_needed(fleet, member, one.reach) for one in rests.places]
+    discs = tuple(
+        Obstacle.model_construct(
+            name=rest.robot, circle=Circle.model_construct(center=rest.at, radius=float(radius))
+        )
+        for rest, radius in zip(rests.places, rows[:, 2], strict=True)
+    )
+    return world.with_discs(discs, rows)
+
+
+def _among(
+    mission: Mission, member: FleetMember, moving: tuple[Obstacle, ...], fixed: Mapping[str, Plan]
+) -> Mission:
+    """The mission among robots that move; it holds its goal until they have arrived."""
+    known = (*mission.world.known, *moving)
+    route = mission.route
+    if member.rest == "stay" and moving:
+        last = max(plan.trajectory.end_time for plan in fixed.values())
+        hold = max(route.hold_s, last - route.depart_s + SETTLED_S, 0.0)
+        route = route.model_copy(update={"hold_s": hold})
+    return mission.model_copy(
+        update={"world": mission.world.model_copy(update={"known": known}), "route": route}
+    )
+
+
+def _refuse_overrun(member: FleetMember, moving: tuple[Obstacle, ...]) -> None:
+    """Refuse a robot that is run over before it may depart.
+
+    Raises:
+        NoPathError: With who comes too near, and when it would have to leave.
+    """
+    route, robot = member.mission.route, member.mission.robot
+    until = route.depart_s
+    if until <= 0.0 or not moving:
+        return
+    times = np.append(np.arange(0.0, until, 0.1), until)
+    places = np.tile(np.array(route.start.at[:2], float), (len(times), 1))
+    gaps, nearest = MovingObstacles(moving).nearest(places, times)
+    near = np.flatnonzero(gaps < robot.outer_radius + robot.clearance_m)
+    if near.size:
+        name, time = moving[int(nearest[near[0]])].name, float(times[near[0]])
+        raise NoPathError(
+            f"'{name}' comes by its start at {time:.1f} s, before it may depart",
+            where=route.start.at,
+            remedy=f"let it depart by {time:.1f} s (depart_s), or '{name}' later",
+            obstacles=(name or "",),
+            changes=(Change("route.depart_s", round(time, 1)),),
+        )
+
+
+def _as_asked(plan: Plan, mission: Mission, world: World) -> Plan:
+    """A plan among other robots as one of the mission as it was asked for."""
+    robot = plan.mission.robot  # with what steering it has in reserve
+    asked = mission.model_copy(update={"robot": robot})
+    requirements = Requirements.of(asked, plan.tracking_error)
+    law = plan.trajectory
+    if plan.timed is None:
+        law = law.delayed(mission.route.depart_s - law.start_time)
+    return replace(
+        plan,
+        mission=asked,
+        world=world,
+        certificate=proven(plan.path, world, requirements),
+        trajectory=law,
+    )

@@ -1,0 +1,88 @@
+"""Robots that timing can't serve, laid anew one after the other among those that it does serve.
+
+Tested through ``fleet/laying/test_relay``.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from viaspline.errors import GeometryError, PlanningError
+from viaspline.fleet.fleet_plan import NotServed
+from viaspline.fleet.laying.lay_paths import not_served
+from viaspline.fleet.laying.relay import relay
+from viaspline.mission.fleet.fleet import Fleet
+from viaspline.planner import Plan
+
+MAX_TURNS = 3
+"""How often a robot that finds no path is laid before those that are in its way."""
+
+
+@dataclass(frozen=True, eq=False)
+class RelaidPaths:
+    """What came of laying robots anew.
+
+    Attributes:
+        plans: Of all robots that are served, by name, with laws by the clock of the fleet.
+        not_served: Those that are to be served and are not.
+    """
+
+    plans: dict[str, Plan]
+    not_served: tuple[NotServed, ...] = ()
+
+
+def relay_paths(fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str]) -> RelaidPaths:
+    """Lay and time robots one after the other, each among all that are timed by then.
+
+    Who finds no path because of one that is timed goes first, and that one is laid anew after it.
+    The most robots that were served at once are what is handed back.
+
+    Args:
+        fleet: What is asked for.
+        fixed: Plans of robots that are timed, by name, with laws by the clock of the fleet.
+        names: The others that are to be served, the most important first.
+
+    Example:
+        >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
+        ...     {"name": "a", "route": {"start": [0, 0], "goal": [30, 0]}},
+        ...     {"name": "b", "route": {"start": [30, 0], "goal": [0, 0]}},
+        ... ]})
+        >>> sorted(relay_paths(fleet, {}, ["a", "b"]).plans)
+        ['a', 'b']
+    """
+    members = {one.name: one for one in fleet.members}
+    plans, best = dict(fixed), dict(fixed)
+    waiting = list(names)
+    failed: dict[str, NotServed] = {}
+    turns: Counter[str] = Counter()
+    while waiting:
+        name = waiting.pop(0)
+        try:
+            plans = {**plans, name: relay(fleet, members[name], plans)}
+        except (PlanningError, GeometryError) as error:
+            failed[name] = not_served(name, error)
+            turns[name] += 1
+            before = _in_the_way(error, plans)
+            if before and turns[name] <= MAX_TURNS:
+                plans = {key: plan for key, plan in plans.items() if key not in before}
+                waiting = [name, *before, *waiting]
+        if len(plans) > len(best):
+            best = plans
+    asked = [key for key in members if key in {*fixed, *names} and key not in best]
+    return RelaidPaths(best, tuple(failed.get(key) or _unlaid(key) for key in asked))
+
+
+def _unlaid(name: str) -> NotServed:
+    """What is told of a robot whose turn hadn't come."""
+    return NotServed(
+        name, "gave up", "it wasn't laid among the others yet",
+        "give it a priority above those of the others",
+    )  # fmt: skip
+
+
+def _in_the_way(error: PlanningError | GeometryError, plans: Mapping[str, Plan]) -> list[str]:
+    """The robots with a plan that an error names."""
+    named = error.obstacles if isinstance(error, PlanningError) else ()
+    return [name for name in dict.fromkeys(named) if name in plans]

@@ -1,0 +1,161 @@
+"""The places where robots of a fleet rest: before they depart, and once they have arrived."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.fleet.discs_met import discs_met
+from viaspline.mission.fleet.fleet import FleetMember
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
+RestKind = Literal["start", "goal", "home"]
+
+
+@dataclass(frozen=True)
+class RestingPlace:
+    """Where a robot stands for long, in the way of others.
+
+    Attributes:
+        robot: Its name.
+        kind: ``start``: until it departs; ``goal``: from when it has arrived; ``home``: both.
+        at: [m].
+        reach: How far it keeps others away on its part [m]; see ``PackedCourses``.
+    """
+
+    robot: str
+    kind: RestKind
+    at: tuple[float, float]
+    reach: float
+
+    @property
+    def name(self) -> str:
+        """What it is called as an obstacle."""
+        return f"{self.robot}, resting at its {self.kind}"
+
+
+def rests_of(member: FleetMember, reach: float) -> Iterator[RestingPlace]:
+    """Where a robot rests.
+
+    Args:
+        member: The robot.
+        reach: See ``RestingPlace`` [m].
+
+    Example:
+        >>> from viaspline.mission.model import Mission
+        >>> mission = Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}})
+        >>> [(rest.kind, rest.at) for rest in rests_of(FleetMember("a", mission), 1.0)]
+        [('start', (0.0, 0.0)), ('goal', (9.0, 0.0))]
+        >>> [rest.kind for rest in rests_of(FleetMember("a", mission, rest="leave"), 1.0)]
+        ['start']
+    """
+    route = member.mission.route
+    *_, (_, last) = route.points()
+    start, goal = route.start.at[:2], (route.start if route.closed else last).at[:2]
+    stays = member.rest == "stay"
+    if stays and start == goal:
+        yield RestingPlace(member.name, "home", (start[0], start[1]), reach)
+        return
+    yield RestingPlace(member.name, "start", (start[0], start[1]), reach)
+    if stays:
+        yield RestingPlace(member.name, "goal", (goal[0], goal[1]), reach)
+
+
+@dataclass(frozen=True, eq=False)
+class RestingPlaces:
+    """The resting places of a whole fleet, found by where they are.
+
+    Attributes:
+        places: Every one of them.
+    """
+
+    places: tuple[RestingPlace, ...]
+
+    @cached_property
+    def rows(self) -> Floats:
+        """x, y and reach of each [m], (n, 3)."""
+        return np.array([(*one.at, one.reach) for one in self.places]).reshape(-1, 3)
+
+    @cached_property
+    def _tree(self) -> cKDTree:
+        from scipy.spatial import cKDTree
+
+        return cKDTree(self.rows[:, :2])
+
+    @cached_property
+    def _widest(self) -> float:
+        return float(self.rows[:, 2].max(initial=0.0))
+
+    @cached_property
+    def _owners(self) -> dict[str, frozenset[int]]:
+        owners: dict[str, set[int]] = {}
+        for k, one in enumerate(self.places):
+            owners.setdefault(one.robot, set()).add(k)
+        return {name: frozenset(indices) for name, indices in owners.items()}
+
+    def near(self, spans: Floats, reach: float, but: frozenset[int]) -> Ints:
+        """Those whose robots a robot comes too near to somewhere on a curve.
+
+        Args:
+            spans: Bézier control polygons of the curve [m], (m, 4, d).
+            reach: How far that robot keeps others away on its part [m].
+            but: Indices of those that are left out.
+
+        Returns:
+            Indices, increasing, (k,).
+        """
+        found = self._in_box(spans, reach)
+        found = found[[index not in but for index in found.tolist()]]
+        curve = spans if spans.flags.writeable else spans.copy()  # numba compiles for one kind
+        return found[discs_met(curve, self.rows[found], reach)]
+
+    def at(self, points: Floats, reach: float) -> frozenset[int]:
+        """Those whose robots a robot comes too near to at one of some points [m], (k, 2)."""
+        if not self.places:
+            return frozenset()
+        near = [self._tree.query_ball_point(point, reach + self._widest) for point in points]
+        return frozenset(
+            index
+            for point, found in zip(points.tolist(), near, strict=True)
+            for index in found
+            if math.dist(point, self.places[index].at) < reach + self.places[index].reach
+        )
+
+    def of_robot(self, name: str) -> frozenset[int]:
+        """Indices of the places of one robot."""
+        return self._owners.get(name, frozenset())
+
+    def _in_box(self, spans: Floats, reach: float) -> Ints:
+        """Those that the box round a curve comes near to, increasing."""
+        if not self.places:
+            return np.empty(0, np.int64)
+        low, high = spans[..., :2].min(axis=(0, 1)), spans[..., :2].max(axis=(0, 1))
+        widest = reach + self._widest
+        ends = np.searchsorted(self._xs, (low[0] - widest, high[0] + widest))
+        found: Ints = np.sort(self._by_x[ends[0] : ends[1]])
+        y = self.rows[found, 1]
+        inside: Ints = found[(y >= low[1] - widest) & (y <= high[1] + widest)]
+        return inside
+
+    @cached_property
+    def _by_x(self) -> Ints:
+        return np.argsort(self.rows[:, 0], kind="stable")
+
+    @cached_property
+    def _xs(self) -> Floats:
+        ordered: Floats = self.rows[self._by_x, 0]
+        return ordered
+
+
+def all_rests(members: Sequence[FleetMember], reaches: Sequence[float]) -> RestingPlaces:
+    """The resting places of robots with these reaches [m]."""
+    pairs = zip(members, reaches, strict=True)
+    return RestingPlaces(tuple(rest for member, reach in pairs for rest in rests_of(member, reach)))

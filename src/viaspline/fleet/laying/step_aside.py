@@ -1,0 +1,130 @@
+"""A path that steps aside for resting places, and stays as it is elsewhere.
+
+What robots keep from each other is small beside their paths. To lay a whole path anew for it, with
+all sides compared, takes twenty times as long as to bend it where it has to be, and what comes of
+it is hardly better. A path that has more to keep than its via points and its distances is laid
+anew all the same: see ``can_step_aside``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viaspline.curve.path import Path, PathVia
+from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.fleet.sidestep import ASIDE, FIXED, FREE, KEPT, step_aside
+from viaspline.machine.allowance import allowance
+from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.robot_model import is_driven
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan
+from viaspline.planning.checking.conflicts import proven
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.trajectory.limits import Limits
+from viaspline.trajectory.retime import retime
+from viaspline.whole_plan import stations
+
+SHARPEST_PER_M = 0.5
+"""The bend of a step aside where no limit asks for a gentler one [1/m]."""
+JOINT = 1e-9
+"""How far from a joint of spans a via point may lie, as a parameter."""
+
+
+def can_step_aside(plan: Plan) -> bool:
+    """Whether the path of a plan may be bent wherever there is room.
+
+    Not if the robot can't follow any bend, or its path keeps to sides, has height, or was chosen
+    among what moves.
+    """
+    requirements = Requirements.of(plan.mission, plan.tracking_error)
+    return (
+        requirements.is_free_disc
+        and plan.path.dimension == 2
+        and plan.timed is None
+        and not plan.world.sided.size
+        and all(abs(via.u - round(via.u)) < JOINT for via in plan.path.vias)
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class SteppedAside:
+    """What came of stepping aside.
+
+    Attributes:
+        plan: Proven in its world; None where there is no room to step aside.
+        no_room_for: Index of the disc for which there is none, where that is known.
+    """
+
+    plan: Plan | None
+    no_room_for: int | None = None
+
+
+def stepped_aside(plan: Plan, discs: Floats) -> SteppedAside:
+    """A plan whose path steps aside for discs.
+
+    Args:
+        plan: One that can: see ``can_step_aside``.
+        discs: x, y of each, and the distance that the path has to keep from there [m], (n, 3).
+    """
+    robot, world = plan.mission.robot, plan.world
+    requirements = Requirements.of(plan.mission, plan.tracking_error)
+    limits = limits_of(robot)
+    spans, marks, failed = step_aside(
+        world.packed, plan.path.spans.copy(), _marks(plan.path, plan.mission), discs,
+        requirements.required, _bend(limits),
+    )  # fmt: skip
+    if failed >= 0:
+        return SteppedAside(None, int(failed))
+    path = Path(spans, list(_vias(plan.path, spans, marks)))
+    certificate = proven(path, world, requirements)
+    if not certificate.holds:
+        return SteppedAside(None)
+    try:
+        law = retime(path, limits, stations(path, robot), zones=plan.mission.world.speed_zones)
+    except GeometryError:
+        return SteppedAside(None)
+    found = replace(plan, path=path, certificate=certificate, trajectory=law)
+    return SteppedAside(found if _follows(found, plan.mission) else None)
+
+
+def _follows(plan: Plan, mission: Mission) -> bool:
+    """Whether the robot gets no farther beside its path than the path allows for."""
+    robot = mission.robot
+    if robot.tracking_error_m is not None or not is_driven(robot):
+        return True
+    return allowance(plan.path, plan.trajectory, robot) <= plan.tracking_error
+
+
+def _bend(limits: Limits) -> float:
+    """The curvature at which the robot needn't slow down, if that is gentle [1/m]."""
+    across = limits.max_lateral_accel
+    by_accel = math.inf if across is None else across / limits.max_speed**2
+    by_yaw = math.inf if limits.max_yaw_rate is None else limits.max_yaw_rate / limits.max_speed
+    return min(by_accel, by_yaw, SHARPEST_PER_M)
+
+
+def _marks(path: Path, mission: Mission) -> Ints:
+    """The joints of a path as the kernel takes them."""
+    marks = np.full(len(path.spans) + 1, FREE, np.int64)
+    for via in path.vias:
+        marks[round(via.u)] = KEPT if via.kind == "user" else ASIDE
+    route = mission.route
+    marks[0] = KEPT if route.start.heading_deg is None else FIXED
+    marks[-1] = KEPT if route.goal is None or route.goal.heading_deg is None else FIXED
+    return marks
+
+
+def _vias(path: Path, spans: Floats, marks: Ints) -> Iterator[PathVia]:
+    """The via points of a path that has stepped aside."""
+    kept = iter([via for via in path.vias if via.kind == "user"])
+    for joint, mark in enumerate(marks.tolist()):
+        if mark in (KEPT, FIXED):
+            yield replace(next(kept), u=float(joint))
+        elif mark == ASIDE:
+            x, y = spans[joint, 0].tolist() if joint < len(spans) else spans[-1, 3].tolist()
+            yield PathVia("detour", (x, y), "detour", float(joint))

@@ -1,0 +1,105 @@
+"""Who passes first wherever two paths of a fleet come near each other, and who waits for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.crossing_leaders import crossing_leaders
+from viaspline.kernels.fleet.passing_order import passing_gaps
+
+TIGHT_S = 1e-3
+"""Who comes so soon after another one has left waited for it [s]."""
+
+
+@dataclass(frozen=True)
+class Precedence:
+    """Who passes first where two paths come near each other.
+
+    Attributes:
+        first: The name of the robot that passes first.
+        second: The name of the one that passes after it.
+        leaves_at: Where along its path the first one has passed [m].
+        enters_at: From where along its path the second one would be too near [m].
+        waits_s: How much later the second one comes for it [s]; 0 where it comes later anyway.
+    """
+
+    first: str
+    second: str
+    leaves_at: float
+    enters_at: float
+    waits_s: float = 0.0
+
+
+def precedences_of(
+    courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws
+) -> tuple[Precedence, ...]:
+    """Who passes first at every crossing, in the order of the crossings.
+
+    Args:
+        courses: The paths of the fleet.
+        crossings: Where these come near each other.
+        laws: When each robot is where.
+        alone: When each would be where if it were alone.
+    """
+    packed, nodes = crossings.packed, courses.packed
+    gaps = passing_gaps(nodes, packed, laws.packed)
+    leaders, _ = crossing_leaders(nodes, packed, laws.packed)
+    waits = _waits(courses, crossings, laws, alone, gaps)
+    later = (leaders == packed.robots[:, 1])[:, None]
+    ranked = np.where(later, packed.robots[:, ::-1], packed.robots).tolist()
+    places = np.where(later, packed.span[:, [3, 0]], packed.span[:, [1, 2]]).tolist()
+    names = courses.names
+    return tuple(
+        Precedence(names[first], names[second], left, entered, waited)
+        for (first, second), (left, entered), waited in zip(
+            ranked, places, waits.tolist(), strict=True
+        )
+    )
+
+
+def _waits(
+    courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws,
+    gaps: Floats,
+) -> Floats:  # fmt: skip
+    """How much later each crossing makes its second robot come [s], (c,)."""
+    waits = np.zeros(len(crossings.packed.robots))
+    for robot in range(courses.packed.reach.size):
+        for box, lost in held_at(courses, crossings, laws, alone, gaps, robot):
+            waits[crossings.packed.crossing[box]] += lost
+    return waits
+
+
+def held_at(
+    courses: FleetCourses, crossings: FleetCrossings, laws: FleetLaws, alone: FleetLaws,
+    gaps: Floats, robot: int,
+) -> list[tuple[int, float]]:  # fmt: skip
+    """The boxes that a robot waits for, in their order along its path, and how long for each [s].
+
+    A robot comes to a crossing that it waited for just when the other one has left it. What it is
+    late by there, beyond what it was late by at the one before, it is late for this one.
+
+    Args:
+        courses: The paths of the fleet.
+        crossings: Where these come near each other.
+        laws: When each robot is where.
+        alone: When each would be where if it were alone.
+        gaps: See ``passing_gaps``, (boxes,).
+        robot: Which one.
+    """
+    packed = crossings.packed
+    late = laws.packed.arrive - alone.packed.arrive
+    boxes = np.arange(packed.box_first[robot], packed.box_first[robot + 1])
+    tight = boxes[(gaps[boxes] >= 0.0) & (gaps[boxes] < TIGHT_S)]
+    found, before = [], 0.0
+    for box in tight.tolist():
+        now = float(late[packed.cell[box]])
+        if now > before + TIGHT_S:
+            found.append((box, now - before))
+            before = now
+    return found

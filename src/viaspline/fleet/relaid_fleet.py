@@ -1,0 +1,136 @@
+"""Other paths for those robots that can't be timed along theirs.
+
+Each is laid in space and time among the robots that are timed. Then all are timed anew along the
+paths that came of it; where that leaves some blocked, the laws with which the paths were laid are
+kept, if they are proven apart and give every crossing an order.
+
+Tested through ``fleet/test_plan_fleet``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from viaspline.fleet.courses import courses_of
+from viaspline.fleet.crossings import crossings_of
+from viaspline.fleet.fleet_certificate import certify_fleet
+from viaspline.fleet.fleet_laws import FleetLaws, static_laws
+from viaspline.fleet.laying.relay_paths import relay_paths
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timing.rides import rides_of
+from viaspline.fleet.timing.time_paths import Timing
+from viaspline.fleet.timing.timed_trajectory import timed_trajectory
+from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
+from viaspline.machine.machine_limits import limits_of
+from viaspline.mission.fleet.fleet import Fleet
+from viaspline.planner import Plan
+from viaspline.trajectory.retime import retime
+from viaspline.whole_plan import stations
+
+MOST_RELAID = 24
+"""So many robots are laid anew at most."""
+ROOMS_M = (0.3, 0.6, 0.15, 0.0)
+"""So much farther apart than they must be robots are laid, if they can, one value after the other
+[m]: the boxes of crossings, which are half a metre long, tell who passes first if there is room."""
+MOST_AMONG = 12
+"""Among so many, each of which is a moving obstacle to those that are laid."""
+
+
+def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
+    """A fleet timed along other paths for those that are blocked.
+
+    Args:
+        fleet: What is asked for.
+        timed: With robots that are blocked.
+
+    Returns:
+        None where there are too many, or no more are served by it.
+    """
+    ways, blocked = timed.ways, timed.timing.blocked
+    if len(blocked) > MOST_RELAID or len(ways.members) > MOST_AMONG:
+        return None
+    fixed = _timed_plans(timed)
+    wanted = sorted(blocked, key=lambda k: (-ways.members[k].priority, k))
+    names = [ways.members[k].name for k in wanted]
+    best: TimedFleet | None = None
+    for room in ROOMS_M:
+        wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
+        found = relay_paths(wider, fixed, names).plans
+        if len(found) <= len(fixed):
+            continue
+        again = _along(fleet, ways, fixed, found)
+        if len(again.blocked) < len((best or timed).blocked):
+            best = again
+        if not again.blocked:
+            break
+    return best
+
+
+def _along(
+    fleet: Fleet, ways: FleetWays, fixed: Mapping[str, Plan], found: Mapping[str, Plan]
+) -> TimedFleet:
+    """A fleet along paths of which some were laid anew: timed anew, or else as they were laid."""
+    plans = {
+        member.name: plan
+        if found.get(member.name) is fixed.get(member.name)
+        else _alone(found.get(member.name, plan))
+        for member, plan in zip(ways.members, ways.plans, strict=True)
+    }
+    again = TimedFleet.by_priority(ways.along(plans, fleet.separation_m))
+    if again.blocked and len(found) == len(ways.members):
+        laid = _as_laid(ways, {one.name: found[one.name] for one in ways.members}, plans, fleet)
+        return again if laid is None else laid
+    return again
+
+
+def _timed_plans(timed: TimedFleet) -> dict[str, Plan]:
+    """The plans of those that are timed, with their laws, by name."""
+    ways, laws = timed.ways, timed.timing.laws
+    return {
+        member.name: replace(
+            plan, trajectory=timed_trajectory(plan.trajectory, ways.courses, ways.rides, laws, k)
+        )
+        for k, (member, plan) in enumerate(zip(ways.members, ways.plans, strict=True))
+        if k not in timed.timing.blocked
+    }
+
+
+def _as_laid(
+    ways: FleetWays, found: Mapping[str, Plan], alone: Mapping[str, Plan], fleet: Fleet
+) -> TimedFleet | None:
+    """A fleet with the very laws with which its paths were laid; None if they don't hold.
+
+    Args:
+        ways: Of the same robots.
+        found: Their plans, with laws by the clock of the fleet.
+        alone: These with the laws of robots that are alone.
+        fleet: What is asked for.
+    """
+    courses = courses_of(found, fleet.separation_m)
+    crossings = crossings_of(courses)
+    plans = tuple(found.values())
+    rides = rides_of(ways.members, plans, courses)
+    packed = static_laws(courses, [plan.trajectory for plan in plans]).packed
+    for last, leaves in zip(courses.packed.first[1:] - 1, rides.packed.vanishes, strict=True):
+        if leaves:
+            packed.leave[last] = packed.arrive[last]
+    laws = FleetLaws(packed)
+    leaders, _ = crossing_leaders(courses.packed, crossings.packed, packed)
+    if (leaders == UNSETTLED).any():
+        return None
+    if not certify_fleet(courses, laws, fleet.separation_m).holds:
+        return None
+    durations = np.array([plan.trajectory.duration for plan in alone.values()])
+    led = FleetWays(ways.members, plans, courses, crossings, replace(rides, alone=durations))
+    order = np.argsort([plan.trajectory.end_time for plan in plans]).astype(np.int64)
+    return TimedFleet(led, Timing(laws, order, {}))
+
+
+def _alone(plan: Plan) -> Plan:
+    """A plan with the law that its robot would drive along its path if it were alone."""
+    robot, zones = plan.mission.robot, plan.mission.world.speed_zones
+    law = retime(plan.path, limits_of(robot), stations(plan.path, robot), zones=zones)
+    return replace(plan, trajectory=law, timed=None)

@@ -1,0 +1,1 @@
+"""When each robot of a fleet drives along its path: by priority, by forced orders, improved."""

@@ -1,0 +1,108 @@
+"""The laws of a fleet along fixed paths: one robot after the other, each as early as it can."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.timing.forced_orders import forced_orders, timing_order
+from viaspline.fleet.timing.rides import FleetRides
+from viaspline.kernels.arrays import Ints
+from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
+
+MAX_REPAIRS = 40
+"""How often the order is changed because a robot could not let another one pass."""
+
+
+@dataclass(frozen=True, eq=False)
+class Timing:
+    """Laws of those robots that could be timed.
+
+    Attributes:
+        laws: Of the fleet; those that could not be timed stand at their starts.
+        order: In which robots were timed, (m,).
+        blocked: Those that could not, each with a robot that is in its way.
+    """
+
+    laws: FleetLaws
+    order: Ints
+    blocked: dict[int, int]
+
+
+def time_paths(
+    courses: FleetCourses,
+    crossings: FleetCrossings,
+    rides: FleetRides,
+    priorities: Sequence[float],
+    left_out: Sequence[int] = (),
+) -> Timing:
+    """Time robots along their paths by priority, and by the orders that are forced.
+
+    Among equals those with the longer way come first. A robot that can't let another one pass is
+    timed before that one the next time. Where no path passes another's start or resting place,
+    every robot is served.
+
+    Args:
+        courses: Their paths.
+        crossings: Where these come near each other.
+        rides: How they drive alone.
+        priorities: Who has more is let pass, (n,).
+        left_out: Robots that get no law and stand at their starts.
+    """
+    asked = forced_orders(courses.packed, crossings.packed, rides.packed.vanishes)
+    ranks = [(-p, -t) for p, t in zip(priorities, rides.alone.tolist(), strict=True)]
+    best: Timing | None = None
+    for _ in range(MAX_REPAIRS):
+        found = _timed(courses, crossings, rides, asked, ranks, left_out)
+        if best is None or len(found.blocked) < len(best.blocked):
+            best = found
+        learned = [
+            (robot, other) for robot, other in found.blocked.items() if other not in left_out
+        ]
+        pairs = np.unique(
+            np.concatenate([asked, np.array(learned, np.int64).reshape(-1, 2)]), axis=0
+        )
+        if len(pairs) == len(asked):
+            break
+        asked = pairs
+    assert best is not None  # there is a first round
+    return best
+
+
+def _timed(
+    courses: FleetCourses, crossings: FleetCrossings, rides: FleetRides, asked: Ints,
+    ranks: Sequence[tuple[float, ...]], left_out: Sequence[int],
+) -> Timing:  # fmt: skip
+    """One round: those that wait for each other in a circle come last, the foremost one first."""
+    laws = standing_laws(courses)
+    laws.packed.is_timed[list(left_out)] = True
+    free = asked[~np.isin(asked, list(left_out)).any(axis=1)]
+    plan = timing_order(free, ranks)
+    circular = sorted(plan.circular.tolist(), key=lambda robot: ranks[robot])
+    order = np.array([*plan.order.tolist(), *circular], np.int64)
+    order = order[~np.isin(order, list(left_out))]
+    boxes = timed_in_order(courses.packed, crossings.packed, rides.packed, laws.packed, order)
+    failed = boxes != CLEAR
+    others = crossings.packed.other[boxes[failed]].tolist()
+    return Timing(laws, order, dict(zip(order[failed].tolist(), others, strict=True)))
+
+
+def standing_laws(courses: FleetCourses) -> FleetLaws:
+    """Laws that no robot has yet: all stand at their starts, and play no part."""
+    packed = courses.packed
+    arrive = np.full(packed.distance.size, np.inf)
+    arrive[packed.first[:-1]] = -np.inf
+    return FleetLaws(
+        PackedLaws(
+            arrive,
+            np.full(packed.distance.size, np.inf),
+            np.zeros(packed.distance.size),
+            np.zeros(packed.reach.size, np.bool_),
+        )
+    )

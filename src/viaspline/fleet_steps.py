@@ -1,0 +1,208 @@
+"""What the commands do with a fleet: check, plan and drive it, and write what comes of it.
+
+Tested through ``test_fleet_steps``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import click
+
+from viaspline.command_steps import (
+    default_folder,
+    film_file,
+    progress_bar,
+    result_folder,
+    say_written,
+)
+from viaspline.exit_codes import GAVE_UP, NO_PATH, NOT_REACHED
+from viaspline.report.terminal_lines import say, say_error
+
+if TYPE_CHECKING:
+    from viaspline.fleet.execution.fleet_run import FleetRun
+    from viaspline.fleet.fleet_plan import FleetPlan
+    from viaspline.mission.fleet.fleet import Fleet
+    from viaspline.report.progress_bar import ProgressBar
+
+MAX_NAMED: Final = 6
+"""How many robots are named, before the rest is left."""
+
+
+def check_fleet(fleet: Fleet) -> list[tuple[str, str]]:
+    """What a sound fleet is, and what may not be meant in it."""
+    from viaspline.report.fleet_summary import fleet_remarks, fleet_summary
+
+    return [*fleet_summary(fleet), *(("note", words) for words in fleet_remarks(fleet))]
+
+
+def plan_fleet_file(
+    fleet: Fleet, file: Path, out: Path | None, *, improve: float, quiet: bool
+) -> None:
+    """Plan a fleet, write its files and say what it is.
+
+    Args:
+        fleet: What was read.
+        file: From where.
+        out: The folder for the results; None: the usual one.
+        improve: For so long sooner orders are sought [s].
+        quiet: Say nothing when all goes well.
+    """
+    from viaspline.report.fleet_results import FLEET_FILES, check_robot_folders
+
+    target = out or default_folder(file)
+    with (
+        result_folder(target, FLEET_FILES) as folder,
+        progress_bar(quiet, fleet.members[0].mission.robot) as watch,
+    ):
+        check_robot_folders(target, (one.name for one in fleet.members))
+        planned = watched_fleet_plan(fleet, watch, improve)
+        with watch.stage("report", "writing"):
+            from viaspline.report.fleet_results import fleet_contents, write_robots
+            from viaspline.report.results import write_all
+
+            folders = write_robots(planned, target, watch.fraction)
+            contents = fleet_contents(planned, file.stem)
+        files = write_all(folder, contents, watch.times)
+    if not quiet:
+        from viaspline.report.fleet_summary import fleet_plan_remarks
+        from viaspline.report.fleet_tables import fleet_tables
+        from viaspline.report.terminal_tables import show
+
+        show(fleet_tables(planned, file.stem))
+        say(*(f"note: {words}" for words in fleet_plan_remarks(fleet)))
+        say_written(files)
+        say_folders(folders)
+    end_unserved(planned)
+
+
+def run_fleet_file(
+    fleet: Fleet, file: Path, out: Path | None, *,
+    improve: float, seed: int, animate: Path | None, quiet: bool,
+) -> None:  # fmt: skip
+    """Plan a fleet, drive it, write the files of both and say what came of it.
+
+    Args:
+        fleet: What was read.
+        file: From where.
+        out: The folder for the results; None: the usual one.
+        improve: For so long sooner orders are sought [s].
+        seed: Of what is random.
+        animate: The file of a film; None: there is none.
+        quiet: Say nothing when all goes well.
+    """
+    from viaspline.report.fleet_results import FLEET_RUN_FILES, check_robot_folders
+
+    target = out or default_folder(file)
+    with (
+        result_folder(target, FLEET_RUN_FILES) as folder,
+        film_file(animate) as film,
+        progress_bar(quiet, fleet.members[0].mission.robot) as watch,
+    ):
+        check_robot_folders(target, (one.name for one in fleet.members))
+        planned = watched_fleet_plan(fleet, watch, improve)
+        with watch.stage("simulate", "driving"):
+            from viaspline.fleet.execution.simulate_fleet import simulate_fleet
+
+            done = simulate_fleet(fleet, plan=planned, seed=seed)
+        with watch.stage("report", "writing"):
+            from viaspline.report.fleet_results import (
+                fleet_contents,
+                fleet_run_contents,
+                write_robots,
+            )
+            from viaspline.report.results import write_all
+
+            folders = write_robots(planned, target, watch.fraction)
+            contents = fleet_contents(planned, file.stem)
+            contents |= fleet_run_contents(planned, done, file.stem, seed=seed)
+            if film is not None:
+                from viaspline.report.fleet.fleet_film import FilmedFleet, film_fleet
+
+                with watch.stage("animate", f"filming {film.path.name}"):
+                    filmed = FilmedFleet.of_run(planned, done, file.stem)
+                    film_fleet(filmed, film, watch.fraction)
+        files = write_all(folder, contents, watch.times)
+    if not quiet:
+        from viaspline.report.fleet_summary import fleet_plan_remarks
+        from viaspline.report.fleet_tables import fleet_run_table, fleet_tables
+        from viaspline.report.terminal_tables import show
+
+        show(fleet_tables(planned, file.stem), fleet_run_table(done, file.stem))
+        say(*(f"note: {words}" for words in fleet_plan_remarks(fleet)))
+        say_written([*files, *([] if film is None else [film.path])])
+        say_folders(folders)
+    end_unserved(planned)
+    end_not_reached(done)
+
+
+def end_not_reached(done: FleetRun) -> None:
+    """Say which robots did not reach their goals, and end with the code for it."""
+    if done.reached:
+        return
+    late = [name for name in done.names if name not in done.arrivals]
+    shown = ", ".join(late[:MAX_NAMED]) + (" …" if len(late) > MAX_NAMED else "")
+    say_error(f"{len(late)} of {len(done.names)} robots did not reach their goals: {shown}")
+    click.get_current_context().exit(NOT_REACHED)
+
+
+def watched_fleet_plan(fleet: Fleet, watch: ProgressBar, improve: float) -> FleetPlan:
+    """Plan a fleet, with progress."""
+    with watch.stage("load", "loading"):
+        from viaspline.fleet.plan_fleet import plan_fleet
+    with _stages(watch) as stages:
+        return plan_fleet(fleet, improve=improve, progress=stages.told)
+
+
+class _Stages:
+    """Stages that a planner tells as it comes to them.
+
+    Args:
+        watch: Hears of each.
+        open_stage: What is open, and is closed when the next one begins.
+    """
+
+    def __init__(self, watch: ProgressBar, open_stage: ExitStack) -> None:
+        self._watch = watch
+        self._open = open_stage
+        self._words = ""
+        self._begin("plan", "planning")
+
+    def told(self, words: str, share: float) -> None:
+        """Hear what is being done, and the share of it that is done."""
+        if words != self._words:
+            self._begin(words.replace(" ", "_"), words)
+        self._watch.fraction(share)
+
+    def _begin(self, name: str, words: str) -> None:
+        self._open.close()
+        self._open.enter_context(self._watch.stage(name, words))
+        self._words = words
+
+
+@contextmanager
+def _stages(watch: ProgressBar) -> Iterator[_Stages]:
+    with ExitStack() as open_stage:
+        yield _Stages(watch, open_stage)
+
+
+def say_folders(folders: list[Path]) -> None:
+    """Say which robots have a folder of their own."""
+    if folders:
+        names = [folder.name for folder in folders]
+        shown = ", ".join(names[:MAX_NAMED]) + (" …" if len(names) > MAX_NAMED else "")
+        say(f"wrote plan.json, path.csv for each of {len(names)} robots: {shown}")
+
+
+def end_unserved(planned: FleetPlan) -> None:
+    """Say which robots are not served, and end with the code for it; nothing if all are."""
+    if planned.served:
+        return
+    from viaspline.report.fleet_tables import unserved_lines
+
+    say_error(*unserved_lines(planned))
+    refused = any(one.outcome == "refused" for one in planned.not_served)
+    click.get_current_context().exit(NO_PATH if refused else GAVE_UP)

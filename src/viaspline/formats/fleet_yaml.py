@@ -1,0 +1,119 @@
+"""Fleet files: YAML with the world, the kinds of robots, and the robots with their routes."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Final
+
+from viaspline.errors import OutputError
+from viaspline.formats.mission_format import MissionFormat, Whereabouts, Written
+from viaspline.formats.named_files import relative, route_data, world_data
+from viaspline.formats.whole_file import write_whole
+from viaspline.formats.yaml_document import yaml_document
+from viaspline.formats.yaml_lines import flow, section
+from viaspline.mission.validation import Context
+
+if TYPE_CHECKING:
+    from viaspline.mission.fleet.fleet import Fleet
+    from viaspline.mission.fleet.member_spec import MemberSpec
+
+_OWN_KEY: Final = re.compile(
+    r"""^\{?[ ]*["']?(?:fleet|robots|separation_m)["']?[ ]*:""", re.MULTILINE
+)
+"""At the beginning of a line, a key that a fleet has and a mission hasn't."""
+_LISTS: Final = frozenset({"known", "fences", "speed_zones"})
+
+
+class FleetYaml(MissionFormat["Fleet"]):
+    """Many robots in one world."""
+
+    description: ClassVar[str] = "viaspline's YAML of a fleet (.yaml, .yml)"
+    endings: ClassVar[tuple[str, ...]] = (".yaml", ".yml")
+    saved_endings: ClassVar[tuple[str, ...]] = ()
+
+    def sniff(self, path: Path, text: str) -> bool:
+        r"""Whether the file is called so, and has a key that only fleets have.
+
+        >>> FleetYaml().sniff(Path("a.yaml"), "world: {}\nfleet:\n  - {name: r1}\n")
+        True
+        >>> FleetYaml().sniff(Path("a.yaml"), "route: {start: [0, 0]}  # no fleet: one robot")
+        False
+        """
+        return path.suffix.lower() in self.endings and _OWN_KEY.search(text) is not None
+
+    def read(self, text: str, source: str) -> Fleet:
+        """The fleet that a text describes; each of its faults has its line and column."""
+        from viaspline.mission.fleet.fleet import Fleet  # missions are read without it
+
+        document = yaml_document(text, source)
+        return Fleet.model_validate(document.data, context=Context(document))
+
+    def origin(self, text: str, source: str) -> None:
+        """Places are metres: where on earth they are isn't said."""
+
+    def write(self, fleet: Fleet, where: Whereabouts) -> Written:
+        """All of a fleet; what has its default value is left out."""
+        return Written(fleet_text(fleet, where.folder), ())
+
+
+def write_fleet(fleet: Fleet, path: str | Path) -> None:
+    """Write a fleet to a YAML file; reading it gives an equal fleet.
+
+    The file is there as a whole or not at all. Maps of squares and the missions of robots that
+    have a file are named, not written: they have to stay where they are.
+
+    Args:
+        fleet: The fleet.
+        path: The file; an old one is replaced.
+
+    Raises:
+        OutputError: The file can't be written, or the fleet has a grid or a robot's mission that
+            was made in memory.
+    """
+    write_whole(path, fleet_text(fleet, Path(path).parent))
+
+
+def fleet_text(fleet: Fleet, folder: str | Path = ".") -> str:
+    """A fleet as YAML, a line for each robot; what has its default value is left out.
+
+    Args:
+        fleet: The fleet.
+        folder: Where the text will stand: other files are named from there.
+
+    Raises:
+        OutputError: The fleet has a grid or a robot's mission that was made in memory.
+
+    >>> from viaspline.mission.fleet.fleet import Fleet
+    >>> print(fleet_text(Fleet.model_validate({
+    ...     "separation_m": 1, "robots": {"cart": {"radius_m": 0.4}},
+    ...     "fleet": [{"name": "r1", "robot": "cart", "route": {"start": [0, 0], "goal": [9, 0]}}],
+    ... })), end="")
+    separation_m: 1
+    robots:
+      cart: {radius_m: 0.4}
+    fleet:
+      - {name: r1, robot: cart, route: {start: [0, 0], goal: [9, 0]}}
+    """
+    data = fleet.model_dump(exclude_defaults=True, by_alias=True)
+    world = world_data(fleet.world, data.get("world", {}), Path(folder))
+    lines = list(section("world", world, _LISTS)) if world else []
+    if "separation_m" in data:
+        lines.append(f"separation_m: {flow(data['separation_m'])}")
+    for key in ("robots", "spline"):
+        if key in data:
+            lines += section(key, data[key], frozenset())
+    lines.append("fleet:")
+    for member, given in zip(fleet.fleet, data["fleet"], strict=True):
+        lines.append(f"  - {flow(_member(member, given, Path(folder)))}")
+    return "\n".join(lines) + "\n"
+
+
+def _member(member: MemberSpec, data: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """A robot's data with its files named."""
+    if member.mission is not None:
+        return {**data, "mission": relative(Path(member.mission), folder)}
+    if member.route is None:
+        problem = f"the mission of robot '{member.name}' was made in memory"
+        raise OutputError("<fleet>", f"{problem}; write it to a file and name that")
+    return {**data, "route": route_data(member.route, data["route"], folder)}

@@ -1,0 +1,62 @@
+"""What a mission or a fleet has from files of its own, as it is written: by their names.
+
+Tested through ``mission/test_resolve_files`` and ``mission/test_corridors``.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from viaspline.errors import OutputError
+from viaspline.mission.map_edge import edge_of
+from viaspline.mission.route_spec import Route
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.world_spec import WorldSpec
+
+
+def world_data(world: WorldSpec, data: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """The world's data with maps named, without the bounds and the fence that they bring."""
+    edge = edge_of([item.grid for item in world.known if item.grid is not None])
+    written = dict(data)
+    for key, items in (("known", world.known), ("unseen", world.unseen)):
+        if items:
+            pairs = zip(data[key], items, strict=True)
+            written[key] = [_obstacle(plain, item, folder) for plain, item in pairs]
+    if world.bounds is not None and world.bounds == edge.bounds:
+        del written["bounds"]
+    if world.bounds is None and edge.fence in world.fences:
+        written["fences"] = [ring for ring in world.fences if ring != edge.fence]
+    return {key: value for key, value in written.items() if value}
+
+
+def _obstacle(plain: Mapping[str, Any], obstacle: Obstacle, folder: Path) -> Mapping[str, Any]:
+    grid = obstacle.grid
+    if grid is None:
+        return plain
+    if grid.reading is None or grid.source is None:
+        name = f"obstacle '{obstacle.name}'" if obstacle.name else "an obstacle"
+        problem = f"{name} is a grid made in memory, which can't be written; read it from a map"
+        raise OutputError("<mission>", problem)
+    reading = grid.reading
+    asked = {
+        "map": grid.source if Path(grid.source).is_absolute() else relative(reading.path, folder),
+        "unknown": "free" if reading.unknown == "free" else None,
+        "resolution_m": reading.resolution,
+        "name": obstacle.name,
+    }
+    return {key: value for key, value in asked.items() if value is not None}
+
+
+def relative(path: Path, folder: Path) -> str:
+    """The path of a file as it is written in a folder."""
+    return Path(os.path.relpath(path, folder)).as_posix()
+
+
+def route_data(route: Route, data: Mapping[str, Any], folder: Path) -> Mapping[str, Any]:
+    """A route's data with the file of its corridor named, from the folder of what is written."""
+    if route.corridor is None or route.corridor.csv is None:
+        return data
+    return {**data, "corridor": {"csv": relative(Path(route.corridor.csv), folder)}}

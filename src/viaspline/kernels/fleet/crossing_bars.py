@@ -1,0 +1,90 @@
+"""The bars of a fleet, from the boxes of its crossings.
+
+While the second robot of a crossing is in a cell of its own, the leader must not be in a box: so
+the second one stays before the cell until the leader has left the box. Or by the leader's boxes:
+the second one stays before the box until the leader has left its cell. Either set of bars is enough
+by itself.
+
+Tested through ``fleet/execution/test_fleet_orders``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.fleet.blocked_times import comes_to
+from viaspline.kernels.fleet.packed_courses import PackedCourses
+from viaspline.kernels.fleet.packed_crossings import PackedCrossings
+from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_orders import PackedOrders
+from viaspline.kernels.jit import kernel
+
+
+@kernel
+def crossing_bars(
+    courses: PackedCourses, crossings: PackedCrossings, leaders: Ints, by_second: Flags
+) -> tuple[Ints, Floats]:
+    """The bars of both robots of every crossing that has a leader.
+
+    Args:
+        courses: PackedCourses.
+        crossings: PackedCrossings.
+        leaders: Of the crossings, (c,).
+        by_second: Whether the bars of the second robot are made from its own boxes; those of the
+            leader, in case it becomes the second, always are, (c,).
+
+    Returns:
+        Robot, other robot and crossing of each bar, (bars, 3); its place, and where the other has
+        passed it [m], (bars, 2).
+    """
+    room = 2 * crossings.cell.size
+    who = np.empty((room, 3), np.int64)
+    where = np.empty((room, 2))
+    count = 0
+    most = np.full((crossings.robots.shape[0], 2), -np.inf)  # asked for by the bars before
+    least = np.full(crossings.robots.shape[0], np.inf)
+    for robot in range(crossings.box_first.size - 1):
+        begin, end = crossings.box_first[robot], crossings.box_first[robot + 1]
+        for b in range(begin, end):
+            c = crossings.crossing[b]
+            leads = leaders[c] == robot
+            side = 0 if crossings.robots[c, 0] == robot else 1
+            if leaders[c] >= 0 and (leads or by_second[c]) and crossings.high[b] > most[c, side]:
+                most[c, side] = crossings.high[b]
+                who[count] = robot, crossings.other[b], c
+                where[count] = courses.distance[crossings.cell[b]], crossings.high[b]
+                count += 1
+        for b in range(end - 1, begin - 1, -1):
+            c = crossings.crossing[b]
+            if leaders[c] == robot and not by_second[c] and crossings.low[b] < least[c]:
+                least[c] = crossings.low[b]
+                who[count] = crossings.other[b], robot, c
+                where[count] = crossings.low[b], courses.distance[crossings.cell[b] + 1]
+                count += 1
+    return who[:count], where[:count]
+
+
+@kernel
+def set_bar_times(courses: PackedCourses, alone: PackedLaws, orders: PackedOrders) -> None:
+    """Reckon when robots that never wait come to bars, and past them.
+
+    Args:
+        courses: PackedCourses.
+        alone: The laws of robots that set out at 0 and never wait for another.
+        orders: ``comes``, ``other_comes`` and ``since`` are written to.
+    """
+    for robot in range(orders.length.size):
+        for b in range(orders.first[robot], orders.first[robot + 1]):
+            other = orders.other[b]
+            passed = min(orders.passed[b], orders.length[other])
+            orders.comes[b] = max(comes_to(courses, alone, robot, orders.place[b]), 0.0)
+            orders.other_comes[b] = max(comes_to(courses, alone, other, passed), 0.0)
+            low, high = orders.first[other], orders.first[other + 1]
+            while low < high:
+                middle = (low + high) // 2
+                if orders.place[middle] < passed:
+                    low = middle + 1
+                else:
+                    high = middle
+            orders.since[b] = low - 1 if low > orders.first[other] else -1

@@ -1,0 +1,77 @@
+"""Who passes a crossing first, by the laws of a fleet.
+
+A crossing is a connected set of pairs of places, and the laws of two robots are a curve among such
+pairs that never goes back: it passes the set on the one side or on the other. So there is one
+order for each crossing. Its boxes from the one robot's side and from the other's both cover it;
+laws that keep clear of it need not keep clear of both covers, but of one.
+
+Tested through ``fleet/execution/test_fleet_orders``.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from viaspline.kernels.arrays import Flags, Ints
+from viaspline.kernels.fleet.blocked_times import comes_to, goes_from
+from viaspline.kernels.fleet.packed_courses import PackedCourses
+from viaspline.kernels.fleet.packed_crossings import PackedCrossings
+from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.jit import kernel
+
+UNSETTLED: Final = -1
+"""The laws keep no order in a crossing."""
+UNTIMED: Final = -2
+"""One of its robots has no law."""
+ROUNDING_S = 1e-6
+"""So much of an overlap in time is rounding: the bars are what keeps robots apart."""
+
+
+@kernel
+def crossing_leaders(
+    courses: PackedCourses, crossings: PackedCrossings, laws: PackedLaws
+) -> tuple[Ints, Flags]:
+    """The leader of every crossing.
+
+    Args:
+        courses: PackedCourses.
+        crossings: PackedCrossings.
+        laws: PackedLaws.
+
+    Returns:
+        For each crossing its leader, or ``UNSETTLED`` or ``UNTIMED``, (c,); and whether its laws
+        keep that order by the boxes of the second robot, else by those of the leader, (c,).
+    """
+    count = crossings.robots.shape[0]
+    after = np.ones((count, 2), np.bool_)  # by the boxes of the one: the other passes before it
+    before = np.ones((count, 2), np.bool_)
+    for robot in range(crossings.box_first.size - 1):
+        if not laws.is_timed[robot]:
+            continue
+        start, end = courses.first[robot], courses.first[robot + 1] - 1
+        for b in range(crossings.box_first[robot], crossings.box_first[robot + 1]):
+            c, other, cell = crossings.crossing[b], crossings.other[b], crossings.cell[b]
+            if not laws.is_timed[other]:
+                continue
+            side = 0 if crossings.robots[c, 0] == robot else 1
+            if after[c, side]:
+                comes = -np.inf if cell == start else laws.arrive[cell]
+                gone = goes_from(courses, laws, other, crossings.high[b])
+                after[c, side] = gone <= comes + ROUNDING_S
+            if before[c, side]:
+                goes = laws.leave[end] if cell + 1 == end else laws.arrive[cell + 1]
+                there = comes_to(courses, laws, other, crossings.low[b])
+                before[c, side] = goes <= there + ROUNDING_S
+    leaders = np.full(count, UNSETTLED)
+    by_second = np.zeros(count, np.bool_)
+    for c in range(count):
+        one, two = crossings.robots[c, 0], crossings.robots[c, 1]
+        if not (laws.is_timed[one] and laws.is_timed[two]):
+            leaders[c] = UNTIMED
+        elif after[c, 1] or before[c, 0]:
+            leaders[c], by_second[c] = one, after[c, 1]
+        elif after[c, 0] or before[c, 1]:
+            leaders[c], by_second[c] = two, after[c, 0]
+    return leaders, by_second

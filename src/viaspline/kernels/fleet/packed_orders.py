@@ -1,0 +1,49 @@
+"""Who lets whom pass where, as the kernels that drive a fleet see it.
+
+Tested through ``fleet/execution/test_fleet_orders``.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from viaspline.kernels.arrays import Flags, Floats, Ints
+
+
+class PackedOrders(NamedTuple):
+    """The bars of a fleet: places that a robot must not pass before another one has come far.
+
+    Every crossing has bars for both of its robots, and only those of the second one count: whose
+    ``other`` is the leader of the crossing. The bars of robot r are ``first[r]`` to
+    ``first[r + 1] - 1``, ordered by place, then by crossing. Of one crossing each asks for more
+    than those before it.
+
+    Attributes:
+        first: (n + 1,).
+        place: Beyond which the robot must not go [m], (bars,).
+        other: Before this robot, (bars,),
+        passed: has come here along its own path [m]; infinite: has left the world, (bars,).
+        crossing: Which crossing it is for, (bars,).
+        comes: When the robot comes to the bar if it never waits [s since it set out], (bars,).
+        other_comes: When the other one comes where it has passed, likewise [s], (bars,).
+        since: The last bar of the other robot before that, whether it counts or not; -1 if there
+            is none, (bars,).
+        robots: The two robots of each crossing, (c, 2).
+        may_lead: Whether each of them may pass first, (c, 2): it must not rest in the crossing,
+            nor the other one begin in it.
+        length: Of the robots' paths [m], (n,).
+        vanishes: Whether a robot leaves the world when it arrives, (n,).
+    """
+
+    first: Ints
+    place: Floats
+    other: Ints
+    passed: Floats
+    crossing: Ints
+    comes: Floats
+    other_comes: Floats
+    since: Ints
+    robots: Ints
+    may_lead: Flags
+    length: Floats
+    vanishes: Flags

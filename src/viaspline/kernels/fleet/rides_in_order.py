@@ -1,0 +1,118 @@
+"""The laws of a fleet by orders that are given: who passes first, wherever two robots meet.
+
+Every robot rides as if it were alone, except that it comes to a box after those have left it that
+pass before it. Rides are reckoned anew, one after the other, until none changes. Where the orders
+have no circle there are such laws: in the end each robot waits right before it has to.
+
+Tested through ``fleet/lattice_order/test_time_in_order``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.fleet.blocked_times import goes_from
+from viaspline.kernels.fleet.packed_courses import PackedCourses
+from viaspline.kernels.fleet.packed_crossings import PackedCrossings
+from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_rides import PackedRides
+from viaspline.kernels.fleet.ride_law import Ride, can_slow_at, new_ride, slow_down
+from viaspline.kernels.fleet.yielding_ride import take_law, waits_at
+from viaspline.kernels.jit import inner, kernel
+
+SAME_S = 1e-9
+"""By less than this a law doesn't change."""
+SLACK_S = 1e-9
+"""So much later than it may a robot comes to a node, for rounding."""
+
+
+@inner
+def _releases(
+    courses: PackedCourses, crossings: PackedCrossings, laws: PackedLaws, second: Flags, robot: int
+) -> Floats:
+    """When a robot may be at each of its nodes at the earliest [s], (nodes of the robot,)."""
+    first = courses.first[robot]
+    times = np.full(courses.first[robot + 1] - first, -np.inf)
+    for b in range(crossings.box_first[robot], crossings.box_first[robot + 1]):
+        if second[b]:
+            gone = goes_from(courses, laws, crossings.other[b], crossings.high[b])
+            k = crossings.cell[b] - first
+            times[k] = max(times[k], gone)
+    return times
+
+
+@inner
+def _ride_after(
+    courses: PackedCourses, rides: PackedRides, robot: int, releases: Floats, near: bool
+) -> tuple[Ride, bool]:
+    """The ride of a robot that comes to none of its nodes too early, and whether there is one.
+
+    With ``near`` it waits right there, else farther back, so that it comes there under way.
+    """
+    ride = new_ride(courses, rides, robot)
+    if releases[0] > -np.inf:
+        return ride, False
+    for k in range(1, ride.square.size):
+        late = releases[k] + SLACK_S - ride.arrive[k]
+        if late == np.inf:
+            return ride, False
+        if late > 0.0:
+            centre = waits_at(ride, courses, rides, k)[0]
+            back = k
+            while near and back > centre and not can_slow_at(ride, courses, rides, back):
+                back -= 1
+            slow_down(ride, courses, rides, back if near else centre, k, late)
+    return ride, True
+
+
+@inner
+def _differs(ride: Ride, laws: PackedLaws) -> bool:
+    """Whether a ride has other times than the law that its robot has."""
+    for k in range(ride.square.size):
+        if abs(ride.arrive[k] - laws.arrive[ride.first + k]) > SAME_S:
+            return True
+    return abs(ride.leave[0] - laws.leave[ride.first]) > SAME_S
+
+
+@kernel
+def rides_in_order(
+    courses: PackedCourses, crossings: PackedCrossings, rides: PackedRides, laws: PackedLaws,
+    second: Flags, order: Ints, rounds: int,
+) -> Flags:  # fmt: skip
+    """Give all robots their laws, by the order in which they pass every box.
+
+    Args:
+        courses: PackedCourses.
+        crossings: PackedCrossings.
+        rides: PackedRides.
+        laws: They are written to.
+        second: Whether the robot of a box passes after the other one, (boxes,).
+        order: The robots in the order in which their rides are reckoned, (n,).
+        rounds: How often, at most; in the second half robots wait right before they have to.
+
+    Returns:
+        Whether the law of each robot keeps the order, (n,).
+    """
+    keeps = np.ones(order.size, np.bool_)
+    for robot in order:
+        take_law(new_ride(courses, rides, robot), laws)
+    is_due = np.ones(order.size, np.bool_)
+    for k in range(rounds):
+        is_settled = True
+        for robot in order:
+            if not is_due[robot]:
+                continue
+            is_due[robot] = False
+            releases = _releases(courses, crossings, laws, second, robot)
+            ride, keeps[robot] = _ride_after(courses, rides, robot, releases, 2 * k >= rounds)
+            if _differs(ride, laws):
+                take_law(ride, laws)
+                is_settled = False
+                keeps[robot] = keeps[robot] and k + 1 < rounds
+                for b in range(crossings.box_first[robot], crossings.box_first[robot + 1]):
+                    if not second[b]:
+                        is_due[crossings.other[b]] = True
+        if is_settled:
+            break
+    return keeps

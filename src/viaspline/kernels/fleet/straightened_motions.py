@@ -1,0 +1,225 @@
+"""Motions of many robots made straighter, so that no two come nearer each other than before.
+
+A motion is a place at every step, with an even straight drive in between. A robot may go straight
+from its place at one step to that at another where this is clear of the world, and far enough from
+all others at every instant as they move by then. So who passes first stays as it is.
+
+Tested through ``fleet/lattice_order/test_lattice_paths``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.jit import inlined, inner, kernel
+from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.segment import nearest_to_segment
+
+CHUNK: Final = 16
+"""Steps whose places are in one box."""
+SHRINK: Final = 0.8
+"""By which a straight drive that isn't clear is shortened."""
+
+
+@inlined
+def closest(ax: float, ay: float, bx: float, by: float) -> float:
+    """The least distance to the origin of what goes straight from a to b [m]."""
+    dx, dy = bx - ax, by - ay
+    square = dx * dx + dy * dy
+    along = 0.0 if square == 0.0 else min(max(-(ax * dx + ay * dy) / square, 0.0), 1.0)
+    return math.hypot(ax + along * dx, ay + along * dy)
+
+
+@inner
+def _boxes(places: Floats, robot: int, boxes: Floats) -> None:
+    """Reckon the boxes round a robot's places anew."""
+    steps = places.shape[1]
+    for c in range(boxes.shape[1]):
+        x0 = y0 = np.inf
+        x1 = y1 = -np.inf
+        for t in range(c * CHUNK, min((c + 1) * CHUNK + 1, steps)):
+            x0, x1 = min(x0, places[robot, t, 0]), max(x1, places[robot, t, 0])
+            y0, y1 = min(y0, places[robot, t, 1]), max(y1, places[robot, t, 1])
+        boxes[robot, c, 0], boxes[robot, c, 1] = x0, y0
+        boxes[robot, c, 2], boxes[robot, c, 3] = x1, y1
+
+
+@inner
+def _keeps_away(
+    places: Floats, boxes: Floats, reach: Floats, margin: float, robot: int, a: int, b: int
+) -> bool:
+    """Whether a straight drive from step a to step b is far enough from all others."""
+    ax, ay = places[robot, a, 0], places[robot, a, 1]
+    vx = (places[robot, b, 0] - ax) / (b - a)
+    vy = (places[robot, b, 1] - ay) / (b - a)
+    for c in range(a // CHUNK, (b - 1) // CHUNK + 1):
+        t0, t1 = max(a, c * CHUNK), min(b, (c + 1) * CHUNK)
+        x0, x1 = ax + (t0 - a) * vx, ax + (t1 - a) * vx
+        y0, y1 = ay + (t0 - a) * vy, ay + (t1 - a) * vy
+        for other in range(places.shape[0]):
+            apart = reach[robot] + reach[other] + margin
+            box = boxes[other, c]
+            if (
+                other == robot
+                or box[0] - apart > max(x0, x1)
+                or box[2] + apart < min(x0, x1)
+                or box[1] - apart > max(y0, y1)
+                or box[3] + apart < min(y0, y1)
+            ):
+                continue
+            for t in range(t0, t1):
+                now = closest(
+                    places[other, t, 0] - (ax + (t - a) * vx),
+                    places[other, t, 1] - (ay + (t - a) * vy),
+                    places[other, t + 1, 0] - (ax + (t + 1 - a) * vx),
+                    places[other, t + 1, 1] - (ay + (t + 1 - a) * vy),
+                )  # fmt: skip
+                if now < apart:
+                    return False
+    return True
+
+
+@inner
+def _is_clear(
+    world: PackedWorld, kept: Floats, places: Floats, boxes: Floats, reach: Floats, margin: float,
+    robot: int, a: int, b: int,
+) -> bool:  # fmt: skip
+    distance, _ = nearest_to_segment(
+        world, places[robot, a, 0], places[robot, a, 1], places[robot, b, 0], places[robot, b, 1],
+        kept[robot],
+    )  # fmt: skip
+    if distance < kept[robot]:
+        return False
+    return _keeps_away(places, boxes, reach, margin, robot, a, b)
+
+
+@inner
+def _straighten(places: Floats, robot: int, a: int, b: int) -> None:
+    """Drive straight and evenly from step a to step b."""
+    for axis in range(2):
+        begin, end = places[robot, a, axis], places[robot, b, axis]
+        for t in range(a + 1, b):
+            places[robot, t, axis] = begin + (end - begin) * (t - a) / (b - a)
+
+
+@inner
+def _pass(
+    world: PackedWorld, kept: Floats, places: Floats, boxes: Floats, reach: Floats, margin: float,
+    robot: int, begin: int, end: int,
+) -> bool:  # fmt: skip
+    """Go straight from step to step, each time as far as it can; whether something changed."""
+    changed = False
+    a = begin
+    while a < end - 1:
+        span = end - a
+        while span > 1:
+            if _is_clear(world, kept, places, boxes, reach, margin, robot, a, a + span):
+                _straighten(places, robot, a, a + span)
+                changed = True
+                break
+            span = int(span * SHRINK)
+        a += max(span, 1)
+    if changed:
+        _boxes(places, robot, boxes)
+    return changed
+
+
+@inner
+def _ride_along(
+    points: Floats, along: Floats, start: float, pace: float, t: int, place: Floats
+) -> None:
+    """Where a robot is at a step that sets out along a line at another one."""
+    gone = min(max((t - start) * pace, 0.0), along[along.size - 1])
+    k = min(max(np.searchsorted(along, gone) - 1, 0), along.size - 2)
+    width = along[k + 1] - along[k]
+    share = (gone - along[k]) / width if width > 0.0 else 0.0
+    for axis in range(2):
+        place[axis] = points[k, axis] + share * (points[k + 1, axis] - points[k, axis])
+
+
+@kernel
+def along_its_line(
+    places: Floats, reach: Floats, margin: float, robot: int, points: Floats, along: Floats,
+    pace: float, latest: int,
+) -> int:  # fmt: skip
+    """Let a robot drive along a line, at the first step at which it meets nobody on its way.
+
+    Args:
+        places: Where each robot is at each step [m], (n, steps, 2); written to if there is one.
+        reach: Of each robot [m], (n,); two are to be the sum of theirs apart.
+        margin: And so much more.
+        robot: Which.
+        points: Of the line, (k, 2), k >= 2.
+        along: Their distances along it [m], (k,).
+        pace: How far it drives in a step [m].
+        latest: The last step at which it may set out.
+
+    Returns:
+        The step at which it sets out; -1 if it meets somebody whenever it does.
+    """
+    steps = places.shape[1]
+    tried = np.empty((steps, 2))
+    for start in range(latest + 1):
+        if start + along[along.size - 1] / pace > steps - 1:
+            break
+        for t in range(steps):
+            _ride_along(points, along, start, pace, t, tried[t])
+        if _meets_nobody(places, reach, margin, robot, tried, pace):
+            for t in range(steps):
+                places[robot, t, 0], places[robot, t, 1] = tried[t, 0], tried[t, 1]
+            return start
+    return -1
+
+
+@inner
+def _meets_nobody(
+    places: Floats, reach: Floats, margin: float, robot: int, tried: Floats, pace: float
+) -> bool:
+    """Whether a motion is far enough from all others, which drive no faster."""
+    steps = places.shape[1]
+    for other in range(places.shape[0]):
+        if other == robot:
+            continue
+        apart = reach[robot] + reach[other] + margin
+        t = 0
+        while t < steps - 1:
+            ax, ay = places[other, t, 0] - tried[t, 0], places[other, t, 1] - tried[t, 1]
+            bx = places[other, t + 1, 0] - tried[t + 1, 0]
+            by = places[other, t + 1, 1] - tried[t + 1, 1]
+            if closest(ax, ay, bx, by) < apart:
+                return False
+            t += max(int((math.hypot(ax, ay) - apart) / (2.0 * pace)), 1)
+    return True
+
+
+@kernel
+def straightened_motions(
+    world: PackedWorld, kept: Floats, places: Floats, reach: Floats, margin: float,
+    departs: Ints, arrives: Ints, rounds: int,
+) -> None:  # fmt: skip
+    """Make the motions of robots straighter.
+
+    Args:
+        world: What stands.
+        kept: What the centre of each robot keeps of it [m], (n,).
+        places: Where each robot is at each step [m], (n, steps, 2); written to.
+        reach: Of each robot [m], (n,); two are to be the sum of theirs apart.
+        margin: And so much more where a drive is made straighter [m].
+        departs: The last step at which a robot stands at its start, (n,).
+        arrives: The first step from which on it stays at its goal, (n,).
+        rounds: How often to try. In later rounds drives begin inside of those that there are.
+    """
+    chunks = (places.shape[1] - 2) // CHUNK + 1
+    boxes = np.empty((places.shape[0], max(chunks, 1), 4))
+    for robot in range(places.shape[0]):
+        _boxes(places, robot, boxes)
+    for k in range(rounds):
+        for robot in range(places.shape[0]):
+            begin, end = departs[robot], arrives[robot]
+            if k > 0:
+                begin += (k * (end - begin)) // (2 * rounds)
+            _pass(world, kept, places, boxes, reach, margin, robot, begin, end)

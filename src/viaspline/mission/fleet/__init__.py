@@ -1,0 +1,1 @@
+"""Fleets: many robots in one world."""

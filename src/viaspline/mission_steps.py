@@ -1,0 +1,119 @@
+"""What the commands do with the mission of one robot, and what they write of it.
+
+Tested through ``test_cli``.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import click
+
+from viaspline.command_steps import (
+    default_folder,
+    film_file,
+    progress_bar,
+    result_folder,
+    say_remarks,
+    say_written,
+    watched_plan,
+)
+from viaspline.exit_codes import NOT_REACHED
+from viaspline.report.terminal_lines import say_error
+
+if TYPE_CHECKING:
+    from viaspline.mission.model import Mission
+
+PLAN_NAMES: Final = ("plan.json", "path.csv", "plan.png", "timing.json")
+RUN_NAMES: Final = (*PLAN_NAMES, "run.json", "run.csv", "run.png")
+
+
+def check_mission(mission: Mission) -> list[tuple[str, str]]:
+    """What a sound mission is, and what may not be meant in it."""
+    from viaspline.report.remarks import remarks
+    from viaspline.report.summary import summary
+
+    return [*summary(mission), *(("note", words) for words in remarks(mission))]
+
+
+def plan_mission(asked: Mission, file: Path, out: Path | None, *, quiet: bool) -> None:
+    """Plan a mission, write its files and say what it is.
+
+    Args:
+        asked: What was read.
+        file: From where.
+        out: The folder for the results; None: the usual one.
+        quiet: Say nothing when all goes well.
+    """
+    with (
+        result_folder(out or default_folder(file), PLAN_NAMES) as folder,
+        progress_bar(quiet, asked.robot) as watch,
+    ):
+        planned = watched_plan(asked, watch)
+        with watch.stage("report", "drawing and writing"):
+            from viaspline.report import results
+
+            contents = results.plan_contents(planned, file.stem)
+        files = results.write_all(folder, contents, watch.times)
+    if not quiet:
+        from viaspline.report.terminal_tables import plan_tables, show
+
+        show(plan_tables(planned, file.stem))
+        say_remarks(asked)
+        say_written(files)
+
+
+def run_mission(
+    asked: Mission, file: Path, out: Path | None, *,
+    seed: int, animate: Path | None, real_time: bool, quiet: bool,
+) -> None:  # fmt: skip
+    """Plan a mission, drive it, write the files of both and say what came of it.
+
+    Args:
+        asked: What was read.
+        file: From where.
+        out: The folder for the results; None: the usual one.
+        seed: Of what is random.
+        animate: The file of a film; None: there is none.
+        real_time: Whether re-plans take what they take here, by the clock.
+        quiet: Say nothing when all goes well.
+    """
+    with (
+        result_folder(out or default_folder(file), RUN_NAMES) as folder,
+        film_file(animate) as film,
+        progress_bar(quiet, asked.robot) as watch,
+    ):
+        plan = watched_plan(asked, watch)
+        with watch.stage("simulate", "driving"):
+            from viaspline.robot.simulation.pace import by_clock, by_work
+            from viaspline.robot.simulator import simulate
+
+            pace = by_clock if real_time else by_work
+            done = simulate(plan.mission, seed=seed, progress=watch.driven, plan=plan, pace=pace)
+        with watch.stage("report", "drawing and writing"):
+            from viaspline.report import results
+
+            contents = results.plan_contents(plan, file.stem)
+            contents |= results.run_contents(done, file.stem, seed=seed)
+            if film is not None:
+                from viaspline.report.animation import film_run
+
+                with watch.stage("animate", f"filming {film.path.name}"):
+                    film_run(done, file.stem, film, watch.fraction)
+        files = results.write_all(folder, contents, watch.times, done)
+    if not quiet:
+        from viaspline.report.terminal_tables import plan_tables, run_tables, show
+
+        show(plan_tables(plan, file.stem), run_tables(done, file.stem))
+        say_remarks(asked)
+        say_written([*files, *([] if film is None else [film.path])])
+    if not done.reached:
+        from viaspline.report.units import place, seconds
+
+        where = place(tuple(done.positions[-1].tolist()))
+        say_error(
+            f"the robot did not reach its goal: {done.reason}",
+            f"  it stands at {where} since {seconds(done.duration)}",
+        )
+        click.get_current_context().exit(NOT_REACHED)

@@ -1,0 +1,116 @@
+"""The map of a fleet's picture, with the legend of the whole page beside it.
+
+Tested through ``report/fleet/test_fleet_picture``.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.timelines import Timeline
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.report import style
+from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART, ROBOT_COLOURS, colours_of
+from viaspline.report.fleet.fleet_marks import (
+    draw_ends,
+    draw_paths,
+    draw_stations,
+    draw_wait_arrows,
+    goal_of,
+    name_robots,
+    paths_of,
+)
+from viaspline.report.fleet.places_over_time import FleetMotion
+from viaspline.report.fleet.waits_chart import STANDS_COLOUR
+from viaspline.report.labels import Labels
+from viaspline.report.path_marks import draw_arrows
+from viaspline.report.scene import Scene
+from viaspline.report.sheet import Box, Sheet, view_of
+from viaspline.report.side_column import SideColumn
+from viaspline.world.world import World
+
+NOTE_WIDTH: Final = 40  # letters of a line of the column
+HEADS_PX: Final = 170.0  # from one head on a path to the next [pixels]
+
+
+def draw_fleet_map(
+    sheet: Sheet, scene: Scene, plan: FleetPlan, timelines: Sequence[Timeline],
+    motion: FleetMotion,
+) -> None:  # fmt: skip
+    """Draw the map and its column.
+
+    Args:
+        sheet: An empty one.
+        scene: The world.
+        plan: Whose paths are drawn.
+        timelines: Who waits when.
+        motion: Where the robots are meanwhile.
+    """
+    colours, members = robot_colours(plan), plan.fleet.members
+    labels = Labels(sheet.map)
+    handles = scene.draw(sheet.map, sheet.pixels_per_metre)
+    paths = paths_of(plan)
+    draw_paths(sheet.map, paths, list(colours.values()))
+    if len(paths) <= MAX_TOLD_APART:
+        for path, colour in zip(paths, colours.values(), strict=True):
+            draw_arrows(sheet.map, path, colour, every=HEADS_PX)
+    marks, places = draw_ends(sheet.map, members, colours)
+    marks += draw_stations(sheet.map, members)
+    name_robots(labels, members, colours)
+    scene.name(labels)
+    arrows = draw_wait_arrows(sheet.map, labels, motion.place_at, timelines, colours)
+    labels.place(np.vstack([*paths, np.zeros((0, 2))]), places, marker_size=5.0)
+    column = SideColumn(sheet)
+    column.legend([*_robots(plan), *marks, *arrows, *handles, *_chart_keys(timelines)])
+    why = [f"{one.name}: {one.reason}" for one in plan.not_served]
+    column.notes("Not served", [line for words in why for line in textwrap.wrap(words, NOTE_WIDTH)])
+
+
+def robot_colours(plan: FleetPlan) -> dict[str, str]:
+    """The colours of the robots that are served, by name."""
+    return dict(zip(plan.plans, colours_of(len(plan.plans)), strict=True))
+
+
+def scene_of(plan: FleetPlan) -> tuple[Scene, Box]:
+    """The world of a fleet, and the part of it that pictures show."""
+    members = plan.fleet.members
+    ends = [one.mission.route.start.at[:2] for one in members]
+    ends += [goal_of(one) for one in members]
+    seen = np.vstack([*paths_of(plan), np.array(ends).reshape(-1, 2)])
+    kept = [Requirements.of(one.mission, one.tracking_error) for one in plan.plans.values()]
+    least = min((one.required for one in kept), default=0.0)
+    scene = Scene.of(World.known(members[0].mission), least)
+    return scene, view_of(seen, scene.corners, scene.box, max(least, 0.5))
+
+
+def _robots(plan: FleetPlan) -> list[Artist]:
+    """The legend's lines of the robots, as far as their colours tell them apart."""
+    if len(plan.plans) > MAX_TOLD_APART:
+        words = f"paths of {len(plan.plans)} robots"
+        return [Line2D([], [], color=style.PATH, linewidth=1.6, label=words)]
+    return [
+        Line2D([], [], color=colour, linewidth=2.4, label=style.short(name, 24))
+        for name, colour in robot_colours(plan).items()
+    ]
+
+
+def _chart_keys(timelines: Sequence[Timeline]) -> list[Artist]:
+    """What the bars of the chart mean."""
+    own, other = ROBOT_COLOURS[0], ROBOT_COLOURS[1]
+    looks: dict[str, Artist] = {
+        "drives": Patch(facecolor=own, label="drives"),
+        "waits": Patch(
+            facecolor="white", edgecolor=other, hatch="/////", label="waits, slows for another"
+        ),
+        "stands": Patch(facecolor=STANDS_COLOUR, edgecolor=own, label="stands at a station"),
+    }
+    met = {stretch.kind for one in timelines for stretch in one.stretches}
+    return [look for kind, look in looks.items() if kind in met]

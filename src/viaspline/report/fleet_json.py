@@ -1,0 +1,86 @@
+"""``fleet.json``: who is served, what is proven, who passes before whom.
+
+Tested through ``report/test_fleet_results``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from viaspline.fleet.fleet_certificate import FleetCertificate
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.mission.fleet.fleet import FleetMember
+from viaspline.report.json_text import dumps
+
+
+def fleet_json(plan: FleetPlan, name: str, folders: Mapping[str, str]) -> str:
+    """The text of ``fleet.json``.
+
+    Args:
+        plan: What was planned.
+        name: The fleet's name.
+        folders: Of each robot, by its name.
+    """
+    return dumps(
+        {
+            "fleet": {
+                "name": name,
+                "frame": "ENU: x east, y north; headings anticlockwise from x",
+                "robots": len(plan.fleet.members),
+                "separation_m": plan.fleet.separation_m,
+            },
+            "served": plan.served,
+            "robots": [_robot(plan, one, folders) for one in plan.fleet.members],
+            "certificate": certificate_of_fleet(plan.certificate),
+            "precedences": [
+                {
+                    "first": one.first,
+                    "second": one.second,
+                    "leaves_at_m": one.leaves_at,
+                    "enters_at_m": one.enters_at,
+                    "waits_s": one.waits_s,
+                }
+                for one in plan.precedences
+            ],
+            "refused": [
+                {
+                    "name": one.name,
+                    "outcome": one.outcome,
+                    "reason": one.reason,
+                    "remedy": one.remedy,
+                }
+                for one in plan.not_served
+            ],
+        }
+    )
+
+
+def certificate_of_fleet(certificate: FleetCertificate) -> dict[str, Any]:
+    """What is proven of the distance between robots; no separation where there are no two."""
+    return {
+        "separation_m": certificate.separation,
+        "required_separation_m": certificate.required,
+        "holds": certificate.holds,
+        "pair": certificate.pair,
+        "at_s": certificate.at_s,
+        "at": certificate.at,
+    }
+
+
+def _robot(plan: FleetPlan, member: FleetMember, folders: Mapping[str, str]) -> dict[str, Any]:
+    """A robot: where its plan is, and when it drives by the clock of the fleet."""
+    asked = {"name": member.name, "priority": member.priority, "rest": member.rest}
+    served = plan.plans.get(member.name)
+    if served is None:
+        return {**asked, "plan": None}
+    law, alone = served.trajectory, plan.alone[member.name]
+    return {
+        **asked,
+        "plan": f"{folders[member.name]}/plan.json",
+        "length_m": served.path.length,
+        "departs_s": law.start_time,
+        "arrives_s": law.end_time,
+        "alone_s": alone,
+        "late_s": max(law.end_time - member.mission.route.depart_s - alone, 0.0),
+    }

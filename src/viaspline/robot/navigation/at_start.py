@@ -1,0 +1,77 @@
+"""A robot that stands at its start with its plan, and how it sets off.
+
+Tested through ``robot/test_navigator``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from viaspline.machine.pose_filter import PoseFilter
+from viaspline.planner import Plan
+from viaspline.robot.controller import Controller
+from viaspline.robot.navigation.drive_task import DriveTask
+from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.log import Log
+from viaspline.robot.navigation.navigation_state import NavigationState
+from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.reschedule import rescheduled
+from viaspline.robot.navigation.rounds import first_round
+from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.perception.belief import Belief
+from viaspline.robot.perception.moving.track_hits import TrackedHits
+from viaspline.robot.perception.moving.tracking_premises import TrackingPremises
+from viaspline.robot.run import Event
+from viaspline.trajectory.limits import REACTION_S
+from viaspline.world.moving_obstacles import MovingObstacles
+
+
+def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
+    """A robot that stands at the start, with its plan.
+
+    Args:
+        task: What is asked of the drive.
+        plan: Its plan.
+        period: Usual time between two steps [s].
+    """
+    robot, world = task.mission.robot, plan.world
+    has_lidar = robot.sensor is not None and robot.sensor.lidar is not None
+    belief = Belief.at_start(world, robot) if has_lidar else None
+    controller = None
+    if task.model is not None:
+        pose_filter = PoseFilter.of(robot, period)
+        controller = Controller.of(task.model, period, plan.path, plan.trajectory, pose_filter)
+    progress = Progress(time=0.0, controller=controller)
+    moving = MovingObstacles.known(task.mission)
+    hits = None
+    if belief is not None and robot.moving is not None:
+        premises = TrackingPremises(robot.moving.max_speed_mps, noise=belief.surfaces.noise)
+        hits = TrackedHits(premises)
+    knowledge = Knowledge(
+        world, frozenset(world.obstacles), belief, moving=moving, charted=len(moving), hits=hits
+    )
+    path, laps = first_round(task, plan.path)
+    schedule = Schedule(path, plan.trajectory, laid_in=world, laps=laps)
+    has_jerk = task.limits.max_jerk is not None
+    changes = not has_jerk or belief is not None or laps is not None or task.reaction != REACTION_S
+    if changes and plan.timed is None:
+        schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
+    return NavigationState(progress, knowledge, schedule, Log())
+
+
+def set_off(state: NavigationState, time: float, plan: Plan) -> NavigationState:
+    """The state of a robot at its first step, at a time [s].
+
+    A law among what moves is one of the mission's clock; any other begins when the robot does.
+    """
+    progress, schedule = state.progress, state.schedule
+    if progress.controller is not None:
+        time += progress.controller.ahead
+    words = f"sets off on a path of {schedule.path.length:.1f} m"
+    law = schedule.trajectory
+    return replace(
+        state,
+        progress=replace(progress, time=time, set_off=True),
+        schedule=replace(schedule, trajectory=law.delayed(time) if plan.timed is None else law),
+        log=state.log.with_events(Event("started", time, schedule.place(0.0), words)),
+    )

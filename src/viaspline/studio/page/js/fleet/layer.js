@@ -1,0 +1,77 @@
+/** The robots of a fleet on the map: their routes, each in its colour, and where they are at an instant. */
+
+import { isFleet, membersOf, missionOf, robotName } from "../core/fleet.js";
+import { pointsOf } from "../core/mission.js";
+import { robotColour } from "./colours.js";
+import { drawDisc, drawRoute, drawTrail, drawWait } from "./robot_marks.js";
+
+/** @typedef {import("../draw/pen.js").Pen} Pen */
+
+const MOST_NAMED = 40;
+
+export class FleetLayer {
+  /** @param {import("../core/store.js").Store} store @param {import("../preview.js").Preview} preview */
+  constructor(store, preview) {
+    this.store = store;
+    this.preview = preview;
+  }
+
+  /** The colour of the robot that is chosen; null for a mission. @param {Pen} pen @returns {string|null} */
+  chosenColour(pen) {
+    const { robot } = this.store;
+    return robot === null ? null : robotColour(robot, pen.isDark);
+  }
+
+  /** Routes of those that aren't chosen: under everything that is edited. @param {Pen} pen */
+  drawRoutes(pen) {
+    const { store } = this;
+    if (!isFleet(store.file)) return;
+    const isStale = store.fleetPlan?.answer?.ok === false || store.isLate;
+    membersOf(store.file).forEach((_, i) => {
+      if (i === store.robot) return;
+      const robot = store.fleetPlan?.byName.get(robotName(store.file, i));
+      const points = pointsOf(missionOf(store.file, i, store.missions));
+      drawRoute(pen, { spans: robot?.path?.spans ?? [], points, colour: robotColour(i, pen.isDark), isStale });
+    });
+  }
+
+  /** All robots at the instant that is looked at, where they come from, and who waits for whom. @param {Pen} pen */
+  drawRobots(pen) {
+    const { store, preview } = this;
+    const plan = store.fleetPlan;
+    if (!isFleet(store.file) || !plan || store.isLate) return;
+    const now = preview.time;
+    const index = new Map(membersOf(store.file).map((_, i) => [robotName(store.file, i), i]));
+    const placed = new Map();
+    for (const robot of plan.driving) {
+      const { times } = robot.law;
+      const i = index.get(robot.name);
+      if (i === undefined || (robot.leaves && now > times.at(-1))) continue;
+      const colour = robotColour(i, pen.isDark);
+      if (preview.isOn && now > times[0]) drawTrail(pen, robot.curve, now, colour);
+      placed.set(robot.name, { ...robot.curve.at(robot.curve.distanceAt(now)), radius: robot.radius, colour, isChosen: i === store.robot });
+    }
+    for (const { robot, waits_for: other, from, until } of plan.waits) {
+      const [a, b] = [placed.get(robot), placed.get(other)];
+      if (a && b && from <= now && now <= until) drawWait(pen, a, b);
+    }
+    for (const one of placed.values()) drawDisc(pen, one);
+  }
+
+  /** Names beside where the robots are. @param {Pen} pen @returns {import("../draw/labels.js").Label[]} */
+  labels(pen) {
+    const { store, preview } = this;
+    const plan = store.fleetPlan;
+    const members = membersOf(store.file);
+    if (!members.length || !plan || !store.show.names) return [];
+    return members.flatMap((_, i) => {
+      const robot = plan.byName.get(robotName(store.file, i));
+      const isChosen = i === store.robot;
+      if (!robot?.curve || (members.length > MOST_NAMED && !isChosen)) return [];
+      const at = robot.curve.at(robot.curve.distanceAt(preview.time));
+      const [x, y] = pen.camera.toScreen(at.x, at.y);
+      const away = Math.max(10, robot.radius * pen.camera.scale + 5);
+      return [{ text: robot.name, x, y, away, colour: robotColour(i, pen.isDark), bold: true, rank: isChosen ? 0 : 2 }];
+    });
+  }
+}

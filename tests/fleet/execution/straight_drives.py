@@ -1,0 +1,104 @@
+"""Fleets on straight lines that are timed, to be driven."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "kernels" / "fleet"))
+from straight_fleets import Line, courses_on, crossings_on, no_laws, rides_on
+
+from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.fleet.execution.fleet_run import FleetRun
+from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.yielding_ride import timed_in_order
+
+REACH = 1.0
+CROSS: list[Line] = [((0.0, 0.0), (40.0, 0.0)), ((20.0, -20.0), (20.0, 20.0))]
+
+
+def from_line(place: Floats, line: Line) -> float:
+    a, b = np.array(line[0]), np.array(line[1])
+    along = np.clip(np.dot(place - a, b - a) / np.dot(b - a, b - a), 0.0, 1.0)
+    return float(np.hypot(*(place - a - along * (b - a))))
+
+
+def lines_without_rests_in_the_way(seed: int, count: int, side: float) -> list[Line]:
+    """Lines of which none passes where another begins or ends."""
+    random = np.random.default_rng(seed)
+    lines: list[Line] = []
+    for _ in range(60 * count):
+        a, b = random.uniform(0.0, side, (2, 2))
+        line: Line = (tuple(a), tuple(b))
+        far = 2.0 * REACH + 2.0
+        if np.hypot(*(b - a)) > 5.0 and all(
+            min(from_line(np.array(p), other) for p in line) > far
+            and min(from_line(np.array(p), line) for p in other) > far
+            for other in lines
+        ):
+            lines.append(line)
+        if len(lines) == count:
+            break
+    return lines
+
+
+def timed_lines(seed: int, count: int) -> list[Line]:
+    """Those of some random lines whose robots can be timed one after the other."""
+    lines = lines_without_rests_in_the_way(seed, count, 40.0)
+    courses = courses_on(lines, REACH)
+    found = timed_in_order(
+        courses, crossings_on(courses), rides_on(courses), no_laws(courses), np.arange(len(lines))
+    )
+    return [line for line, box in zip(lines, found, strict=True) if box == -1]
+
+
+def driven_on(
+    lines: Sequence[Line], order: Sequence[int] | None = None, vanish: bool = False
+) -> DrivenFleet:
+    """Robots timed one after the other, all of which can be."""
+    courses = courses_on(lines, REACH)
+    rides, laws = rides_on(courses), no_laws(courses)
+    rides = rides._replace(vanishes=np.full(len(lines), vanish))
+    crossings = crossings_on(courses)
+    numbers = np.arange(len(lines)) if order is None else np.array(order)
+    assert (timed_in_order(courses, crossings, rides, laws, numbers) == -1).all()
+    return fleet_with(courses_names(len(lines)), courses, crossings, laws, rides)
+
+
+def courses_names(count: int) -> tuple[str, ...]:
+    return tuple(f"r{i}" for i in range(count))
+
+
+def fleet_with(names, courses, crossings, laws, rides) -> DrivenFleet:  # type: ignore[no-untyped-def]
+    return DrivenFleet(
+        FleetCourses(names, courses), FleetCrossings(crossings), FleetLaws(laws), rides, 0.0
+    )
+
+
+def places_of(run: FleetRun, lines: Sequence[Line], times: Floats) -> Floats:
+    """Where the robots of a run were, on the lines themselves, (robots, times, 2)."""
+    found = []
+    for name, (a, b) in zip(run.names, lines, strict=True):
+        begin, end = np.array(a), np.array(b)
+        share = run.distance_at(name, times) / np.hypot(*(end - begin))
+        found.append(begin + share[:, None] * (end - begin))
+    return np.array(found)
+
+
+def nearest_two(run: FleetRun, lines: Sequence[Line]) -> float:
+    """The least distance between any two robots, every 10 ms; after an arrival they stay."""
+    places = places_of(run, lines, np.arange(-1.0, run.end_s + 1.0, 0.01))
+    return min(
+        (
+            float(np.hypot(*(places[i] - places[j]).T).min())
+            for i in range(len(places))
+            for j in range(i)
+        ),
+        default=np.inf,
+    )

@@ -1,0 +1,281 @@
+"""The navigator of a fleet in a person's own control room: what it grants, and what it believes."""
+
+from __future__ import annotations
+
+import math
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+sys.path.insert(0, str(Path(__file__).parent))
+from straight_drives import CROSS, REACH, driven_on, timed_lines
+
+from viaspline.errors import GeometryError
+from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
+from viaspline.fleet.execution.fleet_navigator import FleetNavigator
+
+STREETS = [*CROSS, ((0.0, 30.0), (40.0, 30.0))]
+
+
+@dataclass
+class Cart:
+    """A robot that obeys commands: in steps of a tenth of a second, with 1 m/s² to stop."""
+
+    name: str
+    length: float
+    place: float = 0.0
+    speed: float = 0.0
+    holds: float = 0.0
+    heard: float = -1.0
+
+    def report(self, time: float) -> ProgressReport:
+        arrived = self.place >= self.length - 1e-6
+        return ProgressReport(
+            self.name, time, self.place, self.speed, arrived, self.holds, self.heard
+        )
+
+    def hear(self, command: FleetCommand) -> None:
+        self.heard = command.time
+        if command.granted >= self.holds or self.place + self.speed**2 / 2 <= command.granted:
+            self.holds = command.granted
+
+    def drive(self, command: FleetCommand) -> None:
+        self.place = max(self.place, min(command.distance, self.holds))
+        self.speed = command.speed
+
+
+def carts_of(nav: FleetNavigator) -> list[Cart]:
+    return [Cart(name, float(nav._fleet.lengths[i])) for i, name in enumerate(nav.names)]
+
+
+def start(lines=STREETS, **more) -> FleetNavigator:  # type: ignore[no-untyped-def]
+    return FleetNavigator.of(driven_on(lines), **more)
+
+
+def test_the_first_may_go_to_its_goal_and_the_second_to_the_crossing() -> None:
+    commands, nav = start().step([], 0.0)
+    assert [commands[name].granted for name in ("r0", "r2")] == [40.0, 40.0]
+    second = commands["r1"]
+    assert 17.0 <= second.granted <= 18.0
+    assert second.waits_for == "r0"
+    assert commands["r0"].waits_for is None
+    assert nav.time == 0.0
+    assert start().time == -math.inf
+
+
+def test_a_report_of_having_left_the_crossing_opens_it() -> None:
+    commands, nav = start().step([], 0.0)
+    opens_at = 0.0
+    for time in range(20, 40):  # a bar after the other: it follows
+        commands, nav = nav.step([ProgressReport("r0", float(time), opens_at)], float(time))
+        if commands["r1"].waits_for is None:
+            break
+        opens_at = commands["r1"].opens_at
+    assert 22.0 <= opens_at <= 23.0
+    assert commands["r1"].granted == 40.0
+
+
+def test_with_a_margin_it_opens_that_much_later_and_at_the_goal_in_any_case() -> None:
+    _, nav = start(margin_m=1.0).step([], 0.0)
+    needed = max(nav._state.orders.packed.passed[nav._state.orders.packed.other == 0])
+    for beyond, is_open in ((0.0, False), (0.9, False), (1.001, True)):
+        commands, _ = nav.step([ProgressReport("r0", 15.0, needed + beyond)], 15.0)
+        assert (commands["r1"].waits_for is None) == is_open
+    with pytest.raises(GeometryError, match="margin_m is -1"):
+        start(margin_m=-1.0)
+
+
+REFUSED = {
+    "from the future": ProgressReport("r0", 10.5, 5.0),
+    "of no robot of this fleet": ProgressReport("r7", 10.0, 5.0),
+    "can't have come farther than 20.00 m": ProgressReport("r0", 10.0, 22.0),
+    "of a path of 40.00 m": ProgressReport("r0", 10.0, 41.0),
+    "not finite": ProgressReport("r0", 10.0, math.nan),
+    "that it has arrived": ProgressReport("r0", 10.0, 10.0, arrived=True),
+    "it may go to 17.": ProgressReport("r1", 10.0, 19.0),
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_a_report_that_can_not_be_true_is_refused_and_opens_nothing(words: str) -> None:
+    _, nav = start().step([], 0.0)
+    kept, _ = nav.step([], 10.0)
+    commands, nav = nav.step([REFUSED[words]], 10.0)
+    assert nav.progress == {"r0": 0.0, "r1": 0.0, "r2": 0.0}
+    refused = [event for event in nav.events if event.kind == "refused"]
+    assert [event.name for event in refused] == [REFUSED[words].name]
+    assert words in refused[0].message
+    assert commands == kept
+
+
+@pytest.mark.parametrize("field", ["time", "distance", "speed", "holds", "heard"])
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_numbers_that_are_none_are_refused(field: str, value: float) -> None:
+    report = replace(ProgressReport("r0", 0.0, 0.0), **{field: value})
+    _, nav = start().step([report], 0.0)
+    assert [event.kind for event in nav.events] == ["refused"]
+
+
+def test_old_reports_and_such_of_a_place_farther_back_are_ignored() -> None:
+    _, nav = start().step([], 0.0)
+    _, nav = nav.step([ProgressReport("r0", 10.0, 15.0)], 10.0)
+    for report, words in (
+        (ProgressReport("r0", 9.0, 14.0), "is old"),
+        (ProgressReport("r0", 11.0, 12.0), "has been at 15.00 m"),
+    ):
+        _, after = nav.step([report], 11.0)
+        assert after.progress["r0"] == 15.0
+        assert [event.kind for event in after.events] == ["ignored"]
+        assert words in after.events[0].message
+    _, after = nav.step([ProgressReport("r0", 11.0, 14.95)], 11.0)  # noise
+    assert after.events == ()
+    assert after.progress["r0"] == 15.0
+
+
+def test_a_robot_that_is_not_heard_of_is_named_once_and_others_wait_for_it() -> None:
+    _, nav = start().step([], 0.0)
+    said = []
+    for time in range(1, 20):
+        heard = [ProgressReport(name, float(time), 0.0) for name in ("r1", "r2")]
+        commands, nav = nav.step(heard, float(time))
+        said += [(event.kind, event.name) for event in nav.events]
+        assert commands["r1"].waits_for == "r0"
+    assert said == [("silent", "r0")]
+
+
+def test_what_is_no_report_or_no_time_is_an_error() -> None:
+    nav = start()
+    with pytest.raises(GeometryError, match=r"reports\[0\] is of the class int"):
+        nav.step([5], 0.0)  # type: ignore[list-item]
+    _, nav = nav.step([], 3.0)
+    with pytest.raises(GeometryError, match=r"time 2\.0 s is before the last step's, 3\.0 s"):
+        nav.step([], 2.0)
+    with pytest.raises(GeometryError, match="nan"):
+        nav.step([], math.nan)
+
+
+def test_a_step_changes_nothing_of_the_navigator_before() -> None:
+    _, nav = start().step([], 0.0)
+    one = nav.step([ProgressReport("r0", 10.0, 15.0)], 10.0)
+    again = nav.step([ProgressReport("r0", 10.0, 15.0)], 10.0)
+    assert one[0] == again[0]
+    assert nav.progress["r0"] == 0.0
+    assert nav.time == 0.0
+
+
+@given(
+    seed=st.integers(0, 10_000), lost=st.floats(0.0, 0.4), late=st.integers(0, 5),
+    margin=st.sampled_from([0.0, 0.05]),
+)  # fmt: skip
+@settings(max_examples=3, deadline=None)
+def test_carts_that_obey_stay_apart_and_arrive_however_messages_are_lost_or_late(
+    seed: int, lost: float, late: int, margin: float
+) -> None:
+    """The carts' own law of motion; what is said arrives up to half a second late, or not."""
+    lines = timed_lines(seed, 4)
+    random = np.random.default_rng(seed)
+    nav = FleetNavigator.of(driven_on(lines), margin_m=margin)
+    carts = carts_of(nav)
+    under_way: list[tuple[int, ProgressReport]] = []
+    last: dict[str, FleetCommand] = {}
+    for tick in range(3000):
+        under_way += [
+            (tick + int(random.integers(late + 1)), cart.report(0.1 * tick))
+            for cart in carts
+            if random.uniform() >= lost
+        ]
+        due = [report for when, report in under_way if when <= tick]
+        under_way = [(when, report) for when, report in under_way if when > tick]
+        commands, nav = nav.step(due, 0.1 * tick)
+        assert not [event for event in nav.events if event.kind == "refused"]
+        for cart in carts:
+            if random.uniform() >= lost:
+                last[cart.name] = commands[cart.name]
+                cart.hear(last[cart.name])
+                cart.drive(last[cart.name])
+            else:  # it stops, as it doesn't know how to go on
+                slower = max(cart.speed - 0.1, 0.0)
+                cart.place = min(cart.place + 0.05 * (cart.speed + slower), cart.holds)
+                cart.speed = slower
+        places = np.array(
+            [
+                np.array(a) + cart.place / cart.length * (np.array(b) - np.array(a))
+                for cart, (a, b) in zip(carts, lines, strict=True)
+            ]
+        )
+        gaps = np.hypot(*np.moveaxis(places[:, None] - places[None], -1, 0))
+        assert (gaps + 9.0 * np.eye(len(lines))).min() >= 2.0 * REACH
+        if nav.reached:
+            break
+    assert nav.reached
+
+
+def test_who_leaves_the_world_has_left_every_crossing() -> None:
+    lines = [((0.0, 0.0), (20.0, 0.0)), ((20.0, -20.0), (20.0, 20.0))]
+    nav = FleetNavigator.of(driven_on(lines, vanish=True))
+    commands, nav = nav.step([ProgressReport("r0", 12.0, 19.99)], 12.0)
+    assert commands["r1"].waits_for == "r0"
+    assert commands["r1"].opens_at == math.inf
+    commands, nav = nav.step([ProgressReport("r0", 12.1, 20.0, arrived=True)], 12.1)
+    assert commands["r1"].waits_for is None
+    assert [(event.kind, event.name) for event in nav.events] == [("arrived", "r0")]
+
+
+def test_the_fleet_of_none_has_nothing_to_do() -> None:
+    commands, nav = FleetNavigator.of(driven_on([((0.0, 0.0), (9.0, 0.0))])).step([], 0.0)
+    assert list(commands) == ["r0"]
+    assert commands["r0"].granted == 9.0
+    assert not nav.reached
+    assert nav.expected()["r0"] == pytest.approx(6.5)
+
+
+def test_expected_arrivals_are_those_of_robots_that_never_wait_longer_than_they_must() -> None:
+    _, nav = start().step([], 0.0)
+    expected = nav.expected()
+    assert expected["r0"] == pytest.approx(22.0)
+    assert 22.5 < expected["r1"] < 25.0
+    _, late = nav.step([ProgressReport("r0", 50.0, 0.0), ProgressReport("r1", 50.0, 0.0)], 50.0)
+    assert late.expected()["r0"] == pytest.approx(72.0)
+
+
+def test_an_order_is_swapped_when_the_first_says_that_it_stops_before_the_crossing() -> None:
+    """r0 stands still before the crossing; r1 is at its bar."""
+    nav = start()
+    carts = {"r0": (10.0, 40.0), "r1": (0.0, 40.0)}
+    commands, nav = nav.step([], 0.0)
+    bar = commands["r1"].granted
+    carts["r1"] = (bar, bar)
+    swapped = []
+    for time in np.arange(20.0, 60.0, 0.5).tolist():
+        reports = [
+            ProgressReport(name, time, place, holds=holds, heard=time - 0.5)
+            for name, (place, holds) in carts.items()
+        ]
+        commands, nav = nav.step(reports, time)
+        swapped += [event for event in nav.events if event.kind == "swapped"]
+        if swapped:
+            break
+        place, _ = carts["r0"]
+        carts["r0"] = (place, commands["r0"].granted)  # it takes up whatever it hears
+    assert [(event.name, event.other) for event in swapped] == [("r1", "r0")]
+    assert commands["r1"].granted == 40.0
+    assert 17.0 <= commands["r0"].granted <= 18.0
+    assert commands["r0"].waits_for == "r1"
+
+
+def test_no_order_is_swapped_while_the_first_does_not_say_what_it_holds() -> None:
+    nav = start()
+    commands, nav = nav.step([], 0.0)
+    for time in np.arange(20.0, 60.0, 0.5).tolist():
+        reports = [
+            ProgressReport("r0", time, 10.0),
+            ProgressReport("r1", time, commands["r1"].granted),
+        ]
+        commands, nav = nav.step(reports, time)
+        assert not [event for event in nav.events if event.kind == "swapped"]
+        assert commands["r1"].waits_for == "r0"

@@ -1,0 +1,110 @@
+"""Orders of fleets: who passes first, where the other one waits, and that it comes to an end."""
+
+import re
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+sys.path.insert(0, str(Path(__file__).parent))
+from straight_drives import CROSS, driven_on, timed_lines
+
+from viaspline.errors import GeometryError
+from viaspline.fleet.execution.fleet_orders import orders_led, orders_of
+from viaspline.fleet.fleet_laws import FleetLaws
+
+
+def test_the_second_waits_before_the_crossing_until_the_first_has_left_it() -> None:
+    for order in ([0, 1], [1, 0]):
+        orders = orders_of(driven_on(CROSS, order))
+        first, second = order
+        assert orders.leaders.tolist() == [first]
+        packed = orders.packed
+        bars = slice(packed.first[second], packed.first[second + 1])
+        assert (packed.other[bars] == first).all()
+        # discs of 1 m touch where their centres are 2 m apart; cells are 0.5 m long
+        assert 17.0 <= packed.place[bars][0] <= 18.0
+        assert 22.0 <= packed.passed[bars][-1] <= 23.0
+        assert (np.diff(packed.place[bars]) >= 0.0).all()
+        assert (np.diff(packed.passed[bars]) > 0.0).all()
+
+
+def test_orders_are_those_of_who_is_there_first_by_the_laws() -> None:
+    lines = timed_lines(3, 9)
+    fleet = driven_on(lines)
+    courses, laws, robots = fleet.courses.packed, fleet.laws.packed, fleet.crossings.packed.robots
+    orders = orders_of(fleet)
+    assert len(robots) > 3
+    for c, pair in enumerate(robots):
+        middle = fleet.crossings.packed.span[c].reshape(2, 2).mean(axis=1)
+        times = []
+        for robot, place in zip(pair, middle, strict=True):
+            nodes = slice(courses.first[robot], courses.first[robot + 1])
+            times.append(np.interp(place, courses.distance[nodes], laws.arrive[nodes]))
+        assert orders.leaders[c] == pair[int(np.argmin(times))]
+
+
+def test_a_ring_of_robots_that_wait_for_each_other_is_named() -> None:
+    """Three streets in a triangle: each robot would let the one pass that lets the next one."""
+    lines = [((0.0, 0.0), (40.0, 0.0)), ((36.0, -8.0), (12.0, 34.0)), ((28.0, 34.0), (4.0, -8.0))]
+    fleet = driven_on(lines)
+    robots = fleet.crossings.packed.robots.tolist()
+    assert robots == [[0, 1], [0, 2], [1, 2]]
+    own = np.ones(3, np.bool_)
+    # each of them comes to the street of the one that is to pass before it first
+    rings = [np.array(ring) for ring in ([0, 2, 1], [1, 0, 2])]
+    refused = []
+    for ring in rings:
+        try:
+            orders_led(fleet, ring, own)
+        except GeometryError as error:
+            refused.append(str(error))
+    assert len(refused) == 1
+    assert re.fullmatch(
+        r"the orders have a cycle: (r\d waits at \d+\.\d m for r\d to come to \d+\.\d m, ){2}"
+        r"r\d waits .*; time the fleet anew",
+        refused[0],
+    )
+
+
+def test_laws_that_meet_keep_no_order() -> None:
+    fleet = driven_on(CROSS)
+    alone = FleetLaws(fleet.alone)
+    with pytest.raises(GeometryError, match=r"r0 and r1 are too near each other between 1[78]\.\d"):
+        orders_of(replace(fleet, laws=alone))
+
+
+@given(seed=st.integers(0, 10_000), count=st.integers(1, 12))
+@settings(max_examples=25, deadline=None)
+def test_orders_of_laws_that_keep_apart_are_acyclic(seed: int, count: int) -> None:
+    fleet = driven_on(timed_lines(seed, count))
+    orders = orders_of(fleet)
+    assert sorted(orders.sequence.tolist()) == list(range(orders.packed.place.size))
+    assert (orders.leaders >= 0).all()
+
+
+@given(seed=st.integers(0, 10_000), late=st.floats(0.0, 100.0))
+@settings(max_examples=25, deadline=None)
+def test_a_delay_reaches_those_who_wait_and_never_grows(seed: int, late: float) -> None:
+    orders = orders_of(driven_on(timed_lines(seed, 9)))
+    delays = orders.delays("r0", late)
+    assert delays[0] == pytest.approx(late)
+    assert (delays >= -1e-9).all()
+    assert (delays <= late + 1e-9).all()
+    for robot in range(1, len(delays)):
+        if delays[robot] > 1e-6:  # it waits for somebody who is late
+            bars = slice(orders.packed.first[robot], orders.packed.first[robot + 1])
+            counts = orders.leaders[orders.packed.crossing[bars]] == orders.packed.other[bars]
+            assert (delays[orders.packed.other[bars][counts]] > 1e-6).any()
+
+
+def test_who_crosses_nobody_delays_nobody() -> None:
+    orders = orders_of(driven_on([*CROSS, ((0.0, 30.0), (40.0, 30.0))]))
+    assert orders.delays("r2", 50.0).tolist() == pytest.approx([0.0, 0.0, 50.0])
+    assert orders.delays("r0", 50.0)[1] > 45.0
+    with pytest.raises(GeometryError, match=r"no robot 'r9' in this fleet; it has r0, r1, r2"):
+        orders.delays("r9", 1.0)

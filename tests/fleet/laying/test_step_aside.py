@@ -1,0 +1,83 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.fleet.laying.step_aside import can_step_aside, stepped_aside
+from viaspline.mission.model import Mission
+from viaspline.planner import plan
+
+ROBOT = {"radius_m": 0.5, "max_speed_mps": 2, "max_accel_mps2": 1, "max_lateral_accel_mps2": 0.8}
+
+
+def mission(*points: tuple[float, float], **more: object) -> Mission:
+    start, *via, goal = points
+    return Mission.model_validate(
+        {"robot": ROBOT, "route": {"start": start, "via": via, "goal": goal}, **more}
+    )
+
+
+discs = st.lists(st.tuples(st.floats(15, 65), st.floats(-1.5, 1.5)), min_size=1, max_size=4).map(
+    lambda places: np.array([(x, y, 2.0) for x, y in places])
+)
+
+
+@given(discs)
+def test_the_path_keeps_its_distance_its_ends_and_its_direction(rests: np.ndarray) -> None:
+    straight = plan(mission((0, 0), (80, 0)))
+    found = stepped_aside(straight, rests).plan
+    if found is None:
+        return
+    path = found.path
+    line = path.evaluate(np.linspace(*path.domain, 4000))
+    for x, y, kept in rests:
+        assert np.hypot(*(line - (x, y)).T).min() >= kept - 2e-4
+    assert path.spans[0, 0].tolist() == [0, 0]
+    assert path.spans[-1, 3].tolist() == [80, 0]
+    out = path.spans[1:, 1] - path.spans[1:, 0]
+    into = path.spans[:-1, 3] - path.spans[:-1, 2]
+    turned = out[:, 0] * into[:, 1] - out[:, 1] * into[:, 0]
+    assert np.abs(turned).max() < 1e-6
+    assert found.certificate.holds
+
+
+def test_a_robot_needs_not_slow_down_for_one_disc_in_the_open() -> None:
+    straight = plan(mission((0, 0), (80, 0)))
+    found = stepped_aside(straight, np.array([(40.0, 0.3, 2.0)])).plan
+    assert found is not None
+    assert found.path.length < straight.path.length + 0.6
+    assert found.trajectory.duration < straight.trajectory.duration + 0.4
+    assert PiecewiseCubic(found.path.spans).max_curvature()[0] < 0.21
+
+
+def test_it_steps_to_the_side_on_which_no_other_disc_is() -> None:
+    straight = plan(mission((0, 0), (80, 0)))
+    found = stepped_aside(straight, np.array([(40.0, -0.3, 2.0), (40.0, 3.5, 2.0)])).plan
+    assert found is not None
+    assert found.path.evaluate(np.linspace(*found.path.domain, 900))[:, 1].min() < -2.0
+
+
+def test_it_swings_through_a_via_point_that_is_near() -> None:
+    straight = plan(mission((0, 0), (40, 0), (80, 0)))
+    found = stepped_aside(straight, np.array([(43.0, 0.3, 2.0)])).plan
+    assert found is not None
+    (via,) = (one for one in found.path.vias if one.index == 1)
+    assert found.path.evaluate(via.u) == pytest.approx([40, 0], abs=1e-12)
+    assert abs(float(found.path.heading(via.u))) > 0.2
+
+
+def test_it_says_for_which_disc_there_is_no_room() -> None:
+    walls = [{"polygon": [[0, y], [80, y], [80, y + 1], [0, y + 1]]} for y in (2.0, -3.0)]
+    corridor = plan(mission((0, 0), (80, 0), world={"known": walls}))
+    found = stepped_aside(corridor, np.array([(20.0, 50.0, 2.0), (40.0, 0.0, 2.0)]))
+    assert found.plan is None
+    assert found.no_room_for == 1
+
+
+def test_a_robot_that_cannot_follow_any_bend_does_not_step_aside() -> None:
+    assert can_step_aside(plan(mission((0, 0), (80, 0))))
+    car = ROBOT | {"min_turn_radius_m": 4.0}
+    assert not can_step_aside(plan(mission((0, 0), (80, 0), robot=car)))

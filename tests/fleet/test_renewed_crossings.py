@@ -1,0 +1,51 @@
+"""Crossings of which some are found anew are all of them, box by box, as if found at once."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from viaspline.curve.cardinal import CardinalSpline
+from viaspline.fleet.courses import FleetPath, courses_along
+from viaspline.fleet.crossings import crossings_of
+from viaspline.fleet.renewed_crossings import renewed_crossings
+
+ROBOTS = 8
+
+
+def spline(rng: np.random.Generator) -> FleetPath:
+    path = CardinalSpline(rng.uniform(0, 30, (int(rng.integers(2, 6)), 2)), tension=0.0)
+    return FleetPath(path, np.array([0.0, path.length]), float(rng.uniform(0.3, 1.5)))
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 100_000), st.integers(1, ROBOTS))
+def test_they_are_those_that_are_found_at_once(seed: int, count: int) -> None:
+    rng = np.random.default_rng(seed)
+    names = [f"r{k}" for k in range(ROBOTS)]
+    paths = [spline(rng) for _ in names]
+    old = courses_along(names, paths)
+    changed = np.sort(rng.permutation(ROBOTS)[:count])
+    for robot in changed:
+        paths[robot] = spline(rng)
+    courses = courses_along(names, paths)
+    found = renewed_crossings(crossings_of(old), old, courses, changed).packed
+    at_once = crossings_of(courses).packed
+    for key, values in at_once._asdict().items():
+        assert np.array_equal(getattr(found, key), values), key
+        assert getattr(found, key).dtype == values.dtype
+
+
+def test_a_robot_that_crosses_nobody_any_more_leaves_no_crossing() -> None:
+    rng = np.random.default_rng(3)
+    names, paths = ["a", "b", "c"], [spline(rng) for _ in range(3)]
+    old = courses_along(names, paths)
+    before = crossings_of(old)
+    assert (before.packed.robots == 1).any()
+    away = CardinalSpline([[900.0, 900.0], [930.0, 910.0]], tension=0.0)
+    paths[1] = FleetPath(away, np.array([0.0, away.length]), 1.0)
+    courses = courses_along(names, paths)
+    found = renewed_crossings(before, old, courses, np.array([1])).packed
+    assert not (found.robots == 1).any()
+    assert found.box_first[1] == found.box_first[2]

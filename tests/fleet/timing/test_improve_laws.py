@@ -1,0 +1,62 @@
+"""Sooner laws are still clear of each other, and the same each time."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viaspline as vs
+from viaspline.fleet.crossing_paths import crossing_paths
+from viaspline.fleet.fleet_certificate import certify_fleet
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.kernels.fleet.passing_order import passing_gaps
+
+
+@pytest.fixture(scope="module")
+def timed() -> TimedFleet:
+    """Lanes across lanes, each with its rests outside of all others."""
+    lanes = [[[0, 6 * k + 10], [70, 6 * k + 10]] for k in range(8)]
+    lanes += [[[6 * k + 10, 0], [6 * k + 10, 70]] for k in range(8)]
+    data = [
+        {"name": f"r{k}", "priority": k % 2, "route": {"start": start, "goal": goal}}
+        for k, (start, goal) in enumerate(lanes)
+    ]
+    fleet = vs.Fleet.model_validate({"separation_m": 1, "fleet": data})
+    return TimedFleet.by_priority(FleetWays.of(fleet, crossing_paths(fleet)))
+
+
+def lateness(timed: TimedFleet) -> float:
+    """Of all robots together, each weighed by its priority [s]."""
+    ways, laws = timed.ways, timed.timing.laws.packed
+    late = laws.arrive[ways.courses.packed.first[1:] - 1] - ways.rides.alone
+    weight = 2.0 ** np.array([one.priority for one in ways.members])
+    return float((weight * late).sum())
+
+
+def test_more_work_gives_no_later_laws_and_they_stay_proven(timed: TimedFleet) -> None:
+    better = timed.improved(0.2)
+    assert lateness(better) < lateness(timed) - 0.1
+    ways, laws = better.ways, better.timing.laws
+    assert certify_fleet(ways.courses, laws, 1.0).holds
+    gaps = passing_gaps(ways.courses.packed, ways.crossings.packed, laws.packed)
+    assert np.isfinite(gaps).any()
+
+
+def test_what_was_timed_before_is_left_alone(timed: TimedFleet) -> None:
+    before = lateness(timed)
+    timed.improved(0.05)
+    assert lateness(timed) == before
+
+
+def test_the_same_work_gives_the_same_laws(timed: TimedFleet) -> None:
+    one, other = timed.improved(0.1), timed.improved(0.1)
+    for field in ("arrive", "leave", "speed"):
+        first, second = (getattr(x.timing.laws.packed, field) for x in (one, other))
+        assert first.tobytes() == second.tobytes()
+
+
+def test_progress_goes_up_to_all_of_it(timed: TimedFleet) -> None:
+    shares: list[float] = []
+    timed.improved(0.6, shares.append)
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0

@@ -1,0 +1,78 @@
+"""Robots timed along paths that are given, and those that can't be."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viaspline as vs
+from viaspline.fleet.crossing_paths import crossing_paths
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timing.time_paths import time_paths
+from viaspline.fleet.timing.timed_trajectory import timed_trajectory
+
+
+def ways_of(*routes: Any, **more: Any) -> FleetWays:
+    data = [
+        {"name": f"r{k}", "route": {"start": [*route[0]], "goal": [*route[-1]]}}
+        for k, route in enumerate(routes)
+    ]
+    fleet = vs.Fleet.model_validate({"separation_m": 1, "fleet": data, **more})
+    return FleetWays.of(fleet, crossing_paths(fleet))
+
+
+WALLS = [{"polygon": [[-2, y], [42, y], [42, y + 1], [-2, y + 1]]} for y in (-2.1, 1.1)]
+HEAD_ON = ((0, 0), (40, 0)), ((40, 0), (0, 0))
+
+
+@pytest.fixture(scope="module")
+def crossing() -> FleetWays:
+    return ways_of(((0, 0), (40, 0)), ((20, -20), (20, 20)), ((30, -20), (30, 25)))
+
+
+def test_who_is_let_pass_drives_as_alone_to_the_bit(crossing: FleetWays) -> None:
+    timed = TimedFleet.by_priority(crossing)
+    assert not timed.timing.blocked
+    law = timed_trajectory(
+        crossing.plans[2].trajectory, crossing.courses, crossing.rides, timed.timing.laws, 2
+    )
+    assert law.times.tobytes() == crossing.plans[2].trajectory.times.tobytes()
+
+
+def test_a_delayed_law_is_whole(crossing: FleetWays) -> None:
+    laws = TimedFleet.by_priority(crossing).timing.laws
+    for k, plan in enumerate(crossing.plans):
+        law = timed_trajectory(plan.trajectory, crossing.courses, crossing.rides, laws, k)
+        assert law.end_time == pytest.approx(
+            laws.packed.arrive[crossing.courses.packed.first[k + 1] - 1]
+        )
+        gone = np.diff(law.distances)
+        mean = 0.5 * (law.speeds[1:] + law.speeds[:-1]) * np.diff(law.times)
+        assert np.abs(gone - mean).max() < 1e-9
+        assert np.abs(law.accelerations).max() <= 1.0 + 1e-9
+
+
+def test_head_on_between_walls_one_is_in_the_way_of_the_other() -> None:
+    ways = ways_of(*HEAD_ON, world={"known": WALLS})
+    timing = TimedFleet.by_priority(ways).timing
+    assert timing.blocked in ({0: 1}, {1: 0})
+
+
+def test_who_stands_for_ever_is_in_the_way_of_all_that_pass_its_start() -> None:
+    ways = ways_of(*HEAD_ON, world={"known": WALLS})
+    timed = TimedFleet.by_priority(ways).past_standing_ones()
+    assert set(timed.blocked) == {"r0", "r1"}
+
+
+def test_who_is_left_out_keeps_its_place(crossing: FleetWays) -> None:
+    timing = time_paths(
+        crossing.courses, crossing.crossings, crossing.rides, [0.0] * 3, left_out=[0]
+    )
+    first = crossing.courses.packed.first[0]
+    assert timing.laws.packed.leave[first] == np.inf
+    assert not timing.blocked
+    for k in (1, 2):  # nobody has to be let pass
+        end = timing.laws.packed.arrive[crossing.courses.packed.first[k + 1] - 1]
+        assert end == pytest.approx(crossing.rides.alone[k])

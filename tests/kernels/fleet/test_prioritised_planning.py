@@ -1,0 +1,105 @@
+import sys
+from collections import deque
+from pathlib import Path
+
+import numpy as np
+from hypothesis import assume, given, settings
+
+sys.path.insert(0, str(Path(__file__).parent))
+from lattice_oracles import is_a_way, keeps_a_step_apart, lattice_of, problems
+
+from viaspline.kernels.fleet.lacam import FOUND, lacam
+from viaspline.kernels.fleet.lattice_distances import FAR, lattice_distances
+from viaspline.kernels.fleet.lattice_table import spaced_out
+from viaspline.kernels.fleet.neighbourhood_search import neighbourhood_search
+from viaspline.kernels.fleet.prioritised_planning import prioritised_planning
+
+STEPS = 30
+
+
+def planned(neighbours, starts, goals, tries=5):
+    distances = lattice_distances(neighbours, goals)
+    assume((distances[np.arange(len(starts)), starts] < FAR).all())
+    order = np.arange(len(starts), dtype=np.int32)
+    found, table, _ = prioritised_planning(
+        neighbours, starts, goals, distances, order, STEPS, tries, 1_000_000
+    )
+    return found, table, distances
+
+
+def first_arrival(neighbours, first, start, goal):
+    """Of a robot that keeps a step apart from one whose places are known."""
+    seen, queue = {(start, 0)}, deque([(start, 0)])
+    while queue:
+        cell, step = queue.popleft()
+        if cell == goal and goal not in first[step:]:
+            return step
+        if step + 1 == STEPS:
+            continue
+        for to in (cell, *neighbours[cell]):
+            moves = to != cell
+            meets = first[step + 1] == to or (
+                moves and (first[step] == to or first[step + 1] == cell)
+            )
+            if to >= 0 and not meets and (to, step + 1) not in seen:
+                seen.add((to, step + 1))
+                queue.append((to, step + 1))
+    return None
+
+
+@given(problems())
+@settings(max_examples=100, deadline=None)
+def test_paths_lead_from_start_to_goal_and_keep_a_step_apart(problem):
+    found, table, _ = planned(*problem)
+    if found:
+        assert is_a_way(*problem, table.places)
+        assert keeps_a_step_apart(table.places)
+        still = table.places == table.places[:, -1:]
+        assert [int(row[::-1].argmin()) or STEPS for row in still] == [
+            STEPS - arrival for arrival in table.arrivals
+        ]
+
+
+@given(problems(most_cells=9, most_robots=2))
+@settings(max_examples=100, deadline=None)
+def test_the_second_robot_arrives_as_early_as_the_first_allows(problem):
+    neighbours, starts, goals = problem
+    assume(len(starts) == 2)
+    found, table, distances = planned(*problem, tries=1)
+    assert table.arrivals[0] == distances[0, starts[0]]
+    first = table.places[0]
+    expected = first_arrival(neighbours.tolist(), first.tolist(), int(starts[1]), int(goals[1]))
+    assert found == (expected is not None)
+    if found:
+        assert table.arrivals[1] == expected
+
+
+@given(problems())
+@settings(max_examples=60, deadline=None)
+def test_ways_that_are_spaced_out_keep_a_step_apart(problem):
+    neighbours, starts, goals = problem
+    distances = lattice_distances(neighbours, goals)
+    state, places, _ = lacam(neighbours, starts, goals, distances, 100_000, 1)
+    assume(state == FOUND)
+    spaced, count = spaced_out(places, len(neighbours))
+    assert is_a_way(*problem, spaced[:, :count])
+    assert keeps_a_step_apart(spaced[:, :count])
+
+
+def test_a_better_set_of_paths_is_still_one():
+    neighbours = lattice_of(np.random.default_rng(3).random((12, 12)) > 0.1)
+    rng = np.random.default_rng(4)
+    starts, goals = (rng.permutation(len(neighbours))[:12].astype(np.int32) for _ in range(2))
+    distances = lattice_distances(neighbours, goals)
+    order = np.arange(12, dtype=np.int32)
+    found, table, _ = prioritised_planning(
+        neighbours, starts, goals, distances, order, 60, 20, 1_000_000
+    )
+    assert found
+    before = int(table.arrivals.sum())
+    after = neighbourhood_search(neighbours, starts, goals, distances, table, 4, 100_000, 1)
+    least = distances[np.arange(12), starts].sum()
+    assert least <= after < before
+    assert after == table.arrivals.sum()
+    assert is_a_way(neighbours, starts, goals, table.places)
+    assert keeps_a_step_apart(table.places)

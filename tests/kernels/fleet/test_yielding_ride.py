@@ -1,0 +1,133 @@
+"""Robots on straight lines let each other pass; what they do is looked at instant by instant."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+sys.path.insert(0, str(Path(__file__).parent))
+from straight_fleets import (
+    Line,
+    courses_on,
+    crossings_on,
+    no_laws,
+    places_at,
+    rides_on,
+)
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.packed_courses import PackedCourses
+from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_rides import PackedRides
+from viaspline.kernels.fleet.yielding_ride import timed_in_order
+
+REACH = 1.0
+
+
+def from_line(place: Floats, line: Line) -> float:
+    a, b = np.array(line[0]), np.array(line[1])
+    along = np.clip(np.dot(place - a, b - a) / np.dot(b - a, b - a), 0.0, 1.0)
+    return float(np.hypot(*(place - a - along * (b - a))))
+
+
+def lines_without_rests_in_the_way(seed: int, count: int, side: float = 40.0) -> list[Line]:
+    """Lines of which none passes where another begins or ends."""
+    random = np.random.default_rng(seed)
+    lines: list[Line] = []
+    for _ in range(60 * count):
+        a, b = random.uniform(0.0, side, (2, 2))
+        line: Line = (tuple(a), tuple(b))
+        far = 2.0 * REACH + 2.0
+        if np.hypot(*(b - a)) > 5.0 and all(
+            min(from_line(np.array(p), other) for p in line) > far
+            and min(from_line(np.array(p), line) for p in other) > far
+            for other in lines
+        ):
+            lines.append(line)
+        if len(lines) == count:
+            break
+    return lines
+
+
+def timed(
+    lines: list[Line], depart: float | list[float] = 0.0
+) -> tuple[PackedCourses, PackedRides, PackedLaws, list[int]]:
+    courses = courses_on(lines, REACH)
+    rides, laws = rides_on(courses, depart=depart), no_laws(courses)
+    found = timed_in_order(courses, crossings_on(courses), rides, laws, np.arange(len(lines)))
+    return courses, rides, laws, found.tolist()
+
+
+def nearest_two(courses: PackedCourses, laws: PackedLaws) -> float:
+    """The least distance between any two robots, every 10 ms."""
+    last = laws.arrive[courses.first[1:] - 1].max()
+    times = np.arange(-1.0, last + 1.0, 0.01)
+    places = [places_at(courses, laws, r, times) for r in range(courses.reach.size)]
+    return min(
+        (
+            float(np.hypot(*(places[i] - places[j]).T).min())
+            for i in range(len(places))
+            for j in range(i)
+        ),
+        default=np.inf,
+    )
+
+
+@given(seed=st.integers(0, 10_000), count=st.integers(1, 9))
+@settings(max_examples=40, deadline=None)
+@example(seed=3, count=9)
+def test_where_no_path_passes_a_rest_all_are_served_and_stay_apart(seed: int, count: int) -> None:
+    courses, _, laws, found = timed(lines_without_rests_in_the_way(seed, count))
+    assert found == [-1] * len(found)
+    assert nearest_two(courses, laws) >= 2.0 * REACH
+
+
+@given(seed=st.integers(0, 10_000))
+@settings(max_examples=25, deadline=None)
+def test_laws_keep_speeds_and_accelerations_and_are_never_earlier_than_alone(seed: int) -> None:
+    courses, rides, laws, _ = timed(lines_without_rests_in_the_way(seed, 9))
+    for r in range(courses.reach.size):
+        nodes = slice(courses.first[r], courses.first[r + 1])
+        lasts = laws.arrive[nodes][1:] - laws.leave[nodes][:-1]
+        rise = np.diff(laws.speed[nodes] ** 2) / (2.0 * np.diff(courses.distance[nodes]))
+        assert (laws.leave[nodes] >= laws.arrive[nodes]).all()
+        assert (laws.speed[nodes] <= np.sqrt(rides.square[nodes]) + 1e-12).all()
+        assert (np.abs(rise) <= 1.0 + 1e-9).all()
+        assert (lasts >= rides.lasts[nodes][:-1] - 1e-12).all()
+
+
+def test_who_is_alone_drives_as_if_alone() -> None:
+    courses, rides, laws, _ = timed([((0.0, 0.0), (30.0, 0.0)), ((0.0, 9.0), (30.0, 9.0))])
+    assert laws.arrive[courses.first[1] - 1] == pytest.approx(17.0)
+    assert (laws.speed == np.sqrt(rides.square)).all()
+
+
+def test_the_second_comes_to_a_crossing_with_a_running_start() -> None:
+    courses, _, laws, _ = timed([((0.0, 0.0), (40.0, 0.0)), ((20.0, -20.0), (20.0, 20.0))])
+    second = slice(courses.first[1], courses.first[2])
+    late = laws.arrive[second][-1] - 22.0
+    assert 1.0 < late < 3.0  # four metres to be left by the first one at 2 m/s, and a cell or two
+    entry = np.flatnonzero(courses.distance[second] >= 17.5)[0]
+    assert laws.speed[second][entry] == pytest.approx(2.0)
+
+
+def test_who_begins_where_another_passes_can_not_let_it_pass() -> None:
+    *_, found = timed([((0.0, 0.0), (40.0, 0.0)), ((20.0, 0.5), (20.0, 20.0))], [0.0, 30.0])
+    assert found[0] == -1
+    assert found[1] >= 0
+
+
+def test_two_that_meet_head_on_can_not_both_be_served() -> None:
+    *_, found = timed([((0.0, 0.0), (40.0, 0.0)), ((40.0, 0.0), (0.0, 0.0))])
+    assert found[0] == -1
+    assert found[1] >= 0
+
+
+def test_one_behind_another_stays_behind_without_stopping() -> None:
+    courses, _, laws, found = timed([((5.0, 0.0), (60.0, 0.0)), ((0.0, 0.0), (50.0, 0.0))])
+    assert found == [-1, -1]
+    assert nearest_two(courses, laws) >= 2.0 * REACH
+    assert laws.arrive[-1] < 27.0 + 3.0
