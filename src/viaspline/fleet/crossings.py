@@ -87,6 +87,11 @@ def crossings_of(
     )  # fmt: skip
 
 
+def box_owners(crossings: PackedCrossings) -> Ints:
+    """The robot of every box, (boxes,)."""
+    return np.repeat(np.arange(len(crossings.box_first) - 1), np.diff(crossings.box_first))
+
+
 def _flags(count: int, chosen: Ints) -> Flags:
     flags = np.zeros(count, dtype=np.bool_)
     flags[chosen] = True

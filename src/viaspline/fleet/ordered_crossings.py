@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
-from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.crossings import FleetCrossings, box_owners
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
@@ -36,7 +36,7 @@ def ordered_crossings(
     if not (leaders == UNSETTLED).any():
         return crossings
     gaps = passing_gaps(courses.packed, packed, laws.packed)
-    owner = np.repeat(np.arange(len(courses.names)), np.diff(packed.box_first))
+    owner = box_owners(packed)
     is_lower = owner == packed.robots[packed.crossing, 0]
     is_divided = leaders[packed.crossing] == UNSETTLED
     lower_leads = (is_divided & (is_lower != (gaps >= 0.0))).astype(np.int64)

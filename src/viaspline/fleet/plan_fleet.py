@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from viaspline.errors import GeometryError
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
@@ -14,7 +13,6 @@ from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
-from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.handed_in import check_callable, check_kind, number_from
 from viaspline.mission.fleet.fleet import Fleet
 
@@ -110,14 +108,6 @@ def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -
     """The plan of a fleet that is timed."""
     ways, timing = timed.ways, timed.timing
     courses, names = ways.courses, ways.courses.names
-    plans = {
-        member.name: replace(
-            plan,
-            trajectory=timed_trajectory(plan.trajectory, courses, ways.rides, timing.laws, k),
-        )
-        for k, (member, plan) in enumerate(zip(ways.members, ways.plans, strict=True))
-        if k not in timing.blocked
-    }
     unserved = [
         NotServed(
             names[robot], "gave up",
@@ -129,7 +119,7 @@ def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -
     crossings = ordered_crossings(courses, ways.crossings, timing.laws)
     return FleetPlan(
         fleet=fleet,
-        plans=plans,
+        plans=timed.plans(),
         not_served=(*not_served, *unserved),
         certificate=certify_fleet(courses, timing.laws, fleet.separation_m),
         precedences=precedences_of(courses, crossings, timing.laws, ways.rides.laws),

@@ -22,7 +22,6 @@ from viaspline.fleet.laying.relay_paths import relay_paths
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.fleet.timing.rides import rides_of
 from viaspline.fleet.timing.time_paths import Timing
-from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
 from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.fleet.fleet import Fleet
@@ -30,13 +29,11 @@ from viaspline.planner import Plan
 from viaspline.trajectory.retime import retime
 from viaspline.whole_plan import stations
 
-MOST_RELAID = 24
-"""So many robots are laid anew at most."""
 ROOMS_M = (0.3, 0.6, 0.15, 0.0)
 """So much farther apart than they must be robots are laid, if they can, one value after the other
 [m]: the boxes of crossings, which are half a metre long, tell who passes first if there is room."""
 MOST_AMONG = 12
-"""Among so many, each of which is a moving obstacle to those that are laid."""
+"""In a fleet of so many at most: each is a moving obstacle to those that are laid."""
 
 
 def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
@@ -47,12 +44,12 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
         timed: With robots that are blocked.
 
     Returns:
-        None where there are too many, or no more are served by it.
+        None where the fleet is too large, or no more are served by it.
     """
     ways, blocked = timed.ways, timed.timing.blocked
-    if len(blocked) > MOST_RELAID or len(ways.members) > MOST_AMONG:
+    if len(ways.members) > MOST_AMONG:
         return None
-    fixed = _timed_plans(timed)
+    fixed = timed.plans()
     wanted = sorted(blocked, key=lambda k: (-ways.members[k].priority, k))
     names = [ways.members[k].name for k in wanted]
     best: TimedFleet | None = None
@@ -86,18 +83,6 @@ def _along(
     return again
 
 
-def _timed_plans(timed: TimedFleet) -> dict[str, Plan]:
-    """The plans of those that are timed, with their laws, by name."""
-    ways, laws = timed.ways, timed.timing.laws
-    return {
-        member.name: replace(
-            plan, trajectory=timed_trajectory(plan.trajectory, ways.courses, ways.rides, laws, k)
-        )
-        for k, (member, plan) in enumerate(zip(ways.members, ways.plans, strict=True))
-        if k not in timed.timing.blocked
-    }
-
-
 def _as_laid(
     ways: FleetWays, found: Mapping[str, Plan], alone: Mapping[str, Plan], fleet: Fleet
 ) -> TimedFleet | None:
@@ -125,8 +110,7 @@ def _as_laid(
         return None
     durations = np.array([plan.trajectory.duration for plan in alone.values()])
     led = FleetWays(ways.members, plans, courses, crossings, replace(rides, alone=durations))
-    order = np.argsort([plan.trajectory.end_time for plan in plans]).astype(np.int64)
-    return TimedFleet(led, Timing(laws, order, {}))
+    return TimedFleet(led, Timing(laws, {}))
 
 
 def _alone(plan: Plan) -> Plan:

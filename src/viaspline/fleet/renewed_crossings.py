@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
-from viaspline.fleet.crossings import FleetCrossings, crossings_of
+from viaspline.fleet.crossings import FleetCrossings, box_owners, crossings_of
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 
@@ -28,7 +28,7 @@ def renewed_crossings(
     is_changed = np.zeros(len(courses.names), np.bool_)
     is_changed[changed] = True
     kept = _without(before.packed, is_changed)
-    owner, fresh_owner = _owners(kept), _owners(fresh)
+    owner, fresh_owner = box_owners(kept), box_owners(fresh)
     moved = courses.packed.first[owner] - old.packed.first[owner]
     robots = np.concatenate([kept.robots, fresh.robots])
     order = np.lexsort((robots[:, 1], robots[:, 0]))  # stable: those of a pair stay in their order
@@ -60,16 +60,11 @@ def renewed_crossings(
     )
 
 
-def _owners(crossings: PackedCrossings) -> Ints:
-    """The robot of every box, (boxes,)."""
-    return np.repeat(np.arange(len(crossings.box_first) - 1), np.diff(crossings.box_first))
-
-
 def _without(crossings: PackedCrossings, is_changed: Flags) -> PackedCrossings:
     """The crossings of pairs of which neither robot is among these."""
     stays: Flags = ~np.any(is_changed[crossings.robots], axis=1)
     boxes = stays[crossings.crossing]
-    owner = _owners(crossings)[boxes]
+    owner = box_owners(crossings)[boxes]
     number = np.cumsum(stays) - 1
     counts = np.bincount(owner, minlength=is_changed.size)
     return PackedCrossings(

@@ -19,6 +19,7 @@ from viaspline.fleet.lattice_order.time_in_order import time_in_order
 from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import Timing, time_paths
+from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 
@@ -89,6 +90,18 @@ class TimedFleet:
     def blocked(self) -> tuple[str, ...]:
         """The robots that could not be timed."""
         return tuple(self.ways.courses.names[k] for k in sorted(self.timing.blocked))
+
+    def plans(self) -> dict[str, Plan]:
+        """The plans of those that are timed, with their laws by the clock of the fleet, by name."""
+        ways, laws = self.ways, self.timing.laws
+        return {
+            member.name: replace(
+                plan,
+                trajectory=timed_trajectory(plan.trajectory, ways.courses, ways.rides, laws, k),
+            )
+            for k, (member, plan) in enumerate(zip(ways.members, ways.plans, strict=True))
+            if k not in self.timing.blocked
+        }
 
     def past_standing_ones(self) -> TimedFleet:
         """With those that could not be timed standing at their starts, in the way of others."""

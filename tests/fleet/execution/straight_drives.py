@@ -9,7 +9,15 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "kernels" / "fleet"))
-from straight_fleets import Line, courses_on, crossings_on, no_laws, rides_on
+from straight_fleets import (
+    REACH,
+    Line,
+    courses_on,
+    crossings_on,
+    lines_without_rests_in_the_way,
+    no_laws,
+    rides_on,
+)
 
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
@@ -19,38 +27,12 @@ from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.yielding_ride import timed_in_order
 
-REACH = 1.0
 CROSS: list[Line] = [((0.0, 0.0), (40.0, 0.0)), ((20.0, -20.0), (20.0, 20.0))]
-
-
-def from_line(place: Floats, line: Line) -> float:
-    a, b = np.array(line[0]), np.array(line[1])
-    along = np.clip(np.dot(place - a, b - a) / np.dot(b - a, b - a), 0.0, 1.0)
-    return float(np.hypot(*(place - a - along * (b - a))))
-
-
-def lines_without_rests_in_the_way(seed: int, count: int, side: float) -> list[Line]:
-    """Lines of which none passes where another begins or ends."""
-    random = np.random.default_rng(seed)
-    lines: list[Line] = []
-    for _ in range(60 * count):
-        a, b = random.uniform(0.0, side, (2, 2))
-        line: Line = (tuple(a), tuple(b))
-        far = 2.0 * REACH + 2.0
-        if np.hypot(*(b - a)) > 5.0 and all(
-            min(from_line(np.array(p), other) for p in line) > far
-            and min(from_line(np.array(p), line) for p in other) > far
-            for other in lines
-        ):
-            lines.append(line)
-        if len(lines) == count:
-            break
-    return lines
 
 
 def timed_lines(seed: int, count: int) -> list[Line]:
     """Those of some random lines whose robots can be timed one after the other."""
-    lines = lines_without_rests_in_the_way(seed, count, 40.0)
+    lines = lines_without_rests_in_the_way(seed, count)
     courses = courses_on(lines, REACH)
     found = timed_in_order(
         courses, crossings_on(courses), rides_on(courses), no_laws(courses), np.arange(len(lines))

@@ -18,6 +18,9 @@ SAMPLES = 6
 MARGIN_M = 2.0 * CELL_M / (SAMPLES - 1)
 """What may lie between two samples on both courses together."""
 
+REACH = 1.0
+"""Of every robot [m]."""
+
 Line = tuple[tuple[float, float], tuple[float, float]]
 
 
@@ -138,3 +141,28 @@ def places_at(courses: PackedCourses, laws: PackedLaws, robot: int, times: Float
     gone = np.where(late >= lasts, along[k + 1] - along[k], gone)
     s = along[k] + gone
     return np.column_stack([np.interp(s, along, courses.place[nodes, i]) for i in range(2)])
+
+
+def from_line(place: Floats, line: Line) -> float:
+    a, b = np.array(line[0]), np.array(line[1])
+    along = np.clip(np.dot(place - a, b - a) / np.dot(b - a, b - a), 0.0, 1.0)
+    return float(np.hypot(*(place - a - along * (b - a))))
+
+
+def lines_without_rests_in_the_way(seed: int, count: int, side: float = 40.0) -> list[Line]:
+    """Lines of which none passes where another begins or ends."""
+    random = np.random.default_rng(seed)
+    lines: list[Line] = []
+    for _ in range(60 * count):
+        a, b = random.uniform(0.0, side, (2, 2))
+        line: Line = (tuple(a), tuple(b))
+        far = 2.0 * REACH + 2.0
+        if np.hypot(*(b - a)) > 5.0 and all(
+            min(from_line(np.array(p), other) for p in line) > far
+            and min(from_line(np.array(p), line) for p in other) > far
+            for other in lines
+        ):
+            lines.append(line)
+        if len(lines) == count:
+            break
+    return lines

@@ -10,46 +10,20 @@ from hypothesis import strategies as st
 
 sys.path.insert(0, str(Path(__file__).parent))
 from straight_fleets import (
+    REACH,
     Line,
     courses_on,
     crossings_on,
+    lines_without_rests_in_the_way,
     no_laws,
     places_at,
     rides_on,
 )
 
-from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.kernels.fleet.yielding_ride import timed_in_order
-
-REACH = 1.0
-
-
-def from_line(place: Floats, line: Line) -> float:
-    a, b = np.array(line[0]), np.array(line[1])
-    along = np.clip(np.dot(place - a, b - a) / np.dot(b - a, b - a), 0.0, 1.0)
-    return float(np.hypot(*(place - a - along * (b - a))))
-
-
-def lines_without_rests_in_the_way(seed: int, count: int, side: float = 40.0) -> list[Line]:
-    """Lines of which none passes where another begins or ends."""
-    random = np.random.default_rng(seed)
-    lines: list[Line] = []
-    for _ in range(60 * count):
-        a, b = random.uniform(0.0, side, (2, 2))
-        line: Line = (tuple(a), tuple(b))
-        far = 2.0 * REACH + 2.0
-        if np.hypot(*(b - a)) > 5.0 and all(
-            min(from_line(np.array(p), other) for p in line) > far
-            and min(from_line(np.array(p), line) for p in other) > far
-            for other in lines
-        ):
-            lines.append(line)
-        if len(lines) == count:
-            break
-    return lines
 
 
 def timed(

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
-from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.crossings import FleetCrossings, box_owners
 from viaspline.fleet.lattice_order.lattice_paths import PassingSteps
 from viaspline.kernels.arrays import Flags, Floats, Ints
 
@@ -35,7 +35,7 @@ def passes_second(
         steps: At which step each robot is where, in the order of the courses.
     """
     packed, boxes = courses.packed, crossings.packed
-    robot = np.repeat(np.arange(packed.reach.size), np.diff(boxes.box_first))
+    robot = box_owners(boxes)
     first, last = packed.first[robot], packed.first[robot + 1] - 1
     own = (packed.distance[boxes.cell] + packed.distance[boxes.cell + 1]) / 2.0
     other = (boxes.low + boxes.high) / 2.0

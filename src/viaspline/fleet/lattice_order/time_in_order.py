@@ -44,4 +44,4 @@ def time_in_order(
         courses.packed, crossings.packed, rides.packed, laws.packed, second, order, ROUNDS
     )
     blocked = {robot: robot for robot in np.flatnonzero(~keeps).tolist()}
-    return Timing(laws, order, blocked)
+    return Timing(laws, blocked)

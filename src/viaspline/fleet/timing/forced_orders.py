@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viaspline.fleet.crossings import box_owners
 from viaspline.kernels.arrays import Flags, Ints
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
@@ -44,8 +45,7 @@ def forced_orders(courses: PackedCourses, crossings: PackedCrossings, vanishes: 
     Returns:
         Each pair once, (m, 2).
     """
-    count = courses.reach.size
-    owner = np.repeat(np.arange(count), np.diff(crossings.box_first))
+    owner = box_owners(crossings)
     at_start = crossings.cell == courses.first[owner]
     at_goal = (crossings.cell == courses.first[owner + 1] - 2) & ~vanishes[owner]
     leaves = np.column_stack([owner[at_start], crossings.other[at_start]])

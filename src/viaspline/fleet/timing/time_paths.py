@@ -26,12 +26,10 @@ class Timing:
 
     Attributes:
         laws: Of the fleet; those that could not be timed stand at their starts.
-        order: In which robots were timed, (m,).
         blocked: Those that could not, each with a robot that is in its way.
     """
 
     laws: FleetLaws
-    order: Ints
     blocked: dict[int, int]
 
 
@@ -90,7 +88,7 @@ def _timed(
     boxes = timed_in_order(courses.packed, crossings.packed, rides.packed, laws.packed, order)
     failed = boxes != CLEAR
     others = crossings.packed.other[boxes[failed]].tolist()
-    return Timing(laws, order, dict(zip(order[failed].tolist(), others, strict=True)))
+    return Timing(laws, dict(zip(order[failed].tolist(), others, strict=True)))
 
 
 def standing_laws(courses: FleetCourses) -> FleetLaws:
