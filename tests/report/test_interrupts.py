@@ -47,6 +47,25 @@ def test_a_signal_in_a_callback_that_cannot_raise_is_not_shown_as_a_traceback() 
     assert done.stdout == "KeyboardInterrupt\n"
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_what_a_signal_left_half_made_does_not_complain_when_it_is_deleted() -> None:
+    code = (
+        "import os, signal; from viaspline.report import interrupts\n"
+        "class Half:\n"
+        "    def __init__(self):\n"
+        "        os.kill(os.getpid(), signal.SIGINT)\n"
+        "        self.made = True\n"
+        "    def __del__(self): del self.made\n"
+        "interrupts.install()\n"
+        "try: Half()\n"
+        "except KeyboardInterrupt as error: error.__traceback__ = None\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], text=True, capture_output=True, timeout=60, check=True
+    )
+    assert done.stderr == ""
+
+
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="takes a lock of glibc")
 @pytest.mark.parametrize(("name", "code"), [("SIGINT", 130), ("SIGTERM", 143)])
 def test_work_that_lets_no_handler_run_is_tidied_and_ended(name: str, code: int) -> None:

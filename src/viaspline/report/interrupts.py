@@ -39,7 +39,8 @@ def install() -> None:
     usual = sys.unraisablehook
 
     def quiet(unraisable: sys.UnraisableHookArgs) -> None:
-        if not issubclass(unraisable.exc_type, KeyboardInterrupt | Terminated):
+        # What was being made when the signal came may be deleted half made, and complain of that.
+        if not _remembered:
             usual(unraisable)
 
     sys.unraisablehook = quiet
