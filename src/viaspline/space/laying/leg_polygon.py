@@ -26,6 +26,9 @@ from viaspline.space.laying.corner_rounding import (
 STUB_SHARE = 0.4
 """Of the way to the next corner that the stub at a via point may take."""
 
+LEAST_STUB = 1e-6
+"""Of that way it always takes this much, so that a direction is kept however tight it gets."""
+
 _SETTLING = 8
 """How often corners are moved outward by what their rounding cuts off, which that changes."""
 
@@ -106,7 +109,7 @@ def _stub(apart: Floats, way: Floats, radius: float) -> float:
     distance = float(np.linalg.norm(apart))
     cosine = float(np.clip(apart @ way / distance, -1.0, 1.0)) if distance > 0.0 else 1.0
     turn = min(float(np.arccos(cosine)), SHARPEST_TURN)
-    return min(STUB_SHARE * distance, max(reach_of_radius(radius, turn), 1e-3 * distance))
+    return min(STUB_SHARE * distance, max(reach_of_radius(radius, turn), LEAST_STUB * distance))
 
 
 def _reaches(polygon: Floats, radii: Floats) -> Floats:
