@@ -56,7 +56,7 @@ def plan_fleet_file(
     target = out or default_folder(file)
     with (
         result_folder(target, FLEET_FILES) as folder,
-        progress_bar(quiet, fleet.members[0].mission.robot) as watch,
+        progress_bar(quiet, fleet) as watch,
     ):
         check_robot_folders(target, (one.name for one in fleet.members))
         planned = watched_fleet_plan(fleet, watch, improve)
@@ -100,7 +100,7 @@ def run_fleet_file(
     with (
         result_folder(target, FLEET_RUN_FILES) as folder,
         film_file(animate) as film,
-        progress_bar(quiet, fleet.members[0].mission.robot) as watch,
+        progress_bar(quiet, fleet, drives=True) as watch,
     ):
         check_robot_folders(target, (one.name for one in fleet.members))
         planned = watched_fleet_plan(fleet, watch, improve)
