@@ -209,9 +209,8 @@ def say_folders(folders: list[Path], removed: list[str]) -> None:
         names = [folder.name for folder in folders]
         say(f"wrote plan.json, path.csv for each of {len(names)} robots: {_some_of(names)}")
     if removed:
-        say(
-            f"removed what an earlier run left of {counted(len(removed), 'robot')}: {_some_of(removed)}"
-        )
+        whose = f"{counted(len(removed), 'robot')}: {_some_of(removed)}"
+        say(f"removed what an earlier run left of {whose}")
 
 
 def _some_of(names: list[str]) -> str:

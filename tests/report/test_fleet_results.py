@@ -203,8 +203,10 @@ def test_what_somebody_else_put_into_a_robots_folder_stays(tmp_path: Path) -> No
     "text",
     [
         "", "[]", "{", "null", '{"robots": 5}', '{"robots": [5, null, {"plan": 7}]}',
-        '{"robots": [{"plan": "../plan.json"}, {"plan": "/etc/plan.json"}, {"plan": "a/b/plan.json"}]}',
-        '{"robots": [{"plan": "plan.json"}, {"plan": "/plan.json"}, {"plan": "./plan.json"}, {"plan": null}]}',
+        '{"robots": [{"plan": "../plan.json"}, {"plan": "/etc/plan.json"}]}',
+        '{"robots": [{"plan": "a/b/plan.json"}, {"plan": "plan.json"}, {"plan": null}]}',
+        '{"robots": [{"plan": "/plan.json"}, {"plan": "./plan.json"}]}',
+        '{"robots": [{"plan": "a\\\\b/plan.json"}]}',
         "[" * 100_000,
     ],
 )  # fmt: skip
