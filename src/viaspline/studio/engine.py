@@ -24,10 +24,12 @@ from viaspline.studio.stoppable_calls import Stoppable, StoppedCallError
 from viaspline.studio.worker import Worker
 
 if TYPE_CHECKING:
+    from viaspline.fleet.fleet_plan import FleetPlan
     from viaspline.mission.model import Mission
     from viaspline.planner import Plan
     from viaspline.robot.run import Run
     from viaspline.studio.fleet.planned_fleet import PlannedFleet
+    from viaspline.studio.fleet.simulated_fleet import SimulatedFleet
     from viaspline.studio.map_cache import MapCache
     from viaspline.studio.plan_document import PlannedDocument
 
@@ -291,8 +293,27 @@ class Engine:
 
         return await self._others.run(work)
 
-    async def plan_file(self, plan: Plan, kind: str, name: str) -> bytes:
-        """One of the files of a plan."""
+    async def drive_fleet(
+        self, plan: FleetPlan, *, head: Mapping[str, Any], seed: int
+    ) -> tuple[SimulatedFleet, str]:
+        """Drive the plan of a fleet; what was driven and the answer as text.
+
+        Args:
+            plan: What is driven.
+            head: What the answer begins with.
+            seed: Of what is random.
+        """
+
+        def work() -> tuple[SimulatedFleet, str]:
+            from viaspline.studio.fleet import simulated_fleet
+
+            found = simulated_fleet.simulated_fleet(plan, seed)
+            return found, encoded({**head, **simulated_fleet.driven_fleet_answer(found)})
+
+        return await self._others.run(work)
+
+    async def plan_file(self, plan: Plan | FleetPlan, kind: str, name: str) -> bytes:
+        """One of the files of a plan, or of a fleet's."""
 
         def work() -> bytes:
             from viaspline.studio.exports import plan_file
@@ -301,7 +322,7 @@ class Engine:
 
         return await self._others.run(work)
 
-    async def run_file(self, run: Run, kind: str, name: str, seed: int) -> bytes:
+    async def run_file(self, run: Run | SimulatedFleet, kind: str, name: str, seed: int) -> bytes:
         """One of the files of a run."""
 
         def work() -> bytes:

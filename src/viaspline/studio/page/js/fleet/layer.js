@@ -10,10 +10,18 @@ import { drawDisc, drawRoute, drawTrail, drawWait } from "./robot_marks.js";
 const MOST_NAMED = 40;
 
 export class FleetLayer {
-  /** @param {import("../core/store.js").Store} store @param {import("../preview.js").Preview} preview */
-  constructor(store, preview) {
+  /** @param {import("../core/store.js").Store} store @param {import("../preview.js").Preview} preview @param {import("../replay.js").Drive} drive */
+  constructor(store, preview, drive) {
     this.store = store;
     this.preview = preview;
+    this.drive = drive;
+  }
+
+  /** What is played, the drive or the plan, and the instant that is looked at [s]. @returns {{played: any, now: number, isOn: boolean}} */
+  get shown() {
+    const { store, preview, drive } = this;
+    if (drive.run?.fleet) return { played: drive.run.fleet, now: drive.time, isOn: true };
+    return { played: store.fleetPlan, now: preview.time, isOn: preview.isOn };
   }
 
   /** The colour of the robot that is chosen; null for a mission. @param {Pen} pen @returns {string|null} */
@@ -37,10 +45,9 @@ export class FleetLayer {
 
   /** All robots at the instant that is looked at, where they come from, and who waits for whom. @param {Pen} pen */
   drawRobots(pen) {
-    const { store, preview } = this;
-    const plan = store.fleetPlan;
+    const { store } = this;
+    const { played: plan, now, isOn } = this.shown;
     if (!isFleet(store.file) || !plan || store.isLate) return;
-    const now = preview.time;
     const index = new Map(membersOf(store.file).map((_, i) => [robotName(store.file, i), i]));
     const placed = new Map();
     for (const robot of plan.driving) {
@@ -48,7 +55,7 @@ export class FleetLayer {
       const i = index.get(robot.name);
       if (i === undefined || (robot.leaves && now > times.at(-1))) continue;
       const colour = robotColour(i, pen.isDark);
-      if (preview.isOn && now > times[0]) drawTrail(pen, robot.curve, now, colour);
+      if (isOn && now > times[0]) drawTrail(pen, robot.curve, now, colour);
       placed.set(robot.name, { ...robot.curve.at(robot.curve.distanceAt(now)), radius: robot.radius, colour, isChosen: i === store.robot });
     }
     for (const { robot, waits_for: other, from, until } of plan.waits) {
@@ -60,15 +67,15 @@ export class FleetLayer {
 
   /** Names beside where the robots are. @param {Pen} pen @returns {import("../draw/labels.js").Label[]} */
   labels(pen) {
-    const { store, preview } = this;
-    const plan = store.fleetPlan;
+    const { store } = this;
+    const { played: plan, now } = this.shown;
     const members = membersOf(store.file);
     if (!members.length || !plan || !store.show.names) return [];
     return members.flatMap((_, i) => {
       const robot = plan.byName.get(robotName(store.file, i));
       const isChosen = i === store.robot;
       if (!robot?.curve || (members.length > MOST_NAMED && !isChosen)) return [];
-      const at = robot.curve.at(robot.curve.distanceAt(preview.time));
+      const at = robot.curve.at(robot.curve.distanceAt(now));
       const [x, y] = pen.camera.toScreen(at.x, at.y);
       const away = Math.max(10, robot.radius * pen.camera.scale + 5);
       return [{ text: robot.name, x, y, away, colour: robotColour(i, pen.isDark), bold: true, rank: isChosen ? 0 : 2 }];
