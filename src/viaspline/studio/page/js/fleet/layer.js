@@ -8,6 +8,7 @@ import { drawDisc, drawRoute, drawTrail, drawWait } from "./robot_marks.js";
 /** @typedef {import("../draw/pen.js").Pen} Pen */
 
 const MOST_NAMED = 40;
+const MANY = 20; // robots, of more of which routes are thin
 
 export class FleetLayer {
   /** @param {import("../core/store.js").Store} store @param {import("../preview.js").Preview} preview @param {import("../replay.js").Drive} drive */
@@ -35,11 +36,12 @@ export class FleetLayer {
     const { store } = this;
     if (!isFleet(store.file)) return;
     const isStale = store.fleetPlan?.answer?.ok === false || store.isLate;
-    membersOf(store.file).forEach((_, i) => {
+    const members = membersOf(store.file);
+    members.forEach((_, i) => {
       if (i === store.robot) return;
       const robot = store.fleetPlan?.byName.get(robotName(store.file, i));
       const points = pointsOf(missionOf(store.file, i, store.missions));
-      drawRoute(pen, { spans: robot?.path?.spans ?? [], points, colour: robotColour(i, pen.isDark), isStale });
+      drawRoute(pen, { spans: robot?.path?.spans ?? [], points, colour: robotColour(i, pen.isDark), isStale, isThin: members.length > MANY });
     });
   }
 
@@ -65,16 +67,17 @@ export class FleetLayer {
     for (const one of placed.values()) drawDisc(pen, one);
   }
 
-  /** Names beside where the robots are. @param {Pen} pen @returns {import("../draw/labels.js").Label[]} */
+  /** Names beside where the robots are: of many, of those that wait, whom they wait for, and the one chosen. @param {Pen} pen @returns {import("../draw/labels.js").Label[]} */
   labels(pen) {
     const { store } = this;
     const { played: plan, now } = this.shown;
     const members = membersOf(store.file);
     if (!members.length || !plan || !store.show.names) return [];
+    const concerned = new Set(plan.waits.filter((/** @type {any} */ wait) => wait.from <= now && now <= wait.until).flatMap((/** @type {any} */ wait) => [wait.robot, wait.waits_for]));
     return members.flatMap((_, i) => {
       const robot = plan.byName.get(robotName(store.file, i));
       const isChosen = i === store.robot;
-      if (!robot?.curve || (members.length > MOST_NAMED && !isChosen)) return [];
+      if (!robot?.curve || (members.length > MOST_NAMED && !isChosen && !concerned.has(robot.name))) return [];
       const at = robot.curve.at(robot.curve.distanceAt(now));
       const [x, y] = pen.camera.toScreen(at.x, at.y);
       const away = Math.max(10, robot.radius * pen.camera.scale + 5);
