@@ -18,7 +18,7 @@ from viaspline.mission.mission_parts import MissionParts
 MODELS = [model for _, model in models_below(MissionParts)]
 SUFFIXES = {
     "m": "m", "s": "s", "deg": "deg", "mps": "m/s", "mps2": "m/s²", "mps3": "m/s³",
-    "degps": "deg/s", "degps2": "deg/s²",
+    "degps": "deg/s", "dps": "deg/s", "degps2": "deg/s²",
 }  # fmt: skip
 
 

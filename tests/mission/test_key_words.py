@@ -16,7 +16,11 @@ RING = "at least three points [[x, y], [x, y], [x, y]] in metres"
     ("path", "words"),
     [
         ((), "a mapping with the keys world, robot, route and spline"),
-        (("world",), "a mapping with the keys bounds, fences, known, unseen and speed_zones"),
+        (
+            ("world",),
+            "a mapping with the keys bounds, fences, known, unseen, speed_zones, altitude and "
+            "ground",
+        ),
         (("world", "bounds", 2), "a number of metres"),
         (("world", "fences"), "a list of polygons, each " + RING),
         (("world", "fences", 0), RING),

@@ -81,10 +81,15 @@ def lidar(**changes: Any) -> dict[str, Any]:
         ("world.known.0.holes", [[[0, 0], [1, 0], [0, 1]]], "world.known[0].holes", "no polygon"),
         ("world.known.0.circle.radius", 0, "world.known[0].circle.radius", "not less than 1e-06"),
         ("world.known.0.circle.center", [1], "world.known[0].circle.center", "a list of 1"),
-        ("world.known.0.circle.center", [1, 2, 3], "world.known[0].circle.center", "are flat"),
+        (
+            "world.known.0.circle.center",
+            [1, 2, 3],
+            "world.known[0].circle.center",
+            "this shape is flat",
+        ),
         ("world.known.0.never_pass_on", "left", "world.known[0].never_pass_on", "contradicts"),
-        ("world.known.0.pass_on", "up", "world.known[0].pass_on", "left or right"),
-        ("world.known.0.pass_on", [], "world.known[0].pass_on", "left or right"),
+        ("world.known.0.pass_on", "up", "world.known[0].pass_on", "left, right, over or under"),
+        ("world.known.0.pass_on", [], "world.known[0].pass_on", "left, right, over or under"),
         ("world.known.0.name", "tank", "world.known[1].name", "'tank' is taken"),
         (
             "world.known.1.polygon",

@@ -28,6 +28,11 @@ INCLUSION_CORNER: Final = 5001
 EXCLUSION_CORNER: Final = 5002
 INCLUSION_CIRCLE: Final = 5003
 EXCLUSION_CIRCLE: Final = 5004
+LOOKS_AT: Final = frozenset({80, 195, 201})
+"""Commands that turn the vehicle, or its camera, to their position."""
+LOOKS_AHEAD: Final = 197
+"""The command that ends that."""
+
 FENCE_COMMANDS: Final = frozenset(range(5001, 5005))
 
 NAMES: Final[dict[int, str]] = {

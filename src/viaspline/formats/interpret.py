@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Final
 
@@ -17,6 +17,7 @@ import numpy as np
 from viaspline.errors import Fault, MissionError, MissionWarning
 from viaspline.formats.fences import fence_areas
 from viaspline.formats.file_faults import fault_at, refusal
+from viaspline.formats.flights import ground_of, not_flown, route_in_space
 from viaspline.formats.items import FenceArea, Itinerary, LatLon, Place
 from viaspline.formats.legs import Stop, stops_of
 from viaspline.formats.local_frame import MAX_REACH_M, LocalFrame
@@ -26,7 +27,7 @@ from viaspline.mission.model import Mission
 SAME_STOP_M: Final = 0.02
 """Stops nearer than this are one: the files resolve 1e-7 degree, about a centimetre."""
 
-_ROUTE_KEY: Final = re.compile(r"route\.(start|goal|via\[(\d+)\])")
+_ROUTE_KEY: Final = re.compile(r"route\.(start|goal|takeoff|land|via\[(\d+)\])")
 _WORLD_KEY: Final = re.compile(r"world\.(known|fences)\[(\d+)\]")
 
 
@@ -36,7 +37,8 @@ def mission_of(itinerary: Itinerary) -> Mission:
     The frame's origin and the start are the home position, or the first item with a position if
     there is no plausible one; a plan that viaspline wrote has an origin of its own. Heights are
     kept as they are given. Climbs and descents on the spot become one point at the height of the
-    way.
+    way. With a ground it is a mission in space, in which take-off, landing, climbs and what is
+    looked at are flown, and altitudes above terrain are heights above ground.
 
     Raises:
         MissionError: Nothing can be driven, or the mission is not sound.
@@ -53,21 +55,56 @@ def mission_of(itinerary: Itinerary) -> Mission:
         raise refusal(itinerary.source, place, problem, "give two way points or more")
     frame = _frame(itinerary, stops)
     _check_coordinates(frame, itinerary.source, stops, areas)
+    if itinerary.ground is not None:
+        _warn(itinerary.source, (*itinerary.notes, *not_flown(notes), *loose))
+        return _in_space(itinerary, frame, stops, areas)
     stops, climbs = _merged(stops, _local(frame, stops))
     _warn(itinerary.source, (*itinerary.notes, *notes, *loose, *climbs))
     if len(stops) < 2:
         problem = "all items are at one place: a way needs two distinct points"
         problem += _aside(itinerary.notes)
         raise refusal(itinerary.source, stops[0].place, problem, "give another way point")
+    route = _route(stops, _local(frame, stops), is_flat=itinerary.is_flat)
+    return _mission(itinerary, frame, route, stops, areas)
+
+
+def _in_space(
+    itinerary: Itinerary, frame: LocalFrame, stops: Sequence[Stop], areas: Sequence[FenceArea]
+) -> Mission:
+    """The mission of a way over a ground that is known."""
+    ground = ground_of(itinerary)
+    flown = route_in_space(stops, frame, ground)
+    return _mission(itinerary, frame, flown.route, flown.stops, areas, {"ground": ground})
+
+
+def _mission(
+    itinerary: Itinerary,
+    frame: LocalFrame,
+    route: Mapping[str, Any],
+    stops: Sequence[Stop],
+    areas: Sequence[FenceArea],
+    more: Mapping[str, Any] | None = None,
+) -> Mission:
+    """The mission of a route.
+
+    Args:
+        itinerary: The whole file.
+        frame: Where its 0, 0 is.
+        route: The route.
+        stops: Where its points stand in the file: start, via points, and the goal if there is one.
+        areas: All fences.
+        more: What else its world has.
+    """
     fences = [area for area in areas if area.inclusion]
     obstacles = [area for area in areas if not area.inclusion]
     data = {
         "world": {
             "fences": [_ring(frame, area) for area in fences],
             "known": [_obstacle(frame, area, i) for i, area in enumerate(obstacles, start=1)],
+            **(more or {}),
         },
         "robot": {} if itinerary.speed is None else {"max_speed_mps": itinerary.speed},
-        "route": _route(stops, _local(frame, stops), is_flat=itinerary.is_flat),
+        "route": route,
     }
     try:
         return Mission.model_validate(data)
@@ -194,7 +231,8 @@ def _in_file(
     """A fault of the mission as a fault of the file that it came from."""
     place = Place(fault.key)
     if found := _ROUTE_KEY.match(fault.key):
-        index = {"start": 0, "goal": len(stops) - 1}.get(found[1])
+        index = {"start": 0, "takeoff": 0}.get(found[1])
+        index = len(stops) - 1 if found[1] in ("goal", "land") else index
         place = stops[int(found[2]) + 1 if index is None else index].place
     elif found := _WORLD_KEY.match(fault.key):
         place = (obstacles if found[1] == "known" else fences)[int(found[2])].place

@@ -6,8 +6,9 @@ Tested through ``formats/test_qgc_plan``.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 LatLon: TypeAlias = tuple[float, float]
 
@@ -52,6 +53,8 @@ class Item:
         longitude: Parameter 6 [deg]; NaN where there is none.
         altitude: Parameter 7 [m]; NaN where there is none.
         place: Where it stands.
+        over_terrain: Height above the terrain that is meant [m], whatever the altitude says; NaN if
+            it isn't one above terrain.
     """
 
     number: int
@@ -62,6 +65,7 @@ class Item:
     longitude: float
     altitude: float
     place: Place
+    over_terrain: float = math.nan
 
     @property
     def has_position(self) -> bool:
@@ -127,6 +131,8 @@ class Itinerary:
         notes: What the file holds that a mission can't, or the other way round, by kind: where.
         origin: Where the mission's 0, 0 is [deg], if the file says so; else it is at the start.
         is_flat: Whether the file says that its heights mean nothing.
+        ground: The ground, as a mission has it, if the file or who reads it says so; with it the
+            way is one in space.
     """
 
     source: str
@@ -137,3 +143,4 @@ class Itinerary:
     notes: tuple[tuple[str, str], ...] = ()
     origin: LatLon | None = None
     is_flat: bool = False
+    ground: Mapping[str, Any] | None = None

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import Final
 
 from viaspline.formats.commands import (
     CHANGE_SPEED,
@@ -15,11 +16,18 @@ from viaspline.formats.commands import (
     FENCE_COMMANDS,
     HOME_RETURN,
     LANDINGS,
+    LOOKS_AHEAD,
+    LOOKS_AT,
     PLACES,
+    TAKEOFFS,
     UNLIMITED_LOITER,
     command_name,
 )
 from viaspline.formats.items import ABSOLUTE, GLOBAL, RELATIVE, TERRAIN, Item, Itinerary, Place
+
+OVER_TERRAIN: Final = "altitude above terrain, and no terrain is given: heights are left out"
+
+OVER_SEA: Final = "altitude above terrain, taken by the altitude above sea level that it has there"
 
 
 @dataclass(frozen=True)
@@ -33,6 +41,10 @@ class Stop:
         dwell: How long to stay [s].
         place: Where it stands in the file.
         is_landing: Whether the height is reached on the spot after the way has ended.
+        is_takeoff: Whether the height is reached on the spot before the way begins.
+        altitude: Above mean sea level [m]; NaN if the file says another one.
+        over_terrain: Above the terrain [m]; NaN if the file says another one.
+        look_at: What the vehicle looks at from there on; None: nothing.
     """
 
     latitude: float
@@ -41,6 +53,10 @@ class Stop:
     dwell: float
     place: Place
     is_landing: bool = False
+    is_takeoff: bool = False
+    altitude: float = math.nan
+    over_terrain: float = math.nan
+    look_at: Item | None = None
 
 
 @dataclass
@@ -81,6 +97,7 @@ def stops_of(itinerary: Itinerary) -> tuple[tuple[Stop, ...], tuple[tuple[str, s
     if home is not None and home.is_plausible:
         stops.append(Stop(home.latitude, home.longitude, 0.0, 0.0, home.place))
     waiting = 0.0
+    looked_at: Item | None = None
     for i, item in enumerate(itinerary.items):
         if item.command in FENCE_COMMANDS:
             continue
@@ -90,17 +107,22 @@ def stops_of(itinerary: Itinerary) -> tuple[tuple[Stop, ...], tuple[tuple[str, s
             if stops:
                 # No height is given; the vehicle comes back as high as it is and then descends.
                 height = stops[-1].height
-                stops.append(replace(stops[0], height=height, dwell=0.0, place=item.place))
+                back = replace(stops[0], height=height, dwell=0.0, place=item.place)
+                stops.append(replace(back, is_landing=True))
             _rest(itinerary.items[i + 1 :], "after the return to launch", log)
             break
         elif item.command in PLACES:
             here = _stop(item, stops, ground, log)
             if here is not None:
-                stops.append(here)
+                stops.append(replace(here, look_at=looked_at))
             if item.command == UNLIMITED_LOITER:
                 _rest(itinerary.items[i + 1 :], "after the unlimited loiter", log)
                 break
         else:
+            if item.command in LOOKS_AT and item.has_position:
+                looked_at = item
+            elif item.command == LOOKS_AHEAD:
+                looked_at = None
             log.note(_kind(item), item)
         if waiting and stops:
             stops[-1] = replace(stops[-1], dwell=stops[-1].dwell + waiting)
@@ -131,12 +153,13 @@ def _stop(item: Item, stops: list[Stop], ground: float, log: _Log) -> Stop | Non
     if item.frame not in GLOBAL and _names_a_place(item):
         log.note(f"{command_name(item.command)} in frame {item.frame}, which isn't global", item)
         return None
-    if item.frame in TERRAIN:
-        log.note("altitude above terrain, taken as above home", item)
     dwell = _dwell(item, log)
     if item.command in (18, 31, 94):
         log.note(f"{command_name(item.command)}: driven to, not carried out", item)
     height = item.altitude - ground if item.frame in ABSOLUTE else item.altitude
+    height = math.nan if item.frame in TERRAIN else height
+    if math.isfinite(item.over_terrain):
+        log.note(OVER_TERRAIN if math.isnan(height) else OVER_SEA, item)
     if item.has_position:
         latitude, longitude = item.latitude, item.longitude
     elif stops:
@@ -151,6 +174,9 @@ def _stop(item: Item, stops: list[Stop], ground: float, log: _Log) -> Stop | Non
         dwell,
         item.place,
         is_landing=item.command in LANDINGS,
+        is_takeoff=item.command in TAKEOFFS,
+        altitude=item.altitude if item.frame in ABSOLUTE else math.nan,
+        over_terrain=item.over_terrain,
     )
 
 

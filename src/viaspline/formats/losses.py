@@ -17,7 +17,7 @@ from viaspline.mission.shapes.obstacle import KINDS
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 
 _MAX_SHOWN: Final = 8
-_POINT: Final = frozenset({"at", "dwell_s"})
+_POINT: Final = frozenset({"at", "dwell_s", "agl_m", "look_at"})
 _NUMBERED: Final = re.compile(r"exclusion \d+")
 _SHAPES: Final = frozenset(KINDS)
 
@@ -49,7 +49,7 @@ def _listed(names: list[str]) -> str:
 
 def _found(mission: Mission) -> Iterator[tuple[str, str]]:
     data = mission.model_dump(
-        exclude_defaults=True, exclude={"world": {"known": {"__all__": {"grid"}}}}
+        exclude_defaults=True, exclude={"world": {"known": {"__all__": {"grid", "voxels"}}}}
     )
     yield from _of_route(mission)
     yield from _of_world(mission, data.get("world", {}))
@@ -72,6 +72,8 @@ def _of_route(mission: Mission) -> Iterator[tuple[str, str]]:
         yield "route", "order"
     if route.laps != 1:
         yield "route", "laps"
+    if route.yaw is not None:
+        yield "route", "yaw"
     if route.corridor is not None:
         yield "route", "corridor"
     if route.depart_s or route.hold_s:
@@ -91,6 +93,8 @@ def _of_world(mission: Mission, data: Mapping[str, Any]) -> Iterator[tuple[str, 
             yield "map of squares", key
         if item.ring is not None:
             yield from _of_ring(item.ring, key)
+        elif item.capsule is not None:
+            yield "capsule in space", key
         unsaid = item.model_dump(exclude={"grid"})
         yield from (
             (name, key) for name in _unsaid(unsaid, _SHAPES) if not _is_numbered(item.name, name)
@@ -99,7 +103,7 @@ def _of_world(mission: Mission, data: Mapping[str, Any]) -> Iterator[tuple[str, 
         yield "unseen obstacle", item.name or f"world.unseen[{i}]"
     for i, zone in enumerate(world.speed_zones):
         yield "speed zone", zone.name or f"world.speed_zones[{i}]"
-    told = {"bounds", "fences", "known", "unseen", "speed_zones"}
+    told = {"bounds", "fences", "known", "unseen", "speed_zones", "ground"}
     yield from (("world", key) for key in data if key not in told)
 
 

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Final
 
 import numpy as np
 
 from viaspline.errors import OutputError
+from viaspline.formats.flown_items import OVER_HOME, WAYPOINT, flown_items
 from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
 from viaspline.formats.local_frame import MAX_REACH_M, LocalFrame
 from viaspline.formats.losses import losses
@@ -19,10 +19,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
 from viaspline.mission.route_spec import ViaPoint
 from viaspline.mission.shapes.rounded_ring import Loop, RoundedRing
-
-WAYPOINT: Final = 16
-OVER_HOME: Final = 3
-"""MAV_FRAME_GLOBAL_RELATIVE_ALT."""
+from viaspline.mission.space.flight_places import ground_height
 
 
 def itinerary_of(mission: Mission, origin: LatLon | None) -> Itinerary:
@@ -41,6 +38,8 @@ def itinerary_of(mission: Mission, origin: LatLon | None) -> Itinerary:
             it for a flat frame.
     """
     frame = _frame(origin)
+    if mission.is_spatial:
+        return _in_space(mission, frame)
     points = list(_way(mission))
     places = _places(frame, np.array([point.at[:2] for point in points]))
     items = tuple(
@@ -57,6 +56,31 @@ def itinerary_of(mission: Mission, origin: LatLon | None) -> Itinerary:
         notes=losses(mission),
         origin=(frame.latitude, frame.longitude),
         is_flat=len(mission.route.start.at) == 2,
+    )
+
+
+def _in_space(mission: Mission, frame: LocalFrame) -> Itinerary:
+    """The items of a mission in space; home is on the ground under the start."""
+    flown = list(flown_items(mission))
+    x, y = mission.route.start.at[:2]
+    named = [item.at for item in flown if item.at is not None]
+    (home, *places) = _places(frame, np.array([(x, y), *named]))
+    left = iter(places)
+    items = tuple(
+        item.item(number, *(next(left) if item.at is not None else (0.0, 0.0)))
+        for number, item in enumerate(flown, start=1)
+    )
+    ground = mission.world.ground
+    sea = 0.0 if ground is None else ground_height(ground, x, y)
+    return Itinerary(
+        source="<mission>",
+        items=items,
+        home=Home(*home, sea, Place("plannedHomePosition")),
+        fences=(*_polygons(mission, frame), *_circles(mission, frame)),
+        speed=mission.robot.max_speed_mps,
+        notes=losses(mission),
+        origin=(frame.latitude, frame.longitude),
+        ground=None if ground is None else ground.model_dump(exclude_defaults=True),
     )
 
 

@@ -12,9 +12,10 @@ from pathlib import Path
 from typing import Any, ClassVar, Final
 
 from viaspline.errors import MissionError
-from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
+from viaspline.formats.items import TERRAIN, FenceArea, Home, Item, Itinerary, LatLon, Place
 from viaspline.formats.json_tree import Tree, json_tree
 from viaspline.formats.mission_format import Whereabouts, Written
+from viaspline.formats.named_files import world_data
 from viaspline.formats.outgoing import itinerary_of, lost_of
 from viaspline.formats.waypoint_format import WaypointFormat
 from viaspline.mission.model import Mission
@@ -25,6 +26,12 @@ _ROTORCRAFT: Final = frozenset({2, 3, 4, 13, 14, 15, 29, 35})
 
 ARDUPILOT: Final = 3
 GROUND_ROVER: Final = 10
+QUADROTOR: Final = 2
+
+RELATIVE_ALTITUDE: Final = 1
+ABOVE_TERRAIN: Final = 3
+TERRAIN_FRAME: Final = 4
+"""QGroundControl's AltitudeModes; 2 is above sea level."""
 
 
 class QgcPlan(WaypointFormat):
@@ -75,18 +82,21 @@ class QgcPlan(WaypointFormat):
             notes=tuple((kind, ", ".join(where)) for kind, where in notes.items()),
             origin=_origin(root["viaspline"]["origin"]),
             is_flat=root["viaspline"]["heights"].value is False,
+            ground=_ground(root["viaspline"]["ground"], source),
         )
         if root.faults.found:
             raise MissionError(root.faults.found)
         return itinerary
 
     def write(self, mission: Mission, where: Whereabouts) -> Written:
-        """A mission as a plan, for a rover.
+        """A mission as a plan: for a rover, and for a multirotor if it is one in space.
 
         Start, via points and goal are way points with their dwells as hold times; obstacles are
         exclusion fences, fences and bounds inclusion fences; the greatest speed is both of the
-        plan's speeds. The origin, and whether heights are meant, stand under a key of viaspline's
-        own, which others pass over, so that reading the plan gives the same metres.
+        plan's speeds. In space, heights above ground are altitudes above terrain, others are above
+        home; take-off, landing and what is looked at are items. The origin, the ground, and whether
+        heights are meant, stand under a key of viaspline's own, which others pass over, so that
+        reading the plan gives the same metres.
 
         Args:
             mission: The mission.
@@ -102,6 +112,10 @@ class QgcPlan(WaypointFormat):
         ((47.0, 8.0), ())
         """
         itinerary = itinerary_of(mission, where.origin)
+        own: dict[str, Any] = {"origin": itinerary.origin, "heights": not itinerary.is_flat}
+        if itinerary.ground is not None:
+            data = {"ground": itinerary.ground}
+            own |= {"ground": world_data(mission.world, data, where.folder)["ground"]}
         home, fences = itinerary.home, itinerary.fences
         assert home is not None
         plan = {
@@ -111,7 +125,7 @@ class QgcPlan(WaypointFormat):
             "mission": {
                 "version": 2,
                 "firmwareType": ARDUPILOT,
-                "vehicleType": GROUND_ROVER,
+                "vehicleType": QUADROTOR if mission.is_spatial else GROUND_ROVER,
                 "globalPlanAltitudeMode": 1,
                 "cruiseSpeed": itinerary.speed,
                 "hoverSpeed": itinerary.speed,
@@ -124,7 +138,7 @@ class QgcPlan(WaypointFormat):
                 "circles": [_circle_json(area) for area in fences if area.center is not None],
             },
             "rallyPoints": {"version": 2, "points": []},
-            "viaspline": {"origin": itinerary.origin, "heights": not itinerary.is_flat},
+            "viaspline": own,
         }
         text = json.dumps(plan, indent=4, sort_keys=True, allow_nan=False)
         return Written(text + "\n", lost_of(itinerary))
@@ -180,9 +194,22 @@ def _item(tree: Tree, number: int) -> Item | None:
     values = _values(tree)
     if command is None or frame is None or values is None:
         return None
-    p1, p2, p3, p4, latitude, longitude, altitude = values
+    *params, latitude, longitude, altitude = values
+    over_terrain = altitude if frame in TERRAIN else math.nan
+    if tree["AltitudeMode"].value == ABOVE_TERRAIN:
+        # The altitude above sea level is what QGroundControl makes of it, once it has a terrain.
+        over_terrain = tree["Altitude"].number()
+        altitude = tree["AMSLAltAboveTerrain"].number()
     return Item(
-        number, command, frame, (p1, p2, p3, p4), latitude, longitude, altitude, Place(tree.key)
+        number=number,
+        command=command,
+        frame=frame,
+        params=(params[0], params[1], params[2], params[3]),
+        latitude=latitude,
+        longitude=longitude,
+        altitude=altitude,
+        place=Place(tree.key),
+        over_terrain=over_terrain,
     )
 
 
@@ -218,6 +245,19 @@ def _origin(tree: Tree) -> LatLon | None:
     if not (abs(numbers[0]) <= 90 and abs(numbers[1]) <= 180):
         tree.fault("is no latitude and longitude", "correct it, or leave it out")
     return numbers[0], numbers[1]
+
+
+def _ground(tree: Tree, source: str) -> dict[str, Any] | None:
+    """The ground that viaspline has written beside the plan; its file is beside it as well."""
+    if tree.value is None:
+        return None
+    if not isinstance(tree.value, dict):
+        tree.fault(f"found {describe(tree.value)}", "give {flat_m: 0} or {terrain: dem.tif}")
+        return None
+    terrain = tree.value.get("terrain")
+    if not isinstance(terrain, str):
+        return dict(tree.value)
+    return {**tree.value, "terrain": (Path(source).parent / terrain).as_posix()}
 
 
 def _speed(mission: Tree) -> float | None:
@@ -264,7 +304,7 @@ def _item_json(item: Item) -> dict[str, Any]:
         "type": "SimpleItem",
         "AMSLAltAboveTerrain": None,
         "Altitude": item.altitude,
-        "AltitudeMode": 1,
+        "AltitudeMode": TERRAIN_FRAME if item.frame in TERRAIN else RELATIVE_ALTITUDE,
         "autoContinue": True,
         "command": item.command,
         "doJumpId": item.number,

@@ -15,9 +15,19 @@ from typing import ClassVar, Final
 from viaspline.errors import Fault, MissionError
 from viaspline.formats.commands import EXCLUSION_CIRCLE, EXCLUSION_CORNER, INCLUSION_CORNER
 from viaspline.formats.file_faults import fault_at, refusal
-from viaspline.formats.items import ABSOLUTE, FenceArea, Home, Item, Itinerary, LatLon, Place
+from viaspline.formats.flown_items import WAYPOINT
+from viaspline.formats.items import (
+    ABSOLUTE,
+    TERRAIN,
+    FenceArea,
+    Home,
+    Item,
+    Itinerary,
+    LatLon,
+    Place,
+)
 from viaspline.formats.mission_format import Whereabouts, Written
-from viaspline.formats.outgoing import WAYPOINT, itinerary_of, lost_of
+from viaspline.formats.outgoing import itinerary_of, lost_of
 from viaspline.formats.waypoint_format import WaypointFormat
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
@@ -97,6 +107,8 @@ class QgcWpl(WaypointFormat):
         more: list[tuple[str, str]] = []
         if mission.robot.max_speed_mps != RobotSpec().max_speed_mps:
             more.append(("robot", "max_speed_mps"))
+        if mission.world.ground is not None:
+            more.append(("world", "ground"))
         if any(mission.route.start.at[:2]):
             more.append(("place of the origin: read again, 0, 0 is at the start", "route.start"))
         text = "\n".join(("QGC WPL 110", *_lines(itinerary)))
@@ -135,6 +147,7 @@ def _item(source: str, line_number: int, line: str) -> Item | list[Fault]:
         longitude=values["longitude"],
         altitude=values["altitude"],
         place=Place(f"item {number}", line_number, 1),
+        over_terrain=values["altitude"] if values["frame"] in TERRAIN else math.nan,
     )
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Protocol
+from dataclasses import replace
+from typing import Any, Protocol, runtime_checkable
 
 from viaspline.formats.interpret import mission_of, origin_in
 from viaspline.formats.items import Itinerary, LatLon
@@ -11,6 +12,7 @@ from viaspline.formats.mission_format import MissionFormat
 from viaspline.mission.model import Mission
 
 
+@runtime_checkable
 class WaypointFormat(MissionFormat[Mission], Protocol):
     """A format whose files hold an itinerary in latitudes and longitudes.
 
@@ -28,6 +30,16 @@ class WaypointFormat(MissionFormat[Mission], Protocol):
     def read(self, text: str, source: str) -> Mission:
         """The mission of a text; its start is at the home position, if that can be meant."""
         return mission_of(self.parse(text, source))
+
+    def read_over(self, text: str, source: str, ground: Any) -> Mission:
+        """The mission in space of a text, over a ground that the file can't say.
+
+        Args:
+            text: What the file holds.
+            source: The file, as errors name it.
+            ground: As ``world.ground`` of a mission; files are looked for from here.
+        """
+        return mission_of(replace(self.parse(text, source), ground=ground))
 
     def origin(self, text: str, source: str) -> LatLon | None:
         """Latitude and longitude of the mission's 0, 0 [deg]; None if nothing has a position."""

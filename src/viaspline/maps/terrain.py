@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.handed_in import number_from, numbers_from
+from viaspline.maps.reading import Reading
 
 MOST_NODES_ASIDE = 32_000
 
@@ -29,6 +30,7 @@ class Terrain:
         cell: From node to node [m].
         origin: x, y [m] of node (0, 0).
         source: The file it was read from, as the mission names it; None for one made in memory.
+        reading: How it was read; None for one made in memory.
 
     Raises:
         GeometryError: For fewer than two nodes aside, too many, heights that aren't numbers (other
@@ -44,6 +46,7 @@ class Terrain:
     cell: float
     origin: tuple[float, float] = (0.0, 0.0)
     source: str | None = None
+    reading: Reading | None = field(default=None, repr=False)
     digest: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -104,10 +107,15 @@ class Terrain:
         Returns:
             Heights [m], shape (...); NaN where nothing is known of the ground.
 
+        Raises:
+            GeometryError: The points have another shape.
+
         >>> Terrain([[0.0, 1.0], [0.0, 1.0]], cell=10.0).height_at([(5, 5), (11, 5)])
         array([0.5, nan])
         """
         places = numbers_from("points", points)
+        if places.ndim == 0 or places.shape[-1] != 2:
+            raise GeometryError(f"points have shape {places.shape}; give (..., 2)")
         ny, nx = self.heights.shape
         u = (places[..., 0] - self.origin[0]) / self.cell
         v = (places[..., 1] - self.origin[1]) / self.cell

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.handed_in import number_from, numbers_from
+from viaspline.maps.reading import Reading
 
 MOST_VOXELS_ASIDE = 4096
 MOST_VOXELS = 2**31
@@ -30,6 +31,7 @@ class Voxels:
         cell: Side of a cube [m].
         origin: x, y, z [m] of the outer corner of cube (0, 0, 0).
         source: The file they were read from, as the mission names it; None for some made in memory.
+        reading: How they were read; None for some made in memory.
 
     An array that is read-only already is kept as it is; another one is copied.
 
@@ -46,6 +48,7 @@ class Voxels:
     cell: float
     origin: Corner = (0.0, 0.0, 0.0)
     source: str | None = None
+    reading: Reading | None = field(default=None, repr=False)
     digest: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:

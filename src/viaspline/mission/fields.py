@@ -106,6 +106,18 @@ Point: TypeAlias = Annotated[
     BeforeValidator(plain),
     Expects("[x, y] or [x, y, z] in metres"),
 ]
+Point3: TypeAlias = Annotated[
+    tuple[Coordinate, Coordinate, Coordinate],
+    BeforeValidator(plain),
+    Expects("[x, y, z] in metres"),
+]
+Heights: TypeAlias = Annotated[
+    tuple[Coordinate, Coordinate],
+    METRES,
+    BeforeValidator(plain),
+    Expects("[low, high] in metres"),
+]
+"""A floor and a roof [m]."""
 Ring: TypeAlias = Annotated[
     tuple[Point2, ...],
     Field(min_length=3),

@@ -12,8 +12,8 @@ from pydantic import BeforeValidator, Field
 from viaspline.maps.grid import LARGEST_CELL_M
 from viaspline.maps.reading import Unknown
 from viaspline.mission.annotations import Expects
-from viaspline.mission.fields import METRES, MIN_LENGTH_M, Name, Number, as_text
-from viaspline.mission.shapes.obstacle import Side
+from viaspline.mission.fields import METRES, MIN_LENGTH_M, Heights, Name, Number, as_text
+from viaspline.mission.shapes.obstacle import SpatialSide
 from viaspline.mission.value import Value
 
 CellSize: TypeAlias = Annotated[Number, METRES, Field(ge=MIN_LENGTH_M, le=LARGEST_CELL_M)]
@@ -32,11 +32,13 @@ class MapSpec(Value):
         name: What it is called in reports and errors; several polygons are numbered.
         pass_on: Go past each of its polygons on this side only.
         never_pass_on: The side that is forbidden.
+        height_m: Floor and roof of all of it in space, ``[low, high]`` [m]. None: every height.
     """
 
     map: Annotated[Name, BeforeValidator(as_text), Expects("the path of a map such as depot.yaml")]
     unknown: Unknown | None = None
     resolution_m: CellSize | None = None
     name: Name | None = None
-    pass_on: Side | None = None
-    never_pass_on: Side | None = None
+    pass_on: SpatialSide | None = None
+    never_pass_on: SpatialSide | None = None
+    height_m: Heights | None = None

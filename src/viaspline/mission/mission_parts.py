@@ -31,6 +31,21 @@ class MissionParts(Value):
     spline: SplineSpec = SplineSpec()
 
     @property
+    def is_spatial(self) -> bool:
+        """Whether any key says something of heights, so that it is planned in space.
+
+        Points of three numbers alone don't: their heights are carried along as ever. Every obstacle
+        is asked, as a copy with other parts may be another kind of mission.
+
+        >>> route = {"start": [0, 0, 5], "goal": [9, 0, 6]}
+        >>> MissionParts.model_validate({"route": route}).is_spatial
+        False
+        >>> MissionParts.model_validate({"route": {**route, "yaw": "along"}}).is_spatial
+        True
+        """
+        return self.robot.is_spatial or self.route.is_spatial or self.world.is_spatial
+
+    @property
     def tangents(self) -> Tangents:
         """Those of the spline, as it says; without jumps of the curvature if it doesn't."""
         return "continuous" if self.spline.tangents is None else self.spline.tangents

@@ -39,6 +39,8 @@ def faults_of_one(path: Path, obstacle: Obstacle, motion: Motion) -> Iterator[Un
 
 
 def _of_shape(path: Path, obstacle: Obstacle) -> Iterator[UnplacedFault]:
+    if obstacle.voxels is not None:
+        yield UnplacedFault((*path, "motion"), "voxels can't move", "give a box", at_key=True)
     if obstacle.grid is not None:
         yield UnplacedFault(
             (*path, "motion"), "a map of squares can't move", "give it a polygon", at_key=True

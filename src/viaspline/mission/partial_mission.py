@@ -19,8 +19,9 @@ from viaspline.mission.fields import Corners, Ring
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.resolve_files import ResolvedFiles
 from viaspline.mission.robot_parts import RobotSpec
-from viaspline.mission.route_spec import EndPoint, ViaPoint
+from viaspline.mission.route_spec import EndPoint, ViaPoint, as_point
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.space.spatial_parts import SpatialParts
 from viaspline.mission.spline_spec import SplineSpec
 from viaspline.mission.unplaced_faults import Path, children, list_items, spell
 from viaspline.mission.world_spec import WorldSpec
@@ -45,6 +46,7 @@ class PartialMission:
         corridor: What the route is to stay inside of; None if there is none, or it is faulty.
         laps: How often a closed route is driven; 1 if that can't be said.
         robot_path: Where the robot stands in what was given.
+        space: What there is in space only; None for a planar mission.
     """
 
     bounds: tuple[float, float, float, float] | None = None
@@ -61,6 +63,7 @@ class PartialMission:
     corridor: Corridor | None = None
     laps: int = 1
     robot_path: Path = ("robot",)
+    space: SpatialParts | None = None
 
     @property
     def is_line(self) -> bool:
@@ -88,6 +91,7 @@ class PartialMission:
             edge=resolved.edge,
             corridor=route.corridor,
             laps=route.laps,
+            space=SpatialParts.of(mission, resolved.unread),
         )
 
     @classmethod
@@ -120,6 +124,7 @@ class PartialMission:
             edge=resolved.edge,
             corridor=_attempt(Corridor, route.get("corridor")),
             laps=laps if isinstance(laps, int) else 1,
+            space=SpatialParts.salvage(top, resolved.unread),
         )
 
 
@@ -128,10 +133,7 @@ _END = TypeAdapter(EndPoint)
 
 
 def _point(adapter: TypeAdapter[Any], value: Any) -> ViaPoint | None:
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    data = {"at": value} if isinstance(value, list | tuple) else value
-    point: ViaPoint | None = _validated(adapter, data)
+    point: ViaPoint | None = _validated(adapter, as_point(value))
     return point
 
 

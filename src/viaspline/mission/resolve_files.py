@@ -1,4 +1,4 @@
-"""Maps and tracks read and put in the place of the items that ask for them.
+"""Maps, tracks, voxels and terrain read and put in the place of what asks for them.
 
 ``{map: depot.yaml}`` becomes an obstacle with a grid, ``{map: site.geojson}`` as many obstacles as
 there are polygons, ``{tracks: people.csv}`` as many moving discs as it has ids. What comes after
@@ -14,15 +14,16 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from viaspline.errors import Fault, MissionError
+from viaspline.errors import MissionError
 from viaspline.maps.grid import Grid
 from viaspline.maps.kinds import is_of_squares, read_areas, read_grid
 from viaspline.mission.load_tracks import moving_discs
 from viaspline.mission.map_edge import edge_of
 from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.space.read_solids import is_voxel_file, read_ground, with_voxels
 from viaspline.mission.tracks_spec import TracksSpec
-from viaspline.mission.unplaced_faults import Path, UnplacedFault, children
+from viaspline.mission.unplaced_faults import Path, UnplacedFault, children, of_file
 
 
 @dataclass(frozen=True)
@@ -35,12 +36,14 @@ class ResolvedFiles:
         places: For each obstacle under ``known`` and ``unseen``, the item that it came from; a
             list that has no map isn't there.
         edge: Paths of the bounds or the fence that the maps brought.
+        unread: Paths of what asks for voxels or a terrain that couldn't be read.
     """
 
     data: Any
     faults: tuple[UnplacedFault, ...] = ()
     places: Mapping[str, Sequence[int]] = field(default_factory=dict)
     edge: frozenset[Path] = frozenset()
+    unread: frozenset[Path] = frozenset()
 
     def original(self, path: Path) -> Path:
         """Where in the mission as it was given something stands."""
@@ -63,13 +66,14 @@ def resolve_maps(data: Any, folder: FilePath) -> ResolvedFiles:
     Returns:
         The data with obstacles for maps; ``data`` itself if there is no grid.
     """
+    data, of_ground = read_ground(data, folder)
     top = children(data) or {}
     world = children(top.get("world")) or {}
     lists = {key: world[key] for key in ("known", "unseen") if _is_list(world.get(key))}
     if not any(_is_file(item) or _grid_of(item) for items in lists.values() for item in items):
-        return ResolvedFiles(data)
+        return ResolvedFiles(data, tuple(of_ground), unread=_unread(of_ground))
     taken = {_name_of(item) for items in lists.values() for item in items}
-    faults: list[UnplacedFault] = []
+    faults = list(of_ground)
     places: dict[str, list[int]] = {}
     resolved = dict(world)
     for key, items in lists.items():
@@ -80,7 +84,14 @@ def resolve_maps(data: Any, folder: FilePath) -> ResolvedFiles:
             resolved[key] += obstacles
             faults += found
     edge = frozenset[Path]() if faults else _bring_edge(resolved)
-    return ResolvedFiles({**top, "world": resolved}, tuple(faults), places, edge)
+    whole = {**top, "world": resolved}
+    return ResolvedFiles(whole, tuple(faults), places, edge, _unread(faults))
+
+
+def _unread(faults: Sequence[UnplacedFault]) -> frozenset[Path]:
+    """Paths of what asks for voxels or terrain that couldn't be read."""
+    asking = ("terrain", "file", "voxels")
+    return frozenset(fault.path for fault in faults if fault.path[-1] in asking)
 
 
 def _is_list(value: Any) -> bool:
@@ -88,7 +99,8 @@ def _is_list(value: Any) -> bool:
 
 
 def _is_file(item: Any) -> bool:
-    return isinstance(item, Mapping) and ("map" in item or "tracks" in item)
+    is_list = isinstance(item, Mapping) and ("map" in item or "tracks" in item)
+    return is_list or is_voxel_file(item)
 
 
 def _grid_of(item: Any) -> Grid | None:
@@ -107,6 +119,8 @@ def _of_item(
     """The obstacles of an item that may be a map or tracks, or what is wrong with it."""
     if not _is_file(item):
         return [item], ()
+    if "map" not in item and "tracks" not in item:
+        return with_voxels(item, path, folder)
     key = "map" if "map" in item else "tracks"
     try:
         spec = (MapSpec if key == "map" else TracksSpec).model_validate(dict(item))
@@ -116,18 +130,7 @@ def _of_item(
 
         return (), schema_faults(error, path)
     except MissionError as error:
-        return (), [_unplaced(path, key, fault) for fault in error.faults]
-
-
-def _unplaced(path: Path, asking: str, fault: Fault) -> UnplacedFault:
-    """A fault of a map or of tracks as a fault of the key that asks for it."""
-    if fault.line is None and fault.key in ("unknown", "resolution_m"):
-        return UnplacedFault((*path, fault.key), fault.problem, fault.remedy, at_key=True)
-    place = fault.source if fault.line is None else f"{fault.source}:{fault.line}:{fault.column}"
-    key = f"{fault.key}: " if fault.key else ""
-    return UnplacedFault(
-        (*path, asking), f"{place}: {key}{fault.problem}", fault.remedy, at_key=True
-    )
+        return (), [of_file(path, key, fault) for fault in error.faults]
 
 
 def obstacles_of(spec: MapSpec | TracksSpec, folder: FilePath, taken: set[Any]) -> list[Obstacle]:
@@ -144,10 +147,11 @@ def obstacles_of(spec: MapSpec | TracksSpec, folder: FilePath, taken: set[Any]) 
     if isinstance(spec, TracksSpec):
         return moving_discs(spec, folder, lambda name: _free(name, taken))
     path = folder / spec.map
-    sides = {"pass_on": spec.pass_on, "never_pass_on": spec.never_pass_on}
+    keys = ("pass_on", "never_pass_on", "height_m")
+    said = {key: value for key in keys if (value := getattr(spec, key)) is not None}
     if is_of_squares(path):
         grid = read_grid(path, spec.unknown, spec.resolution_m, source=spec.map)
-        return [Obstacle.model_validate({"grid": grid, "name": spec.name} | sides)]
+        return [Obstacle.model_validate({"grid": grid, "name": spec.name} | said)]
     areas = read_areas(path, spec.unknown, spec.resolution_m)
     obstacles = []
     for number, area in enumerate(areas, start=1):
@@ -157,7 +161,7 @@ def obstacles_of(spec: MapSpec | TracksSpec, folder: FilePath, taken: set[Any]) 
         if name is not None and name != spec.name:
             name = _free(name, taken)
         shape = {"polygon": area.outline, "holes": area.holes, "name": name}
-        obstacles.append(Obstacle.model_validate(shape | sides))
+        obstacles.append(Obstacle.model_validate(shape | said))
     return obstacles
 
 

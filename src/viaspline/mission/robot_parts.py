@@ -20,6 +20,7 @@ from viaspline.mission.fields import (
     AngularSpeed,
     Distance,
     Jerk,
+    Length,
     NotNegative,
     Ring,
     Speed,
@@ -67,7 +68,7 @@ class MovingThings(
 class RobotSpec(
     Value,
     expected="a mapping such as {radius_m: 0.5, clearance_m: 0.5, max_speed_mps: 2}",
-    excluding=(("radius_m", "footprint"),),
+    excluding=(("radius_m", "footprint"), ("max_yaw_rate_degps", "max_yaw_rate_dps")),
 ):
     """The robot's body, its drive, its limits and its sensor.
 
@@ -100,6 +101,14 @@ class RobotSpec(
             more. None: as far as it gets on a trial drive; nothing if it follows exactly.
         sensor: What finds the obstacles that are not on the map.
         moving: What it has to reckon with where it doesn't see. None: nothing unseen moves.
+        half_height_m: In space, half the height of the body if it is an upright cylinder with
+            ``radius_m`` about the reference point [m]. None: it is a ball.
+        max_climb_mps: The greatest speed upwards [m/s]. None: ``max_speed_mps``.
+        max_descent_mps: The greatest speed downwards [m/s]. None: as upwards.
+        max_vertical_accel_mps2: The greatest acceleration up or down [m/s²]. None: as
+            ``max_accel_mps2``.
+        max_yaw_rate_dps: The greatest yaw rate [deg/s], as documents of drones call it: another
+            name of ``max_yaw_rate_degps``, which it is stored as.
         max_replan_s: How long it may look for a new path under way, from when it sees what is in
             its way [s]; then it brakes, and goes on looking. None: until it has to brake.
     """
@@ -136,12 +145,29 @@ class RobotSpec(
     tracking_error_m: Distance | None = None
     sensor: Sensor | None = None
     moving: MovingThings | None = None
+    half_height_m: Length | None = None
+    max_climb_mps: Speed | None = None
+    max_descent_mps: Speed | None = None
+    max_vertical_accel_mps2: Acceleration | None = None
+    max_yaw_rate_dps: AngularSpeed | None = None
     max_replan_s: TimeLimit | None = None
 
     @model_validator(mode="after")
     def _one_body(self) -> RobotSpec:
         if self.footprint is not None and "radius_m" in self.model_fields_set:
             raise two_of("radius_m", "footprint")
+        return self
+
+    @model_validator(mode="after")
+    def _one_yaw_rate(self) -> RobotSpec:
+        if self.max_yaw_rate_dps is None:
+            return self
+        if self.max_yaw_rate_degps is not None:
+            raise two_of("max_yaw_rate_degps", "max_yaw_rate_dps")
+        # One limit has one place: whoever asks for it, and whoever writes it, need not ask twice.
+        self.__dict__.update(max_yaw_rate_degps=self.max_yaw_rate_dps, max_yaw_rate_dps=None)
+        self.__pydantic_fields_set__.discard("max_yaw_rate_dps")
+        self.__pydantic_fields_set__.add("max_yaw_rate_degps")
         return self
 
     @model_serializer(mode="wrap")
@@ -151,6 +177,32 @@ class RobotSpec(
         if self.footprint is not None:
             data.pop("radius_m", None)
         return data
+
+    @property
+    def is_spatial(self) -> bool:
+        """Whether it says something of heights."""
+        given = (self.half_height_m, self.max_climb_mps, self.max_descent_mps)
+        return any(key is not None for key in (*given, self.max_vertical_accel_mps2))
+
+    @property
+    def climb_speed(self) -> float:
+        """The greatest speed upwards [m/s]."""
+        return self.max_speed_mps if self.max_climb_mps is None else self.max_climb_mps
+
+    @property
+    def descent_speed(self) -> float:
+        """The greatest speed downwards [m/s]."""
+        return self.climb_speed if self.max_descent_mps is None else self.max_descent_mps
+
+    @property
+    def vertical_accel(self) -> float:
+        """The greatest acceleration up or down [m/s²].
+
+        >>> RobotSpec(max_accel_mps2=0.7).vertical_accel
+        0.7
+        """
+        given = self.max_vertical_accel_mps2
+        return self.max_accel_mps2 if given is None else given
 
     @property
     def inner_radius(self) -> float:

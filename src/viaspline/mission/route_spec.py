@@ -5,15 +5,29 @@ Tested through ``mission/test_model``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Annotated, Any, Final, Literal, TypeAlias
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, TypeAlias
 
-from pydantic import BeforeValidator, Field
+from pydantic import (
+    BeforeValidator,
+    Field,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
 
 from viaspline.mission.annotations import Expects
 from viaspline.mission.corridor_spec import Corridor
-from viaspline.mission.fields import Duration, Heading, Name, Point, plain
-from viaspline.mission.value import Value
+from viaspline.mission.fields import Coordinate, Duration, Heading, Name, Point, Point3, plain
+from viaspline.mission.space.gate_spec import GateSpec
+from viaspline.mission.space.takeoff_spec import AnyLanding, Takeoff
+from viaspline.mission.space.yaw_spec import Yaw
+from viaspline.mission.value import Value, two_of
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from pydantic import GetJsonSchemaHandler
 
 Optimise: TypeAlias = Literal["time", "length"]
 Detours: TypeAlias = Literal["local", "short"]
@@ -26,10 +40,24 @@ MAX_POINTS_DRIVEN: Final = 50_000
 """How many points a drive of several laps can come to at most."""
 
 
-def _as_mapping(value: Any) -> Any:
-    """The short form ``[x, y]`` of ``{at: [x, y]}``."""
+def as_point(value: Any) -> Any:
+    """What may stand for a point of the route as the mapping that it is short for.
+
+    ``[x, y]`` is ``{at: [x, y]}``, and a gate is where its middle is.
+    """
     value = plain(value)
-    return {"at": value} if isinstance(value, list | tuple) else value
+    if isinstance(value, list | tuple):
+        return {"at": value}
+    if isinstance(value, Mapping) and value.get("gate") is not None and "at" not in value:
+        gate = value["gate"]
+        at = plain(gate.get("at")) if isinstance(gate, Mapping) else getattr(gate, "at", None)
+        # What is wrong with a gate's place is a fault of the gate, not of the point as well.
+        return {**value, "at": at if _is_place(at) else (0.0, 0.0, 0.0)}
+    return value
+
+
+def _is_place(value: Any) -> bool:
+    return isinstance(value, list | tuple) and len(value) == 3
 
 
 class ViaPoint(
@@ -39,14 +67,50 @@ class ViaPoint(
     """A place that the path runs through, exactly; a station if it has a dwell.
 
     Attributes:
-        at: The place, ``[x, y]`` or ``[x, y, z]`` [m].
+        at: The place, ``[x, y]`` or ``[x, y, z]`` [m]; of a gate its middle.
         name: What it is called in reports and errors.
         dwell_s: How long the robot stands there [s].
+        agl_m: In place of z, the height above the ground there [m].
+        look_at: In space, what the robot looks at when it is there, ``[x, y, z]`` [m].
+        gate: In place of ``at``, an opening that the path goes through.
     """
 
     at: Point
     name: Name | None = None
     dwell_s: Duration = 0.0
+    agl_m: Coordinate | None = None
+    look_at: Point3 | None = None
+    gate: GateSpec | None = None
+
+    @model_validator(mode="after")
+    def _one_place(self) -> Self:
+        if self.gate is not None and self.at != self.gate.at:
+            raise two_of("at", "gate")
+        return self
+
+    @model_serializer(mode="wrap")
+    def _place_once(self, serialized: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Without the place that a gate has, so that it can be read again."""
+        data: dict[str, Any] = serialized(self)
+        if self.gate is not None:
+            data.pop("at", None)
+        return data
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core_schema: Any, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """The schema, in which a gate stands for the place."""
+        schema = super().__get_pydantic_json_schema__(core_schema, handler)
+        own = handler.resolve_ref_schema(schema)
+        own["required"] = [key for key in own["required"] if key != "at"]
+        own["oneOf"] = [{"required": ["at"]}, {"required": ["gate"]}]
+        return schema
+
+    @property
+    def is_spatial(self) -> bool:
+        """Whether it has a key that means something in space only."""
+        return self.agl_m is not None or self.look_at is not None or self.gate is not None
 
 
 class EndPoint(ViaPoint):
@@ -60,10 +124,10 @@ class EndPoint(ViaPoint):
 
 
 Via: TypeAlias = Annotated[
-    ViaPoint, BeforeValidator(_as_mapping, json_schema_input_type=Point | ViaPoint)
+    ViaPoint, BeforeValidator(as_point, json_schema_input_type=Point | ViaPoint)
 ]
 End: TypeAlias = Annotated[
-    EndPoint, BeforeValidator(_as_mapping, json_schema_input_type=Point | EndPoint)
+    EndPoint, BeforeValidator(as_point, json_schema_input_type=Point | EndPoint)
 ]
 Vias: TypeAlias = Annotated[
     tuple[Via, ...],
@@ -93,6 +157,10 @@ class Route(Value):
             stands in it and ``optimise`` is ``time``.
         depart_s: When the robot may set out [s]; what moves does so by the same clock.
         hold_s: How long the goal has to stay free of what moves once the robot is there [s].
+        takeoff: In space, how high the robot climbs straight up before anything else.
+        land: In space, where it comes straight down at the end; then there is no goal.
+        yaw: In space, where it looks: ``along`` its path, at a place, or in a direction. At a via
+            point with ``look_at`` it looks there. None: along.
     """
 
     start: End
@@ -106,6 +174,17 @@ class Route(Value):
     detours: Detours | None = None
     depart_s: Duration = 0.0
     hold_s: Duration = 0.0
+    takeoff: Takeoff | None = None
+    land: AnyLanding | None = None
+    yaw: Yaw | None = None
+
+    @property
+    def is_spatial(self) -> bool:
+        """Whether it has a key that means something in space only."""
+        given = (self.takeoff, self.land, self.yaw)
+        return any(key is not None for key in given) or any(
+            point.is_spatial for _, point in self.points()
+        )
 
     def points(self) -> Iterator[tuple[str, ViaPoint]]:
         """Every point of the route in order, with its key in the mission file."""

@@ -92,6 +92,9 @@ def _meant(detail: ErrorDetails, root: Model) -> Path | None:
 
 def _fault(detail: ErrorDetails, path: Path, root: Model) -> UnplacedFault:
     kind, found = detail["type"], detail["input"]
+    if kind == "value_error":  # an array that makes no map
+        problem, _, remedy = str(detail["ctx"]["error"]).partition("; ")
+        return UnplacedFault(path, problem, remedy or f"it should be {expectation(path, root)}")
     if kind == "extra_forbidden" or _is_hidden(path, root):
         return _unknown_key(path, root)
     if kind == "invalid_key":
@@ -183,5 +186,5 @@ def _wrong_length(path: Path, found: Any, root: Model) -> UnplacedFault:
     is_flat = path[:2] in (("world", "known"), ("world", "unseen"))
     is_pair = any(option.kind == PAIR for option in options_at(path, root))
     if is_flat and is_pair and isinstance(found, list | tuple) and len(found) == 3:
-        remedy += "; obstacles are flat in this version"
+        remedy += "; this shape is flat: say its heights as height_m: [low, high]"
     return UnplacedFault(path, f"found {describe(found)}", remedy)

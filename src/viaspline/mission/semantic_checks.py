@@ -30,13 +30,17 @@ SAME_POINT_M: Final = 1e-6
 def semantic_faults(partial: PartialMission) -> list[UnplacedFault]:
     """Everything that is wrong with the meaning of a mission."""
     from viaspline.mission.clearances import clearance_faults
+    from viaspline.mission.space.spatial_checks import spatial_faults
 
     of_world, misshapen = world_faults(partial)
     of_route, is_strange = route_faults(partial)
     if is_strange:
         partial = replace(partial, corridor=None)
-    too_near = clearance_faults(partial, misshapen)
-    return [*of_world, *_sensor(partial), *robot_faults(partial), *of_route, *too_near]
+    if partial.space is None:
+        in_its_place = clearance_faults(partial, misshapen)
+    else:
+        in_its_place = spatial_faults(partial, partial.space, misshapen)
+    return [*of_world, *_sensor(partial), *robot_faults(partial), *of_route, *in_its_place]
 
 
 def world_faults(partial: PartialMission) -> tuple[list[UnplacedFault], set[Path]]:
@@ -61,7 +65,8 @@ def route_faults(partial: PartialMission) -> tuple[list[UnplacedFault], bool]:
 
     points = [(path, point.name) for path, point in partial.points if point is not None]
     faults = [*_repeated(points, "point"), *_route(partial)]
-    faults += [*_same_places(partial), *_dimensions(partial)]
+    if partial.space is None:
+        faults += [*_same_places(partial), *_dimensions(partial)]
     if partial.spline is not None:
         faults += _spline(partial, partial.spline)
     strange = corridor_faults(partial)
@@ -86,10 +91,12 @@ def _bounds(partial: PartialMission) -> list[UnplacedFault]:
 
 def _sides(partial: PartialMission) -> list[UnplacedFault]:
     faults = [
-        UnplacedFault((*path, key), "a map of squares has no sides", "leave it out", at_key=True)
+        UnplacedFault((*path, key), f"a map of {parts} has no sides", "leave it out", at_key=True)
         for path, obstacle in partial.known + partial.unseen
+        if obstacle.grid is not None or obstacle.voxels is not None
+        for parts in ["squares" if obstacle.voxels is None else "voxels"]
         for key in ("pass_on", "never_pass_on")
-        if obstacle.grid is not None and getattr(obstacle, key) is not None
+        if getattr(obstacle, key) is not None
     ]
     return faults + [
         UnplacedFault(
@@ -177,6 +184,7 @@ def _route(partial: PartialMission) -> list[UnplacedFault]:
         partial.has_route
         and len(partial.points) < 2
         and not partial.is_line
+        and not (partial.space is not None and partial.space.has_land)
         and partial.points[0][1] is not None
     ):
         problem = "a route needs at least two distinct points; this one has only its start"
@@ -188,7 +196,7 @@ def _same_places(partial: PartialMission) -> list[UnplacedFault]:
     faults = []
     for (before, a), (path, b) in pairwise(partial.points):
         if (gap := _distance(a, b)) < SAME_POINT_M:
-            faults.append(_same_place(path, before, gap))
+            faults.append(same_place(path, before, gap))
     if partial.closed and not partial.has_goal and len(partial.points) > 1:
         (start, a), (path, b) = partial.points[0], partial.points[-1]
         if (gap := _distance(a, b)) < SAME_POINT_M and len(partial.points) > 2:
@@ -197,7 +205,14 @@ def _same_places(partial: PartialMission) -> list[UnplacedFault]:
     return faults
 
 
-def _same_place(path: Path, before: Path, gap: float) -> UnplacedFault:
+def same_place(path: Path, before: Path, gap: float) -> UnplacedFault:
+    """The fault of a point that is where the one before it is.
+
+    Args:
+        path: The point.
+        before: The one before it.
+        gap: How far they are apart [m].
+    """
     apart = "exactly" if gap == 0 else f"to within {gap:.1g} m"
     return UnplacedFault(
         (*path, "at"),

@@ -6,8 +6,9 @@ Tested through ``mission/test_model``.
 from __future__ import annotations
 
 from viaspline.mission.partial_mission import PartialMission
-from viaspline.mission.shapes.obstacle import KINDS, SHAPES, Obstacle
+from viaspline.mission.shapes.obstacle import KINDS, SHAPES, SOLID_KINDS, Obstacle
 from viaspline.mission.shapes.polygon import Polygon
+from viaspline.mission.space.solid_checks import height_faults
 from viaspline.mission.unplaced_faults import Path, UnplacedFault
 
 
@@ -22,6 +23,12 @@ def shape_faults(partial: PartialMission) -> list[UnplacedFault]:
             for path, obstacle in obstacles
             for name, shape in obstacle.shapes()
             if name == key
+        )
+    for key, kind in SOLID_KINDS.items():
+        faults += kind.faults(
+            ((*path, key), getattr(obstacle, key))
+            for path, obstacle in obstacles
+            if getattr(obstacle, key) is not None
         )
     return faults
 
@@ -40,4 +47,6 @@ def _one_shape(path: Path, obstacle: Obstacle) -> list[UnplacedFault]:
     if obstacle.holes and obstacle.polygon is None:
         problem = "there are holes, but no polygon that has them"
         faults.append(UnplacedFault((*path, "holes"), problem, "give polygon, or leave out holes"))
+    if obstacle.is_spatial:
+        faults += height_faults(path, obstacle)
     return faults

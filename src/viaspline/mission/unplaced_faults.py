@@ -104,6 +104,23 @@ def located(faults: list[UnplacedFault], data: Any, origin: Origin | None) -> li
     ]
 
 
+def of_file(path: Path, asking: str, fault: Fault) -> UnplacedFault:
+    """A fault of a file as a fault of the key that asks for it.
+
+    Args:
+        path: What that key stands in.
+        asking: The key.
+        fault: What is wrong with the file, or with what else is asked of it.
+    """
+    if fault.line is None and fault.key in ("unknown", "resolution_m", "cell_m"):
+        return UnplacedFault((*path, fault.key), fault.problem, fault.remedy, at_key=True)
+    place = fault.source if fault.line is None else f"{fault.source}:{fault.line}:{fault.column}"
+    key = f"{fault.key}: " if fault.key else ""
+    return UnplacedFault(
+        (*path, asking), f"{place}: {key}{fault.problem}", fault.remedy, at_key=True
+    )
+
+
 def children(value: Any) -> Mapping[Any, Any] | None:
     """The keys and values of a mapping or a model; None for anything else."""
     if isinstance(value, Mapping):

@@ -13,6 +13,8 @@ from viaspline.mission.annotations import Expects
 from viaspline.mission.fields import Coordinate, Name, Ring, Rings, Speed, plain
 from viaspline.mission.map_spec import MapSpec
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.space.altitude_spec import AltitudeSpec
+from viaspline.mission.space.ground_spec import GroundSpec
 from viaspline.mission.standalone import Standalone
 from viaspline.mission.tracks_spec import TracksSpec
 from viaspline.mission.value import Value
@@ -76,7 +78,9 @@ class WorldSpec(Value):
         fences: Polygons that the robot stays inside of, every one (inclusion fences).
         known: Obstacles on the map.
         unseen: Obstacles that only the sensor finds.
-        speed_zones: Areas with a lower speed.
+        speed_zones: Areas with a lower speed; in space at every height.
+        altitude: How low and how high the robot may fly. None: as it likes.
+        ground: How high the ground is. None: there is no ground, and z = 0 is home.
     """
 
     bounds: Bounds4 | None = None
@@ -84,6 +88,17 @@ class WorldSpec(Value):
     known: Obstacles = ()
     unseen: Obstacles = ()
     speed_zones: SpeedZones = ()
+    altitude: AltitudeSpec | None = None
+    ground: GroundSpec | None = None
+
+    @property
+    def is_spatial(self) -> bool:
+        """Whether anything in it says something of heights."""
+        return (
+            self.altitude is not None
+            or self.ground is not None
+            or any(obstacle.is_spatial for obstacle in self.known + self.unseen)
+        )
 
     @property
     def standing(self) -> tuple[Obstacle, ...]:

@@ -14,14 +14,14 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.jit import inner, kernel
-from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.packed import PackedFences, PackedWorld
 from viaspline.kernels.world.plane import box_signed, squared_point_segment
 from viaspline.kernels.world.ring_distance import crosses_eastwards
 from viaspline.kernels.world.shape import obstacle_signed
 
 
 @inner
-def fence_signed(world: PackedWorld, f: int, x: float, y: float) -> float:
+def fence_signed(world: PackedFences, f: int, x: float, y: float) -> float:
     """Signed distance from (x, y) to the outside of fence f [m]; positive inside the fence."""
     inside = False
     squared = np.inf
@@ -34,7 +34,7 @@ def fence_signed(world: PackedWorld, f: int, x: float, y: float) -> float:
 
 
 @inner
-def inner_signed(world: PackedWorld, x: float, y: float, limit: float) -> tuple[float, int]:
+def inner_signed(world: PackedFences, x: float, y: float, limit: float) -> tuple[float, int]:
     """Distance from (x, y) to what the robot stays inside of [m], and which (see ``nearest``)."""
     best = limit
     index = -1

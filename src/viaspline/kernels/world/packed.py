@@ -10,7 +10,7 @@ Tested through ``kernels/world/test_distance``.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from viaspline.kernels.arrays import Columns, Floats, Ints
 
@@ -64,3 +64,35 @@ class PackedWorld(NamedTuple):
     boxes: Floats
     skip: Ints
     leaf: Ints
+
+
+class PackedRings(Protocol):
+    """The rounded rings of a packed world, in the plane or in space; see ``PackedWorld``."""
+
+    @property
+    def heads(self) -> Floats: ...  # noqa: D102
+
+    @property
+    def ring_blocks(self) -> Ints: ...  # noqa: D102
+
+    @property
+    def block_edges(self) -> Ints: ...  # noqa: D102
+
+    @property
+    def block_boxes(self) -> Floats: ...  # noqa: D102
+
+    @property
+    def edges(self) -> Floats: ...  # noqa: D102
+
+
+class PackedFences(Protocol):
+    """What a robot stays inside of, in the plane or in space; see ``PackedWorld``."""
+
+    @property
+    def bounds(self) -> Floats: ...  # noqa: D102
+
+    @property
+    def fence_edges(self) -> Ints: ...  # noqa: D102
+
+    @property
+    def fences(self) -> Floats: ...  # noqa: D102

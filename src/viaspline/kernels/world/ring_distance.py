@@ -14,7 +14,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Bytes, Floats
 from viaspline.kernels.jit import inlined, inner
-from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.packed import PackedRings, PackedWorld
 from viaspline.kernels.world.plane import (
     box_gap,
     box_signed,
@@ -25,13 +25,13 @@ from viaspline.kernels.world.plane import (
 
 
 @inlined
-def is_disc(world: PackedWorld, r: int) -> bool:
+def is_disc(world: PackedRings, r: int) -> bool:
     """Whether ring r is a single vertex."""
     return world.heads[r, 3] == 1.0
 
 
 @inlined
-def radius_of(world: PackedWorld, r: int) -> float:
+def radius_of(world: PackedRings, r: int) -> float:
     """By how much the core of ring r is grown [m]."""
     return world.heads[r, 2]
 
@@ -47,7 +47,7 @@ def crosses_eastwards(edges: Floats, e: int, x: float, y: float) -> bool:
 
 
 @inner
-def _core_signed(world: PackedWorld, r: int, x: float, y: float) -> float:
+def _core_signed(world: PackedRings, r: int, x: float, y: float) -> float:
     """Signed distance from (x, y) to the core of ring r [m]; negative inside."""
     boxes = world.block_boxes
     inside = False
@@ -70,7 +70,7 @@ def _core_signed(world: PackedWorld, r: int, x: float, y: float) -> float:
 
 
 @inlined
-def ring_signed(world: PackedWorld, r: int, x: float, y: float, limit: float) -> float:
+def ring_signed(world: PackedRings, r: int, x: float, y: float, limit: float) -> float:
     """Signed distance from (x, y) to ring r [m]; negative inside."""
     if is_disc(world, r):
         dx = x - world.heads[r, 0]

@@ -13,13 +13,13 @@ import numpy as np
 from viaspline.kernels.arrays import Flags
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.distance import fence_signed
-from viaspline.kernels.world.packed import PackedWorld
+from viaspline.kernels.world.packed import PackedFences, PackedWorld
 from viaspline.kernels.world.plane import box_gap, box_signed, segment_segment
 from viaspline.kernels.world.shape import obstacle_segment
 
 
 @inner
-def fence_segment(world: PackedWorld, f: int, ax: float, ay: float, bx: float, by: float) -> float:
+def fence_segment(world: PackedFences, f: int, ax: float, ay: float, bx: float, by: float) -> float:
     """Distance between the segment a-b and the outside of fence f [m]; 0 where it leaves it."""
     if fence_signed(world, f, ax, ay) <= 0.0:
         return 0.0
@@ -32,7 +32,7 @@ def fence_segment(world: PackedWorld, f: int, ax: float, ay: float, bx: float, b
 
 @inner
 def inner_segment(
-    world: PackedWorld, ax: float, ay: float, bx: float, by: float, limit: float
+    world: PackedFences, ax: float, ay: float, bx: float, by: float, limit: float
 ) -> tuple[float, int]:
     """Distance of the segment a-b to what the robot stays inside of [m], and which."""
     best = limit

@@ -30,6 +30,10 @@ MOTION = (
     "later to what moves than its path was proven for",
     "leave the motion out, or make what moves a robot of the fleet with the highest priority",
 )
+HEIGHTS = (
+    "a fleet is planned in the plane, and something here says heights",
+    "plan each of the missions by itself, or leave out what is for space",
+)
 
 
 def fleet_faults(partial: PartialFleet) -> list[UnplacedFault]:
@@ -51,9 +55,20 @@ def fleet_faults(partial: PartialFleet) -> list[UnplacedFault]:
         faults += found
         if is_strange:
             strange.add(member.path)
+    if _is_spatial(partial):
+        return [*faults, UnplacedFault(("fleet",), *HEIGHTS, at_key=True)]
     for points in _asked_together(partial, strange):
         faults += clearance_faults(points, misshapen)
     return faults + standing_faults(partial)
+
+
+def _is_spatial(partial: PartialFleet) -> bool:
+    parts = (partial.world, *(member.parts for member in partial.members))
+    robots = [kind.robot for kind in partial.kinds.values()]
+    robots += (member.parts.robot for member in partial.members)
+    return any(part.space is not None for part in parts) or any(
+        robot is not None and robot.is_spatial for robot in robots
+    )
 
 
 def _moved(faults: list[UnplacedFault], old: Path, new: Path) -> list[UnplacedFault]:

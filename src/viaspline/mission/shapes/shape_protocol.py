@@ -1,4 +1,4 @@
-"""What a kind of obstacle that is a rounded ring says of itself.
+"""What a kind of obstacle that is no map says of itself.
 
 Tested through ``mission/shapes/test_obstacle``.
 """
@@ -22,12 +22,12 @@ class Shape(Protocol):
     EXAMPLE: ClassVar[str]
 
     def ring(self) -> RoundedRing:
-        """All places that it covers."""
+        """All places that it covers; of a kind that has heights, its outline in plan."""
         ...
 
     @classmethod
     def faults(cls, placed: Iterable[tuple[Path, Self]]) -> list[UnplacedFault]:
-        """What its types let pass, but covers no area that makes sense.
+        """What its types let pass, but covers nothing that makes sense.
 
         Args:
             placed: All of the kind that a mission has, each with where it stands. They may be a

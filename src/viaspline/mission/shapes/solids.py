@@ -1,4 +1,4 @@
-"""What obstacles are in space: prisms over rounded rings, and lines with a radius.
+"""What obstacles are in space: prisms over rounded rings and squares, and lines with a radius.
 
 Voxels and terrain are solids as well; they are maps, see ``maps/voxels`` and ``maps/terrain``.
 """
@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from viaspline.maps.grid import Grid
 from viaspline.maps.voxels import Voxels
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 
@@ -42,6 +43,31 @@ class Prism:
 
 
 @dataclass(frozen=True, slots=True)
+class GridPrism:
+    """All places over or under the blocked squares of a grid, between two heights.
+
+    Attributes:
+        grid: Its squares in plan.
+        low: Height of its floor [m]; -inf for a thing without one.
+        high: Height of its roof [m]; inf for a thing without one.
+
+    Example:
+        >>> GridPrism(Grid([[True, False]], 2.0), 0.0, 3.0).box
+        (0.0, 0.0, 0.0, 4.0, 2.0, 3.0)
+    """
+
+    grid: Grid
+    low: float = -math.inf
+    high: float = math.inf
+
+    @property
+    def box(self) -> Box6:
+        """``x_min, y_min, z_min, x_max, y_max, z_max`` of the whole grid [m]."""
+        x0, y0, x1, y1 = self.grid.extent
+        return x0, y0, self.low, x1, y1, self.high
+
+
+@dataclass(frozen=True, slots=True)
 class RoundedSegment:
     """All places no farther than a radius from a line in space; from a place, if it has no length.
 
@@ -69,5 +95,5 @@ class RoundedSegment:
         )  # fmt: skip
 
 
-Solid: TypeAlias = Prism | RoundedSegment | Voxels
+Solid: TypeAlias = Prism | GridPrism | RoundedSegment | Voxels
 """Whatever an obstacle can be in space."""

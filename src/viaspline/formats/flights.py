@@ -1,0 +1,149 @@
+"""From stops to a route in space: take-off, heights over whatever they count from, landing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path as FilePath
+from typing import Any, Final, NamedTuple
+
+from pydantic import TypeAdapter, ValidationError
+
+from viaspline.errors import MissionError
+from viaspline.formats.file_faults import refusal
+from viaspline.formats.items import ABSOLUTE, Item, Itinerary, Place
+from viaspline.formats.legs import OVER_SEA, OVER_TERRAIN, Stop
+from viaspline.formats.local_frame import LocalFrame
+from viaspline.mission.space.flight_places import ground_height
+from viaspline.mission.space.ground_spec import GroundSpec
+from viaspline.mission.space.read_solids import read_ground
+
+SAME_PLACE_M: Final = 0.02
+"""Places nearer than this are one: the files resolve 1e-7 degree, about a centimetre."""
+
+_FLOWN: Final = frozenset(
+    {OVER_TERRAIN, OVER_SEA, "region of interest", "end of region of interest"}
+)
+
+
+class FlownRoute(NamedTuple):
+    """A route in space.
+
+    Attributes:
+        route: As a mission has it.
+        stops: Where its points stand in the file: start, via points, and the goal or the landing.
+    """
+
+    route: dict[str, Any]
+    stops: tuple[Stop, ...]
+
+
+def not_flown(notes: Sequence[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
+    """What of an itinerary a mission in space can't represent either.
+
+    >>> not_flown([("region of interest", "item 3"), ("photograph", "item 4")])
+    (('photograph', 'item 4'),)
+    """
+    return tuple(note for note in notes if note[0] not in _FLOWN)
+
+
+def ground_of(itinerary: Itinerary) -> GroundSpec:
+    """The ground of an itinerary that has one, its terrain read.
+
+    Raises:
+        MissionError: It is no ground, or its file can't be read.
+    """
+    if isinstance(itinerary.ground, GroundSpec):
+        return itinerary.ground
+    read = read_ground({"world": {"ground": itinerary.ground}}, FilePath())
+    place = Place("ground")
+    if read.faults:
+        fault = read.faults[0]
+        raise refusal(itinerary.source, place, fault.problem, fault.remedy)
+    try:
+        found: GroundSpec = TypeAdapter(GroundSpec).validate_python(read.data["world"]["ground"])
+    except ValidationError as error:
+        raise _no_ground(itinerary, place, error) from None
+    return found
+
+
+def _no_ground(itinerary: Itinerary, place: Place, error: ValidationError) -> MissionError:
+    from viaspline.mission.schema_errors import schema_faults
+
+    fault = schema_faults(error, ("world", "ground"))[0]
+    return refusal(itinerary.source, place, fault.problem, fault.remedy)
+
+
+def route_in_space(stops: Sequence[Stop], frame: LocalFrame, ground: GroundSpec) -> FlownRoute:
+    """The route of some stops, of which the first is where heights are above.
+
+    Where the first item takes off from there, the route begins on the ground; else it begins in the
+    air at the first place to go to. Where the last one lands, the route ends on the ground.
+
+    Args:
+        stops: The stops in order.
+        frame: Where the mission's 0, 0 is.
+        ground: The ground.
+    """
+    local = frame.to_local([s.latitude for s in stops], [s.longitude for s in stops]).tolist()
+    places = [(x + 0.0, y + 0.0) for x, y in local]
+    home = ground_height(ground, *places[0])
+    left = list(zip(stops, places, strict=True))
+    route: dict[str, Any] = {}
+    if len(left) > 1 and left[1][0].is_takeoff and math.dist(places[0], places[1]) < SAME_PLACE_M:
+        climb = left.pop(1)[0]
+        route["takeoff"] = {"to_agl_m": _above_ground(climb, home)}
+        start: dict[str, Any] = {"at": places[0]}
+        behind = left[1:]
+    else:
+        behind = left[1:] if _is_on_ground(left[0][0]) else left
+        start = {}
+    landing = behind.pop() if behind and behind[-1][0].is_landing else None
+    points = [_point(stop, at, home, frame, ground) for stop, at in behind]
+    told = [stop for stop, _ in behind]
+    if start:
+        told = [stops[0], *told]
+        points = [start, *points]
+    if landing is not None:
+        route["land"] = {"at": landing[1]}
+        told = [*told, landing[0]]
+    elif len(points) > 1:
+        route["goal"] = points.pop()
+    route |= {"start": points[0] if points else {"at": places[0]}, "via": points[1:]}
+    return FlownRoute(route, tuple(told))
+
+
+def _is_on_ground(stop: Stop) -> bool:
+    """Whether a stop is the home position, which nothing flies to."""
+    return stop.height == 0.0 and math.isnan(stop.altitude) and math.isnan(stop.over_terrain)
+
+
+def _above_ground(stop: Stop, home: float) -> float:
+    """How high above the ground at home a stop is there [m]."""
+    if math.isfinite(stop.over_terrain):
+        return stop.over_terrain
+    return stop.altitude - home if math.isfinite(stop.altitude) else stop.height
+
+
+def _point(
+    stop: Stop, at: tuple[float, float], home: float, frame: LocalFrame, ground: GroundSpec
+) -> dict[str, Any]:
+    """A stop as a point of a route."""
+    point: dict[str, Any] = {"at": [*at]}
+    if math.isfinite(stop.over_terrain):
+        point["agl_m"] = stop.over_terrain
+    else:
+        z = stop.altitude if math.isfinite(stop.altitude) else home + stop.height
+        point["at"] = [*at, z]
+    if stop.dwell:
+        point["dwell_s"] = stop.dwell
+    if stop.look_at is not None:
+        point["look_at"] = _looked_at(stop.look_at, home, frame, ground)
+    return point
+
+
+def _looked_at(item: Item, home: float, frame: LocalFrame, ground: GroundSpec) -> list[float]:
+    x, y = frame.to_local(item.latitude, item.longitude).tolist()
+    if math.isfinite(item.over_terrain):
+        return [x, y, ground_height(ground, x, y) + item.over_terrain]
+    return [x, y, item.altitude if item.frame in ABSOLUTE else home + item.altitude]
