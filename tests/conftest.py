@@ -13,7 +13,11 @@ from numpy.typing import NDArray
 
 import viaspline as vs
 from viaspline.maps.grid import Grid
+from viaspline.maps.terrain import Terrain
+from viaspline.maps.voxels import Voxels
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.shapes.rounded_ring import RoundedRing
+from viaspline.mission.shapes.solids import GridPrism, Prism, RoundedSegment, Solid
 
 # With the JIT off the kernels are a thousand times slower: fewer examples.
 settings.register_profile(
@@ -72,6 +76,153 @@ def shapely_distance() -> Oracle:
         return found
 
     return distance
+
+
+def _combined(a: Floats, b: Floats) -> Floats:
+    """Signed distance of a product from those of its parts."""
+    return np.where((a > 0) & (b > 0), np.hypot(a, b), np.maximum(a, b))
+
+
+def _boxes(places: Floats, low: Floats, high: Floats, core: tuple[float, float]) -> Floats:
+    """Signed distance of an upright cylinder at places (n, 3) from the nearest of boxes (k, 3)."""
+    found = np.full(len(places), np.inf)
+    for k in range(0, len(low), 50):
+        one, other = low[k : k + 50, None], high[k : k + 50, None]
+        gap = np.maximum(one - places, places - other)
+        plan = _combined(gap[..., 0], gap[..., 1]) - core[0]
+        found = np.minimum(found, _combined(plan, gap[..., 2] - core[1]).min(axis=0))
+    return found
+
+
+def _from_line(places: Floats, line: RoundedSegment, core: tuple[float, float]) -> Floats:
+    """Distance of an upright cylinder at places (n, 3) from a line, by thirds of a convex one."""
+    first, last = np.array(line.first), np.array(line.last)
+
+    def at(t: Floats) -> Floats:
+        apart = first + t[:, None] * (last - first) - places
+        level = np.maximum(np.hypot(apart[:, 0], apart[:, 1]) - core[0], 0.0)
+        return np.hypot(level, np.maximum(np.abs(apart[:, 2]) - core[1], 0.0))
+
+    low, high = np.zeros(len(places)), np.ones(len(places))
+    for _ in range(90):
+        one, other = low + (high - low) / 3, high - (high - low) / 3
+        left = at(one) <= at(other)
+        low, high = np.where(left, low, one), np.where(left, other, high)
+    return np.minimum(at(0.5 * (low + high)), np.minimum(at(low * 0), at(low * 0 + 1)))
+
+
+def _from_solid(places: Floats, solid: Solid, core: tuple[float, float]) -> Floats:
+    if isinstance(solid, RoundedSegment):
+        return _from_line(places, solid, core) - solid.radius
+    if isinstance(solid, Voxels):
+        low = np.argwhere(solid.blocked) * solid.cell + solid.origin
+        return _boxes(places, low, low + solid.cell, core)
+    points = shapely.points(places[:, :2])
+    if isinstance(solid, GridPrism):
+        plan = _signed(_squares(solid.grid), points)
+    else:
+        shape = solid.ring.core()
+        plan = _signed(shape, points) if shape.area else shapely.distance(shape, points)
+        plan = plan - solid.ring.radius
+    gap = np.maximum(solid.low - places[:, 2], places[:, 2] - solid.high)
+    return _combined(plan - core[0], gap - core[1])
+
+
+def _from_ground(places: Floats, ground: Any, core: tuple[float, float], free: bool) -> Floats:
+    if not isinstance(ground, Terrain):
+        return places[:, 2] - ground - core[1]
+    nodes, cell = ground.heights, ground.cell
+    top = np.max([nodes[:-1, :-1], nodes[:-1, 1:], nodes[1:, :-1], nodes[1:, 1:]], axis=0)
+    top = np.where(np.isnan(top), -np.inf if free else np.inf, top)
+    rows, columns = np.indices(top.shape).reshape(2, -1)
+    corner = np.array(ground.origin) + cell * np.column_stack((columns, rows))
+    low = np.column_stack((corner, np.full(len(corner), -np.inf)))
+    high = np.column_stack((corner + cell, top.ravel()))
+    found = _boxes(places, low[np.isfinite(high[:, 2]) | (high[:, 2] > 0)],
+                   high[np.isfinite(high[:, 2]) | (high[:, 2] > 0)], core)  # fmt: skip
+    if free:
+        return found
+    points = shapely.points(places[:, :2])
+    return np.minimum(found, -_signed(shapely.box(*ground.extent), points) - core[0])
+
+
+@pytest.fixture(scope="session")
+def space_oracle() -> Oracle:
+    """Signed distance of an upright cylinder at places (n, 3) from solids, ground and bounds."""
+
+    def distance(
+        places: Any,
+        solids: Sequence[Solid] = (),
+        ground: Any = None,
+        bounds: Any = None,
+        core: tuple[float, float] = (0.0, 0.0),
+        nodata: str = "blocked",
+    ) -> Floats:
+        at = np.asarray(places, float)
+        found = np.full(len(at), np.inf)
+        for solid in solids:
+            found = np.minimum(found, _from_solid(at, solid, core))
+        if ground is not None:
+            found = np.minimum(found, _from_ground(at, ground, core, nodata == "free"))
+        if bounds is not None:
+            points = shapely.points(at[:, :2])
+            found = np.minimum(found, -_signed(shapely.box(*bounds), points) - core[0])
+        return found
+
+    return distance
+
+
+def _random_solid(rng: np.random.Generator) -> Solid:
+    """A solid of any kind within 40 m, degenerate ones among them."""
+    x, y, z = rng.uniform(0, 40, 3)
+    low = float(rng.choice([-np.inf, 0.0, z]))
+    high = float(rng.choice([np.inf, z + 8.0, max(low, z)]))
+    kind = rng.integers(6)
+    if kind == 0:
+        return Prism(RoundedRing([[(x, y)]], rng.uniform(0, 5)), low, high)
+    if kind == 1:
+        other = (x, y) if rng.random() < 0.2 else tuple(rng.uniform(0, 40, 2).tolist())
+        return Prism(RoundedRing([[(x, y), other]], rng.uniform(0.1, 2)), low, high)
+    if kind == 2:
+        corners = int(rng.integers(3, 40))
+        angle = np.linspace(0, 2 * np.pi, corners, endpoint=False) + rng.uniform(0, 0.1, corners)
+        arm = rng.uniform(2, 9, corners)
+        loops = [[(x + r * np.cos(a), y + r * np.sin(a)) for a, r in zip(angle, arm, strict=True)]]
+        if corners > 5:
+            loops.append([(x + 0.5, y), (x - 0.3, y + 0.4), (x - 0.3, y - 0.4)])
+        return Prism(RoundedRing(loops, float(rng.choice([0.0, 0.3]))), low, high)
+    if kind == 3:
+        shape = tuple(rng.integers(1, 8, 3).tolist())
+        cubes = rng.random(shape) < rng.choice([0.05, 0.3])
+        cubes.flat[0] = True
+        return Voxels(cubes, float(rng.choice([0.5, 1.0, 3.0])), (x, y, z))
+    if kind == 4:
+        squares = rng.random(tuple(rng.integers(1, 9, 2).tolist())) < 0.3
+        squares.flat[0] = True
+        return GridPrism(Grid(squares, 1.5, (x, y, float(rng.choice([0.0, 0.7])))), low, high)
+    end = [(x, y, z), (x, y, z + 9), (x + 9, y, z), tuple(rng.uniform(0, 40, 3).tolist())]
+    return RoundedSegment((x, y, z), end[int(rng.integers(4))], float(rng.choice([0.0, 0.2, 3.0])))
+
+
+@pytest.fixture(scope="session")
+def random_space() -> Callable[[np.random.Generator, int], dict[str, Any]]:
+    """Makes what a spatial world of at most so many solids is made of, for the oracle as well."""
+
+    def make(rng: np.random.Generator, most: int) -> dict[str, Any]:
+        world: dict[str, Any] = {"solids": [_random_solid(rng) for _ in range(rng.integers(most))]}
+        world["core"] = [(0.0, 0.0), (0.8, 0.0), (0.5, 0.3), (0.0, 1.0)][rng.integers(4)]
+        if rng.random() < 0.6 or not world["solids"]:
+            world["bounds"] = (-15.0, -10.0, 55.0, 60.0)
+        if rng.random() < 0.3:
+            world["ground"] = float(rng.uniform(-9, 0))
+        elif rng.random() < 0.5:
+            nodes = rng.uniform(-9, 3, tuple(rng.integers(2, 22, 2).tolist()))
+            nodes[rng.random(nodes.shape) < rng.choice([0.0, 0.02])] = np.nan
+            world["ground"] = Terrain(nodes, float(rng.choice([2.0, 11.0])), (-9.0, -5.0))
+            world["nodata"] = str(rng.choice(["blocked", "free"]))
+        return world
+
+    return make
 
 
 GOOD: dict[str, Any] = {

@@ -47,6 +47,9 @@ MISSION_FILE: Final = FileKind(
 )
 MAP_FILE: Final = FileKind("map", 40_000_000, "leave out what the robot can't meet, or split it")
 SQUARES_FILE: Final = FileKind("map", 2_200_000_000, "cut it, or make its squares larger")
+TERRAIN_FILE: Final = FileKind("terrain", 600_000_000, "cut it, or take every second height")
+VOXEL_FILE: Final = FileKind("file of voxels", 600_000_000, "cut it, or make its cubes larger")
+OCTREE_FILE: Final = FileKind("OctoMap", 100_000_000, "cut it, or make its cubes larger")
 MOTION_FILE: Final = FileKind("file with rows id, t, x, y", 40_000_000, "take fewer rows")
 TRACK_FILE: Final = FileKind("file with rows x, y, right, left", 4_000_000, "take fewer rows")
 

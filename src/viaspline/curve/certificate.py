@@ -14,6 +14,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_answers, number_from
 from viaspline.kernels.clearance.disc import STILL, tightest
+from viaspline.kernels.clearance.world_protocol import dimension
 from viaspline.world.outline import outline
 
 PROOF_TOLERANCE_M = 1e-3  # between the proven bound and the true clearance [m]
@@ -100,8 +101,9 @@ def certify(
     negative: how deep its outline gets, to a quarter.
 
     Args:
-        curve: Any piecewise cubic; of a curve in space, its ground track counts.
-        world: The obstacles and bounds: a ``World``, or another kind with a packed form.
+        curve: Any piecewise cubic; of a curve in space, its ground track counts in a planar world.
+        world: The obstacles and bounds: a ``World``, a ``SpatialWorld``, or another kind with a
+            packed form.
         clearance: What is to be kept free between the body and everything [m].
         radius: The robot's body, a disc [m]; what a footprint is grown by.
         footprint: The robot's body, a polygon in its own frame, x forward and y left, (k, 2) [m];
@@ -111,8 +113,9 @@ def certify(
         A certificate, whether it holds or not: see ``Certificate.holds``.
 
     Raises:
-        GeometryError: When the curve is not in the plane or in space, clearance or radius is not
-            a finite number, or the footprint is no polygon about the reference point.
+        GeometryError: When the curve is not in the plane or in space, or the world is in space
+            and the curve isn't, clearance or radius is not a finite number, or the footprint is no
+            polygon about the reference point, or the world isn't in the plane.
 
     Example:
         >>> from viaspline.curve.cardinal import CardinalSpline
@@ -132,6 +135,11 @@ def certify(
     if curve.dimension not in (2, 3):
         raise GeometryError(
             f"a curve of dimension {curve.dimension} can't be certified; 2 or 3 can"
+        )
+    if curve.dimension < dimension(world.packed):
+        raise GeometryError(
+            f"a curve of dimension {curve.dimension} can't be certified in a world of dimension "
+            f"{dimension(world.packed)}; give it heights"
         )
     clearance, radius = number_from("clearance", clearance), number_from("radius", radius)
     required = clearance + radius
@@ -160,6 +168,8 @@ def _bounder(
     spans = np.array(curve.spans)  # numba compiles read-only arrays once more
     if footprint is None:
         return lambda tolerance: _Bounds(*tightest(world.packed, spans, STILL, tolerance))
+    if dimension(world.packed) != 2:
+        raise GeometryError("a footprint moves in the plane, not in space: give a radius instead")
     from viaspline.kernels.clearance.footprint_walk import body_tightest, end_direction
 
     body = outline(footprint)

@@ -141,6 +141,15 @@ def inner(function: _Function) -> _Function:
     return _compile(function, no_cpython_wrapper=True)
 
 
+def uncounted(function: _Function) -> _Function:
+    """Compile a function that kernels call, without counting references to the arrays it is given.
+
+    It must neither make nor return arrays. For what is called often with a large packed world: its
+    every array is counted at every call otherwise, which takes longer than a distance does.
+    """
+    return _compile(function, no_cpython_wrapper=True, _nrt=False)
+
+
 def inlined(function: _Function) -> _Function:
     """Compile a function right into the kernels that call it: for the inside of hot loops.
 

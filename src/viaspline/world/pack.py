@@ -19,7 +19,7 @@ from viaspline.kernels.world.grid_rows import row_tables
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.kernels.world.rings import pack_rings
 from viaspline.maps.grid import Grid
-from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
+from viaspline.mission.shapes.obstacle import KINDS, Obstacle
 from viaspline.mission.shapes.rounded_ring import RoundedRing
 from viaspline.world.tree_growth import grown, leaf_boxes, tree_over
 
@@ -46,13 +46,16 @@ def pack(
         elif obstacle.grid is not None:
             slot[i] = -1 - len(grids)
             grids.append(obstacle.grid)
+        elif obstacle.is_spatial:
+            raise GeometryError(f"obstacle {i} is a solid, and a World is flat: leave it out")
         else:
-            raise GeometryError(f"obstacle {i} has no shape: give it a {' or '.join(SHAPES)}")
-    edges, ring_blocks, block_edges = _edges([ring.loops for ring in rings])
+            shapes = " or ".join((*KINDS, "grid"))
+            raise GeometryError(f"obstacle {i} has no shape: give it a {shapes}")
+    edges, ring_blocks, block_edges = edges_of([ring.loops for ring in rings])
     ring_edges = block_edges[ring_blocks]
     radii = np.array([ring.radius for ring in rings], np.float64)
     heads = np.column_stack((edges[ring_edges[:-1], :2], radii, np.diff(ring_edges)))
-    fence_edges, fence_starts = _fences(fences)
+    fence_edges, fence_starts = fences_of(fences)
     boxes = np.empty((count, 4))
     if rings:
         grown = radii[:, None] * np.array([-1.0, -1.0, 1.0, 1.0])
@@ -77,7 +80,7 @@ def pack_discs(discs: Floats) -> PackedWorld:
     x, y, radii = discs.T
     edges = np.column_stack((x, y, x, y))
     boxes = edges + radii[:, None] * np.array([-1.0, -1.0, 1.0, 1.0])
-    fence_edges, fence_starts = _fences(())
+    fence_edges, fence_starts = fences_of(())
     return PackedWorld(
         numbers[:-1], np.column_stack((discs, np.ones(len(discs)))), numbers, numbers, numbers,
         edges.copy(), edges, *_grids(()), np.empty((0, 4)), fence_starts, fence_edges,
@@ -117,9 +120,9 @@ def _together(tables: Sequence[Columns]) -> Columns:
     return np.concatenate(tables) if tables else np.empty(0, np.int16)
 
 
-def _fences(areas: Sequence[Rings]) -> tuple[Floats, Ints]:
+def fences_of(areas: Sequence[Rings]) -> tuple[Floats, Ints]:
     """Edges of fences, clockwise and anticlockwise round holes, and where each fence starts."""
-    edges, ring_blocks, block_edges = _edges(areas)
+    edges, ring_blocks, block_edges = edges_of(areas)
     starts = block_edges[ring_blocks]
     for first, last in pairwise(starts.tolist()):
         edges[first:last] = edges[first:last][::-1, [2, 3, 0, 1]]
@@ -135,7 +138,8 @@ def _distinct(ring: Sequence[tuple[float, float]]) -> Sequence[tuple[float, floa
     ]
 
 
-def _edges(rings: Sequence[Rings]) -> tuple[Floats, Ints, Ints]:
+def edges_of(rings: Sequence[Rings]) -> tuple[Floats, Ints, Ints]:
+    """Edges of rings, each with its holes, and their blocks, as ``pack_rings`` gives them."""
     loops = [loop if len(loop) < 3 else _distinct(loop) for ring in rings for loop in ring]
     vertices = [vertex for loop in loops for vertex in loop]
     packed: tuple[Floats, Ints, Ints] = pack_rings(

@@ -62,7 +62,7 @@ class World:
         self.fences = _rings("fences", fences)
         self.corridor = _rings("corridor", corridor)
         if bounds is not None:
-            self.bounds = _checked(bounds)
+            self.bounds = checked_bounds(bounds)
         areas: list[Rings] = [(ring,) for ring in self.fences]
         if self.corridor:
             areas.append(self.corridor)
@@ -73,7 +73,14 @@ class World:
 
     @classmethod
     def known(cls, mission: Mission) -> World:
-        """What the mission has on its map and doesn't move."""
+        """What the mission has on its map and doesn't move.
+
+        Raises:
+            GeometryError: The mission is one in space.
+        """
+        if mission.is_spatial:
+            problem = "the mission has heights, and a World is flat"
+            raise GeometryError(f"{problem}; hand the mission as a whole to plan(mission)")
         spec = mission.world
         corridor = corridor_rings(mission.route)
         world = cls(spec.standing, bounds=spec.bounds, fences=spec.fences, corridor=corridor)
@@ -304,7 +311,12 @@ class World:
         return tuple(tuple(group) for group in members.values())
 
 
-def _checked(bounds: Sequence[float]) -> Bounds:
+def checked_bounds(bounds: Sequence[float]) -> Bounds:
+    """Bounds as they were handed in.
+
+    Raises:
+        GeometryError: They are none.
+    """
     numbers = numbers_from("bounds", bounds)
     if numbers.shape != (4,):
         raise GeometryError(

@@ -23,6 +23,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.clearance.world_protocol import chord_distance, dimension, distance_at, pace
+from viaspline.kernels.curve.halving import halve_piece, load_span
 from viaspline.kernels.jit import inlined, kernel
 
 STILL: Floats = np.empty(0)
@@ -30,44 +31,6 @@ STILL: Floats = np.empty(0)
 
 MAX_DEPTH = 64  # halvings of a span
 MAX_PIECES = 2_000_000  # that a bound may take
-
-
-@inlined
-def _halve(stack: Floats, top: int, d: int) -> None:
-    """Replace the piece at ``top`` of the stack by its right half, its left half above it."""
-    for axis in range(d):
-        p0 = stack[top, axis]
-        p1 = stack[top, d + axis]
-        p2 = stack[top, 2 * d + axis]
-        p3 = stack[top, 3 * d + axis]
-        q0 = 0.5 * (p0 + p1)
-        q1 = 0.5 * (p1 + p2)
-        q2 = 0.5 * (p2 + p3)
-        r0 = 0.5 * (q0 + q1)
-        r1 = 0.5 * (q1 + q2)
-        middle = 0.5 * (r0 + r1)
-        stack[top + 1, axis] = p0
-        stack[top + 1, d + axis] = q0
-        stack[top + 1, 2 * d + axis] = r0
-        stack[top + 1, 3 * d + axis] = middle
-        stack[top, axis] = middle
-        stack[top, d + axis] = r1
-        stack[top, 2 * d + axis] = q2
-        stack[top, 3 * d + axis] = p3
-    middle = 0.5 * (stack[top, 4 * d] + stack[top, 4 * d + 1])
-    stack[top + 1, 4 * d] = stack[top, 4 * d]
-    stack[top + 1, 4 * d + 1] = middle
-    stack[top, 4 * d] = middle
-
-
-@inlined
-def _load(stack: Floats, spans: Floats, span: int, d: int) -> None:
-    """Begin with a whole span: its control points, and the parameters of its ends."""
-    for k in range(4):
-        for axis in range(d):
-            stack[0, k * d + axis] = spans[span, k, axis]
-    stack[0, 4 * d] = 0.0
-    stack[0, 4 * d + 1] = 1.0
 
 
 @inlined
@@ -154,7 +117,7 @@ def tightest(
     for span in range(spans.shape[0]):
         begin = instants[span] if timed else 0.0
         lasts = instants[span + 1] - begin if timed else 0.0
-        _load(stack, spans, span, d)
+        load_span(stack, spans, span, d)
         top = 0
         while top >= 0:
             pieces += 1
@@ -184,7 +147,7 @@ def tightest(
                 lower = min(lower, bound)
                 top -= 1
             else:
-                _halve(stack, top, d)
+                halve_piece(stack, top, d)
                 top += 1
     return min(lower, upper), upper, span_at, w_at, index_at
 
@@ -209,7 +172,7 @@ def conflicts(world: Any, spans: Floats, required: float) -> tuple[Ints, Floats]
     stack = np.empty((MAX_DEPTH, 4 * d + 2))
     middle = np.empty(d)
     for span in range(count):
-        _load(stack, spans, span, d)
+        load_span(stack, spans, span, d)
         top = 0
         while top >= 0:
             piece = stack[top]
@@ -231,6 +194,6 @@ def conflicts(world: Any, spans: Floats, required: float) -> tuple[Ints, Floats]
                 found[span] = index
                 where[span] = 0.5 * (piece[4 * d] + piece[4 * d + 1])
                 break
-            _halve(stack, top, d)
+            halve_piece(stack, top, d)
             top += 1
     return found, where

@@ -29,8 +29,8 @@ from viaspline.kernels.world.segment import nearest_to_segment
 _Answer = TypeVar("_Answer", bound=Callable[..., Any])
 
 
-def _question(function: Callable[..., Any]) -> Any:
-    """A function that is another one for each packed type of its first argument.
+def asked_of(function: Callable[..., Any]) -> Any:
+    """A question: a function that is another one for each packed type of its first argument.
 
     In Python it is chosen when it is called, in kernels when they are compiled: there the answer
     goes right into its caller, for a world is a hundred words long and handing it on costs a
@@ -60,19 +60,19 @@ def _no_world(world: Any) -> TypeError:
     return TypeError(f"{type(world).__name__} is no world for a certificate; see world_protocol")
 
 
-@_question
+@asked_of
 def dimension(world: Any) -> int:
     """How many coordinates a place has."""
     raise _no_world(world)
 
 
-@_question
+@asked_of
 def pace(world: Any) -> float:
     """By how much the distance at a place may change in time, at most [m/s]; 0 if nothing moves."""
     raise _no_world(world)
 
 
-@_question
+@asked_of
 def distance_at(world: Any, place: Floats, instant: float, limit: float) -> tuple[float, int]:
     """Signed distance of a place (d,) from the world at an instant [s], and what is nearest.
 
@@ -82,7 +82,7 @@ def distance_at(world: Any, place: Floats, instant: float, limit: float) -> tupl
     raise _no_world(world)
 
 
-@_question
+@asked_of
 def chord_distance(
     world: Any, first: Floats, last: Floats, instant: float, limit: float
 ) -> tuple[float, int]:

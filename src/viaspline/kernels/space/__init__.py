@@ -1,0 +1,1 @@
+"""The world in space: solids, voxels and ground as kernels see them."""

@@ -1,0 +1,1 @@
+"""The world in space: packed solids, ground and limits of height."""
