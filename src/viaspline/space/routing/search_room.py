@@ -1,0 +1,152 @@
+"""The space in which a route is searched, and the lattices in it.
+
+Tested through ``space/routing/test_space_router``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.space.packed_space import PackedSpace
+from viaspline.kernels.space.routing import shape_moves as shape_moves  # a search asks them
+from viaspline.kernels.space.routing import voxel_moves as voxel_moves
+from viaspline.kernels.space.routing.lattice_nodes import MOST_ASIDE
+from viaspline.kernels.space.routing.route_protocol import PlaceLattice
+from viaspline.kernels.space.routing.voxel_block import VoxelBlock, voxel_block
+from viaspline.maps.voxels import Voxels
+from viaspline.world.space.spatial_world import SpatialWorld
+
+_STEPS_ACROSS, _LAYERS, _MOST_ACROSS = 50, 4, 500
+_MARGIN_STEPS = 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class SearchRoom:
+    """What a search sees of a world, whichever kind it is.
+
+    Attributes:
+        packed: What kernels ask.
+        body: Radius of the robot about a place that the distances already hold [m].
+        limits: Within which places may be, x, y, z from and to [m], (6,); infinite where nothing
+            limits them.
+        solids: A box about all solids, likewise; from inf to -inf where there are none.
+        anchor: A place of the lattice that suits the world, and its step [m], (4,); a step of 0
+            lets the search choose.
+    """
+
+    packed: PackedSpace | VoxelBlock
+    body: float
+    limits: Floats
+    solids: Floats
+    anchor: Floats
+
+    @classmethod
+    def of_world(cls, world: SpatialWorld) -> SearchRoom:
+        """Of solids, voxels and ground."""
+        packed = world.packed
+        limits = np.array([-np.inf] * 3 + [np.inf] * 3)
+        if packed.bounds.size:
+            limits[[0, 1, 3, 4]] = packed.bounds[0]
+        limits[[2, 5]] = packed.height_limits[:2]
+        solids = np.array([np.inf] * 3 + [-np.inf] * 3)
+        if packed.boxes.size:
+            solids[:3] = packed.boxes[:, :3].min(axis=0)
+            solids[3:] = packed.boxes[:, 3:].max(axis=0)
+        if world.ground is not None:
+            floor = packed.ground_frame[3] if np.isfinite(packed.ground_frame[3]) else None
+            floor = _lowest(packed) if floor is None else floor
+            limits[2] = max(limits[2], floor)
+            heights = packed.heights[np.isfinite(packed.heights)]
+            solids[5] = max(solids[5], float(heights.max()) if heights.size else floor)
+        return cls(packed, float(packed.core[0]), limits, solids, _voxel_anchor(packed))
+
+    @classmethod
+    def of_voxels(cls, voxels: Voxels, radius: float) -> SearchRoom:
+        """Of voxels alone, for a ball that stays inside of their box: the fast way.
+
+        Args:
+            voxels: Cubes.
+            radius: What a place keeps from the sides of the box [m].
+        """
+        extent = np.array(voxels.extent)
+        limits = np.concatenate([extent[:3] + radius, extent[3:] - radius])
+        block = voxel_block(voxels.blocked, voxels.cell, voxels.origin, limits)
+        middle = extent[:3] + 0.5 * voxels.cell
+        return cls(block, 0.0, limits, extent, np.array([*middle, voxels.cell]))
+
+    def lattice(
+        self, start: Floats, goal: Floats, margin: float, halvings: int = 0
+    ) -> PlaceLattice:
+        """A lattice that a way between two places lies in.
+
+        Args:
+            start: [m], (3,).
+            goal: [m], (3,).
+            margin: Beyond the solids, where nothing limits the places [m].
+            halvings: How often its step is halved.
+        """
+        low, high = self._box(start, goal, margin)
+        step = float(self.anchor[3])
+        if step == 0.0:
+            step = _step_for(high - low)
+        step /= 2.0**halvings
+        low, high = self._box(start, goal, margin + _MARGIN_STEPS * step)
+        first = low.copy()
+        if self.anchor[3] > 0.0:
+            first = self.anchor[:3] + step * np.ceil((low - self.anchor[:3]) / step - 1e-9)
+        else:
+            spare = high - low - step * np.floor((high - low) / step)
+            first = low + 0.5 * spare
+        counts = np.maximum(np.floor((high - first) / step + 1e-9).astype(np.int64) + 1, 1)
+        return PlaceLattice(np.array([*first, step]), np.minimum(counts, MOST_ASIDE))
+
+    def cells(self, start: Floats, goal: Floats, margin: float, halvings: int) -> PlaceLattice:
+        """Cells that cover all the space in which a way between two places may lie."""
+        lattice = self.lattice(start, goal, margin, halvings)
+        step = lattice.frame[3]
+        low, high = self._box(start, goal, margin + _MARGIN_STEPS * step)
+        before = np.maximum(np.ceil((lattice.frame[:3] - low) / step - 0.5 + 1e-6), 0.0)
+        first = lattice.frame[:3] - step * before
+        counts = np.ceil((high - first) / step - 0.5 + 1e-6).astype(np.int64) + 1
+        return PlaceLattice(np.array([*first, step]), np.clip(counts, 1, MOST_ASIDE))
+
+    def _box(self, start: Floats, goal: Floats, margin: float) -> tuple[Floats, Floats]:
+        """The limits; without them, the solids and the two places, and a margin."""
+        ends = np.array([start, goal])
+        low, high = ends.min(axis=0), ends.max(axis=0)
+        solid_low, solid_high = self.solids[:3], self.solids[3:]
+        low = np.where(np.isfinite(solid_low), np.minimum(low, solid_low), low) - margin
+        high = np.where(np.isfinite(solid_high), np.maximum(high, solid_high), high) + margin
+        low = np.where(np.isfinite(self.limits[:3]), self.limits[:3], low)
+        high = np.where(np.isfinite(self.limits[3:]), self.limits[3:], high)
+        return low, np.maximum(low, high)
+
+
+def _lowest(packed: PackedSpace) -> float:
+    heights = packed.heights[np.isfinite(packed.heights)]
+    return float(heights.min()) if heights.size else 0.0
+
+
+def _step_for(size: Floats) -> float:
+    """A fiftieth of the world, or less where it is flat."""
+    across = float(size[:2].max())
+    layer = max(float(size[2]) / _LAYERS, across / _MOST_ACROSS)
+    step = min(across / _STEPS_ACROSS, layer)
+    return step if step > 0.0 else max(float(size.max()) / _STEPS_ACROSS, 1.0)
+
+
+def _voxel_anchor(packed: PackedSpace) -> Floats:
+    """The middle of a cube of the finest voxels, and its side; zeros where there are none."""
+    frames = packed.voxel_frames
+    spatial = frames[np.isnan(frames[:, 6])]  # squares over heights have no cubes
+    if not len(spatial):
+        return np.zeros(4)
+    x, y, z, c, s, side = spatial[int(np.argmin(spatial[:, 5])), :6].tolist()
+    half = 0.5 * side
+    if abs(s) < 1e-9 or abs(c) < 1e-9:
+        return np.array([x + half * (c - s), y + half * (s + c), z + half, side])
+    return np.array([x, y, z + half, side / math.sqrt(2.0)])

@@ -1,0 +1,286 @@
+"""The cheapest route between two places in space: searched in several ways, the best kept.
+
+The sight line; else a way from contact to contact among the solids that stand in the way, and one
+through a lattice, there and back. Each is pulled taut, and the cheapest is taken. Where none is
+found, the lattice is halved, and cells of it that could be free are flooded: if they don't connect
+the two places there is no route, and that is proven. Else the search gives up at its resolution.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viaspline.errors import GeometryError
+from viaspline.handed_in import number_from, numbers_from
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.space.packed_space import PackedSpace
+from viaspline.kernels.space.routing.contact_graph import contact_way
+from viaspline.kernels.space.routing.could_be_free import APART, are_apart
+from viaspline.kernels.space.routing.lazy_theta import lattice_way
+from viaspline.kernels.space.routing.pull_taut import taut_way
+from viaspline.kernels.space.routing.route_protocol import PlaceLattice
+from viaspline.kernels.space.routing.way_checks import way_cost, way_is_free
+from viaspline.kernels.space.space_distance import space_distances
+from viaspline.planning.problem.method import Found
+from viaspline.space.routing.pass_gates import NO_GATES
+from viaspline.space.routing.search_room import SearchRoom
+from viaspline.space.routing.taut_route import (
+    LENGTH,
+    Norm,
+    SpaceGaveUp,
+    SpaceOutcome,
+    SpaceRefusal,
+    TautRoute,
+)
+
+_HAIR = 1e-3  # of the body's size: what is kept beyond the clearance, so that rounding takes none
+_REACH = 0.05  # of the body's size: what is no further beyond that counts as touched
+_LEAST_SIZE_M = 1e-3
+_CHEAPER = 10  # places among voxels alone for one among solids
+_WORTH = 1.01  # times the best so far: what a way may cost before it is pulled taut
+
+
+@dataclass(frozen=True, eq=False)
+class RouteQuery:
+    """What is asked of a search.
+
+    Attributes:
+        ends: Start and goal [m], (2, 3).
+        radius: To be kept from everything [m].
+        norm: See ``kernels.space.routing.travel_norm``, (3,).
+        gates: See ``pass_gates``, (g, 8).
+        margin: How far beyond all solids a route may go [m].
+    """
+
+    ends: Floats
+    radius: float
+    norm: Floats
+    gates: Floats
+    margin: float
+
+
+@dataclass(frozen=True)
+class SpaceRouter:
+    """Finds routes in a room.
+
+    Attributes:
+        room: Where.
+        weight: Of the estimate in lattice searches, from 1 on: greater is faster, and longer.
+        least_cut: A corner is cut off where that gains as much, as a share of the whole cost.
+        most_places: Contacts that are looked at.
+        most_lines: Lines between contacts that are looked at.
+        most_nodes: Places of each lattice that are looked at; ten times as many among voxels.
+        most_cells: Cells that are looked at for a proof.
+        halvings: How often a lattice is halved.
+    """
+
+    room: SearchRoom
+    weight: float = 1.1
+    least_cut: float = 2e-4
+    most_places: int = 1024
+    most_lines: int = 1000
+    most_nodes: int = 100_000
+    most_cells: int = 400_000
+    halvings: int = 2
+
+    def find(
+        self,
+        start: ArrayLike,
+        goal: ArrayLike,
+        required: float,
+        norm: Norm = LENGTH,
+        gates: Floats = NO_GATES,
+    ) -> SpaceOutcome:
+        """The cheapest route that is found.
+
+        Args:
+            start: [m], (3,).
+            goal: [m], (3,).
+            required: Distance to be kept from everything [m]: the clearance, and a ball's radius.
+            norm: Speeds, for a route that takes little time; ``LENGTH`` for a short one.
+            gates: Sides on which solids may be passed; see ``pass_gates``, (g, 8).
+
+        Returns:
+            The route with its cost; a proof that there is none; or that neither was found.
+
+        Raises:
+            GeometryError: For something else than that.
+        """
+        ends = _checked_ends(start, goal)
+        radius = _checked_required(required)
+        speeds = _checked_norm(norm)
+        for side in range(2):
+            if refusal := self._refused_end(ends, side, radius):
+                return refusal
+        if way_is_free(self.room.packed, gates, ends, radius):
+            route = TautRoute(ends, float(way_cost(speeds, ends)), radius)
+            return Found(route, route.cost)
+        query = RouteQuery(ends, radius, speeds, gates, 2.0 * (radius + self.room.body))
+        resolution = 0.0
+        for halvings in range(self.halvings + 1):
+            lattice = self.room.lattice(ends[0], ends[1], query.margin, halvings)
+            best = self._by_lattice(query, lattice)
+            if halvings == 0:
+                best = self._better(query, self._by_contacts(query, best), best)
+            if best is not None:
+                return Found(best, best.cost)
+            if refusal := self._refused(query, halvings):
+                return refusal
+            resolution = float(lattice.frame[3])
+        return self._gave_up(resolution)
+
+    def pulled(
+        self, way: Floats, required: float, norm: Norm = LENGTH, gates: Floats = NO_GATES
+    ) -> TautRoute:
+        """A free way pulled taut.
+
+        Args:
+            way: Its vertices [m], (n, 3).
+            required: Distance that it keeps from everything [m].
+            norm: See ``find``.
+            gates: See ``find``.
+
+        Raises:
+            GeometryError: The way isn't free.
+        """
+        points = np.array(numbers_from("way", way))
+        radius = _checked_required(required)
+        if not way_is_free(self.room.packed, gates, points, radius):
+            raise GeometryError("the way isn't free at that distance; give one that is")
+        return self._pulled(points, radius, _checked_norm(norm), gates)
+
+    def _by_lattice(self, query: RouteQuery, lattice: PlaceLattice) -> TautRoute | None:
+        """The better of two routes through the lattice, searched there and back.
+
+        Among voxels alone the way back isn't worth its time. What isn't found there, isn't back.
+        """
+        there = self._there(query, lattice)
+        best = self._better(query, there, None)
+        if best is None or not isinstance(self.room.packed, PackedSpace):
+            return best
+        return self._better(query, self._back(query, lattice), best)
+
+    def _there(self, query: RouteQuery, lattice: PlaceLattice) -> Floats:
+        """A way through the lattice, searched from the start."""
+        way: Floats = lattice_way(
+            self.room.packed, query.gates, query.norm, lattice, query.ends[0], query.ends[1],
+            query.radius, self.weight, self._most_nodes,
+        )[0]  # fmt: skip
+        return way
+
+    def _back(self, query: RouteQuery, lattice: PlaceLattice) -> Floats:
+        """One that is searched from the goal, where climbing is sinking."""
+        way: Floats = lattice_way(
+            self.room.packed, query.gates, query.norm[[0, 2, 1]], lattice, query.ends[1],
+            query.ends[0], query.radius, self.weight, self._most_nodes,
+        )[0]  # fmt: skip
+        return way[::-1].copy()
+
+    @property
+    def _most_nodes(self) -> int:
+        solid = isinstance(self.room.packed, PackedSpace)
+        return self.most_nodes if solid else _CHEAPER * self.most_nodes
+
+    def _by_contacts(self, query: RouteQuery, best: TautRoute | None) -> Floats:
+        """One from contact to contact, if it may be cheaper than the best."""
+        packed = self.room.packed
+        if not isinstance(packed, PackedSpace):
+            return np.empty((0, 3))
+        bound = math.inf if best is None else _WORTH * best.cost
+        way: Floats = contact_way(
+            packed, query.gates, query.norm, query.ends[0], query.ends[1], query.radius,
+            bound, self.most_places, self.most_lines,
+        )[0]  # fmt: skip
+        return way
+
+    def _better(self, query: RouteQuery, way: Floats, best: TautRoute | None) -> TautRoute | None:
+        """A way pulled taut, if it is there and cheaper than the best; else the best."""
+        if not len(way):
+            return best
+        route = self._pulled(way, query.radius, query.norm, query.gates)
+        return route if best is None or route.cost < best.cost else best
+
+    def _pulled(self, way: Floats, radius: float, norm: Floats, gates: Floats) -> TautRoute:
+        packed = self.room.packed
+        size = max(radius + self.room.body, _LEAST_SIZE_M)
+        kept = radius
+        for hair in (_HAIR * size, 0.1 * _HAIR * size, 0.01 * _HAIR * size):
+            if way_is_free(packed, gates, way, radius + hair):
+                kept = radius + hair
+                break
+        least = self.least_cut * float(way_cost(norm, way))
+        points = taut_way(packed, gates, norm, way, kept, _REACH * size, least)
+        return TautRoute(points, float(way_cost(norm, points)), kept)
+
+    def _refused_end(self, ends: Floats, side: int, radius: float) -> SpaceRefusal | None:
+        """That the start (0) or the goal (1) isn't free."""
+        place = ends[side]
+        if way_is_free(self.room.packed, NO_GATES, place[None].repeat(2, axis=0), radius):
+            return None
+        name = ("start", "goal")[side]
+        where = (float(place[0]), float(place[1]), float(place[2]))
+        if not isinstance(self.room.packed, PackedSpace):
+            return SpaceRefusal(f"the {name} is nearer than {radius:g} m to a cube", None, where)
+        distance, index = space_distances(self.room.packed, place[None])
+        if distance[0] >= radius and distance[0] > 0.0:
+            return SpaceRefusal(f"the {name} is outside of the heights allowed", None, where)
+        return SpaceRefusal(
+            f"the {name} keeps {distance[0]:.3g} m, and {radius:g} m are required",
+            None,
+            where,
+            int(index[0]),
+        )
+
+    def _refused(self, query: RouteQuery, halvings: int) -> SpaceRefusal | None:
+        """That cells that could be free don't connect the two places."""
+        ends, radius = query.ends, query.radius
+        cells = self.room.cells(ends[0], ends[1], query.margin, halvings)
+        found, side = are_apart(self.room.packed, cells, ends[0], ends[1], radius, self.most_cells)
+        if found != APART:
+            return None
+        place = ends[side]
+        return SpaceRefusal(
+            f"the {('start', 'goal')[side]} is shut in: no gap leads out of there that is "
+            f"{2.0 * (radius + self.room.body):g} m wide",
+            None,
+            (float(place[0]), float(place[1]), float(place[2])),
+        )
+
+    def _gave_up(self, resolution: float) -> SpaceGaveUp:
+        return SpaceGaveUp(
+            tried=(
+                "contacts",
+                f"lattices down to {resolution:.3g} m, with {self._most_nodes} places each",
+            ),
+            would_help="a finer lattice, a smaller clearance",
+            reason=f"no route was found at a resolution of {resolution:.3g} m",
+            resolution=resolution,
+        )
+
+
+def _checked_ends(start: ArrayLike, goal: ArrayLike) -> Floats:
+    rows = [numbers_from("start", start), numbers_from("goal", goal)]
+    for name, row in zip(("start", "goal"), rows, strict=True):
+        if row.shape != (3,) or not np.isfinite(row).all():
+            raise GeometryError(f"the {name} is {row}; give x, y, z [m]")
+    return np.array(rows)
+
+
+def _checked_required(required: float) -> float:
+    number = number_from("required", required)
+    if not 0.0 <= number < math.inf:
+        raise GeometryError(f"required is {required}; give 0 m or more")
+    return number
+
+
+def _checked_norm(norm: Norm) -> Floats:
+    speeds = numbers_from("norm", norm)
+    if speeds.shape != (3,) or not (
+        (np.isfinite(speeds).all() and (speeds > 0.0).all()) or (speeds == 0.0).all()
+    ):
+        raise GeometryError(f"norm is {norm}; give three speeds above 0 m/s, or LENGTH")
+    return np.array(speeds)
