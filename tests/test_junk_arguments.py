@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ MISSION = vs.Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}}
 LIMITS = vs.Limits(max_speed=1, max_accel=1)
 CURVE = vs.CardinalSpline([[0, 0], [1, 0], [2, 1]])
 WORLD = vs.World()
+PLAN = Path(__file__).parent / "formats" / "data" / "yard.plan"
 CELLS = np.zeros((2, 2), np.bool_)
 LAW = vs.retime(CURVE, LIMITS)
 CART = vs.Obstacle(
@@ -46,6 +48,7 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "advise_tension": vs.advise_tension,
     "Mission": vs.Mission.model_validate,
     "load": vs.load,
+    "load ground": lambda junk: vs.load(PLAN, ground=junk),
     "load_map": vs.load_map,
     "CardinalSpline": vs.CardinalSpline,
     "CardinalSpline tension": lambda junk: vs.CardinalSpline([[0, 0], [1, 0]], tension=junk),
@@ -92,6 +95,22 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "Obstacle circle": lambda junk: vs.Obstacle(circle=junk),
     "Obstacle radius": lambda junk: vs.Obstacle(circle={"center": (0, 0), "radius": junk}),
     "Obstacle polygon": lambda junk: vs.Obstacle(polygon=junk),
+    "Obstacle ball": lambda junk: vs.Obstacle(ball=junk),
+    "Obstacle box": lambda junk: vs.Obstacle(box={"min": (0, 0, 0), "max": junk}),
+    "Obstacle voxels": lambda junk: vs.Obstacle(voxels=junk),
+    "Obstacle height_m": lambda junk: vs.Obstacle(polygon=SQUARE, height_m=junk),
+    "Voxels": lambda junk: vs.Voxels(junk, 1.0),
+    "Voxels cell": lambda junk: vs.Voxels(CELLS[None], junk),
+    "Voxels origin": lambda junk: vs.Voxels(CELLS[None], 1.0, junk),
+    "fly": vs.fly,
+    "SpatialWorld": vs.SpatialWorld.of,
+    "SpatialWorld names": lambda junk: vs.SpatialWorld.of([], junk),
+    "SpatialWorld ground": lambda junk: vs.SpatialWorld.of(ground=junk),
+    "SpatialWorld distance": lambda junk: vs.SpatialWorld.of(ground=0.0).distance(junk),
+    "Terrain": lambda junk: vs.Terrain(junk, 1.0),
+    "Terrain cell": lambda junk: vs.Terrain(np.zeros((2, 2)), junk),
+    "Terrain origin": lambda junk: vs.Terrain(np.zeros((2, 2)), 1.0, junk),
+    "Terrain height_at": lambda junk: vs.Terrain(np.zeros((2, 2)), 1.0).height_at(junk),
     "Obstacle name": lambda junk: vs.Obstacle(circle={"center": (0, 0), "radius": 1}, name=junk),
     "Obstacle grid": lambda junk: vs.Obstacle(grid=junk),
     "SpeedZone": vs.SpeedZone.model_validate,
@@ -153,7 +172,7 @@ VERBS: dict[str, Callable[[Any], Any]] = {
 }
 RESULTS = {
     "Certificate", "Command", "FleetCommand", "FleetPlan", "FleetRun", "MovingCertificate", "Plan",
-    "Run", "TensionAdvice",
+    "Run", "SpatialPlan", "SpatialRun", "TensionAdvice",
 }  # fmt: skip
 
 

@@ -45,24 +45,31 @@ if TYPE_CHECKING:
     from viaspline.fleet.plan_fleet import plan_fleet
     from viaspline.formats.load import load
     from viaspline.maps.grid import Grid
+    from viaspline.maps.terrain import Terrain
+    from viaspline.maps.voxels import Voxels
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.load_map import load_map
     from viaspline.mission.model import Mission
     from viaspline.mission.shapes.obstacle import Obstacle
     from viaspline.mission.world_spec import SpeedZone
-    from viaspline.planner import Plan, plan
+    from viaspline.plan_mission import plan
+    from viaspline.planner import Plan
     from viaspline.robot.navigator import Navigator
     from viaspline.robot.perception.lidar import Scan
     from viaspline.robot.perception.moving.motion_sensor import MovingSighting
     from viaspline.robot.run import Run
     from viaspline.robot.simulator import simulate
     from viaspline.robot.state import Command, RobotState
+    from viaspline.space.online.fly import fly
+    from viaspline.space.spatial_plan import SpatialPlan
+    from viaspline.space.spatial_run import SpatialRun
     from viaspline.trajectory.lap import retime_lap
     from viaspline.trajectory.limits import Limits, Station
     from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
     from viaspline.trajectory.retime import retime
     from viaspline.trajectory.trajectory import Trajectory
     from viaspline.world.moving_obstacles import MovingObstacles
+    from viaspline.world.space.spatial_world import SpatialWorld
     from viaspline.world.world import World
 
 _HOMES = {
@@ -98,18 +105,24 @@ _HOMES = {
     "RobotState": "robot.state",
     "Run": "robot.run",
     "Scan": "robot.perception.lidar",
+    "SpatialPlan": "space.spatial_plan",
+    "SpatialRun": "space.spatial_run",
+    "SpatialWorld": "world.space.spatial_world",
     "SpeedZone": "mission.world_spec",
     "Station": "trajectory.limits",
     "TensionAdvice": "advice",
+    "Terrain": "maps.terrain",
     "Trajectory": "trajectory.trajectory",
     "ViasplineError": "errors",
+    "Voxels": "maps.voxels",
     "World": "world.world",
     "advise_tension": "advice",
     "certify": "curve.certificate",
     "certify_moving": "trajectory.moving_certificate",
+    "fly": "space.online.fly",
     "load": "formats.load",
     "load_map": "mission.load_map",
-    "plan": "planner",
+    "plan": "plan_mission",
     "plan_fleet": "fleet.plan_fleet",
     "retime": "trajectory.retime",
     "retime_lap": "trajectory.lap",

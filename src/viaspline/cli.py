@@ -83,6 +83,11 @@ def run(
 
     if isinstance(asked, Mission):
         check_of_fleets(improve)
+        if asked.is_spatial:
+            from viaspline.space_steps import run_spatial_mission
+
+            run_spatial_mission(asked, mission, out, animate=animate, quiet=quiet)
+            return
         from viaspline.mission_steps import run_mission
 
         run_mission(
@@ -116,6 +121,11 @@ def plan(mission: Path, out: Path | None, improve: float, quiet: bool) -> None:
 
     if isinstance(asked, Mission):
         check_of_fleets(improve)
+        if asked.is_spatial:
+            from viaspline.space_steps import plan_spatial_mission
+
+            plan_spatial_mission(asked, mission, out, quiet=quiet)
+            return
         from viaspline.mission_steps import plan_mission
 
         plan_mission(asked, mission, out, quiet=quiet)

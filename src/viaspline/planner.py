@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from viaspline.advice import advise_tension
+from viaspline.errors import GeometryError
 from viaspline.handed_in import check_kind
 from viaspline.mission.model import Mission
 from viaspline.whole_plan import Plan, in_order, whole_plan
@@ -36,6 +37,9 @@ def plan(mission: Mission) -> Plan:
         (True, 50.9, 'right')
     """
     check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
+    if mission.is_spatial:
+        problem = "the mission is one in space, and is planned by `viaspline plan`"
+        raise GeometryError(f"{problem}; in Python hand it to viaspline.plan(mission)")
     return plan_in(*in_order(mission))
 
 

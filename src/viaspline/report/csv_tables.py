@@ -42,7 +42,7 @@ def path_csv(plan: Plan) -> str:
         ("speed_mps", np.asarray(plan.trajectory.speed_at(distance)), 6),
         ("time_s", np.asarray(plan.trajectory.time_at(distance)), 6),
     ]
-    return _csv(columns)
+    return csv_text(columns)
 
 
 def run_csv(run: Run) -> str:
@@ -60,14 +60,14 @@ def run_csv(run: Run) -> str:
             ("cross_track_m", np.interp(run.times, track.times, track.cross_track), 6),
             ("along_track_m", np.interp(run.times, track.times, track.along_track), 6),
         ]
-    return _csv(columns)
+    return csv_text(columns)
 
 
 def _places(points: NDArray[np.float64]) -> list[CsvColumn]:
     return [(f"{axis}_m", points[:, i], 6) for i, axis in enumerate("xyz"[: points.shape[1]])]
 
 
-def _csv(columns: list[CsvColumn]) -> str:
+def csv_text(columns: list[CsvColumn]) -> str:
     """Comma-separated text; a cell that is not finite is empty."""
     cells = []
     for _, values, decimals in columns:

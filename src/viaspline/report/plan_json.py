@@ -35,7 +35,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
             "drivability": drivability_data(plan.drivability),
             **({"tracking_error_m": plan.tracking_error} if plan.tracking_error else {}),
             **({"note": FOLLOWED_EXACTLY} if keeps_nothing(plan.mission.robot) else {}),
-            "ledger": [_entry(entry) for entry in plan.ledger],
+            "ledger": [ledger_entry_data(entry) for entry in plan.ledger],
             **_preferred(plan.preferred_clearance),
             **timing_choices(plan),
             "trajectory": {
@@ -128,7 +128,8 @@ def _preferred(weighed: PreferredClearance | None) -> dict[str, Any]:
     }
 
 
-def _entry(entry: LedgerEntry) -> dict[str, Any]:
+def ledger_entry_data(entry: LedgerEntry) -> dict[str, Any]:
+    """A group that was met, and the ways past it."""
     return {
         "members": entry.members,
         "leg": entry.leg,

@@ -15,6 +15,7 @@ from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.sensor_spec import Sensor
 from viaspline.mission.shapes.obstacle import SHAPES, Obstacle
 from viaspline.mission.world_spec import WorldSpec
+from viaspline.report.flight_words import flight_words, height_words
 from viaspline.report.units import metres
 
 MAX_MAPS_NAMED = 4  # in the words about a world, before the rest is only counted
@@ -76,6 +77,8 @@ def summary(mission: Mission) -> list[tuple[str, str]]:
 
 def _route(mission: Mission) -> str:
     points = [point for _, point in mission.route.points()]
+    if mission.is_spatial:
+        return ", ".join([counted(len(points), "point"), *flight_words(mission)])
     places = [point.at for point in points] + ([points[0].at] if mission.route.closed else [])
     straight = sum(math.dist(a, b) for a, b in pairwise(places))
     words = [counted(len(points), "point"), f"{metres(straight, 1)} from point to point"]
@@ -112,6 +115,7 @@ def world_words(world: WorldSpec, corridor: Corridor | None = None) -> str:
         words.append(f"bounds {x1 - x0:g} m x {y1 - y0:g} m")
     if world.fences:
         words.append(counted(len(world.fences), "fence"))
+    words += height_words(world)
     if corridor is not None:
         words.append(_corridor(corridor))
     elif world.bounds is None and not world.fences:
@@ -145,7 +149,8 @@ def map_words(grid: Grid) -> str:
 
 def _obstacles(obstacles: Sequence[Obstacle], kind: str) -> str:
     given = Counter(key for key in SHAPES for o in obstacles if getattr(o, key) is not None)
-    parts = [counted(n, what) for what, n in given.items()]
+    named = {"box": "cuboid", "voxels": "voxel map"}
+    parts = [counted(n, named.get(what, what)) for what, n in given.items()]
     of = f" ({' and '.join(parts)})" if parts else ""
     return f"{counted(len(obstacles), f'{kind} obstacle')}{of}"
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from viaspline.errors import GeometryError
 from viaspline.handed_in import check_callable, check_kind, seed_from, time_from
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
@@ -73,6 +74,8 @@ def simulate(
         (True, True, 1)
     """
     check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
+    if mission.is_spatial:
+        raise GeometryError("the mission is one in space; give fly(plan(mission))")
     step, seed = time_from("step", step), seed_from("seed", seed)
     check_callable("pace", pace, "give by_work or by_clock")
     if progress is not None:

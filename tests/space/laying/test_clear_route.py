@@ -18,7 +18,7 @@ def balls(seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def sampled(centers: np.ndarray, radii: np.ndarray) -> Check:
-    def check(spans: np.ndarray) -> np.ndarray | None:
+    def check(leg: int, spans: np.ndarray) -> np.ndarray | None:
         curve = PiecewiseCubic(spans)
         places = curve.evaluate(np.linspace(*curve.domain, 200 * len(spans)))
         room = (np.linalg.norm(places[:, None] - centers, axis=2) - radii).min(axis=1)
@@ -54,7 +54,7 @@ def test_a_route_is_led_round_what_is_in_the_way_of_it_and_only_there(seed: int)
     check = sampled(centers, radii)
     start = RouteLegs.left_to_the_spline(vias, np.full((4, 3), np.nan), CurveShape(np.zeros(3)))
     found = clear_route(start, check, over(centers, radii, vias), 5.0)  # type: ignore[arg-type]
-    assert check(found.laid.spans) is None
+    assert check(0, found.laid.spans) is None
     assert np.array_equal(
         np.concatenate((found.laid.spans[:, 0], found.laid.spans[-1:, 3]))[found.laid.joints], vias
     )
@@ -87,7 +87,7 @@ def test_a_leg_whose_taut_way_is_not_clear_is_stuck_and_says_which_one() -> None
     start = RouteLegs.left_to_the_spline(vias, np.full((2, 3), np.nan), CurveShape(np.zeros(1)))
     calls = count()
 
-    def never(spans: np.ndarray) -> np.ndarray:
+    def never(leg: int, spans: np.ndarray) -> np.ndarray:
         next(calls)
         return np.array([30.0, 0, 5])
 

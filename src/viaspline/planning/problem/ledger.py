@@ -8,6 +8,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+PassingSide = Literal["left", "right", "over", "under"]
+"""On which side of a thing a way goes past it, seen along the leg."""
+
 
 @dataclass(frozen=True)
 class Candidate:
@@ -27,7 +30,7 @@ class Candidate:
         passed_over: Why it isn't taken though it costs less than what is; None where it doesn't.
     """
 
-    side: Literal["left", "right"]
+    side: PassingSide
     vias: NDArray[np.float64]
     spans: NDArray[np.float64]
     length: float | None = None
@@ -53,7 +56,7 @@ class LedgerEntry:
     members: tuple[str, ...]
     leg: tuple[str, str]
     candidates: tuple[Candidate, ...]
-    forced: Literal["left", "right"] | None = None
+    forced: PassingSide | None = None
 
     @property
     def chosen(self) -> Candidate | None:

@@ -1,6 +1,8 @@
 """The path unrolled: its height over the distance along it, with the ground and what is near.
 
 What stands under or over the path is drawn dark, what stands beside it, within ``BESIDE_M``, light.
+
+Tested through ``report/space/test_spatial_pictures``.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ from matplotlib.patches import Patch
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Flags, Floats
 from viaspline.maps.voxels import Voxels
-from viaspline.mission.shapes.solids import Prism, RoundedSegment
+from viaspline.mission.shapes.solids import GridPrism, Prism, RoundedSegment
 from viaspline.report import style
 from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
 
@@ -150,7 +152,7 @@ def silhouette(one: NamedSolid, places: Floats, radius: float) -> Silhouette:
         return _of_voxels(solid, places)
     apart = shapely.distance(shapely.points(places[:, :2]), one.shadow)
     near, meets = np.asarray(apart <= BESIDE_M), np.asarray(apart <= radius)
-    if isinstance(solid, Prism):
+    if isinstance(solid, Prism | GridPrism):
         low = np.where(near, max(solid.low, -1e6), np.nan)
         return Silhouette(low, np.where(near, min(solid.high, 1e6), np.nan), meets)
     middle = _height_beside(solid, places)

@@ -1,4 +1,7 @@
-"""Solids and ground seen from above: outlines with the heights of their roofs, contour lines."""
+"""Solids and ground seen from above: outlines with the heights of their roofs, contour lines.
+
+Tested through ``report/space/test_spatial_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ from matplotlib.patches import Patch, PathPatch
 
 from viaspline.maps.terrain import Terrain
 from viaspline.maps.voxels import Voxels
-from viaspline.mission.shapes.solids import Prism
+from viaspline.mission.shapes.solids import GridPrism, Prism
 from viaspline.report import style
 from viaspline.report.canvas import outline
 from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
@@ -34,10 +37,10 @@ def draw_solids(axes: Axes, scene: SpatialScene, pixels_per_metre: float) -> lis
     handles: list[Artist] = []
     if scene.terrain is not None:
         handles.append(_draw_contours(axes, scene.terrain))
-    prisms = [one for one in scene.solids if isinstance(one.solid, Prism)]
+    prisms = [one for one in scene.solids if isinstance(one.solid, Prism | GridPrism)]
     overhead = [one for one in prisms if one.heights[0] > 0.0 and math.isfinite(one.heights[0])]
     standing = [one for one in prisms if one not in overhead]
-    lines = [one for one in scene.solids if not isinstance(one.solid, Prism | Voxels)]
+    lines = [one for one in scene.solids if not isinstance(one.solid, Prism | GridPrism | Voxels)]
     if standing:
         _fill(axes, standing, style.OBSTACLE, "-", 1.0)
         face = Patch(facecolor=style.OBSTACLE, edgecolor=style.OBSTACLE_EDGE)

@@ -1,4 +1,7 @@
-"""A small picture in perspective; what is far from the path is a ghost."""
+"""A small picture in perspective; what is far from the path is a ghost.
+
+Tested through ``report/space/test_spatial_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ from mpl_toolkits.mplot3d.axes3d import Axes3D
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.voxels import Voxels
-from viaspline.mission.shapes.solids import Prism, RoundedSegment
+from viaspline.mission.shapes.solids import GridPrism, Prism, RoundedSegment
 from viaspline.report import style
 from viaspline.report.space.spatial_scene import SpatialScene
 
@@ -82,7 +85,7 @@ def _draw_solids(axes: Axes3D, scene: SpatialScene, places: Floats) -> None:
     for k in np.argsort(apart, kind="stable")[:MAX_SOLIDS].tolist():
         solid = scene.solids[k].solid
         alpha = 0.45 if apart[k] <= GHOST_M else 0.1
-        if isinstance(solid, Prism):
+        if isinstance(solid, Prism | GridPrism):
             faces = _prism_faces(
                 scene.solids[k].shadow, max(solid.low, floor), min(solid.high, roof)
             )

@@ -1,4 +1,7 @@
-"""What stands in a spatial world, as its pictures see it."""
+"""What stands in a spatial world, as its pictures see it.
+
+Tested through ``report/space/test_spatial_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +14,10 @@ import shapely
 from numpy.typing import NDArray
 
 from viaspline.kernels.arrays import Floats
+from viaspline.maps.grid import Grid
 from viaspline.maps.terrain import Terrain
 from viaspline.maps.voxels import Voxels
-from viaspline.mission.shapes.solids import Prism, RoundedSegment, Solid
+from viaspline.mission.shapes.solids import GridPrism, Prism, RoundedSegment, Solid
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,8 @@ class NamedSolid:
             first, last = solid.first[:2], solid.last[:2]
             core = shapely.Point(first) if first == last else shapely.LineString([first, last])
             return shapely.buffer(core, solid.radius, quad_segs=16)
+        if isinstance(solid, GridPrism):
+            return _squares(solid.grid)
         x0, y0, _, x1, y1, _ = solid.extent
         return shapely.box(x0, y0, x1, y1)
 
@@ -43,6 +49,19 @@ class NamedSolid:
         solid = self.solid
         box = solid.extent if isinstance(solid, Voxels) else solid.box
         return box[2], box[5]
+
+
+def _squares(grid: Grid) -> shapely.Geometry:
+    """The blocked squares of a grid, those that follow each other in a row taken together.
+
+    >>> _squares(Grid([[True, True], [False, True]], 2.0)).area
+    12.0
+    """
+    edges = np.diff(np.pad(grid.blocked.astype(np.int8), ((0, 0), (1, 1))), axis=1)
+    row, first = np.nonzero(edges > 0)
+    last = np.nonzero(edges < 0)[1]
+    around: shapely.Geometry = shapely.union_all(shapely.box(first, row, last, row + 1))
+    return shapely.transform(around, grid.to_world)
 
 
 @dataclass(frozen=True)

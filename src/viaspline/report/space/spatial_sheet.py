@@ -1,4 +1,7 @@
-"""The page of a spatial picture: seen from above and in perspective, the elevation below."""
+"""The page of a spatial picture: seen from above and in perspective, the elevation below.
+
+Tested through ``report/space/test_spatial_pictures``.
+"""
 
 from __future__ import annotations
 
@@ -42,20 +45,23 @@ class SpatialSheet:
     pixels_per_metre: float
 
 
-def spatial_sheet(view: Box, title: str, subtitles: tuple[str, ...]) -> SpatialSheet:
+def spatial_sheet(
+    view: Box, title: str, subtitles: tuple[str, ...], dpi: int = DPI
+) -> SpatialSheet:
     """A page for a part of the world.
 
     Args:
         view: x_min, y_min, x_max, y_max of the plan view [m].
         title: The first line.
         subtitles: Those below it.
+        dpi: Pixels for each inch.
     """
     across, up = view[2] - view[0], view[3] - view[1]
     scale = min(MAP_WIDEST / across, MAP_TALLEST / up)
     width, height = max(across * scale, MAP_LEAST), max(up * scale, MAP_LEAST)
     below = BOTTOM + 2 * (STRIP + BETWEEN) + ELEVATION + GAP
     total_w, total_h = LEFT + width + GAP + ASIDE + RIGHT, below + height + TOP
-    figure = new_figure(total_w, total_h)
+    figure = new_figure(total_w, total_h, dpi)
 
     def axes_at(left: float, bottom: float, wide: float, tall: float, share: Axes | None) -> Axes:
         box = (left / total_w, bottom / total_h, wide / total_w, tall / total_h)
@@ -87,4 +93,4 @@ def spatial_sheet(view: Box, title: str, subtitles: tuple[str, ...]) -> SpatialS
     tall = max(height - LEGEND, 1.5)
     box = (aside / total_w, (below + height - tall) / total_h, ASIDE / total_w, tall / total_h)
     legend = (aside / total_w, (below + height - tall - 0.1) / total_h)
-    return SpatialSheet(figure, plan, elevation, tuple(strips), box, legend, scale * DPI)
+    return SpatialSheet(figure, plan, elevation, tuple(strips), box, legend, scale * dpi)

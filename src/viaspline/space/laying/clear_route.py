@@ -26,8 +26,9 @@ TIGHTER: Final = 0.6
 LEAST_RADIUS_M: Final = 1e-4
 """Of a corner that is as good as sharp: nothing is gained by tightening it further."""
 
-Check = Callable[[Floats], Floats | None]
-"""From spans (m, 4, 3) to the place where they aren't clear, worst [m], (3,); None: they are."""
+Check = Callable[[int, Floats], Floats | None]
+"""From a leg and its spans (m, 4, 3) to the place where they aren't as they should be, worst [m],
+(3,); None: they are."""
 
 LeadRound = Callable[[int, Floats], Floats]
 """From a leg and the curve that it would have to its detour via points [m], (k, 3)."""
@@ -77,7 +78,7 @@ def clear_route(legs: RouteLegs, check: Check, lead_round: LeadRound, radius: fl
         blocked = [
             leg
             for leg, inner in enumerate(legs.inner)
-            if inner is None and leg not in proven and check(laid.leg(leg)) is not None
+            if inner is None and leg not in proven and check(leg, laid.leg(leg)) is not None
         ]
         if not blocked:
             return ClearRoute(legs, laid)
@@ -114,11 +115,28 @@ def tightened_leg(polygon: LegPolygon, leg: int, check: Check) -> LegPolygon:
     Raises:
         StuckLegError: When it doesn't, however tight its corners are.
     """
-    while (place := check(polygon.spans()[0])) is not None:
-        apart = np.linalg.norm(polygon.points - place, axis=1)
-        apart[polygon.radii < LEAST_RADIUS_M] = np.inf
-        corner = int(np.argmin(apart))
-        if np.isinf(apart[corner]):
+    while (place := check(leg, polygon.spans()[0])) is not None:
+        corners = _corners_about(polygon, place)
+        if not corners:
             raise StuckLegError(leg, place)
-        polygon = polygon.tightened(corner, TIGHTER)
+        for corner in corners:
+            polygon = polygon.tightened(corner, TIGHTER)
     return polygon
+
+
+def _corners_about(polygon: LegPolygon, place: Floats) -> list[int]:
+    """The corners at both ends of the part of a leg that is nearest to a place.
+
+    Those that are as good as sharp are left out; then the nearest other one is taken.
+    """
+    first, last = polygon.points[:-1], polygon.points[1:]
+    ways = last - first
+    along = ((place - first) * ways).sum(axis=1) / np.maximum((ways * ways).sum(axis=1), 1e-300)
+    nearest = first + np.clip(along, 0.0, 1.0)[:, None] * ways
+    part = int(np.argmin(np.linalg.norm(nearest - place, axis=1)))
+    wide = polygon.radii >= LEAST_RADIUS_M
+    found = [corner for corner in (part, part + 1) if wide[corner]]
+    if found or not wide.any():
+        return found
+    apart = np.linalg.norm(polygon.points - place, axis=1)
+    return [int(np.argmin(np.where(wide, apart, np.inf)))]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from viaspline.curve.path import Path
+from viaspline.mission.world_spec import SpeedZone
 from viaspline.space.timing.climb_speeds import climb_speeds
 from viaspline.space.timing.spatial_limits import SpatialLimits
 from viaspline.space.timing.yaw_profile import YawProfile
@@ -18,8 +20,9 @@ FREE_AXIS = 10.0
 
 
 def retime_in_space(
-    path: Path, limits: SpatialLimits, stations: tuple[Station, ...], yaw: YawProfile
-) -> Trajectory:
+    path: Path, limits: SpatialLimits, stations: tuple[Station, ...], yaw: YawProfile, *,
+    zones: Sequence[SpeedZone] = (), start_speed: float = 0.0, start_time: float = 0.0,
+) -> Trajectory:  # fmt: skip
     """The fastest drive along a path that keeps every limit everywhere.
 
     Climb, descent and yaw are largest speeds at every place; they are taken on pieces of the path
@@ -31,6 +34,9 @@ def retime_in_space(
         limits: Of speed, acceleration, climb, descent and yaw.
         stations: Stops, each with its dwell.
         yaw: The headings along the path.
+        zones: Areas with a lower speed, at every height.
+        start_speed: Speed where the path begins [m/s].
+        start_time: When that is [s].
 
     Raises:
         GeometryError: If a number makes no sense.
@@ -47,7 +53,10 @@ def retime_in_space(
         *yaw_speeds(yaw, limits.yaw_rate, top),
     )
     stops = with_yaw_turns(stations, yaw, limits.yaw_rate)
-    return retime(path, _with_vertical(limits), stops, slow=slow)
+    return retime(
+        path, _with_vertical(limits), stops, slow=slow, zones=zones, start_speed=start_speed,
+        start_time=start_time,
+    )  # fmt: skip
 
 
 def _with_vertical(limits: SpatialLimits) -> Limits:

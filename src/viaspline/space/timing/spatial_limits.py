@@ -1,4 +1,7 @@
-"""What the motors of a thing that flies allow."""
+"""What the motors of a thing that flies allow.
+
+Tested through ``space/timing/test_retime_in_space``.
+"""
 
 from __future__ import annotations
 

@@ -19,6 +19,11 @@ from viaspline.kernels.arrays import Floats
 
 NODES_PER_SPAN: Final = 24
 
+SAME_PLACE_M: Final = 1e-9
+
+LEAST_TURN: Final = 1e-3
+"""What turns by less [rad] from one span to the next goes on straight."""
+
 UPRIGHT: Final = 1e-6
 """Where the level part of the unit tangent is smaller, the heading is the one before."""
 
@@ -142,7 +147,22 @@ def yaw_profile(
         before = stops[index - 1][1] if index > 0 else here
         after = stops[index + 1][1] if index + 1 < len(stops) else here
         headings = headings + by * _hat(at, before, here, after)
-    return YawProfile(at, headings)
+    return _without_rounding(at, headings)
+
+
+def _without_rounding(at: Floats, headings: Floats) -> YawProfile:
+    """A profile that turns on the spot only where the curve has a corner.
+
+    Where a span begins, its first node is its predecessor's last, but for the rounding of either.
+    """
+    at = np.maximum.accumulate(at)
+    starts = np.flatnonzero(np.diff(at) <= SAME_PLACE_M) + 1
+    jumps = np.abs(headings[starts] - headings[starts - 1])
+    smooth = starts[jumps <= LEAST_TURN]
+    at[starts] = at[starts - 1]
+    keep = np.ones(len(at), bool)
+    keep[smooth] = False
+    return YawProfile(at[keep], headings[keep])
 
 
 def _tangents(span: Floats, shares: Floats) -> Floats:

@@ -1,4 +1,7 @@
-"""Where a path has to be driven more slowly because the body turns about the vertical."""
+"""Where a path has to be driven more slowly because the body turns about the vertical.
+
+Tested through ``space/timing/test_yaw_profile``.
+"""
 
 from __future__ import annotations
 

@@ -1,0 +1,31 @@
+"""Everything that a plan or a flight in space leaves in its folder.
+
+Tested through ``report/space/test_spatial_pictures``.
+"""
+
+from __future__ import annotations
+
+from viaspline.report.results import Contents
+from viaspline.report.space.spatial_json import (
+    flight_csv,
+    flight_json,
+    spatial_path_csv,
+    spatial_plan_json,
+)
+from viaspline.report.space.spatial_picture import spatial_picture
+from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.space.spatial_run import SpatialRun
+
+
+def spatial_plan_contents(plan: SpatialPlan, name: str) -> Contents:
+    """The files of a plan: the same bytes every time."""
+    return {
+        "plan.json": spatial_plan_json(plan, name),
+        "path.csv": spatial_path_csv(plan),
+        "plan.png": spatial_picture(plan, name),
+    }
+
+
+def spatial_run_contents(run: SpatialRun, name: str) -> Contents:
+    """The files of a flight, without those of its plan."""
+    return {"run.json": flight_json(run, name), "run.csv": flight_csv(run)}

@@ -1,0 +1,188 @@
+"""The ways past what stands on a leg: the cheapest, and one on each side of what is nearest.
+
+Tested through ``space/test_plan_spatial``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from viaspline.curve.certificate import certify
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import GaveUpError, NoPathError
+from viaspline.kernels.arrays import Floats
+from viaspline.mission.model import Mission
+from viaspline.mission.shapes.solids import Solid
+from viaspline.planning.problem.ledger import PassingSide
+from viaspline.planning.problem.method import Found
+from viaspline.space.asked_passes import AskedPass, asked_passes, gates_of_leg
+from viaspline.space.gates_crossed import crossings, side_of
+from viaspline.space.routing.pass_gates import SIDE_BITS, gate
+from viaspline.space.routing.search_room import SearchRoom
+from viaspline.space.routing.side_seeds import seeds
+from viaspline.space.routing.space_router import SpaceRouter
+from viaspline.space.routing.taut_route import LENGTH, Norm, SpaceGaveUp, SpaceRefusal, TautRoute
+from viaspline.space.spatial_problem import SpatialProblem
+from viaspline.space.weighed_ways import TautWay
+
+ROOM: Final = (0.3, 1.0, 3.0)
+"""Of the body and its clearance: what ways keep beyond that, so that corners can be gentle."""
+
+LEAST_BODY_M: Final = 0.1
+
+SAME_M: Final = 1e-3
+"""Ways whose corners are nearer to each other are one."""
+
+
+@dataclass(frozen=True)
+class LegRouter:
+    """Finds the ways of the legs of a mission.
+
+    Attributes:
+        problem: What is asked.
+        mission: Whose obstacles have sides on which they are to be passed.
+    """
+
+    problem: SpatialProblem
+    mission: Mission
+
+    @cached_property
+    def _router(self) -> SpaceRouter:
+        return SpaceRouter(SearchRoom.of_world(self.problem.world))
+
+    @cached_property
+    def _asked(self) -> tuple[AskedPass, ...]:
+        return asked_passes(self.mission)
+
+    @cached_property
+    def _norm(self) -> Norm:
+        limits = self.problem.limits
+        if self.problem.objective == "length":
+            return LENGTH
+        top = limits.along.max_speed
+        up = top if limits.climb is None else limits.climb
+        down = top if limits.descent is None else limits.descent
+        return top, up, down
+
+    def gates(self, leg: int) -> Floats:
+        """What a leg has to pass on which sides, (g, 8)."""
+        if not self._asked:
+            return gates_of_leg((), *self._ends(leg), 0.0)
+        body = self.problem.required + float(self.problem.world.packed.core[0])
+        return gates_of_leg(self._asked, *self._ends(leg), body)
+
+    def ways(self, leg: int, laid: Floats) -> Sequence[TautWay]:
+        """The cheapest way of a leg, ones with more room, and ways on other sides of what is near.
+
+        Args:
+            leg: Which one.
+            laid: The curve that isn't clear: spans [m], (m, 4, 3).
+
+        Raises:
+            NoPathError: There is none, proven.
+            GaveUpError: None was found.
+        """
+        first, last = self._ends(leg)
+        gates = self.gates(leg)
+        outcome = self._router.find(first, last, self.problem.required, self._norm, gates)
+        if isinstance(outcome, SpaceRefusal):
+            raise self._refused(leg, outcome)
+        if isinstance(outcome, SpaceGaveUp):
+            raise self._gave_up(leg, outcome)
+        solid = self._in_the_way(laid)
+        taken = _side_past(solid, outcome.value)
+        ways = [TautWay(taken, outcome.value.points[1:-1])]
+        if solid is not None and not len(gates):
+            ways += self._on_other_sides(leg, solid, taken)
+        return _different([*ways, *self._with_room(leg, gates, taken)])
+
+    def _ends(self, leg: int) -> tuple[Floats, Floats]:
+        return self.problem.vias[leg].at, self.problem.vias[leg + 1].at
+
+    def _on_other_sides(self, leg: int, solid: Solid, taken: PassingSide) -> list[TautWay]:
+        """The ways on the other sides of a solid."""
+        first, last = self._ends(leg)
+        found = seeds(self._router, solid, first, last, self.problem.required, self._norm)
+        return [TautWay(seed.side, seed.route.points[1:-1]) for seed in found if seed.side != taken]
+
+    def _with_room(self, leg: int, gates: Floats, side: PassingSide) -> Iterator[TautWay]:
+        """The cheapest ways that keep more than has to be: room for gentle corners.
+
+        Where the length counts there are none: they are longer.
+        """
+        if self.problem.objective == "length":
+            return
+        first, last = self._ends(leg)
+        kept = self.problem.required
+        body = max(kept + float(self.problem.world.packed.core[0]), LEAST_BODY_M)
+        for share in ROOM:
+            outcome = self._router.find(first, last, kept + share * body, self._norm, gates)
+            if isinstance(outcome, Found):
+                yield TautWay(side, outcome.value.points[1:-1])
+
+    def _in_the_way(self, laid: Floats) -> Solid | None:
+        """The solid that a curve is nearest to; None if that is something else."""
+        problem = self.problem
+        proof = certify(
+            PiecewiseCubic(laid), problem.world, problem.clearance, radius=problem.radius
+        )
+        names = list(problem.world.names)
+        if proof.holds or proof.obstacle not in names:
+            return None
+        return self.mission.world.standing[names.index(proof.obstacle)].solid()
+
+    def _refused(self, leg: int, refusal: SpaceRefusal) -> NoPathError:
+        first, last = self.problem.vias[leg], self.problem.vias[leg + 1]
+        name = self.problem.world.name(refusal.obstacle)
+        at_start = np.allclose(refusal.where, first.at)
+        which = first.name if at_start else last.name
+        reason = refusal.reason.removeprefix("the start").removeprefix("the goal").strip()
+        return NoPathError(
+            f"'{which}' {reason}" + ("" if refusal.obstacle == -1 else f" by '{name}'"),
+            where=refusal.where,
+            remedy="move it, or ask for less clearance",
+            via=which,
+            obstacles=() if refusal.obstacle < 0 else (name,),
+        )
+
+    def _gave_up(self, leg: int, outcome: SpaceGaveUp) -> GaveUpError:
+        first, last = self.problem.vias[leg], self.problem.vias[leg + 1]
+        return GaveUpError(
+            f"from '{first.name}' to '{last.name}' {outcome.reason}",
+            where=first.at.tolist(),
+            remedy=f"{outcome.would_help}, or a via point on the way",
+            tried=outcome.tried,
+            via=last.name,
+        )
+
+
+def _different(ways: Sequence[TautWay]) -> Sequence[TautWay]:
+    """Ways without those that run where one before them runs."""
+    kept: list[TautWay] = []
+    for way in ways:
+        if not any(
+            way.inner.shape == one.inner.shape and np.allclose(way.inner, one.inner, atol=SAME_M)
+            for one in kept
+        ):
+            kept.append(way)
+    return kept
+
+
+def _side_past(solid: Solid | None, route: TautRoute) -> PassingSide:
+    """On which side a route passes a solid; over, where it doesn't cross its gate."""
+    if solid is None:
+        return "over"
+    rows = gate(solid, route.points[0], route.points[-1], SIDE_BITS)
+    thirds = np.array([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0])[:, None]
+    ends = zip(route.points[:-1], route.points[1:], strict=True)
+    spans = np.array([(1.0 - thirds) * a + thirds * b for a, b in ends])
+    for row in rows:
+        for place in crossings(spans, row):
+            bit = side_of(row, place)
+            return next(side for side, own in SIDE_BITS.items() if own == bit)
+    return "over"

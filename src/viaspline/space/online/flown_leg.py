@@ -1,0 +1,40 @@
+"""A stretch of a flight: one path, one time law, one profile of headings.
+
+Tested through ``space/online/test_fly``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
+from viaspline.space.timing.yaw_profile import YawProfile
+from viaspline.trajectory.trajectory import Trajectory
+
+
+@dataclass(frozen=True, eq=False)
+class FlownLeg:
+    """What is followed from one re-plan to the next.
+
+    Attributes:
+        path: In space.
+        law: When it is where on it.
+        yaw: Where it looks.
+        until: When something else takes its place [s].
+    """
+
+    path: Path
+    law: Trajectory
+    yaw: YawProfile
+    until: float
+
+    def states(self, times: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+        """Positions (n, 3) [m], headings [rad], speeds and climbs [m/s] at times [s], (n,)."""
+        distances, speeds, _ = self.law.state_at(np.minimum(times, self.law.end_time))
+        distances = np.clip(distances, 0.0, self.path.length)
+        u = np.asarray(self.path.parameter(distances))
+        climbs = speeds * self.path.tangent(u)[:, 2]
+        return self.path.evaluate(u), self.yaw.at(distances), speeds, climbs

@@ -1,0 +1,85 @@
+"""Another path from a place under way, past what was seen.
+
+Tested through ``space/online/test_fly``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viaspline.errors import GeometryError, PlanningError
+from viaspline.mission.model import Mission
+from viaspline.space.leg_router import LegRouter
+from viaspline.space.online.flown_leg import FlownLeg
+from viaspline.space.online.takeover import Takeover
+from viaspline.space.plan_spatial import headings_of, stops_of
+from viaspline.space.solve_route import solve_route
+from viaspline.space.spatial_problem import SpatialProblem, SpatialVia
+from viaspline.space.timing.retime_in_space import retime_in_space
+
+HERE = "take-over"
+"""What the place is called from which on another path is flown."""
+
+
+@dataclass(frozen=True, eq=False)
+class NewLeg:
+    """What is flown from a take-over on.
+
+    Attributes:
+        leg: Path, law and headings.
+        problem: What it solves.
+    """
+
+    leg: FlownLeg
+    problem: SpatialProblem
+
+
+def replan_in_space(
+    mission: Mission, problem: SpatialProblem, old: FlownLeg, ahead: Sequence[SpatialVia],
+    begins: Takeover,
+) -> NewLeg | PlanningError | GeometryError:  # fmt: skip
+    """A path from a take-over on through the via points that are still ahead.
+
+    Args:
+        mission: Whose obstacles have sides on which they are to be passed.
+        problem: What is asked, in the world as it is known now.
+        old: What is flown until then.
+        ahead: The via points that are still to be served.
+        begins: Where and how fast.
+
+    Returns:
+        What is flown from then on; or why there is nothing.
+    """
+    u = float(np.asarray(old.path.parameter(begins.distance)))
+    at, way = old.path.evaluate(u), old.path.tangent(u)
+    moving = begins.speed > 0.0
+    here = SpatialVia(HERE, at, None, None if moving else 0.0, way if moving else None)
+    count = len(ahead)
+    tensions = problem.shape.tension[-count:]
+    asked = replace(
+        problem, vias=(here, *ahead), takeoff=None, laps=1,
+        shape=replace(problem.shape, tension=tensions),
+    )  # fmt: skip
+    try:
+        found = solve_route(asked, LegRouter(asked, mission))
+        if not found.certificate.holds:
+            return GeometryError("the path to the landing isn't clear")
+        yaw = headings_of(asked, found.path)
+        stops = tuple(stops_of(asked, found.path))
+        law = retime_in_space(
+            found.path,
+            asked.limits,
+            stops,
+            yaw,
+            zones=asked.zones,
+            start_speed=begins.speed,
+            start_time=begins.time,
+        )
+    except (PlanningError, GeometryError) as problem_found:
+        return problem_found
+    if law.over_limit_until is not None:
+        return GeometryError("the robot is too fast for the new path where it begins")
+    return NewLeg(FlownLeg(found.path, law, yaw, float("inf")), asked)

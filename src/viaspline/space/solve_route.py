@@ -1,0 +1,192 @@
+"""From a spatial problem to a path that is proven clear.
+
+The spline first; legs that aren't clear are led round what stands there, on the side that costs
+least; then the curve is proven once more as a whole, with the upright legs of take-off and landing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+
+from viaspline.curve.certificate import Certificate, certify
+from viaspline.curve.path import Path, PathVia
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import GaveUpError
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.space.laying.clear_route import ClearRoute, StuckLegError, clear_route
+from viaspline.space.laying.laid_route import LaidRoute, RouteLegs
+from viaspline.space.laying.via_directions import via_directions
+from viaspline.space.leg_check import LegCheck
+from viaspline.space.spatial_problem import SpatialProblem
+from viaspline.space.spatial_solution import SpatialSolution
+from viaspline.space.weighed_ways import Router, corner_radius, weighed
+from viaspline.space.without_ground import without_ground
+
+TAKE_OFF, LANDING = "take-off", "landing"
+"""What the places on the ground are called."""
+
+
+def solve_route(problem: SpatialProblem, router: Router) -> SpatialSolution:
+    """Find a path.
+
+    Args:
+        problem: What is asked.
+        router: What finds the ways past things.
+
+    Raises:
+        NoPathError: When there is none, proven.
+        GaveUpError: When none was found.
+    """
+    check = LegCheck(problem, cache(router.gates))
+    entries: dict[int, LedgerEntry] = {}
+
+    def lead_round(leg: int, laid: Floats) -> Floats:
+        first, last = problem.vias[leg], problem.vias[leg + 1]
+        ways = router.ways(leg, laid)
+        best, candidates = weighed(problem, check, leg, ways)
+        nearest = certify(
+            PiecewiseCubic(laid), problem.world, problem.clearance, radius=problem.radius
+        )
+        members = () if nearest.obstacle is None else (nearest.obstacle,)
+        entries[leg] = LedgerEntry(members, (first.name, last.name), candidates)
+        return best.inner
+
+    legs = RouteLegs.left_to_the_spline(problem.places, _directions(problem), problem.shape)
+    try:
+        found = clear_route(legs, check, lead_round, corner_radius(problem))
+    except StuckLegError as stuck:
+        raise _gave_up(problem, stuck) from None
+    path, airborne = _whole_path(problem, found)
+    ledger = tuple(entries[leg] for leg in sorted(entries))
+    return SpatialSolution(path, _certificate(problem, path, airborne), ledger, airborne)
+
+
+def _directions(problem: SpatialProblem) -> Floats:
+    """Directions that are fixed at the via points, (n, 3), NaN where free.
+
+    A round that has none where it closes passes there as the spline would, so that it closes
+    smoothly.
+    """
+    free = np.full(3, np.nan)
+    given = np.array([free if via.direction is None else via.direction for via in problem.vias])
+    if problem.is_round and np.isnan(given[[0, -1]]).all():
+        places = problem.places
+        around = np.array([places[-2], places[0], places[1]])
+        none = np.empty((0, 3))
+        seam = via_directions(around, (none, none), np.full((3, 3), np.nan))[1]
+        given[0] = given[-1] = seam
+    return given
+
+
+def _gave_up(problem: SpatialProblem, stuck: StuckLegError) -> GaveUpError:
+    first, last = problem.vias[stuck.leg], problem.vias[stuck.leg + 1]
+    return GaveUpError(
+        f"no smooth curve from '{first.name}' to '{last.name}' was found that keeps "
+        f"{problem.clearance:g} m",
+        where=stuck.place.tolist(),
+        remedy="give the route a via point beside it, or ask for less clearance",
+        tried=("the spline", "the taut ways with corners as tight as can be"),
+        via=last.name,
+    )
+
+
+def _whole_path(problem: SpatialProblem, found: ClearRoute) -> tuple[Path, tuple[float, float]]:
+    """All laps with the upright legs before and after, and from where to where it is airborne."""
+    laid = found.laid
+    count = len(laid.spans)
+    spans = [laid.spans] * problem.laps
+    vias: list[PathVia] = []
+    for lap in range(problem.laps):
+        vias += _lap_vias(problem, laid, lap, count)
+    before = 0
+    if problem.takeoff is not None:
+        spans.insert(0, _upright(problem.takeoff, laid.spans[0, 0]))
+        before = 1
+    if problem.landing is not None:
+        spans.append(_upright(laid.spans[-1, 3], problem.landing))
+    every = np.concatenate(spans)
+    vias = [_moved(via, before) for via in vias]
+    if problem.takeoff is not None:
+        start = problem.vias[0]
+        ground = PathVia(start.name, tuple(problem.takeoff.tolist()), "user", 0.0, 0.0, start.index)
+        top = vias[0]
+        vias[0] = PathVia(TAKE_OFF, top.at, "user", top.u, top.dwell, None)
+        vias.insert(0, ground)
+    if problem.landing is not None:
+        goal = problem.vias[-1]
+        at = tuple(problem.landing.tolist())
+        top = vias[-1]
+        vias[-1] = PathVia(LANDING, top.at, "user", top.u, top.dwell, None)
+        vias.append(PathVia(goal.name, at, "user", float(len(every)), 0.0, goal.index))
+    path = Path(every, vias)
+    ends = np.asarray(path.distance([float(before), float(before + count * problem.laps)]))
+    return path, (float(ends[0]), float(ends[1]))
+
+
+def _upright(first: Floats, last: Floats) -> Floats:
+    shares = np.array([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0])[:, None]
+    line: Floats = (1.0 - shares) * first + shares * last
+    line[3] = last
+    return line[None]
+
+
+def _lap_vias(problem: SpatialProblem, laid: LaidRoute, lap: int, count: int) -> list[PathVia]:
+    """The via points of one lap in order; the seam belongs to the lap that begins there."""
+    offset = lap * count
+    points = len(problem.vias)
+    found: list[PathVia] = []
+    for k, via in enumerate(problem.vias):
+        if lap > 0 and k == 0:
+            continue
+        u = float(offset + int(laid.joints[k]))
+        index = via.index
+        if index is not None and problem.laps > 1:
+            index += lap * (points - 1)
+        at = tuple(via.at.tolist())
+        found.append(PathVia(via.name, at, "user", u, via.dwell or 0.0, index))
+        if k < points - 1:
+            found += [
+                PathVia(
+                    "detour", tuple(laid.spans[joint, 0].tolist()), "detour", offset + float(joint)
+                )
+                for joint in laid.detours[k].tolist()
+                if joint < count
+            ]
+    return found
+
+
+def _moved(via: PathVia, by: int) -> PathVia:
+    return PathVia(via.name, via.at, via.kind, via.u + by, via.dwell, via.index)
+
+
+def _certificate(problem: SpatialProblem, path: Path, airborne: tuple[float, float]) -> Certificate:
+    """What is proven of the whole path; on upright legs the ground doesn't count."""
+    parts: list[tuple[float, float, bool]] = [(*airborne, False)]
+    if problem.takeoff is not None:
+        parts.append((0.0, airborne[0], True))
+    if problem.landing is not None:
+        parts.append((airborne[1], path.length, True))
+    proofs: Sequence[Certificate] = [
+        _proof(problem, path, first, last, upright) for first, last, upright in parts
+    ]
+    return min(proofs, key=lambda proof: proof.clearance)
+
+
+def _proof(
+    problem: SpatialProblem, path: Path, first: float, last: float, upright: bool
+) -> Certificate:
+    """The proof of a part of the path, told in the whole one's parameters."""
+    u0, u1 = np.asarray(path.parameter([first, last])).tolist()
+    world = without_ground(problem.world) if upright else problem.world
+    part = path.section(u0, u1)
+    proof = certify(part, world, problem.clearance, radius=problem.radius)
+    return replace(
+        proof,
+        tightest_u=proof.tightest_u + u0,
+        tightest_distance=proof.tightest_distance + first,
+    )

@@ -1,0 +1,196 @@
+"""From a mission in space to what the planner asks for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
+from viaspline.mission.model import Mission
+from viaspline.mission.route_spec import ViaPoint
+from viaspline.mission.shapes.solids import Place
+from viaspline.mission.space.flight_places import FlightPlaces, flight_places
+from viaspline.mission.space.yaw_spec import FixedYaw
+from viaspline.mission.spline_spec import SplineSpec
+from viaspline.space.laying.laid_route import CurveShape
+from viaspline.space.spatial_problem import SpatialProblem, SpatialVia
+from viaspline.space.timing.spatial_limits import SpatialLimits
+from viaspline.space.timing.yaw_profile import Facing, FacingAlong, FacingFixed, FacingPlace
+from viaspline.trajectory.limits import Limits
+from viaspline.world.space.height_band import HeightBand
+from viaspline.world.space.spatial_world import SpatialWorld
+
+
+def spatial_problem_of(mission: Mission) -> SpatialProblem:
+    """What a mission in space asks for.
+
+    Args:
+        mission: It, sound.
+
+    Raises:
+        GeometryError: It asks for something that isn't planned in space.
+
+    >>> mission = Mission.model_validate({
+    ...     "world": {"ground": {"flat_m": 0}},
+    ...     "route": {"start": [0, 0], "takeoff": {"to_agl_m": 10}, "land": {"at": [50, 0]}},
+    ... })
+    >>> problem = spatial_problem_of(mission)
+    >>> [(via.name, via.at.tolist()) for via in problem.vias]
+    [('start', [0.0, 0.0, 10.0]), ('goal', [50.0, 0.0, 10.0])]
+    """
+    _refuse_what_is_not_planned(mission)
+    robot, route = mission.robot, mission.route
+    places = flight_places(mission)
+    vias = list(_vias(mission, places))
+    return SpatialProblem(
+        world=spatial_world_of(mission, places),
+        vias=vias,
+        clearance=robot.clearance_m + (robot.tracking_error_m or 0.0),
+        radius=robot.radius_m if robot.half_height_m is None else 0.0,
+        limits=spatial_limits_of(mission),
+        shape=CurveShape(
+            _tensions(mission.spline, len(vias) - 1), mission.spline.knots, mission.tangents
+        ),
+        objective=route.optimise,
+        facing=_facing(route.yaw),
+        takeoff=None if places.takeoff is None else np.array(places.start),
+        landing=None if places.landing is None else np.array(places.landing),
+        laps=route.laps if route.closed else 1,
+        zones=mission.world.speed_zones,
+    )
+
+
+def _refuse_what_is_not_planned(mission: Mission) -> None:
+    """Say what of a mission isn't planned in space, rather than leave it out."""
+    if mission.world.moving or mission.world.unseen_moving:
+        raise GeometryError(
+            "obstacles that move aren't planned round in space; leave out their motion"
+        )
+    if mission.route.order != "given":
+        raise GeometryError("an order of via points isn't sought in space; give order: given")
+
+
+def spatial_limits_of(mission: Mission) -> SpatialLimits:
+    """The limits of a mission's robot in space.
+
+    >>> mission = Mission.model_validate({"robot": {"max_climb_mps": 3},
+    ...     "route": {"start": [0, 0, 5], "goal": [9, 0, 5]}})
+    >>> spatial_limits_of(mission).descent
+    3.0
+    """
+    robot = mission.robot
+    rate = robot.max_yaw_rate_degps
+    return SpatialLimits(
+        along=Limits.of(robot),
+        climb=robot.climb_speed if robot.climb_speed < robot.max_speed_mps else None,
+        descent=robot.descent_speed if robot.descent_speed < robot.max_speed_mps else None,
+        vertical_accel=(
+            robot.max_vertical_accel_mps2
+            if robot.max_vertical_accel_mps2 is not None
+            and robot.max_vertical_accel_mps2 < robot.max_accel_mps2
+            else None
+        ),
+        yaw_rate=None if rate is None else math.radians(rate),
+    )
+
+
+def spatial_world_of(mission: Mission, places: FlightPlaces) -> SpatialWorld:
+    """The known world of a mission in space.
+
+    Args:
+        mission: It.
+        places: Of its route; home counts for the altitude.
+    """
+    world, robot = mission.world, mission.robot
+    solids = [obstacle.solid() for obstacle in world.standing]
+    names = [
+        obstacle.name or f"world.known[{k}]"
+        for k, obstacle in enumerate(world.known)
+        if obstacle.motion is None
+    ]
+    ground = world.ground
+    half = robot.half_height_m
+    return SpatialWorld.of(
+        solids,
+        names,
+        ground=None if ground is None else ground.terrain or ground.flat_m,
+        bounds=world.bounds,
+        core_radius=0.0 if half is None else robot.radius_m,
+        core_half_height=0.0 if half is None else half,
+        nodata="blocked" if ground is None else ground.nodata,
+        fences=[(ring,) for ring in world.fences],
+        band=_band(mission, places.home),
+    )
+
+
+def _band(mission: Mission, home: float) -> HeightBand:
+    altitude = mission.world.altitude
+    if altitude is None:
+        return HeightBand()
+    low = -math.inf if altitude.min_m is None else altitude.min_m
+    high = math.inf if altitude.max_m is None else altitude.max_m
+    if altitude.above == "ground":
+        ground = mission.world.ground
+        if ground is None:
+            return HeightBand(lowest=low, highest=high)
+        return HeightBand(least_above_ground=low, most_above_ground=high)
+    zero = home if altitude.above == "home" else 0.0
+    return HeightBand(lowest=zero + low, highest=zero + high)
+
+
+def _vias(mission: Mission, places: FlightPlaces) -> Iterator[SpatialVia]:
+    """The via points between take-off and landing."""
+    route = mission.route
+    first = places.start if places.takeoff is None else places.takeoff
+    yield _via(route.start, route.start.name or "start", first, 0, rests=True)
+    for k, (point, place) in enumerate(zip(route.via, places.via, strict=True)):
+        yield _via(point, point.name or f"via {k + 1}", place, k + 1)
+    last = places.via[-1] if places.via else first
+    index = len(route.via) + 1
+    if route.closed:
+        yield _via(route.start, route.start.name or "start", first, index, rests=True)
+    elif route.goal is not None and places.goal is not None:
+        yield _via(route.goal, route.goal.name or "goal", places.goal, index, rests=True)
+    elif places.landing is not None:
+        top = (places.landing[0], places.landing[1], max(last[2], places.landing[2]))
+        yield SpatialVia("goal", np.array(top), index, 0.0)
+
+
+def _via(
+    point: ViaPoint, name: str, place: Place, index: int, *, rests: bool = False
+) -> SpatialVia:
+    heading = getattr(point, "heading_deg", None)
+    if point.gate is not None:
+        heading = point.gate.facing_deg
+    look = None if point.look_at is None else (point.look_at[0], point.look_at[1])
+    dwell = point.dwell_s if rests or point.dwell_s > 0.0 else None
+    return SpatialVia(name, np.array(place), index, dwell, _level(heading), look)
+
+
+def _level(heading_deg: float | None) -> Floats | None:
+    """The level unit vector of a heading [deg]."""
+    if heading_deg is None:
+        return None
+    heading = math.radians(heading_deg)
+    return np.array([math.cos(heading), math.sin(heading), 0.0])
+
+
+def _tensions(spline: SplineSpec, count: int) -> Floats:
+    """The tension of each leg, shape (count,)."""
+    if spline.slack is not None:
+        return np.broadcast_to(1.0 - 2.0 * np.asarray(spline.slack, float), count).copy()
+    if spline.tension is None or spline.tension == "auto":
+        return np.zeros(count)
+    return np.broadcast_to(np.asarray(spline.tension, float), count).copy()
+
+
+def _facing(yaw: str | FixedYaw | None) -> Facing:
+    if isinstance(yaw, FixedYaw):
+        if yaw.to is not None:
+            return FacingPlace(yaw.to[0], yaw.to[1])
+        assert yaw.fixed_deg is not None  # one of the two is given
+        return FacingFixed(math.radians(yaw.fixed_deg))
+    return FacingAlong()

@@ -1,0 +1,66 @@
+"""What was flown in space.
+
+Tested through ``space/online/test_fly``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
+from viaspline.space.spatial_plan import SpatialPlan
+
+
+@dataclass(frozen=True, eq=False)
+class SpatialReplan:
+    """Another path under way.
+
+    Attributes:
+        seen_at: When something was seen in the way [s].
+        time: When the new path began [s]; when the robot stopped, if there was none.
+        obstacles: What was seen.
+        path: The new path; None where none was found.
+        stopped: Whether the robot stopped first.
+    """
+
+    seen_at: float
+    time: float
+    obstacles: tuple[str, ...]
+    path: Path | None
+    stopped: bool
+
+
+@dataclass(frozen=True, eq=False)
+class SpatialRun:
+    """What was flown: exactly along the path, by a point that follows its time law.
+
+    Attributes:
+        plan: What it began with.
+        times: [s], shape (n,).
+        positions: Of the reference point [m], shape (n, 3).
+        headings: Of the body [rad], shape (n,).
+        speeds: Along the path [m/s], shape (n,).
+        climbs: Upward [m/s], shape (n,).
+        replans: Where the path was changed.
+        clearance: Proven free space between the body and everything that there is, seen or not, on
+            all that was flown; while it takes off and lands, the ground doesn't count [m].
+        reached: Whether it came to its goal.
+        reason: Why not; empty if it did.
+    """
+
+    plan: SpatialPlan
+    times: Floats
+    positions: Floats
+    headings: Floats
+    speeds: Floats
+    climbs: Floats
+    replans: tuple[SpatialReplan, ...]
+    clearance: float
+    reached: bool
+    reason: str = ""
+
+    @property
+    def duration(self) -> float:
+        """[s]."""
+        return float(self.times[-1] - self.times[0])

@@ -1,0 +1,136 @@
+"""The ways past what stands on a leg: laid, proven, timed, and the best of them taken.
+
+Tested through ``space/test_plan_spatial``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Final, Protocol
+
+import numpy as np
+
+from viaspline.curve.certificate import certify
+from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
+from viaspline.planning.problem.ledger import Candidate, PassingSide
+from viaspline.space.laying.clear_route import Check, StuckLegError, tightened_leg
+from viaspline.space.laying.leg_polygon import LegPolygon
+from viaspline.space.spatial_problem import SpatialProblem
+from viaspline.space.timing.retime_in_space import retime_in_space
+from viaspline.space.timing.yaw_profile import FacingFixed, yaw_profile
+
+GENTLEST_M: Final = 200.0
+"""Radius of corners, at most, however fast the robot is."""
+
+
+WIDER: Final = 1.25
+"""Than the radius at which no speed is lost: corners that are moved outward get sharper."""
+
+
+@dataclass(frozen=True, eq=False)
+class TautWay:
+    """A way past what stands on a leg.
+
+    Attributes:
+        side: On which side it passes.
+        inner: Its corners without its ends [m], shape (k, 3).
+    """
+
+    side: PassingSide
+    inner: Floats
+
+
+class Router(Protocol):
+    """Finds the ways past what stands between two places."""
+
+    def gates(self, leg: int) -> Floats:
+        """What a leg has to pass on which sides, (g, 8); see ``routing/pass_gates``."""
+
+    def ways(self, leg: int, laid: Floats) -> Sequence[TautWay]:
+        """All of them that were found, at least one, for a leg whose curve isn't clear.
+
+        Raises:
+            NoPathError: There is none, proven.
+            GaveUpError: None was found.
+        """
+
+
+def corner_radius(problem: SpatialProblem) -> float:
+    """How gently to turn at corners if there is room [m]: so that no speed is lost by it.
+
+    Where the length counts, as tightly as the body is large.
+    """
+    along = problem.limits.along
+    if problem.objective == "length":
+        return max(problem.radius, float(problem.world.packed.core[0]), 0.1)
+    across = along.max_lateral_accel or along.max_accel
+    return min(WIDER * along.max_speed**2 / across, GENTLEST_M)
+
+
+@dataclass(frozen=True, eq=False)
+class WeighedWay:
+    """A way with what it would cost.
+
+    Attributes:
+        way: The way.
+        candidate: What the ledger says of it.
+        cost: Time or length by which it is chosen; infinite if it can't be taken.
+    """
+
+    way: TautWay
+    candidate: Candidate
+    cost: float
+
+
+def weighed(
+    problem: SpatialProblem, check: Check, leg: int, ways: Sequence[TautWay]
+) -> tuple[TautWay, tuple[Candidate, ...]]:
+    """The best of the ways of a leg, and all of them for the ledger.
+
+    Each is laid alone, from rest to rest, free in direction where no direction is asked for.
+
+    Args:
+        problem: What is asked.
+        check: What the curve has to pass.
+        leg: Which leg it is.
+        ways: Those to be weighed.
+
+    Raises:
+        StuckLegError: When none of them can be laid.
+    """
+    found = [_weigh(problem, check, leg, way) for way in ways]
+    best = min(range(len(found)), key=lambda k: found[k].cost)
+    if math.isinf(found[best].cost):
+        raise StuckLegError(leg, problem.places[leg])
+    candidates = tuple(
+        replace(one.candidate, chosen=True) if k == best else one.candidate
+        for k, one in enumerate(found)
+    )
+    return ways[best], candidates
+
+
+def _weigh(problem: SpatialProblem, check: Check, leg: int, way: TautWay) -> WeighedWay:
+    vias = problem.vias[leg : leg + 2]
+    points = np.concatenate((vias[0].at[None], way.inner, vias[1].at[None]))
+    free = np.full(3, np.nan)
+    directions = np.array([free if via.direction is None else via.direction for via in vias])
+    radii = np.full(len(points), corner_radius(problem))
+    try:
+        polygon = tightened_leg(LegPolygon(points, directions, radii), leg, check)
+    except StuckLegError as stuck:
+        x, y, z = stuck.place.tolist()
+        why = f"it comes too near at ({x:.2f}, {y:.2f}, {z:.2f}) however tightly it turns"
+        nothing = Candidate(way.side, way.inner, np.empty((0, 4, 3)), impossible=why)
+        return WeighedWay(way, nothing, math.inf)
+    path = Path(polygon.spans()[0], [])
+    law = retime_in_space(path, problem.limits, (), yaw_profile(path, FacingFixed(0.0)))
+    proof = certify(path, problem.world, problem.clearance, radius=problem.radius)
+    candidate = Candidate(
+        way.side, way.inner, np.asarray(path.spans), path.length, law.duration, proof.clearance,
+        float(path.max_curvature()[0]),
+    )  # fmt: skip
+    cost = law.duration if problem.objective == "time" else path.length
+    return WeighedWay(way, candidate, cost)

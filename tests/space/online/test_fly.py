@@ -1,0 +1,88 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from viaspline.mission.model import Mission
+from viaspline.space.online.fly import fly
+from viaspline.space.plan_spatial import plan_spatial
+
+
+def mission(unseen: list[dict[str, object]], **more: object) -> Mission:
+    return Mission.model_validate(
+        {
+            "world": {"ground": {"flat_m": 0}, "unseen": unseen,
+                      "altitude": {"min_m": 2, "max_m": 60, "above": "home"}},
+            "robot": {"radius_m": 0.5, "clearance_m": 1, "max_speed_mps": 5, "max_accel_mps2": 2,
+                      "max_climb_mps": 2, "sensor": {"range_m": 20}, **more},
+            "route": {"start": [0, 0], "takeoff": {"to_agl_m": 10},
+                      "via": [[60, 0, 10], [120, 30, 14]], "land": {"at": [160, 30]}},
+        }
+    )  # fmt: skip
+
+
+def nearest(unseen: list[dict[str, object]], places: np.ndarray) -> float:
+    gaps = [
+        np.linalg.norm(places - np.array(one["ball"]["center"]), axis=1).min()  # type: ignore[index]
+        - one["ball"]["radius"]  # type: ignore[index]
+        for one in unseen
+    ]
+    return float(min(gaps)) - 0.5
+
+
+@settings(max_examples=8)
+@given(seed=st.integers(0, 10_000))
+def test_what_is_seen_under_way_is_kept_clear_of_and_every_via_point_is_served(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    unseen = [
+        {"ball": {"center": [float(rng.uniform(20, 100)), float(rng.uniform(-5, 25)),
+                             float(rng.uniform(8, 16))], "radius": float(rng.uniform(1, 3))}}
+        for _ in range(3)
+    ]  # fmt: skip
+    vias = np.array([[60.0, 0, 10], [120, 30, 14]])
+    for one in unseen:
+        if np.linalg.norm(vias - np.array(one["ball"]["center"]), axis=1).min() < 7:
+            return
+    run = fly(plan_spatial(mission(unseen)))
+    assert run.clearance >= 1.0 - 1e-6 or not run.reached
+    assert nearest(unseen, run.positions) >= run.clearance - 1e-6
+    if run.reached:
+        for via in vias:
+            assert np.linalg.norm(run.positions - via, axis=1).min() < 0.5
+        assert np.allclose(run.positions[-1], (160, 30, 0.5), atol=1e-6)
+    steps = np.linalg.norm(np.diff(run.positions, axis=0), axis=1) / np.diff(run.times)
+    assert steps.max() <= 5 * (1 + 1e-6)
+
+
+def test_a_new_path_begins_without_a_stop_where_there_is_room() -> None:
+    unseen = [{"name": "crane", "ball": {"center": [35, 0, 10], "radius": 2}}]
+    run = fly(plan_spatial(mission(unseen)))
+    (replan,) = run.replans
+    assert replan.obstacles == ("crane",)
+    assert not replan.stopped
+    assert run.reached
+    under_way = (run.times > replan.seen_at) & (run.times < replan.time + 3)
+    assert run.speeds[under_way].min() > 1.0
+    turns = np.diff(run.positions, axis=0)
+    turns /= np.maximum(np.linalg.norm(turns, axis=1), 1e-9)[:, None]
+    assert (turns[1:] * turns[:-1]).sum(axis=1)[under_way[1:-1]].min() > 0.98
+
+
+def test_a_flight_without_anything_unseen_follows_its_plan() -> None:
+    plan = plan_spatial(mission([]))
+    run = fly(plan)
+    assert run.reached
+    assert run.replans == ()
+    assert run.duration == pytest.approx(plan.trajectory.duration)
+    assert run.clearance == pytest.approx(plan.certificate.clearance, abs=2e-3)
+
+
+def test_what_stands_on_a_via_point_ends_the_flight_before_it_with_the_reason() -> None:
+    unseen = [{"name": "tent", "ball": {"center": [120, 30, 14], "radius": 3}}]
+    run = fly(plan_spatial(mission(unseen)))
+    assert not run.reached
+    assert "tent" in run.reason
+    assert run.clearance >= 1.0 - 1e-6
+    assert run.speeds[-1] == pytest.approx(0.0, abs=1e-6)

@@ -1,0 +1,30 @@
+import numpy as np
+import pytest
+
+from viaspline.mission.model import Mission
+from viaspline.space.asked_passes import asked_passes, gates_of_leg
+from viaspline.space.routing.pass_gates import SIDE_BITS
+
+
+def mission(**asked: object) -> Mission:
+    mast = {"circle": {"center": [50, 0], "radius": 2}, "height_m": [0, 20], **asked}
+    return Mission.model_validate(
+        {"world": {"known": [mast]}, "route": {"start": [0, 0, 5], "goal": [100, 0, 5]}}
+    )
+
+
+@pytest.mark.parametrize("side", ["left", "right", "over", "under"])
+def test_a_side_that_is_forced_is_the_only_one_that_is_left(side: str) -> None:
+    (asked,) = asked_passes(mission(pass_on=side))
+    assert asked.allowed == (side,)
+    (forbidden,) = asked_passes(mission(never_pass_on=side))
+    assert set(forbidden.allowed) == set(SIDE_BITS) - {side}
+
+
+def test_an_obstacle_counts_on_legs_that_come_near_it_and_on_no_other() -> None:
+    asked = asked_passes(mission(pass_on="left"))
+    near = gates_of_leg(asked, np.array([0.0, 3, 5]), np.array([100.0, 3, 5]), 1.0)
+    far = gates_of_leg(asked, np.array([0.0, 40, 5]), np.array([100.0, 40, 5]), 1.0)
+    assert near.shape == (1, 8)
+    assert far.shape == (0, 8)
+    assert asked_passes(mission()) == ()

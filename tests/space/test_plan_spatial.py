@@ -1,0 +1,145 @@
+"""Missions in space as wholes, against exact distances of the test's own."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+import viaspline as vs
+from viaspline.errors import GaveUpError, NoPathError
+from viaspline.mission.model import Mission
+
+Floats = NDArray[np.float64]
+RADIUS, HALF, CLEARANCE = 0.5, 0.25, 1.0
+
+
+def city(seed: int) -> dict[str, object]:
+    """Boxes and balls, a start and a goal that are clear of them."""
+    rng = np.random.default_rng(seed)
+    known: list[dict[str, object]] = []
+    for _ in range(int(rng.integers(1, 9))):
+        x, y = rng.uniform(25, 125, 2).tolist()
+        w, d = rng.uniform(5, 25, 2).tolist()
+        roof = float(rng.uniform(8, 40))
+        known.append({"box": {"min": [x, y, 0], "max": [x + w, y + d, roof]}})
+    for _ in range(int(rng.integers(0, 4))):
+        center = rng.uniform((25, 25, 8), (125, 125, 30)).tolist()
+        known.append({"ball": {"center": center, "radius": float(rng.uniform(1, 6))}})
+    return {
+        "world": {
+            "bounds": [0, 0, 160, 160],
+            "altitude": {"min_m": 2, "max_m": 60, "above": "home"},
+            "ground": {"flat_m": 0},
+            "known": known,
+        },
+        "robot": {"radius_m": RADIUS, "half_height_m": HALF, "clearance_m": CLEARANCE,
+                  "max_speed_mps": 8, "max_accel_mps2": 2, "max_climb_mps": 3,
+                  "max_descent_mps": 2},
+        "route": {"start": [8, 8, float(rng.uniform(4, 30))], "via": [],
+                  "goal": [152, 152, float(rng.uniform(4, 30))]},
+    }  # fmt: skip
+
+
+def distances(known: list[dict[str, dict[str, object]]], places: Floats) -> Floats:
+    """From an upright cylinder at places to boxes and balls, by formulas of its own."""
+    least = np.full(len(places), math.inf)
+    for one in known:
+        if "box" in one:
+            low, high = np.array(one["box"]["min"]), np.array(one["box"]["max"])
+            apart = np.maximum(np.maximum(low - places, places - high), 0.0)
+            level = np.maximum(np.hypot(apart[:, 0], apart[:, 1]) - RADIUS, 0.0)
+            upright = np.maximum(apart[:, 2] - HALF, 0.0)
+            least = np.minimum(least, np.hypot(level, upright))
+        else:
+            center = np.array(one["ball"]["center"])
+            off = places - center
+            level = np.maximum(np.hypot(off[:, 0], off[:, 1]) - RADIUS, 0.0)
+            upright = np.maximum(np.abs(off[:, 2]) - HALF, 0.0)
+            least = np.minimum(least, np.hypot(level, upright) - float(one["ball"]["radius"]))  # type: ignore[arg-type]
+    return least
+
+
+@settings(max_examples=12)
+@given(seed=st.integers(0, 100_000))
+def test_a_path_keeps_its_clearance_its_altitude_and_its_limits_everywhere(seed: int) -> None:
+    data = city(seed)
+    plan = vs.plan(Mission.model_validate(data))
+    assert isinstance(plan, vs.SpatialPlan)
+    places = plan.path.at_distance(np.linspace(0, plan.path.length, int(plan.path.length / 0.02)))
+    kept = distances(data["world"]["known"], places)  # type: ignore[index]
+    assert kept.min() >= CLEARANCE - 1e-6
+    assert plan.certificate.holds
+    assert plan.certificate.clearance <= kept.min() + 1e-6
+    assert plan.heights.holds
+    assert places[:, 2].min() >= 2 - 1e-6
+    assert places[:, 2].max() <= 60 + 1e-6
+    times = np.linspace(0, plan.trajectory.duration, 3000)
+    at, speed, _ = plan.trajectory.state_at(times)
+    climb = speed * plan.path.tangent(plan.path.parameter(np.clip(at, 0, plan.path.length)))[:, 2]
+    assert climb.max() <= 3 + 1e-6
+    assert climb.min() >= -2 - 1e-6
+
+
+def test_the_same_mission_gives_the_same_bytes() -> None:
+    one, other = (vs.plan(Mission.model_validate(city(11))) for _ in range(2))
+    assert one.path.spans.tobytes() == other.path.spans.tobytes()
+    assert one.trajectory.times.tobytes() == other.trajectory.times.tobytes()
+
+
+@pytest.mark.parametrize("side", ["left", "right", "over", "under"])
+def test_a_side_that_is_asked_for_is_the_side_that_is_taken(side: str) -> None:
+    data = city(0)
+    lamp = {"ball": {"center": [80, 80, 20], "radius": 4}, "pass_on": side}
+    data["world"]["known"] = [lamp]  # type: ignore[index]
+    data["route"] = {"start": [8, 8, 20], "goal": [152, 152, 20]}
+    plan = vs.plan(Mission.model_validate(data))
+    places = plan.path.at_distance(np.linspace(0, plan.path.length, 4000))
+    middle = places[int(np.argmin(np.abs(places[:, 0] + places[:, 1] - 160)))]
+    left = (middle[1] - 80) * math.sqrt(0.5) - (middle[0] - 80) * math.sqrt(0.5)
+    taken = {
+        "left": left > 4, "right": left < -4, "over": abs(left) <= 4 < middle[2] - 20,
+        "under": abs(left) <= 4 < 20 - middle[2],
+    }  # fmt: skip
+    assert taken[side]
+
+
+def test_a_place_that_is_walled_in_is_refused_and_the_wall_is_named() -> None:
+    walls = [
+        {"name": "shell", "box": {"min": [140, 140, 0], "max": [160, 141, 60]}},
+        {"box": {"min": [140, 140, 0], "max": [141, 160, 60]}},
+    ]
+    data = city(0)
+    data["world"]["known"] = walls  # type: ignore[index]
+    with pytest.raises((NoPathError, GaveUpError)):
+        vs.plan(Mission.model_validate(data))
+
+
+def test_a_gate_is_flown_through_square_to_it() -> None:
+    data = city(0)
+    data["world"]["known"] = []  # type: ignore[index]
+    gate = {"at": [80, 60, 12], "facing_deg": 90, "width_m": 5, "height_m": 5}
+    data["route"] = {"start": [8, 8, 10], "via": [{"gate": gate}], "goal": [152, 152, 10]}
+    plan = vs.plan(Mission.model_validate(data))
+    via = next(via for via in plan.path.vias if via.index == 1)
+    assert np.allclose(plan.path.tangent(via.u), (0, 1, 0), atol=1e-9)
+
+
+def test_a_ball_flies_through_voxels_as_well() -> None:
+    blocked = np.zeros((40, 40, 20), bool)
+    blocked[18:22, :, :12] = True
+    data = city(0)
+    data["world"]["known"] = [  # type: ignore[index]
+        {"name": "wall", "voxels": vs.Voxels(blocked, 2.0, (40.0, 40.0, 0.0))}
+    ]
+    data["robot"] = {"radius_m": 0.5, "clearance_m": 0.5, "max_climb_mps": 2}
+    plan = vs.plan(Mission.model_validate(data))
+    places = plan.path.at_distance(np.linspace(0, plan.path.length, 4000))
+    low, high = np.array([76.0, 40, 0]), np.array([84.0, 120, 24])
+    apart = np.linalg.norm(np.maximum(np.maximum(low - places, places - high), 0), axis=1)
+    assert apart.min() >= 1.0 - 1e-6
+    assert plan.certificate.holds

@@ -1,0 +1,93 @@
+import math
+
+import numpy as np
+import pytest
+
+from viaspline.errors import GeometryError
+from viaspline.mission.model import Mission
+from viaspline.space.spatial_request import spatial_limits_of, spatial_problem_of
+from viaspline.space.timing.yaw_profile import FacingAlong, FacingFixed, FacingPlace
+
+
+def mission(**parts: dict[str, object]) -> Mission:
+    route = {"start": [0, 0], "takeoff": {"to_agl_m": 12}, "land": {"at": [60, 0]}}
+    world = {"ground": {"flat_m": 100}}
+    return Mission.model_validate(
+        {
+            "world": {**world, **parts.pop("world", {})},
+            "robot": parts.pop("robot", {}),
+            "route": {**route, **parts.pop("route", {})},
+        }
+    )
+
+
+def test_a_flight_goes_from_above_where_it_takes_off_to_above_where_it_lands() -> None:
+    problem = spatial_problem_of(mission(route={"via": [{"at": [30, 9], "agl_m": 20}]}))
+    assert [via.at.tolist() for via in problem.vias] == [
+        [0, 0, 112], [30, 9, 120], [60, 0, 120]
+    ]  # fmt: skip
+    assert problem.takeoff is not None
+    assert problem.landing is not None
+    assert problem.takeoff[2] == problem.landing[2] == 100.5
+    assert [via.dwell for via in problem.vias] == [0.0, None, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("above", "limits"),
+    [
+        ("home", (105, 150, -math.inf, math.inf)),
+        ("amsl", (5, 50, -math.inf, math.inf)),
+        ("ground", (-math.inf, math.inf, 5, 50)),
+    ],
+)
+def test_an_altitude_counts_from_what_it_says(above: str, limits: tuple[float, ...]) -> None:
+    altitude = {"min_m": 5, "max_m": 50, "above": above}
+    route = {"start": [0, 0, 120 if above != "amsl" else 20], "goal": [9, 0, 120], "land": None}
+    if above == "amsl":
+        route["goal"] = [9, 0, 20]
+    ground = {"flat_m": 100 if above != "amsl" else 0}
+    asked = mission(
+        world={"altitude": altitude, "ground": ground}, route={**route, "takeoff": None}
+    )
+    assert spatial_problem_of(asked).world.band.numbers == limits
+
+
+def test_a_body_with_a_half_height_is_the_core_and_one_without_is_a_ball() -> None:
+    upright = spatial_problem_of(mission(robot={"radius_m": 0.4, "half_height_m": 0.2}))
+    assert (upright.radius, upright.world.packed.core.tolist()) == (0.0, [0.4, 0.2])
+    ball = spatial_problem_of(mission(robot={"radius_m": 0.4}))
+    assert (ball.radius, ball.world.packed.core.tolist()) == (0.4, [0.0, 0.0])
+
+
+def test_a_gate_is_passed_along_the_way_that_it_faces() -> None:
+    gate = {"gate": {"at": [30, 0, 110], "facing_deg": 90, "width_m": 4, "height_m": 3}}
+    problem = spatial_problem_of(mission(route={"via": [gate]}))
+    way = problem.vias[1].direction
+    assert way is not None
+    assert np.allclose(way, (0, 1, 0))
+
+
+def test_yaw_is_what_the_route_says() -> None:
+    assert spatial_problem_of(mission()).facing == FacingAlong()
+    fixed = mission(route={"yaw": {"fixed_deg": 90}})
+    assert spatial_problem_of(fixed).facing == FacingFixed(math.pi / 2)
+    to = mission(route={"yaw": {"to": [5, 6, 0]}})
+    assert spatial_problem_of(to).facing == FacingPlace(5, 6)
+
+
+def test_speeds_up_and_down_are_limits_only_where_they_are_less_than_the_speed() -> None:
+    free = spatial_limits_of(mission(robot={"max_speed_mps": 3}))
+    assert (free.climb, free.descent, free.vertical_accel) == (None, None, None)
+    slow = spatial_limits_of(
+        mission(robot={"max_speed_mps": 9, "max_climb_mps": 2, "max_vertical_accel_mps2": 0.5})
+    )
+    assert (slow.climb, slow.descent, slow.vertical_accel) == (2, 2, 0.5)
+
+
+def test_what_is_not_planned_in_space_is_refused_by_name() -> None:
+    cart = {
+        "circle": {"center": [30, 30], "radius": 1},
+        "motion": {"from": [30, 30], "velocity_mps": [1, 0]},
+    }
+    with pytest.raises(GeometryError, match="move"):
+        spatial_problem_of(mission(world={"known": [cart]}))
