@@ -70,6 +70,7 @@ class SpaceRouter:
     Attributes:
         room: Where.
         weight: Of the estimate in lattice searches, from 1 on: greater is faster, and longer.
+        voxel_weight: Of it among voxels alone, where one search has to do.
         least_cut: A corner is cut off where that gains as much, as a share of the whole cost.
         most_places: Contacts that are looked at.
         most_lines: Lines between contacts that are looked at.
@@ -80,6 +81,7 @@ class SpaceRouter:
 
     room: SearchRoom
     weight: float = 1.1
+    voxel_weight: float = 1.0
     least_cut: float = 2e-4
     most_places: int = 1024
     most_lines: int = 1000
@@ -168,7 +170,7 @@ class SpaceRouter:
         """A way through the lattice, searched from the start."""
         way: Floats = lattice_way(
             self.room.packed, query.gates, query.norm, lattice, query.ends[0], query.ends[1],
-            query.radius, self.weight, self._most_nodes,
+            query.radius, self._weight, self._most_nodes,
         )[0]  # fmt: skip
         return way
 
@@ -176,9 +178,13 @@ class SpaceRouter:
         """One that is searched from the goal, where climbing is sinking."""
         way: Floats = lattice_way(
             self.room.packed, query.gates, query.norm[[0, 2, 1]], lattice, query.ends[1],
-            query.ends[0], query.radius, self.weight, self._most_nodes,
+            query.ends[0], query.radius, self._weight, self._most_nodes,
         )[0]  # fmt: skip
         return way[::-1].copy()
+
+    @property
+    def _weight(self) -> float:
+        return self.weight if isinstance(self.room.packed, PackedSpace) else self.voxel_weight
 
     @property
     def _most_nodes(self) -> int:

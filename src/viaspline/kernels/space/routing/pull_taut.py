@@ -9,12 +9,11 @@ thousands of vertices. Where a way is held in the midst of a straight line, it g
 
 from __future__ import annotations
 
-import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.space.routing.route_protocol import (
     NORMAL_X,
@@ -26,6 +25,12 @@ from viaspline.kernels.space.routing.route_protocol import (
     touched,
 )
 from viaspline.kernels.space.routing.side_gates import gates_allow
+from viaspline.kernels.space.routing.taut_string import (
+    TautString,
+    drop_vertex,
+    insert_vertex,
+    line_length,
+)
 from viaspline.kernels.space.routing.vertex_move import (
     best_place,
     beyond_plane,
@@ -40,24 +45,6 @@ _OWN = 0.25  # of a line: what is touched nearer to its far end than this holds 
 _LIFT = 2.0  # of the reach: by how much a further vertex is put off from what it touches
 _MIDST = 40.0  # of the reach: what is touched farther from both ends is touched in the midst
 _SWEEPS, _ROUNDS = 12, 4
-
-
-class TautString(NamedTuple):
-    """A way that is being pulled.
-
-    Attributes:
-        rows: Its vertices [m], (room, 3).
-        size: How many there are, (1,).
-        planes: Room for what a vertex touches, (p, 5).
-        best: Room for a place, (3,).
-        reach: What is no further beyond the radius counts as touched [m].
-    """
-
-    rows: Floats
-    size: Ints
-    planes: Floats
-    best: Floats
-    reach: float
 
 
 @inner
@@ -88,27 +75,6 @@ def _fits(
     return _sees(space, gates, radius, rows, here - 1, x, y, z) and _sees(
         space, gates, radius, rows, here + 1, x, y, z
     )
-
-
-@inner
-def _drop(string: TautString, here: int) -> None:
-    """Take a vertex away."""
-    for row in range(here, string.size[0] - 1):
-        for axis in range(3):
-            string.rows[row, axis] = string.rows[row + 1, axis]
-    string.size[0] -= 1
-
-
-@inner
-def _insert(string: TautString, here: int, x: float, y: float, z: float) -> None:
-    """Put a further vertex before one; there has to be room."""
-    for row in range(string.size[0], here, -1):
-        for axis in range(3):
-            string.rows[row, axis] = string.rows[row - 1, axis]
-    string.size[0] += 1
-    string.rows[here, 0] = x
-    string.rows[here, 1] = y
-    string.rows[here, 2] = z
 
 
 @inner
@@ -217,7 +183,7 @@ def _swept(
                 rows[after, 1] - rows[here - 1, 1],
                 rows[after, 2] - rows[here - 1, 2],
             )
-            _drop(string, here)
+            drop_vertex(string, here)
             here = max(1, here - 1)
             continue
         gain += _moved(space, gates, norm, radius, string, here)
@@ -239,14 +205,6 @@ def _cost(norm: Floats, string: TautString) -> float:
 
 
 @inner
-def _gap(rows: Floats, i: int, j: int) -> float:
-    dx = rows[j, 0] - rows[i, 0]
-    dy = rows[j, 1] - rows[i, 1]
-    dz = rows[j, 2] - rows[i, 2]
-    return math.sqrt(dx * dx + dy * dy + dz * dz)
-
-
-@inner
 def _cut_off(
     space: Any,
     gates: Floats,
@@ -258,8 +216,8 @@ def _cut_off(
 ) -> bool:
     """Cut a corner off, if that gains the least; whether it did."""
     rows = string.rows
-    before = _gap(rows, here - 1, here)
-    after = _gap(rows, here, here + 1)
+    before = line_length(rows, here - 1, here)
+    after = line_length(rows, here, here + 1)
     whole = 0.5 * min(before, after)
     if whole <= 0.0:
         return False
@@ -298,7 +256,7 @@ def _cut_off(
     rows[here, 0] += cut * bx
     rows[here, 1] += cut * by
     rows[here, 2] += cut * bz
-    _insert(string, here, x, y, z)
+    insert_vertex(string, here, x, y, z)
     return True
 
 
@@ -308,7 +266,7 @@ def _held_between(space: Any, gates: Floats, radius: float, string: TautString, 
     rows = string.rows
     planes = string.planes
     count = _touched_between(space, radius, string, here - 1, here, 0)
-    length = _gap(rows, here - 1, here)
+    length = line_length(rows, here - 1, here)
     best = -1
     for k in range(count):
         t = planes[k, WHERE]
@@ -327,7 +285,7 @@ def _held_between(space: Any, gates: Floats, radius: float, string: TautString, 
         return False
     if not _sees(space, gates, radius, rows, here, x, y, z):
         return False
-    _insert(string, here, x, y, z)
+    insert_vertex(string, here, x, y, z)
     return True
 
 
