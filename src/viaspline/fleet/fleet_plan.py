@@ -12,6 +12,7 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.precedences import Precedence
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.mission.fleet.fleet import Fleet
@@ -52,6 +53,8 @@ class FleetPlan:
         laws: When each robot is where on its course. Those that are not served stand at their
             starts for ever.
         rides: How each robot drives where nobody is in its way.
+        patrols: The robots that never end, of which plans and courses hold the first laps; None
+            where all of them end.
     """
 
     fleet: Fleet
@@ -64,6 +67,7 @@ class FleetPlan:
     crossings: FleetCrossings
     laws: FleetLaws
     rides: FleetRides
+    patrols: FleetPatrols | None = None
 
     @property
     def served(self) -> bool:

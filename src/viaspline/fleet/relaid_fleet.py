@@ -50,7 +50,8 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
     if len(ways.members) > MOST_AMONG:
         return None
     fixed = timed.plans()
-    wanted = sorted(blocked, key=lambda k: (-ways.members[k].priority, k))
+    wanted = [k for k in blocked if not ways.members[k].mission.route.is_patrol]
+    wanted.sort(key=lambda k: (-ways.members[k].priority, k))
     names = [ways.members[k].name for k in wanted]
     best: TimedFleet | None = None
     for room in ROOMS_M:
