@@ -47,7 +47,8 @@ class FleetPlan:
         not_served: The others, with the reason.
         certificate: The least separation of any two robots that have a path, over all time.
         precedences: Who passes first, wherever two paths come near each other.
-        alone: How long each robot would drive if it were alone [s], by name.
+        alone: How long each robot would drive if it were alone [s], by name; a patrol all laps of
+            its plan, with what it waits for the next period.
         courses: Their paths, cut into cells, and those of robots that have a path but no law.
         crossings: Where these come near each other; in each of them one robot passes first.
         laws: When each robot is where on its course. Those that are not served stand at their

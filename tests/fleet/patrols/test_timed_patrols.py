@@ -11,9 +11,13 @@ from hypothesis import strategies as st
 from tests.fleet.patrols.periodic_places import nearest
 
 from viaspline.fleet.crossing_paths import crossing_paths
+from viaspline.fleet.execution.delays import Delays
+from viaspline.fleet.execution.simulate_fleet import simulate_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.plan_fleet import plan_by_priority, plan_fleet
+from viaspline.fleet.timelines import timelines_of
 from viaspline.mission.fleet.fleet import Fleet
+from viaspline.planner import plan as plan_alone
 
 SQUARE = {"start": [0, 0], "via": [[20, 0], [20, 20], [0, 20]], "closed": True}
 
@@ -91,7 +95,7 @@ def test_a_period_gets_longer_where_patrols_share_a_narrow_way() -> None:
     assert plan.served
     holds_for_ever(plan)
     assert plan.patrols is not None
-    alone = [plan.alone[name] / plan.plans[name].mission.route.laps for name in ("r0", "r1")]
+    alone = [plan_alone(one.mission).trajectory.duration for one in plan.fleet.members]
     assert plan.patrols.period > 1.2 * max(alone)
 
 
@@ -167,7 +171,7 @@ def test_priority_alone_times_patrols_as_well() -> None:
     holds_for_ever(plan)
 
 
-coordinates = st.integers(0, 30).map(float)
+coordinates = st.integers(0, 30).map(lambda n: n + 0.7)
 spots = st.tuples(coordinates, coordinates).map(list)
 
 
@@ -190,7 +194,7 @@ def fleets(draw: st.DrawFn) -> Fleet:
     robots = []
     for k, (start, goal) in enumerate(zip(starts, goals, strict=True)):
         begin, end = [5.0 * start[0], 5.0 * start[1]], [5.0 * goal[0] + 2.5, 5.0 * goal[1] + 2.5]
-        via = draw(st.lists(spots, min_size=1, max_size=2))
+        via = draw(st.lists(spots, min_size=1, max_size=2, unique_by=tuple))
         depart = draw(st.sampled_from([0.0, 0.0, 7.0, 60.0]))
         if k == 0 or draw(st.booleans()):
             robots.append(patrol(begin, *via, end, depart_s=depart))
@@ -200,7 +204,7 @@ def fleets(draw: st.DrawFn) -> Fleet:
     return fleet_of(*robots)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(fleets(), st.sampled_from([0.0, 0.002]))
 def test_whatever_is_served_keeps_apart_for_ever(asked: Fleet, improve: float) -> None:
     plan = plan_fleet(asked, improve)
@@ -212,3 +216,23 @@ def test_whatever_is_served_keeps_apart_for_ever(asked: Fleet, improve: float) -
         comes_again(plan)
     told = {one.name for one in plan.not_served}
     assert told | set(plan.plans) == {one.name for one in asked.members}
+
+
+@settings(max_examples=15, deadline=None)
+@given(fleets(), st.integers(0, 1000))
+def test_patrols_that_are_delayed_stay_apart_and_come_home(asked: Fleet, seed: int) -> None:
+    plan = plan_fleet(asked)
+    run = simulate_fleet(asked, Delays(slowed=0.3, halts=1, halts_s=30), plan, seed=seed)
+    assert run.certificate.holds
+    assert run.deadlock == ()
+    assert set(run.arrivals) == set(plan.plans)
+    endless = set() if plan.patrols is None else set(plan.patrols.begins)
+    assert set(run.delays) == set(plan.plans) - endless
+
+
+def test_nobody_is_late_for_resting_between_two_rounds() -> None:
+    plan = plan_fleet(fleet_of(patrol([0, 0], [20, 0]), patrol([0, 30], [35, 30])))
+    assert plan.patrols is not None
+    assert plan.patrols.laps == {"r0": 1, "r1": 1}
+    assert [one.late for one in timelines_of(plan)] == pytest.approx([0.0, 0.0], abs=1e-6)
+    assert [one.waits for one in timelines_of(plan)] == [(), ()]

@@ -13,7 +13,7 @@ from viaspline.fleet.execution.driven_law import driven_laws, stretches_of
 from viaspline.fleet.execution.fleet_orders import FleetOrders, orders_of
 from viaspline.fleet.execution.fleet_run import FleetEvent, FleetRun, swapped_event
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.plan_fleet import FleetProgress, plan_fleet
+from viaspline.fleet.plan_fleet import PERIODS, FleetProgress, plan_fleet
 from viaspline.handed_in import check_kind, seed_from, time_from
 from viaspline.kernels.fleet.fleet_ticks import SWAPPED, WAITS, FleetTicks, fleet_ticks
 from viaspline.kernels.fleet.granted_drive import PackedTrouble
@@ -32,13 +32,14 @@ def simulate_fleet(
     *,
     seed: int = 0,
     step: float = 0.1,
+    periods: int = PERIODS,
     progress: FleetProgress | None = None,
 ) -> FleetRun:
     """Drive a fleet, with robots that are slow, that halt, and that aren't always heard.
 
     Every robot drives as fast as its law, its trouble and the others let it; they are let into
     crossings as ``FleetNavigator`` does it. Robots that are not served stay at home and are left
-    out.
+    out. Patrols, which never end, drive the laps that their plans hold, and stop at their starts.
 
     Args:
         fleet: What was asked for.
@@ -46,6 +47,8 @@ def simulate_fleet(
         plan: Its plan, if there is one already.
         seed: Of all that is random: the same seed makes the same run.
         step: From report to report [s].
+        periods: So many the plan holds of patrols that never end, if it isn't given; see
+            ``plan_fleet``.
         progress: See ``FleetProgress``; only planning tells of any.
 
     Raises:
@@ -66,8 +69,12 @@ def simulate_fleet(
     if plan is not None:
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
     step, seed = time_from("step", step), seed_from("seed", seed)
-    plan = plan_fleet(fleet, progress=progress) if plan is None else plan
-    return drive_fleet(driven_fleet_of(plan), delays, seed=seed, step=step)
+    plan = plan_fleet(fleet, progress=progress, periods=periods) if plan is None else plan
+    run = drive_fleet(driven_fleet_of(plan), delays, seed=seed, step=step)
+    if plan.patrols is None:
+        return run
+    ends = {name: late for name, late in run.delays.items() if name not in plan.patrols.begins}
+    return replace(run, delays=ends)
 
 
 def drive_fleet(

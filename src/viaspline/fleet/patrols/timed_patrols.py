@@ -8,20 +8,29 @@ after that. The others are timed past these laps as past robots that have their 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from viaspline.errors import GaveUpError
+from viaspline.fleet.fleet_laws import FleetLaws, law_at_nodes
 from viaspline.fleet.laying.rest_in_the_way import rest_in_the_way
 from viaspline.fleet.laying.resting_places import rests_of
-from viaspline.fleet.patrols.driven_laps import driven_laps, repeated_law, seams_of
+from viaspline.fleet.patrols.driven_laps import (
+    driven_laps,
+    on_nodes,
+    repeated_law,
+    seams_of,
+    set_out,
+)
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.patrols.homes_in_the_way import PatrolMeetings
 from viaspline.fleet.patrols.patrol_rhythm import PatrolRhythm, patrol_rhythm
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timing.time_paths import copied_laws
 from viaspline.kernels.arrays import Flags
+from viaspline.trajectory.trajectory import Trajectory
 
 MOST_LAPS = 3000
 """Of all patrols together, until all others have arrived and a period after that."""
@@ -142,7 +151,30 @@ class _AskedPatrols:
             seams = seams_of(plans[name].path, laps * rounds[name])[::laps]
             law = repeated_law(rhythm.laws[name], seams, period)
             laws[name] = law.delayed(later[name] * period)
-        return replace(self.ways, settled=laws).along(plans, self.separation)
+        ways = replace(self.ways, settled=laws).along(plans, self.separation)
+        return self._compared(ways, rhythm, laws)
+
+    def _compared(
+        self, ways: FleetWays, rhythm: PatrolRhythm, laws: Mapping[str, Trajectory]
+    ) -> FleetWays:
+        """The ways with patrols that, if they were alone, would begin each round when they do."""
+        packed, rides = ways.courses.packed, ways.rides
+        alone, by_clock = rides.alone.copy(), copied_laws(rides.laws.packed)
+        for robot, name in enumerate(self.names):
+            if name not in laws:
+                continue
+            part = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
+            nodes = packed.distance[part]
+            laps = rhythm.laps[name]
+            ends = seams_of(ways.plans[robot].path, ways.plans[robot].mission.route.laps)[::laps]
+            begun = rhythm.rounds[name].trajectory.delayed(float(set_out(laws[name]).start_time))
+            law = on_nodes(repeated_law(begun, ends, rhythm.period), nodes)
+            arrive, leave, speed = law_at_nodes(law, nodes)
+            by_clock.arrive[part], by_clock.leave[part] = arrive, leave
+            by_clock.speed[part] = speed
+            by_clock.arrive[part.start] = rides.packed.depart[robot]
+            alone[robot] = law.end_time - rides.packed.depart[robot]
+        return replace(ways, rides=replace(rides, alone=alone, laws=FleetLaws(by_clock)))
 
     def reasons(self, out: dict[int, int]) -> dict[int, tuple[str, str]]:
         """Why robots aren't served, and what would help, where a place is in the way."""

@@ -80,7 +80,7 @@ def _timed(
     ranks: Sequence[tuple[float, ...]], left_out: Sequence[int], given: FleetLaws,
 ) -> Timing:  # fmt: skip
     """One round: those that wait for each other in a circle come last, the foremost one first."""
-    laws = FleetLaws(_copied(given.packed))
+    laws = FleetLaws(copied_laws(given.packed))
     laws.packed.is_timed[list(left_out)] = True
     settled = np.flatnonzero(laws.packed.is_timed)
     free = asked[~np.isin(asked, settled).any(axis=1)]
@@ -94,7 +94,8 @@ def _timed(
     return Timing(laws, dict(zip(order[failed].tolist(), others, strict=True)))
 
 
-def _copied(laws: PackedLaws) -> PackedLaws:
+def copied_laws(laws: PackedLaws) -> PackedLaws:
+    """Laws of their own, to write to."""
     return PackedLaws(
         laws.arrive.copy(), laws.leave.copy(), laws.speed.copy(), laws.is_timed.copy()
     )
