@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from viaspline.errors import GeometryError
+from viaspline.fleet.among_moving import among_moving, proven_among
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
@@ -14,6 +15,7 @@ from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.patrols.timed_patrols import timed_patrols
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet
+from viaspline.fleet.still_world import without_motion
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
 from viaspline.handed_in import check_callable, check_kind, number_from
 from viaspline.mission.fleet.fleet import Fleet
@@ -82,9 +84,18 @@ def plan_fleet(
     if paths is None:
         paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
     tell("timing", 0.0)
-    timed = _served(fleet, FleetWays.of(fleet, paths), periods)
-    if improve > 0.0:
-        timed = timed.improved(improve, lambda share: tell("improving", share))
+    still = without_motion(fleet)
+    ways = FleetWays.of(still, paths)
+
+    def better(timed: TimedFleet) -> TimedFleet:
+        if improve == 0.0:
+            return timed
+        return timed.improved(improve, lambda share: tell("improving", share))
+
+    if still is fleet:
+        timed = better(_served(fleet, ways, periods))
+    else:
+        timed = among_moving(fleet, ways, lambda out: better(_of_those_that_end(still, ways, out)))
     tell("proving", 0.0)
     return _planned(fleet, timed, paths.laid.not_served)
 
@@ -99,8 +110,11 @@ def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
         fleet: What is asked for.
         paths: Of the very fleet.
     """
-    ways = FleetWays.of(fleet, paths)
-    if _has_patrols(ways):
+    still = without_motion(fleet)
+    ways = FleetWays.of(still, paths)
+    if still is not fleet:
+        timed = among_moving(fleet, ways, lambda out: _by_priority(ways, out))
+    elif _has_patrols(ways):
         timed = timed_patrols(ways, fleet.separation_m, PERIODS, _by_priority)
     else:
         timed = _by_priority(ways, {})
@@ -171,9 +185,12 @@ def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -
     if patrols is not None:
         certificate = replace(certificate, repeats=(patrols.repeats_from, patrols.period))
     crossings = ordered_crossings(courses, ways.crossings, timing.laws)
+    plans = timed.plans()
+    if fleet.world.moving:
+        plans = {name: proven_among(fleet, plan) for name, plan in plans.items()}
     return FleetPlan(
         fleet=fleet,
-        plans=timed.plans(),
+        plans=plans,
         not_served=(*not_served, *unserved),
         certificate=certificate,
         precedences=precedences_of(courses, crossings, timing.laws, ways.rides.laws),

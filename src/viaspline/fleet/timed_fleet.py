@@ -190,7 +190,9 @@ def on_lattice(ways: FleetWays, separation: float) -> TimedFleet | NoLatticeOrde
         ways: The paths that robots would drive alone.
         separation: Free space between any two bodies [m].
     """
-    laid = lattice_paths(dict(zip(ways.courses.names, ways.plans, strict=True)), separation)
+    plans = dict(zip(ways.courses.names, ways.plans, strict=True))
+    leaving = [one.name for one in ways.members if one.rest == "leave"]
+    laid = lattice_paths(plans, separation, leaving=leaving)
     if isinstance(laid, NoLatticeOrder):
         return laid
     led = ways.along(laid.plans, separation)

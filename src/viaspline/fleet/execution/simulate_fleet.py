@@ -14,6 +14,7 @@ from viaspline.fleet.execution.fleet_orders import FleetOrders, orders_of
 from viaspline.fleet.execution.fleet_run import FleetEvent, FleetRun, swapped_event
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.plan_fleet import PERIODS, FleetProgress, plan_fleet
+from viaspline.fleet.still_world import check_still
 from viaspline.handed_in import check_kind, seed_from, time_from
 from viaspline.kernels.fleet.fleet_ticks import SWAPPED, WAITS, FleetTicks, fleet_ticks
 from viaspline.kernels.fleet.granted_drive import PackedTrouble
@@ -51,8 +52,11 @@ def simulate_fleet(
             ``plan_fleet``.
         progress: See ``FleetProgress``; only planning tells of any.
 
+    Among things that move robots keep to the clock: they are where their plans have them.
+
     Raises:
-        GeometryError: An argument is something else.
+        GeometryError: An argument is something else, or there are delays among things that move:
+            these wait for nobody.
 
     Example:
         >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
@@ -70,11 +74,33 @@ def simulate_fleet(
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
     step, seed = time_from("step", step), seed_from("seed", seed)
     plan = plan_fleet(fleet, progress=progress, periods=periods) if plan is None else plan
+    if plan.fleet.world.moving:
+        if delays != Delays():
+            check_still(plan.fleet)
+        return _by_the_clock(plan)
     run = drive_fleet(driven_fleet_of(plan), delays, seed=seed, step=step)
     if plan.patrols is None:
         return run
     ends = {name: late for name, late in run.delays.items() if name not in plan.patrols.begins}
     return replace(run, delays=ends)
+
+
+def _by_the_clock(plan: FleetPlan) -> FleetRun:
+    """A drive in which every robot is just where its plan has it."""
+    arrivals = {name: one.trajectory.end_time for name, one in plan.plans.items()}
+    events = [
+        FleetEvent("arrived", time, name, f"{name} arrives") for name, time in arrivals.items()
+    ]
+    return FleetRun(
+        arrivals=arrivals,
+        delays=dict.fromkeys(arrivals, 0.0),
+        events=tuple(sorted(events, key=lambda event: (event.time, event.name))),
+        deadlock=(),
+        courses=plan.courses,
+        laws=plan.laws,
+        required=plan.fleet.separation_m,
+        end_s=max(arrivals.values(), default=0.0),
+    )
 
 
 def drive_fleet(
