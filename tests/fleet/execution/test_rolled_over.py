@@ -44,7 +44,7 @@ def driven(plan: FleetPlan, periods: float, seed: int, lost: float, halting: flo
     """
     assert plan.patrols is not None
     random = np.random.default_rng(seed)
-    nav = FleetNavigator(plan)
+    nav = FleetNavigator(plan, period=STEP_S)
     come = dict.fromkeys(plan.plans, 0.0)
     speed = dict.fromkeys(plan.plans, 0.0)
     halted = dict.fromkeys(plan.plans, 0.0)
@@ -64,7 +64,7 @@ def driven(plan: FleetPlan, periods: float, seed: int, lost: float, halting: flo
             if random.random() < halting:
                 halted[name] = time + random.uniform(1.0, 20.0)
             if random.random() >= lost and time >= halted[name]:
-                speed[name] = max(command.distance - come[name], 0.0) / STEP_S
+                speed[name] = command.speed
                 come[name] = max(come[name], command.distance)
             else:
                 speed[name] = 0.0
@@ -116,10 +116,10 @@ def test_patrols_that_halt_and_are_not_heard_stay_apart_and_go_on(
 
 def test_a_patrol_that_is_taken_out_does_not_hold_the_others_up() -> None:
     assert PATROLS.patrols is not None
-    nav = FleetNavigator(PATROLS).without("r1")
+    nav = FleetNavigator(PATROLS, period=STEP_S).without("r1")
     come, speed = 0.0, 0.0
     for time in np.arange(0.0, 6.0 * PATROLS.patrols.period, STEP_S):
         commands, nav = nav.step([ProgressReport("r0", time, come, speed)], float(time))
-        speed = max(commands["r0"].distance - come, 0.0) / STEP_S
+        speed = commands["r0"].speed
         come = max(come, commands["r0"].distance)
     assert come > PATROLS.plans["r0"].path.length

@@ -26,13 +26,13 @@ def patrol(*points: list[float], **more: Any) -> dict[str, Any]:
 
 def test_a_single_patrol_has_its_lap_for_a_period() -> None:
     found = rhythm_of(patrol([0, 0], [20, 0], [20, 20]))
-    assert found.period == found.laws["r0"].duration
+    assert found.period == pytest.approx(found.laws["r0"].duration)
     assert found.laps == {"r0": 1}
 
 
 def test_patrols_that_do_not_meet_have_the_longest_lap_for_a_period() -> None:
     found = rhythm_of(patrol([0, 0], [20, 0]), patrol([0, 30], [60, 30]))
-    assert found.period == found.laws["r1"].duration
+    assert found.period == pytest.approx(found.laws["r1"].duration)
     assert found.laps == {"r0": 2, "r1": 1}
     assert found.laws["r0"].duration <= found.period
 
@@ -62,3 +62,16 @@ def test_a_period_that_gets_too_long_is_given_up_with_who_is_in_the_way(
     with pytest.raises(GaveUpError) as caught:
         rhythm_of(*ways)
     assert set(caught.value.obstacles) <= {"r0", "r1"}
+
+
+def test_a_robot_that_turns_on_the_spot_has_time_for_it_between_two_laps() -> None:
+    robot = {"max_yaw_rate_degps": 20, "turn_on_spot": "vias"}
+    route = {"start": [0, 0], "via": [[20, 0], [20, 20]], "closed": True}
+    fleet = Fleet.model_validate(
+        {"robots": {"cart": robot}, "spline": {"tension": 1.0},
+         "fleet": [{"name": "r0", "robot": "cart", "route": route}]}
+    )  # fmt: skip
+    (member,) = fleet.members
+    lap = plan(member.mission)
+    found = patrol_rhythm(fleet.members, {"r0": lap}, 0.5)
+    assert found.period > lap.trajectory.duration + 2.0

@@ -124,6 +124,8 @@ class _RoundTiming:
         crossings: Where a round comes near to something else.
         rides: How rounds are driven alone.
         seams: Where the rounds behind each other begin and end [m], by name.
+        stays: How long each robot has to stand between two laps, as for a turn on the spot [s],
+            (n,).
     """
 
     members: Sequence[FleetMember]
@@ -133,6 +135,7 @@ class _RoundTiming:
     crossings: FleetCrossings
     rides: FleetRides
     seams: dict[str, Floats]
+    stays: Floats
 
     @classmethod
     def of(
@@ -163,17 +166,18 @@ class _RoundTiming:
         courses = courses_along(names, [*paths, *windows])
         crossings = crossings_of(courses, np.arange(len(rounds)))
         rides = rides_of(members, list(rounds.values()), alone)
-        return cls(members, counts, rounds, courses, crossings, rides, seams)
+        stays = np.array([_stay_between(laps[name]) for name in rounds])
+        return cls(members, counts, rounds, courses, crossings, rides, seams, stays)
 
     @property
     def shortest(self) -> float:
         """The least period [s]."""
-        return max(float(self.rides.alone.max()), SAME_S)
+        return max(float((self.rides.alone + self.stays).max()), SAME_S)
 
     @property
     def together(self) -> float:
         """All rounds behind each other [s]."""
-        return max(float(self.rides.alone.sum()), SAME_S)
+        return max(float((self.rides.alone + self.stays).sum()), SAME_S)
 
     def timed(self, period: float) -> dict[str, Trajectory] | tuple[float, str, str]:
         """The laws of all rounds by name; or what one takes [s], which, and who is in its way."""
@@ -194,8 +198,9 @@ class _RoundTiming:
             laws.packed.is_timed[robot] = False
             static = self.rounds[name].trajectory
             law = set_out(timed_trajectory(static, self.courses, rides, laws, robot))
-            if law.duration > period + SAME_S or law.end_time > (WINDOW - 2) * period:
-                return min(law.duration, LONGER_SHARE * period), name, name
+            lasts = law.duration + float(self.stays[robot])
+            if lasts > period + SAME_S or law.end_time > (WINDOW - 2) * period:
+                return min(lasts, LONGER_SHARE * period), name, name
             self._write(robot, law, period, laws)
             later = math.floor(float(departs[robot]) / period) * period
             found[name] = law.delayed(later)
@@ -220,3 +225,8 @@ class _RoundTiming:
         laws.packed.arrive[part], laws.packed.leave[part] = arrive, leave
         laws.packed.speed[part] = speed
         laws.packed.is_timed[window] = True
+
+
+def _stay_between(lap: Plan) -> float:
+    """How long a robot has to stand between two laps [s]."""
+    return max(driven_laps(lap, 2).trajectory.duration - 2.0 * lap.trajectory.duration, 0.0)
