@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.fleet.patrols.periodic_places import nearest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from periodic_places import nearest
 
 from viaspline.fleet.crossing_paths import crossing_paths
 from viaspline.fleet.execution.delays import Delays
