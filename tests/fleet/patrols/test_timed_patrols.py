@@ -150,6 +150,15 @@ def test_a_patrol_gives_in_where_a_robot_stands_on_its_route_for_good() -> None:
     assert plan.certificate.holds
 
 
+def test_a_patrol_gives_in_where_a_robot_that_is_not_served_stands_on_its_route() -> None:
+    # The second robot would stay on the way of the first patrol, and starts on that of the other.
+    far = {"start": [60, 0], "via": [[80, 0], [80, 20], [60, 20]], "closed": True}
+    plan = plan_fleet(fleet_of({"route": SQUARE}, {"route": far}, ride([80, 0], [20, 20])))
+    assert {one.name for one in plan.not_served} == {"r1", "r2"}
+    assert plan.certificate.holds
+    assert nearest(plan) >= 0.5 - 1e-6
+
+
 def test_improving_leaves_patrols_as_they_are() -> None:
     robots = [patrol([0, 0], [20, 0]), patrol([10, 9], [10, -20])]
     robots += [ride([x, 12], [x, -9], rest="leave") for x in (3, 6, 14, 17)]

@@ -22,6 +22,8 @@ from viaspline.mission.fleet.fleet import Fleet
 
 SWAPS_S = 1.0
 """Between two looks for orders to swap."""
+ROUNDED = 9
+"""Digits of a delay [s]; beyond that it is rounding, and would be told as less than none."""
 LONGEST_S = 1e5
 """A drive takes no longer than that."""
 
@@ -158,6 +160,8 @@ def _run(fleet: DrivenFleet, ticks: FleetTicks) -> FleetRun:
     packed, is_timed = fleet.courses.packed, fleet.laws.packed.is_timed
     came = np.isfinite(ticks.arrived)
     planned = fleet.laws.packed.arrive[packed.first[1:] - 1]
+    late = np.subtract(ticks.arrived, planned, out=np.zeros(len(came)), where=came)
+    late = np.round(late, ROUNDED) + 0.0
     leaves = np.where(fleet.rides.vanishes & came, ticks.arrived, np.inf)
     stretches = stretches_of(ticks, np.where(is_timed, fleet.rides.depart, 0.0))
     courses, laws = driven_laws(fleet.courses, stretches, ticks.place, leaves)
@@ -165,7 +169,7 @@ def _run(fleet: DrivenFleet, ticks: FleetTicks) -> FleetRun:
     arrivals = {fleet.names[r]: float(ticks.arrived[r]) for r in np.flatnonzero(came)}
     return FleetRun(
         arrivals=arrivals,
-        delays={fleet.names[r]: float(ticks.arrived[r] - planned[r]) for r in np.flatnonzero(came)},
+        delays={fleet.names[r]: float(late[r]) for r in np.flatnonzero(came)},
         events=_events(fleet.names, ticks),
         deadlock=tuple(fleet.names[r] for r in np.flatnonzero(~came & is_timed)),
         courses=courses,

@@ -67,6 +67,19 @@ class PatrolMeetings:
                 found[robot] = patrol
         return found
 
+    def with_passers(self, out: dict[int, int]) -> dict[int, int]:
+        """Robots that aren't served, and the patrols that pass the start of one: it stands there.
+
+        Args:
+            out: Robots, each with one that is in its way.
+        """
+        found = dict(out)
+        while True:
+            more = {p: k for p, k in self.starts.tolist() if k in found and p not in found}
+            if not more:
+                return found
+            found |= more
+
     def start_passed_by(self, robot: int) -> list[int]:
         """The patrols that pass the start of a robot."""
         return [patrol for patrol, other in self.starts.tolist() if other == robot]

@@ -65,6 +65,7 @@ def timed_patrols(ways: FleetWays, separation: float, periods: int, serve: Serve
     asked = _AskedPatrols.of(ways, separation)
     out = asked.hopeless()
     while True:
+        out = asked.meetings.with_passers(out)
         names = [name for k, name in enumerate(asked.names) if asked.flags[k] and k not in out]
         if not names:
             return replace(serve(ways, out), reasons=asked.reasons(out))
