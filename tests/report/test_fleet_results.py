@@ -186,7 +186,7 @@ def test_what_never_ends_is_told_with_its_period_and_proven_for_all_time(tmp_pat
     assert data["certificate"]["period_s"] == data["patrols"]["period_s"] == plan.patrols.period
     (robot,) = data["patrols"]["robots"]
     assert (robot["name"], robot["begins_s"], robot["laps_a_period"]) == ("guard", 0.0, 1)
-    write_robots(plan, tmp_path)
+    write_robots(plan, tmp_path, lambda _share: None)
     written = json.loads((tmp_path / "guard" / "plan.json").read_text())
     assert len(written["path"]["spans"]) % robot["laps_planned"] == 0
     words = " ".join(words for _, words in fleet_summary(fleet))
