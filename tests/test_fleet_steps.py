@@ -107,6 +107,19 @@ def test_who_is_not_served_is_said_and_the_others_are_written(tmp_path: Path) ->
     assert (refused["name"], refused["outcome"]) == ("east", "refused")
 
 
+def test_a_robot_that_is_not_served_any_more_keeps_no_plan_of_an_earlier_run(
+    fleet: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "out"
+    call("plan", fleet, "--out", out)
+    assert (out / "east" / "plan.json").exists()
+    fleet.write_text(WALLED)
+    result = call("plan", fleet, "--out", out)
+    assert "removed what an earlier run left of 1 robot: east" in result.stdout
+    assert not (out / "east").exists()
+    assert (out / "north" / "plan.json").exists()
+
+
 def test_a_file_in_the_way_of_a_folder_is_told_before_the_work(fleet: Path, tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "north").write_text("")

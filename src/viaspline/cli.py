@@ -154,7 +154,7 @@ def tension(mission: Path, out: Path | None, quiet: bool) -> None:
         raise click.UsageError("a tension is advised for the mission of one robot; this is a fleet")
     with (
         result_folder(out or default_folder(mission), ("tension.png",)) as folder,
-        progress_bar(quiet, asked.robot) as watch,
+        progress_bar(quiet, asked) as watch,
     ):
         with watch.stage("advise", "trying tensions"):
             from viaspline.advice import advise_tension

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,6 @@ from viaspline.report.terminal_lines import say, say_error
 if TYPE_CHECKING:
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.model import Mission
-    from viaspline.mission.robot_parts import RobotSpec
     from viaspline.planner import Plan
     from viaspline.report.progress_bar import ProgressBar
     from viaspline.report.result_files import ResultFolder
@@ -75,16 +75,25 @@ def film_file(path: Path | None) -> Iterator[VideoFile | None]:
 
 
 @contextmanager
-def progress_bar(quiet: bool, robot: RobotSpec | None = None) -> Iterator[ProgressBar]:
-    """Progress, which hears of every kernel that is compiled within the block."""
+def progress_bar(
+    quiet: bool, asked: Mission | Fleet | None = None, *, drives: bool = False
+) -> Iterator[ProgressBar]:
+    """Progress, which hears of every kernel that is compiled within the block.
+
+    Args:
+        quiet: Say nothing.
+        asked: What is planned, if anything.
+        drives: Whether it is driven as well.
+    """
     from viaspline.report.progress_bar import ProgressBar
 
     watch = ProgressBar(quiet=quiet)
     with watch.stage("start", "starting"):
         from viaspline.kernels.jit import compile_progress
-        from viaspline.precompile import jobs_for, second_compiler
-    compiler = second_compiler() if robot is None else second_compiler(jobs_for(robot))
-    with compile_progress(watch.compiling), compiler:
+        from viaspline.precompile import first_run_words, jobs_of, second_compiler
+    jobs = ("curves",) if asked is None else jobs_of(asked, drives=drives)
+    tell = partial(watch.compiling, *first_run_words(jobs))
+    with compile_progress(tell), second_compiler(jobs):
         yield watch
 
 

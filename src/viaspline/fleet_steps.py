@@ -51,22 +51,29 @@ def plan_fleet_file(
         improve: For so long sooner orders are sought [s].
         quiet: Say nothing when all goes well.
     """
+    from viaspline.report.earlier_robots import earlier_robots
     from viaspline.report.fleet_results import FLEET_FILES, check_robot_folders
 
     target = out or default_folder(file)
     with (
         result_folder(target, FLEET_FILES) as folder,
-        progress_bar(quiet, fleet.members[0].mission.robot) as watch,
+        progress_bar(quiet, fleet) as watch,
     ):
         check_robot_folders(target, (one.name for one in fleet.members))
+        earlier = earlier_robots(target)
         planned = watched_fleet_plan(fleet, watch, improve)
         with watch.stage("report", "writing"):
-            from viaspline.report.fleet_results import fleet_contents, write_robots
+            from viaspline.report.fleet_results import (
+                fleet_contents,
+                forget_earlier,
+                write_robots,
+            )
             from viaspline.report.results import write_all
 
             folders = write_robots(planned, target, watch.fraction)
             contents = fleet_contents(planned, file.stem)
         files = write_all(folder, contents, watch.times)
+        removed = forget_earlier(target, earlier, folders)
     if not quiet:
         from viaspline.report.fleet_summary import fleet_plan_remarks
         from viaspline.report.fleet_tables import fleet_tables
@@ -75,7 +82,7 @@ def plan_fleet_file(
         show(fleet_tables(planned, file.stem))
         say(*(f"note: {words}" for words in fleet_plan_remarks(fleet)))
         say_written(files)
-        say_folders(folders)
+        say_folders(folders, removed)
     end_unserved(planned)
 
 
@@ -94,15 +101,17 @@ def run_fleet_file(
         animate: The file of a film; None: there is none.
         quiet: Say nothing when all goes well.
     """
+    from viaspline.report.earlier_robots import earlier_robots
     from viaspline.report.fleet_results import FLEET_RUN_FILES, check_robot_folders
 
     target = out or default_folder(file)
     with (
         result_folder(target, FLEET_RUN_FILES) as folder,
         film_file(animate) as film,
-        progress_bar(quiet, fleet.members[0].mission.robot) as watch,
+        progress_bar(quiet, fleet, drives=True) as watch,
     ):
         check_robot_folders(target, (one.name for one in fleet.members))
+        earlier = earlier_robots(target)
         planned = watched_fleet_plan(fleet, watch, improve)
         with watch.stage("simulate", "driving"):
             from viaspline.fleet.execution.simulate_fleet import simulate_fleet
@@ -112,6 +121,7 @@ def run_fleet_file(
             from viaspline.report.fleet_results import (
                 fleet_contents,
                 fleet_run_contents,
+                forget_earlier,
                 write_robots,
             )
             from viaspline.report.results import write_all
@@ -126,6 +136,7 @@ def run_fleet_file(
                     filmed = FilmedFleet.of_run(planned, done, file.stem)
                     film_fleet(filmed, film, watch.fraction)
         files = write_all(folder, contents, watch.times)
+        removed = forget_earlier(target, earlier, folders)
     if not quiet:
         from viaspline.report.fleet_summary import fleet_plan_remarks
         from viaspline.report.fleet_tables import fleet_run_table, fleet_tables
@@ -134,7 +145,7 @@ def run_fleet_file(
         show(fleet_tables(planned, file.stem), fleet_run_table(done, file.stem))
         say(*(f"note: {words}" for words in fleet_plan_remarks(fleet)))
         say_written([*files, *([] if film is None else [film.path])])
-        say_folders(folders)
+        say_folders(folders, removed)
     end_unserved(planned)
     end_not_reached(done)
 
@@ -144,8 +155,9 @@ def end_not_reached(done: FleetRun) -> None:
     if done.reached:
         return
     late = [name for name in done.names if name not in done.arrivals]
-    shown = ", ".join(late[:MAX_NAMED]) + (" …" if len(late) > MAX_NAMED else "")
-    say_error(f"{len(late)} of {len(done.names)} robots did not reach their goals: {shown}")
+    say_error(
+        f"{len(late)} of {len(done.names)} robots did not reach their goals: {_some_of(late)}"
+    )
     click.get_current_context().exit(NOT_REACHED)
 
 
@@ -189,12 +201,20 @@ def _stages(watch: ProgressBar) -> Iterator[_Stages]:
         yield _Stages(watch, open_stage)
 
 
-def say_folders(folders: list[Path]) -> None:
-    """Say which robots have a folder of their own."""
+def say_folders(folders: list[Path], removed: list[str]) -> None:
+    """Say which robots have a folder of their own, and which have none any more."""
+    from viaspline.report.summary import counted
+
     if folders:
         names = [folder.name for folder in folders]
-        shown = ", ".join(names[:MAX_NAMED]) + (" …" if len(names) > MAX_NAMED else "")
-        say(f"wrote plan.json, path.csv for each of {len(names)} robots: {shown}")
+        say(f"wrote plan.json, path.csv for each of {len(names)} robots: {_some_of(names)}")
+    if removed:
+        whose = f"{counted(len(removed), 'robot')}: {_some_of(removed)}"
+        say(f"removed what an earlier run left of {whose}")
+
+
+def _some_of(names: list[str]) -> str:
+    return ", ".join(names[:MAX_NAMED]) + (" …" if len(names) > MAX_NAMED else "")
 
 
 def end_unserved(planned: FleetPlan) -> None:

@@ -48,7 +48,7 @@ def plan_mission(asked: Mission, file: Path, out: Path | None, *, quiet: bool) -
     """
     with (
         result_folder(out or default_folder(file), PLAN_NAMES) as folder,
-        progress_bar(quiet, asked.robot) as watch,
+        progress_bar(quiet, asked) as watch,
     ):
         planned = watched_plan(asked, watch)
         with watch.stage("report", "drawing and writing"):
@@ -82,7 +82,7 @@ def run_mission(
     with (
         result_folder(out or default_folder(file), RUN_NAMES) as folder,
         film_file(animate) as film,
-        progress_bar(quiet, asked.robot) as watch,
+        progress_bar(quiet, asked) as watch,
     ):
         plan = watched_plan(asked, watch)
         with watch.stage("simulate", "driving"):

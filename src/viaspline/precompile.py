@@ -3,7 +3,8 @@
 Compiling is most of a first run and numba does it on one core. The kernels of curves and of the
 time law need none of those of the world; so while a run begins with the latter, another process
 (``python -m viaspline.precompile``) compiles the former into the same cache. For a robot with a
-turning circle, a body or a drive it goes on with what such a robot needs at the end of its plan.
+turning circle, a body or a drive it goes on with what such a robot needs at the end of its plan;
+for a fleet with what times its robots, proves them apart and drives them.
 """
 
 from __future__ import annotations
@@ -15,13 +16,17 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Final, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from viaspline.kernels.jit import CACHE_FOLDER
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.report.interrupts import undone_at_the_end
 
-Job = Literal["curves", "driving"]
+if TYPE_CHECKING:
+    from viaspline.mission.fleet.fleet import Fleet
+    from viaspline.mission.model import Mission
+
+Job = Literal["curves", "fleets", "fleet_drives", "driving"]
 LOCK_NAME = "compiling"
 MAX_LOCK_AGE_S = 300.0  # a lock that is older than this was left behind [s]
 
@@ -92,8 +97,24 @@ def compile_driving() -> None:
     proven(curve, world, requirements)
 
 
+def compile_fleets() -> None:
+    """Time two robots that cross, and prove them apart, once."""
+    from viaspline.compile_fleets import timed_pair
+
+    timed_pair()
+
+
+def compile_fleet_drives() -> None:
+    """Drive two robots that cross, once."""
+    from viaspline.compile_fleets import drive_pair
+
+    drive_pair()
+
+
 JOBS: Final[Mapping[Job, Callable[[], None]]] = {
     "curves": compile_curves,
+    "fleets": compile_fleets,
+    "fleet_drives": compile_fleet_drives,
     "driving": compile_driving,
 }
 
@@ -106,6 +127,34 @@ def jobs_for(robot: RobotSpec) -> tuple[Job, ...]:
     """
     parts = (robot.footprint, robot.turn_radius, robot.drive, robot.localization)
     return ("curves",) if all(part is None for part in parts) else ("curves", "driving")
+
+
+def jobs_of(asked: Mission | Fleet, *, drives: bool = False) -> tuple[Job, ...]:
+    """What the first run of a mission or of a fleet has compiled for it.
+
+    Args:
+        asked: What is planned.
+        drives: Whether it is driven as well.
+    """
+    from viaspline.mission.model import Mission
+
+    if isinstance(asked, Mission):
+        return jobs_for(asked.robot)
+    needed = {job for one in asked.members for job in jobs_for(one.mission.robot)} | {"fleets"}
+    if drives:
+        needed.add("fleet_drives")
+    return tuple(job for job in JOBS if job in needed)
+
+
+def first_run_words(jobs: Sequence[Job]) -> tuple[str, str]:
+    """What is compiled on a first run, and how long that takes.
+
+    >>> first_run_words(["curves"])
+    ('the kernels', 'some seconds')
+    """
+    if "fleets" in jobs:
+        return "the kernels of paths and fleets", "up to a minute"
+    return "the kernels", "some seconds"
 
 
 def compile_all(jobs: Sequence[Job]) -> None:

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from viaspline.errors import GeometryError
 from viaspline.fleet.execution.delays import Delays
+from viaspline.fleet.execution.fleet_navigator import FleetNavigator
 from viaspline.fleet.execution.simulate_fleet import simulate_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.plan_fleet import plan_fleet
@@ -190,3 +191,21 @@ def test_a_stay_at_a_station_is_kept_and_waits_count() -> None:
 def test_what_is_no_time_to_spend_is_refused(improve: Any) -> None:
     with pytest.raises(GeometryError, match="improve"):
         plan_fleet(fleet_of(robot([(0, 0), (9, 0)])), improve)
+
+
+def test_a_fleet_its_plan_its_run_and_its_navigator_are_shown_on_a_line_each() -> None:
+    fleet = fleet_of(robot([(0, 0), (40, 0)]), robot([(20, -20), (20, 20)]))
+    plan = plan_fleet(fleet)
+    run, nav = simulate_fleet(fleet, plan=plan), FleetNavigator(plan)
+    assert repr(fleet) == str(fleet) == "Fleet(2 robots, 0.5 m apart, 0 obstacles)"
+    assert "2 of 2 robots served" in repr(plan)
+    assert "'r0' and 'r1'" in repr(plan) or "'r1' and 'r0'" in repr(plan)
+    shown = float(repr(plan).partition("proven ")[2].partition(" m")[0])
+    assert plan.certificate.separation - 1e-3 <= shown <= plan.certificate.separation
+    assert "2 of 2 robots arrived" in repr(run)
+    assert repr(nav) == "FleetNavigator(2 robots before the first step, 0 arrived, 0 out)"
+    assert "2 robots at 1.0 s" in repr(nav.step([], 1.0)[1])
+    alone = plan_fleet(fleet_of(robot([(0, 0), (40, 0)])))
+    for shown_thing in (fleet, plan, run, nav, alone):
+        assert len(repr(shown_thing)) < 150
+        assert "\n" not in repr(shown_thing)

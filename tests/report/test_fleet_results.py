@@ -17,11 +17,14 @@ from rich.console import Console, RenderableType
 import viaspline as vs
 from viaspline.errors import OutputError
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.report.earlier_robots import earlier_robots, forget_robots
 from viaspline.report.fleet_json import fleet_json
 from viaspline.report.fleet_results import (
+    ROBOT_FILES,
     check_robot_folders,
     fleet_contents,
     folder_names,
+    forget_earlier,
     write_robots,
 )
 from viaspline.report.fleet_summary import fleet_plan_remarks, fleet_remarks, fleet_summary
@@ -194,3 +197,47 @@ def test_what_never_ends_is_told_with_its_period_and_proven_for_all_time(tmp_pat
     console = Console(width=120, record=True, file=StringIO())
     console.print(fleet_tables(plan, "yard"))
     assert "proven for all time" in console.export_text()
+
+
+def test_robots_of_an_earlier_run_that_have_no_plan_now_are_removed(
+    planned: FleetPlan, half_served: FleetPlan, tmp_path: Path
+) -> None:
+    write_robots(planned, tmp_path, lambda _: None)
+    text = fleet_json(planned, "yard", folder_names(["east", "north/1"]))
+    (tmp_path / "fleet.json").write_text(text)
+    (tmp_path / "mine").mkdir()
+    earlier = earlier_robots(tmp_path)
+    assert earlier == {"east", "north_1"}
+    written = write_robots(half_served, tmp_path, lambda _: None)
+    assert forget_earlier(tmp_path, earlier, written) == ["north_1"]
+    assert {one.name for one in tmp_path.iterdir()} == {"east", "mine", "fleet.json"}
+    assert {one.name for one in (tmp_path / "east").iterdir()} == set(ROBOT_FILES)
+
+
+def test_what_somebody_else_put_into_a_robots_folder_stays(tmp_path: Path) -> None:
+    (tmp_path / "r1").mkdir()
+    for name in ("plan.json", "path.csv", "notes.txt"):
+        (tmp_path / "r1" / name).write_text("")
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "plan.json").write_text("")
+    (tmp_path / "link").symlink_to(tmp_path / "elsewhere")
+    assert forget_robots(tmp_path, ["r1", "link", "never"], ROBOT_FILES) == ["r1"]
+    assert [one.name for one in (tmp_path / "r1").iterdir()] == ["notes.txt"]
+    assert (tmp_path / "elsewhere" / "plan.json").exists()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "", "[]", "{", "null", '{"robots": 5}', '{"robots": [5, null, {"plan": 7}]}',
+        '{"robots": [{"plan": "../plan.json"}, {"plan": "/etc/plan.json"}]}',
+        '{"robots": [{"plan": "a/b/plan.json"}, {"plan": "plan.json"}, {"plan": null}]}',
+        '{"robots": [{"plan": "/plan.json"}, {"plan": "./plan.json"}]}',
+        '{"robots": [{"plan": "a\\\\b/plan.json"}]}',
+        "[" * 100_000,
+    ],
+)  # fmt: skip
+def test_a_fleet_json_that_is_not_ours_names_no_folder(tmp_path: Path, text: str) -> None:
+    (tmp_path / "fleet.json").write_text(text)
+    assert earlier_robots(tmp_path) == frozenset()
+    assert earlier_robots(tmp_path / "nothing") == frozenset()

@@ -6,6 +6,7 @@ Tested through ``fleet/test_plan_fleet``.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import floor
 from typing import Literal
 
 from viaspline.fleet.courses import FleetCourses
@@ -69,6 +70,18 @@ class FleetPlan:
     laws: FleetLaws
     rides: FleetRides
     patrols: FleetPatrols | None = None
+
+    def __repr__(self) -> str:
+        asked, proof = len(self.fleet.members), self.certificate
+        end = max((one.trajectory.end_time for one in self.plans.values()), default=0.0)
+        apart = ""
+        if proof.pair is not None:
+            proven = floor(1e3 * proof.separation) / 1e3  # never more than is proven
+            apart = (
+                f", proven {proven:g} m apart ({proof.required:g} m asked): "
+                f"'{proof.pair[0]}' and '{proof.pair[1]}' at {proof.at_s:.1f} s"
+            )
+        return f"FleetPlan({len(self.plans)} of {asked} robots served in {end:.1f} s{apart})"
 
     @property
     def served(self) -> bool:

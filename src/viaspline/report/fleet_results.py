@@ -10,6 +10,7 @@ from typing import Final
 from viaspline.errors import OutputError
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.report.earlier_robots import forget_robots
 from viaspline.report.fleet.fleet_picture import fleet_picture
 from viaspline.report.fleet.fleet_run_picture import fleet_run_picture
 from viaspline.report.fleet_json import fleet_json
@@ -102,3 +103,19 @@ def write_robots(plan: FleetPlan, path: Path, progress: Callable[[float], None])
             folder.write(file, content)
         folders.append(folder.path)
     return folders
+
+
+def forget_earlier(path: Path, earlier: Iterable[str], written: Iterable[Path]) -> list[str]:
+    """Remove what an earlier run wrote for robots for which nothing was written now.
+
+    Args:
+        path: The folder of the fleet.
+        earlier: The folders of its robots, as they were before anything was written.
+        written: The folders of robots that were written now.
+
+    Returns:
+        The names of those that were removed.
+    """
+    kept = {folder.name.casefold() for folder in written}
+    gone = [name for name in earlier if name.casefold() not in kept]
+    return forget_robots(path, gone, ROBOT_FILES)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import gc
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from threading import Event as Flag
@@ -24,10 +24,12 @@ from viaspline.studio.stoppable_calls import Stoppable, StoppedCallError
 from viaspline.studio.worker import Worker
 
 if TYPE_CHECKING:
+    from viaspline.fleet.fleet_plan import FleetPlan
     from viaspline.mission.model import Mission
     from viaspline.planner import Plan
     from viaspline.robot.run import Run
     from viaspline.studio.fleet.planned_fleet import PlannedFleet
+    from viaspline.studio.fleet.simulated_fleet import SimulatedFleet
     from viaspline.studio.map_cache import MapCache
     from viaspline.studio.plan_document import PlannedDocument
 
@@ -39,6 +41,15 @@ WARM_UP_DOCUMENT: Final[Document] = {
     "world": {"bounds": [0, 0, 100, 100], "known": [{"circle": {"center": [50, 50], "radius": 9}}]},
 }
 """What is planned before anybody asks, so that the kernels are there when somebody does."""
+WARM_UP_FLEET: Final[Document] = {
+    "world": WARM_UP_DOCUMENT["world"],
+    "separation_m": 1,
+    "fleet": [
+        {"name": "a", "route": {"start": [10, 20], "goal": [90, 20]}},
+        {"name": "b", "route": {"start": [20, 10], "goal": [20, 90]}},
+    ],
+}
+"""What is planned beside it where it is fleets that will be asked for."""
 
 Planned: TypeAlias = "PlannedDocument | PlannedFleet"
 Hears = Callable[[str, int], None]
@@ -50,10 +61,12 @@ class Engine:
 
     Args:
         folder: Where maps are read.
+        warm_up: What is planned before anybody asks.
     """
 
-    def __init__(self, folder: Folder) -> None:
+    def __init__(self, folder: Folder, warm_up: Sequence[Document] = (WARM_UP_DOCUMENT,)) -> None:
         self._folder = folder
+        self._warm_up = warm_up
         self._planner = Worker("planner")
         self._others = Worker("drives and files")
         self._maps: MapCache | None = None
@@ -86,14 +99,21 @@ class Engine:
 
     def _load(self) -> None:
         from viaspline.kernels.jit import compile_progress
-        from viaspline.precompile import second_compiler
+        from viaspline.precompile import Job, second_compiler
         from viaspline.studio import plan_messages
 
         # Never left: drives and pictures may compile more.
         self._listening.enter_context(compile_progress(self._hear))
-        with second_compiler():
-            planned, _ = self._planned(WARM_UP_DOCUMENT, self._folder.root, 0)
-            plan_messages.ledger(planned, 0)
+        jobs: tuple[Job, ...] = ("curves",)
+        if any(map(is_fleet, self._warm_up)):
+            jobs = ("curves", "fleets")
+        with second_compiler(jobs):
+            for document in self._warm_up:
+                if is_fleet(document):
+                    self._planned_fleet(document, self._folder.root, 0, None)
+                else:
+                    planned, _ = self._planned(document, self._folder.root, 0)
+                    plan_messages.ledger(planned, 0)
 
     def _hear(self, kernel: str) -> None:
         self._compiled += 1
@@ -273,8 +293,27 @@ class Engine:
 
         return await self._others.run(work)
 
-    async def plan_file(self, plan: Plan, kind: str, name: str) -> bytes:
-        """One of the files of a plan."""
+    async def drive_fleet(
+        self, plan: FleetPlan, *, head: Mapping[str, Any], seed: int
+    ) -> tuple[SimulatedFleet, str]:
+        """Drive the plan of a fleet; what was driven and the answer as text.
+
+        Args:
+            plan: What is driven.
+            head: What the answer begins with.
+            seed: Of what is random.
+        """
+
+        def work() -> tuple[SimulatedFleet, str]:
+            from viaspline.studio.fleet import simulated_fleet
+
+            found = simulated_fleet.simulated_fleet(plan, seed)
+            return found, encoded({**head, **simulated_fleet.driven_fleet_answer(found)})
+
+        return await self._others.run(work)
+
+    async def plan_file(self, plan: Plan | FleetPlan, kind: str, name: str) -> bytes:
+        """One of the files of a plan, or of a fleet's."""
 
         def work() -> bytes:
             from viaspline.studio.exports import plan_file
@@ -283,7 +322,7 @@ class Engine:
 
         return await self._others.run(work)
 
-    async def run_file(self, run: Run, kind: str, name: str, seed: int) -> bytes:
+    async def run_file(self, run: Run | SimulatedFleet, kind: str, name: str, seed: int) -> bytes:
         """One of the files of a run."""
 
         def work() -> bytes:

@@ -7,25 +7,35 @@ from __future__ import annotations
 
 from typing import Final
 
+from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.planner import Plan
 from viaspline.report.csv_tables import path_csv, run_csv, spacing
 from viaspline.report.plan_json import plan_json
 from viaspline.report.run_json import run_json
 from viaspline.robot.run import Run
+from viaspline.studio.fleet.simulated_fleet import (
+    FLEET_FILES,
+    SimulatedFleet,
+    fleet_file,
+    fleet_run_file,
+)
 from viaspline.studio.refused_error import RefusedError
 
 PLAN_FILES: Final = ("plan.json", "path.csv", "plan.png")
 RUN_FILES: Final = ("run.json", "run.csv", "run.png")
 
 
-def plan_file(plan: Plan, kind: str, name: str) -> bytes:
+def plan_file(plan: Plan | FleetPlan, kind: str, name: str) -> bytes:
     """One of the files of a plan.
 
     Args:
         plan: The plan.
-        kind: ``plan.json``, ``path.csv`` or ``plan.png``.
+        kind: ``plan.json``, ``path.csv`` or ``plan.png``; of a fleet's ``fleet.json`` or
+            ``fleet.png``.
         name: The mission's name.
     """
+    if isinstance(plan, FleetPlan):
+        return fleet_file(plan, kind, name)
     if kind == "plan.json":
         return plan_json(plan, name, spacing=spacing(plan.path.length)).encode()
     if kind == "path.csv":
@@ -35,8 +45,10 @@ def plan_file(plan: Plan, kind: str, name: str) -> bytes:
     return plan_picture(plan, name)
 
 
-def run_file(run: Run, kind: str, name: str, seed: int) -> bytes:
-    """One of the files of a run: ``run.json``, ``run.csv`` or ``run.png``."""
+def run_file(run: Run | SimulatedFleet, kind: str, name: str, seed: int) -> bytes:
+    """One of the files of a run: ``run.json``, ``run.png``, and of one robot ``run.csv``."""
+    if isinstance(run, SimulatedFleet):
+        return fleet_run_file(run, kind, name, seed)
     if kind == "run.json":
         return run_json(run, name, seed=seed).encode()
     if kind == "run.csv":
@@ -52,5 +64,6 @@ def check_kind(kind: str) -> None:
     Raises:
         RefusedError: Naming what can.
     """
-    if kind not in PLAN_FILES + RUN_FILES:
-        raise RefusedError(f"'{kind}' can't be exported; {', '.join(PLAN_FILES + RUN_FILES)} can")
+    known = PLAN_FILES + RUN_FILES + FLEET_FILES
+    if kind not in known:
+        raise RefusedError(f"'{kind}' can't be exported; {', '.join(known)} can")

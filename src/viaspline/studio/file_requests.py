@@ -23,12 +23,14 @@ from viaspline.studio.refused_error import RefusedError
 from viaspline.studio.save_document import is_yaml, origin_from, waypoints_of
 
 if TYPE_CHECKING:
+    from viaspline.fleet.fleet_plan import FleetPlan
     from viaspline.planner import Plan
     from viaspline.robot.run import Run
+    from viaspline.studio.fleet.simulated_fleet import SimulatedFleet
     from viaspline.studio.plan_document import PlannedDocument
 
 Answer = dict[str, Any]
-Driven = tuple[Document, "Run", int]
+Driven = tuple[Document, "Run | SimulatedFleet", int]
 
 
 def files(current: OpenMission) -> Answer:
@@ -138,20 +140,28 @@ async def export(
     if kind in RUN_FILES:
         if driven is None or driven[0] is not current.document:
             raise RefusedError("drive the mission first; it has changed since")
+        if kind == "run.csv" and is_fleet(current.document):
+            raise RefusedError("a fleet's drive has run.json and run.png")
         content = await engine.run_file(driven[1], kind, stem, driven[2])
     else:
-        plan = _plan_of(await planned(), message)
+        plan = _plan_of(await planned(), kind, message)
         stem = f"{stem}-{message['robot']}" if "robot" in message else stem
         content = await engine.plan_file(plan, kind, stem)
     data = base64.b64encode(content).decode()
     return {"type": "exported", "name": f"{stem}-{kind}", "kind": kind, "data": data}
 
 
-def _plan_of(planned: Planned, message: Message) -> Plan:
-    """The plan that is to be exported: the mission's, or that of the robot that is named."""
+def _plan_of(planned: Planned, kind: str, message: Message) -> Plan | FleetPlan:
+    """The plan that is to be exported: the mission's, the fleet's or that of the robot named."""
+    from viaspline.studio.fleet.simulated_fleet import FLEET_FILES
     from viaspline.studio.plan_document import PlannedDocument
 
+    found: Plan | FleetPlan | None
     if isinstance(planned, PlannedDocument):
+        if kind in FLEET_FILES:
+            raise RefusedError(f"this is no fleet: it has no {kind}")
+        found = planned.plan
+    elif kind in FLEET_FILES:
         found = planned.plan
     else:
         plans = {} if planned.plan is None else planned.plan.plans

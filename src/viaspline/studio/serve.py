@@ -147,19 +147,22 @@ def server_of(address: Address, mission: Path | None) -> uvicorn.Server:
     import uvicorn
 
     from viaspline.studio.app import application
-    from viaspline.studio.engine import Engine
+    from viaspline.studio.document import is_fleet
+    from viaspline.studio.engine import WARM_UP_DOCUMENT, WARM_UP_FLEET, Engine
     from viaspline.studio.folder import Folder
     from viaspline.studio.load_document import opened
 
-    name = None
+    name, warm_up = None, [WARM_UP_DOCUMENT]
     root = Path() if mission is None else mission
     if mission is not None and not mission.is_dir():
-        opened(mission)  # so that what is wrong with it is said here, not in the page
+        # what is wrong with it is said here, not in the page
+        if is_fleet(opened(mission).document):
+            warm_up.append(WARM_UP_FLEET)
         name, root = mission.name, mission.parent
     folder = Folder(root)
     if name is not None:
         folder.to_open(name)  # a link may lead out of the folder
-    engine = Engine(folder)
+    engine = Engine(folder, warm_up)
     engine.prepare()
     app = application(folder, engine, name=name, hosts=address.hosts, token=address.token)
     config = uvicorn.Config(

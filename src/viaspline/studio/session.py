@@ -166,12 +166,20 @@ class Session:
         await self._answer(message, await self._engine.advise(planned.mission))
 
     async def _drive(self, message: Message) -> None:
+        from viaspline.fleet.fleet_plan import FleetPlan
+
         seed, number = count_of(message, "seed"), message.get("id")
         self._stop.set()
         self._stop = stop = Flag()
-        planned = await self._live.planned_mission()
+        planned = await self._live.planned()
         if planned.plan is None:
             raise RefusedError("there is no path to drive")
+        if isinstance(planned.plan, FleetPlan):
+            head = {"id": number}
+            drove, text = await self._engine.drive_fleet(planned.plan, head=head, seed=seed)
+            self._driven = (planned.document, drove, seed)
+            await self._send_text(text)
+            return
 
         def tell(done: float) -> None:
             self._loop.call_soon_threadsafe(

@@ -5,9 +5,21 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from viaspline.report.fleet.fleet_colours import ROBOT_COLOURS, colours_of
+from viaspline.fleet.fleet_certificate import FleetCertificate
+from viaspline.fleet.timelines import ActivitySpan, Timeline
+from viaspline.mission.fleet.fleet import Fleet
+from viaspline.report.fleet.fleet_colours import (
+    KIND_COLOURS,
+    MAX_HIGHLIGHTED,
+    ROBOT_COLOURS,
+    FleetColours,
+    colours_of,
+    fleet_colours,
+)
 
 TO_XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
 DEUTERANOPIA = np.array(  # Machado, Oliveira and Fernandes 2009, severity 1
@@ -42,6 +54,80 @@ def test_no_colour_is_too_pale_for_a_line_on_white_paper() -> None:
     assert max(lab(colour, np.eye(3))[0] for colour in ROBOT_COLOURS) < 75.0
 
 
-def test_a_thousand_robots_have_colours() -> None:
-    assert set(colours_of(1000)) == set(ROBOT_COLOURS)
+def test_the_pale_colours_of_kinds_are_taken_for_no_robots_own() -> None:
+    eyes = np.eye(3)
+    apart = [
+        float(np.hypot.reduce(lab(one, eyes) - lab(other, eyes)))
+        for one in KIND_COLOURS
+        for other in ROBOT_COLOURS[:MAX_HIGHLIGHTED]
+    ]
+    assert min(apart) > 20.0
+
+
+def fleet_of(count: int) -> Fleet:
+    kinds = {"cart": {"radius_m": 0.3}, "lift": {"radius_m": 0.4}}
+    return Fleet.model_validate(
+        {
+            "robots": kinds,
+            "fleet": [
+                {"name": f"r{i}", "robot": "lift" if i % 3 else "cart",
+                 "route": {"start": [5 * i, 0], "goal": [5 * i, 9]}}
+                for i in range(count)
+            ],
+        }
+    )  # fmt: skip
+
+
+def coloured(
+    count: int, waits: list[tuple[int, int, float]], pair: tuple[str, str] | None = None
+) -> FleetColours:
+    names = [f"r{i}" for i in range(count)]
+    timelines = [
+        Timeline(
+            name,
+            tuple(
+                ActivitySpan(0.0, s, "waits", f"r{j}", s) for i, j, s in waits if f"r{i}" == name
+            ),
+            0.0,
+        )
+        for name in names
+    ]
+    return fleet_colours(
+        names, fleet_of(count), timelines, FleetCertificate(1.0, 1.0, pair, 0.0, None)
+    )
+
+
+def test_up_to_twenty_robots_have_a_colour_each() -> None:
+    found = coloured(20, [])
+    assert found.all_told
+    assert len(set(found.of.values())) == 20
+    assert not found.kinds
+
+
+def test_of_a_larger_fleet_the_nearest_two_and_who_waits_longest_have_colours_of_their_own() -> (
+    None
+):
+    found = coloured(40, [(7, 3, 1.0), (9, 2, 8.0)], ("r30", "r31"))
+    assert found.told == ("r2", "r3", "r7", "r9", "r30", "r31")
+    assert len({found.of[name] for name in found.told}) == 6
+    others = {found.of[name] for name in found.of if name not in found.told}
+    assert others == set(found.kinds.values()) == set(KIND_COLOURS[:2])
+    assert list(found.of) == [f"r{i}" for i in range(40)]
+
+
+@given(st.lists(st.tuples(st.integers(0, 29), st.integers(0, 35), st.floats(0.1, 9)), max_size=60))
+def test_no_more_robots_are_told_apart_than_there_are_colours_for(
+    waits: list[tuple[int, int, float]],
+) -> None:
+    found = coloured(30, waits)
+    assert len(found.told) <= MAX_HIGHLIGHTED
+    assert len({found.of[name] for name in found.told}) == len(found.told)
+    if waits:
+        i, j, _ = max(waits, key=lambda one: one[2])
+        assert f"r{i}" in found.told
+        assert f"r{j}" in found.told or j > 29
+
+
+def test_one_robot_has_the_first_colour() -> None:
     assert colours_of(0) == []
+    assert coloured(1, []).of == {"r0": ROBOT_COLOURS[0]}

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +9,8 @@ from PIL import Image
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.timelines import timelines_of
+from viaspline.report.canvas import new_figure
+from viaspline.report.fleet.film_names import FilmNames
 from viaspline.report.fleet.fleet_colours import ROBOT_COLOURS
 from viaspline.report.fleet.fleet_film import FilmedFleet, film_fleet, film_times, fleet_frames
 from viaspline.report.video_file import VideoFile
@@ -59,3 +61,31 @@ def test_trails_have_points_between_frames_that_are_far_apart() -> None:
     assert len(frames) == 240
     assert frames[-1] == len(times) - 1
     assert (times[-1] - times[-2]) < 0.5
+
+
+def test_names_cover_neither_robots_nor_each_other_and_stay_on_their_sides() -> None:
+    axes = new_figure(6.0, 6.0).add_axes((0, 0, 1, 1))
+    axes.set_xlim(0, 60)
+    axes.set_ylim(0, 60)
+    radii = np.full(4, 6.0)
+    names = FilmNames(axes, {0: "one", 1: "two", 2: "three"}, radii)
+    here = np.array([[30.0, 30.0], [30.0, 31.5], [30.0, 33.0], [np.nan, np.nan]])
+    names.move(here)
+    assert all(text.get_visible() for text in names.texts)
+    boxes = [text.get_window_extent() for text in names.texts]
+    assert not any(a.overlaps(b) for a, b in combinations(boxes, 2))
+    middles = axes.transData.transform(here[:3])
+    for k, box in enumerate(boxes):
+        for other in np.delete(middles, k, axis=0):
+            nearest = np.clip(other, box.min, box.max)
+            assert np.hypot(*(other - nearest)) > 0.6 * radii[0]
+    placed = [text.get_position() for text in names.texts]
+    names.move(here + 0.01)
+    assert [text.get_position() for text in names.texts] == placed
+
+
+def test_the_name_of_a_robot_that_is_gone_is_not_shown() -> None:
+    axes = new_figure(6.0, 6.0).add_axes((0, 0, 1, 1))
+    names = FilmNames(axes, {0: "one", 1: "two"}, np.full(2, 6.0))
+    names.move(np.array([[0.5, 0.5], [np.nan, np.nan]]))
+    assert [text.get_visible() for text in names.texts] == [True, False]

@@ -66,7 +66,8 @@ def test_the_same_plan_of_a_fleet_gives_the_same_bytes(fleet_plan: FleetPlan) ->
 def test_a_large_fleet_has_rows_for_the_latest_and_a_map_of_lost_time(large: FleetPlan) -> None:
     timelines = timelines_of(large)
     rows = rows_of(timelines)
-    assert len(rows) == 40
+    assert len(rows) == 8
+    assert 0 < sum(one.late > 0.05 for one in timelines) < 8
     left_out = {one.name for one in timelines} - {one.name for one in rows}
     late = {one.name: one.late for one in timelines}
     assert max(late[name] for name in left_out) <= min(one.late for one in rows)
@@ -123,6 +124,12 @@ def test_arrows_are_drawn_for_the_longest_waits_first(large: FleetPlan) -> None:
     assert 0 < len(waits) <= 40
     assert lost == sorted(lost, reverse=True)
     assert {wait.other for _, wait in waits} == {"east"}
+
+
+def test_a_large_fleet_in_which_nobody_is_late_has_some_rows_and_one_that_is_late_forty() -> None:
+    assert len(rows_of([Timeline(f"r{i}", (), 0.0) for i in range(100)])) == 8
+    late = [Timeline(f"r{i}", (), float(i)) for i in range(100)]
+    assert [one.late for one in rows_of(late)] == list(range(99, 59, -1))
 
 
 def test_few_robots_keep_their_order_in_the_chart() -> None:

@@ -138,9 +138,38 @@ def test_the_scrubber_plays_every_robot(visit: Visit, file: Path) -> None:
         assert max(red, green, blue) - min(red, green, blue) > 60  # on its disc
         seen.add((red, green, blue))
     assert len(seen) == 3
-    page.page.get_by_role("button", name="Play", exact=True).click()
+    page.page.get_by_role("button", name="Play the plan", exact=True).click()
     page.until(f"studio.preview.time > {time} + 1")
+    page.page.get_by_role("button", name="Pause the plan", exact=True).click()
+
+
+def test_a_fleet_is_driven_and_the_drive_is_played(visit: Visit, file: Path) -> None:
+    page = visit(file)
+    page.page.get_by_role("button", name="Drive", exact=True).click()
+    page.until("studio.drive.run && studio.drive.isPlaying")
     page.page.get_by_role("button", name="Pause", exact=True).click()
+    assert page.js("studio.drive.run.reached")
+    end = page.js("studio.drive.end")
+    page.page.locator("#scrub").fill(str(round(end / 2, 1)))
+    for name in ("east", "north", "own"):
+        x, y, speed = page.js(
+            "([name]) => { const { x, y, speed } = studio.drive.run.fleet.stateOf(name, "
+            "studio.drive.time); return [x, y, speed]; }",
+            [name],
+        )
+        red, green, blue, _ = page.js(COLOUR_AT, [x - 0.3, y - 0.4])
+        assert max(red, green, blue) - min(red, green, blue) > 60  # on its disc
+        assert speed >= 0.0
+    page.page.locator("#scrub").fill(str(end))
+    assert "all arrived in" in text(page, "#drive-note")
+    page.page.get_by_role("button", name="robot north").click()
+    assert page.js("studio.drive.run !== null")  # another one is looked at, the drive stays
+    page.page.get_by_role("button", name="Back to editing").click()
+    assert page.js("studio.drive.run") is None
+    page.page.get_by_role("button", name="Drive", exact=True).click()
+    page.until("studio.drive.run")
+    page.drag([20, -8], [22, -6])
+    assert page.js("studio.drive.run") is None  # it was driven on other paths
 
 
 def test_what_is_said_of_a_kind_goes_for_all_of_it(visit: Visit, file: Path) -> None:
@@ -177,6 +206,10 @@ def test_the_route_of_a_robot_with_a_file_is_shown_and_not_edited(visit: Visit, 
     assert page.doc["route"]["via"] == [[30, -14]]
     assert fleet(page) == read_document(file).data
     assert "own.yaml" in text(page, "#toasts")
+    assert "only shown" in text(page, "#robot-fields")
+    page.page.locator("#robot-fields").get_by_role("button", name="Open own.yaml").click()
+    page.until("studio.store.name === 'own.yaml'")
+    assert page.doc["route"]["via"] == [[30, -14]]
 
 
 def test_a_fault_is_told_with_its_robot_and_its_button_helps(visit: Visit, file: Path) -> None:

@@ -220,6 +220,12 @@ class FleetNavigator:
             raise GeometryError("this navigator has no FleetPlan; give one to FleetNavigator")
         return self.with_plan(planned(self._plan, member))
 
+    def __repr__(self) -> str:
+        state = self._state
+        when = f"at {state.time:.1f} s" if np.isfinite(state.time) else "before the first step"
+        arrived, out = int(state.arrived.sum()), int(state.out.sum())
+        return f"FleetNavigator({len(self.names)} robots {when}, {arrived} arrived, {out} out)"
+
     @property
     def plan(self) -> FleetPlan | None:
         """What is driven; None if it was planned by other means."""

@@ -73,6 +73,13 @@ class FleetRun:
     required: float
     end_s: float
 
+    def __repr__(self) -> str:
+        return (
+            f"FleetRun({len(self.arrivals)} of {len(self.names)} robots arrived in "
+            f"{self.end_s:.1f} s, {self.mean_delay:.1f} s later than planned in the mean, "
+            f"{len(self.events)} events)"
+        )
+
     @property
     def names(self) -> tuple[str, ...]:
         """The robots, in the order of the courses."""

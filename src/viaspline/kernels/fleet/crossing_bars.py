@@ -52,15 +52,17 @@ def crossing_bars(
             side = 0 if crossings.robots[c, 0] == robot else 1
             if leaders[c] >= 0 and (leads or by_second[c]) and crossings.high[b] > most[c, side]:
                 most[c, side] = crossings.high[b]
-                who[count] = robot, crossings.other[b], c
-                where[count] = courses.distance[crossings.cell[b]], crossings.high[b]
+                who[count, 0], who[count, 1], who[count, 2] = robot, crossings.other[b], c
+                where[count, 0] = courses.distance[crossings.cell[b]]
+                where[count, 1] = crossings.high[b]
                 count += 1
         for b in range(end - 1, begin - 1, -1):
             c = crossings.crossing[b]
             if leaders[c] == robot and not by_second[c] and crossings.low[b] < least[c]:
                 least[c] = crossings.low[b]
-                who[count] = crossings.other[b], robot, c
-                where[count] = crossings.low[b], courses.distance[crossings.cell[b] + 1]
+                who[count, 0], who[count, 1], who[count, 2] = crossings.other[b], robot, c
+                where[count, 0] = crossings.low[b]
+                where[count, 1] = courses.distance[crossings.cell[b] + 1]
                 count += 1
     return who[:count], where[:count]
 

@@ -126,8 +126,8 @@ def _give_way(
         slow_down(ride, courses, rides, places[i % places.size], entry, late + TIME_SLACK_S)
         if i == places.size or _blocking(ride, crossings, blocked, entry) == CLEAR:
             return
-        ride.square[:] = square
-        ride.waits[:] = waits
+        for k in range(square.size):
+            ride.square[k], ride.waits[k] = square[k], waits[k]
         set_times(ride, courses, rides, 0)
 
 

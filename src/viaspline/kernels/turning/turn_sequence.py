@@ -103,7 +103,8 @@ def _shortened(ramps: Floats, shortest: Floats, tight: Flags) -> bool:
         least = ramps[k] <= shortest[k] and ramps[after] <= shortest[after]
         stuck[k] = tight[k] and least and not (k > 0 and stuck[k - 1])
     if stuck.any():
-        tight[:] = stuck
+        for k in range(tight.size):
+            tight[k] = stuck[k]
         return False
     eased = -2
     for k in range(tight.size):

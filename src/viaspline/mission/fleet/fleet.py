@@ -84,6 +84,12 @@ class Fleet(FleetParts):
         world = {"world": members[0].mission.world} if members else {}
         return cls.model_validate({**world, "separation_m": separation_m, "fleet": robots})
 
+    def __repr__(self) -> str:
+        many, known = len(self.fleet), len(self.world.known)
+        return f"Fleet({many} robots, {self.separation_m:g} m apart, {known} obstacles)"
+
+    __str__ = __repr__
+
     @model_validator(mode="wrap")
     @classmethod
     def _sound(

@@ -11,8 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
-from matplotlib.text import Annotation, Text
+from matplotlib.text import Text
 
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
@@ -21,9 +20,10 @@ from viaspline.kernels.arrays import Floats, Ints
 from viaspline.report import style
 from viaspline.report.canvas import any_name
 from viaspline.report.fleet.driven_timelines import driven_timelines
-from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART, colours_of
-from viaspline.report.fleet.fleet_map import scene_of
-from viaspline.report.fleet.fleet_marks import MAX_PLAIN, paths_of
+from viaspline.report.fleet.film_names import FilmNames
+from viaspline.report.fleet.fleet_colours import FleetColours, fleet_colours
+from viaspline.report.fleet.fleet_map import robot_keys, scene_of
+from viaspline.report.fleet.fleet_marks import LEAST_ARROW_PX, MAX_PLAIN, paths_of
 from viaspline.report.fleet.places_over_time import FleetMotion, span_of
 from viaspline.report.moving_film import arrow_line
 from viaspline.report.scene import Scene
@@ -41,6 +41,7 @@ TRAIL_STEP_S: Final = 0.25  # from one point of it to the next, at least [s]
 MOST_STEPS: Final = 40  # of a trail between two frames
 LEAST_BODY_PX: Final = 5.0  # of a body that can be seen: its radius [pixels]
 HEAD_PX: Final = 9.0  # of an arrow [pixels]
+ARROW_GAP_PX: Final = 1.0  # between an arrow and a robot [pixels]
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +56,7 @@ class FilmedFleet:
         motion: Where the robots are, at least at the times of the frames.
         frames: The numbers of these times, (f,).
         timelines: Who waits when.
+        colours: Of the robots.
     """
 
     name: str
@@ -64,13 +66,15 @@ class FilmedFleet:
     motion: FleetMotion
     frames: Ints
     timelines: Sequence[Timeline]
+    colours: FleetColours
 
     @classmethod
     def of_plan(cls, plan: FleetPlan, name: str, count: int | None = None) -> FilmedFleet:
         """A plan, in so many frames; None: as many as its time asks for."""
         times, frames = film_times(*span_of(plan), count)
-        motion = FleetMotion.of_plan(plan, times)
-        return cls(name, *scene_of(plan), paths_of(plan), motion, frames, timelines_of(plan))
+        motion, waits = FleetMotion.of_plan(plan, times), timelines_of(plan)
+        colours = fleet_colours(motion.names, plan.fleet, waits, plan.certificate)
+        return cls(name, *scene_of(plan), paths_of(plan), motion, frames, waits, colours)
 
     @classmethod
     def of_run(
@@ -80,7 +84,8 @@ class FilmedFleet:
         times, frames = film_times(span_of(plan)[0], run.end_s, count)
         motion = FleetMotion.of_run(plan, run, times)
         waits = driven_timelines(plan, run)
-        return cls(name, *scene_of(plan), paths_of(plan), motion, frames, waits)
+        colours = fleet_colours(motion.names, plan.fleet, waits, run.certificate)
+        return cls(name, *scene_of(plan), paths_of(plan), motion, frames, waits, colours)
 
 
 @any_name()
@@ -138,36 +143,40 @@ class _FleetStage:
             filmed.view, (), style.short(filmed.name, 48), (), dpi=FLEET_DPI
         )
         axes = sheet.map
-        count = len(filmed.motion.names)
-        colours = colours_of(count)
+        names, colours = filmed.motion.names, list(filmed.colours.of.values())
+        many = len(names) > MAX_PLAIN
+        told = np.array([name in filmed.colours.told for name in names], bool)
         handles = filmed.scene.draw(axes, sheet.pixels_per_metre)
         axes.add_collection(
             LineCollection(
-                list(filmed.paths), colors=colours, linewidths=0.7 if count <= MAX_PLAIN else 0.3,
-                alpha=0.4, zorder=6,
+                list(filmed.paths), colors=colours, linewidths=0.3 if many else 0.7, alpha=0.4,
+                zorder=6,
             ),
             autolim=False,
         )  # fmt: skip
-        least = LEAST_BODY_PX if count <= MAX_PLAIN else 0.5 * LEAST_BODY_PX
-        sizes = 2.0 * np.maximum(filmed.motion.bodies, least / sheet.pixels_per_metre)
+        least = np.where(told | (not many), LEAST_BODY_PX, 0.6 * LEAST_BODY_PX)
+        self._radii = np.maximum(filmed.motion.bodies * sheet.pixels_per_metre, least)
+        sizes = 2.0 * self._radii / sheet.pixels_per_metre
         self._discs = EllipseCollection(
-            sizes, sizes, np.zeros(count), units="xy", offsets=np.zeros((count, 2)),
+            sizes, sizes, np.zeros(len(names)), units="xy", offsets=np.zeros((len(names), 2)),
             offset_transform=axes.transData, facecolors=colours or "none", edgecolors=style.INK,
-            linewidths=0.7 if count <= MAX_PLAIN else 0.3, zorder=20,
+            linewidths=np.where(told, 0.7, 0.3), zorder=20,
         )  # fmt: skip
         self._trails = LineCollection(
-            [], colors=colours or "none", linewidths=2.4 if count <= MAX_PLAIN else 1.0, zorder=9,
-            capstyle="round",
+            [], colors=colours or "none", linewidths=np.where(told, 2.4, 1.2 if many else 1.8),
+            zorder=9, capstyle="round",
         )  # fmt: skip
         self._arrows = LineCollection([], colors=style.INK, linewidths=1.4, zorder=25)
         for layer in (self._trails, self._discs, self._arrows):
             axes.add_collection(layer, autolim=False)
             layer.set_animated(True)
-        self._names = self._named() if count <= MAX_TOLD_APART else []
+        named = {i: name for i, name in enumerate(names) if told[i]}
+        self._names = FilmNames(axes, named, self._radii)
         self._clock = _clock_of(sheet.figure, axes.get_position().x0)
         keys = [
-            Line2D([], [], color=style.PATH, linewidth=2.4, label=f"its last {TRAIL_S:g} s"),
+            Line2D([], [], color=style.MUTED, linewidth=2.4, label=f"its last {TRAIL_S:g} s"),
             Line2D([], [], color=style.INK, marker=">", markersize=5, label="waits for"),
+            *(robot_keys(filmed.colours) if not filmed.colours.all_told else ()),
         ]  # fmt: skip
         SideColumn(sheet).legend([*keys, *handles])
         canvas = sheet.figure.canvas
@@ -185,14 +194,11 @@ class _FleetStage:
         self._trails.set_segments(list(motion.places[:, since : k + 1]))
         waits = self._waits_at(time)
         head = HEAD_PX / self._sheet.pixels_per_metre
-        self._arrows.set_segments(
-            [arrow_line(np.concatenate([here[i], here[j] - here[i]]), head) for i, j in waits]
-        )
-        for text, place in zip(self._names, here, strict=bool(self._names)):
-            text.xy = tuple(place.tolist())
+        self._arrows.set_segments([arrow_line(self._between(here, i, j), head) for i, j in waits])
+        self._names.move(here)
         self._clock.set_text(f"{time:6.1f} s   {_waiting_words(len(waits))}")
         self._canvas.restore_region(self._still)  # type: ignore[no-untyped-call]
-        for layer in (self._trails, self._discs, *self._names, self._arrows):
+        for layer in (self._trails, self._discs, self._arrows, *self._names.texts):
             self._sheet.map.draw_artist(layer)
         self._sheet.figure.draw_artist(self._clock)
         pixels = np.asarray(self._canvas.buffer_rgba())[..., :3]  # type: ignore[no-untyped-call]
@@ -208,19 +214,17 @@ class _FleetStage:
                 found.append((i, j))
         return found
 
-    def _named(self) -> list[Annotation]:
-        """The robots' names, just above them."""
-        texts = []
-        for name, body in zip(self._filmed.motion.names, self._filmed.motion.bodies, strict=True):
-            above = max(body * self._sheet.pixels_per_metre, LEAST_BODY_PX) * 72.0 / FLEET_DPI
-            text = self._sheet.map.annotate(
-                style.short(name, 12), (0.0, 0.0), (0.0, above + 1.0), size=style.SMALL_PT,
-                textcoords="offset points", color=style.INK, ha="center", va="bottom", zorder=22,
-                parse_math=False, path_effects=[withStroke(linewidth=2.0, foreground="white")],
-            )  # fmt: skip
-            text.set_animated(True)
-            texts.append(text)
-        return texts
+    def _between(self, here: Floats, i: int, j: int) -> Floats:
+        """An arrow from the edge of one robot to that of another: x, y, dx, dy [m].
+
+        A short one is drawn longer, from farther back.
+        """
+        way = here[j] - here[i]
+        length = max(float(np.hypot(*way)), 1e-9)
+        radii = (self._radii[[i, j]] + ARROW_GAP_PX) / self._sheet.pixels_per_metre
+        end = max(length - radii[1], 0.5 * length)
+        begin = min(radii[0], end - LEAST_ARROW_PX / self._sheet.pixels_per_metre)
+        return np.concatenate([here[i] + begin / length * way, (end - begin) / length * way])
 
 
 def _waiting_words(count: int) -> str:

@@ -6,6 +6,7 @@ Tested through ``report/fleet/test_fleet_picture``.
 from __future__ import annotations
 
 import textwrap
+from collections import Counter
 from collections.abc import Sequence
 from typing import Final
 
@@ -18,7 +19,7 @@ from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.timelines import Timeline
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.report import style
-from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART, ROBOT_COLOURS, colours_of
+from viaspline.report.fleet.fleet_colours import ROBOT_COLOURS, FleetColours
 from viaspline.report.fleet.fleet_marks import (
     draw_ends,
     draw_paths,
@@ -43,7 +44,7 @@ HEADS_PX: Final = 170.0  # from one head on a path to the next [pixels]
 
 def draw_fleet_map(
     sheet: Sheet, scene: Scene, plan: FleetPlan, timelines: Sequence[Timeline],
-    motion: FleetMotion,
+    motion: FleetMotion, colours: FleetColours,
 ) -> None:  # fmt: skip
     """Draw the map and its column.
 
@@ -53,14 +54,15 @@ def draw_fleet_map(
         plan: Whose paths are drawn.
         timelines: Who waits when.
         motion: Where the robots are meanwhile.
+        colours: Of the robots.
     """
-    colours, members = robot_colours(plan), plan.fleet.members
+    members = plan.fleet.members
     labels = Labels(sheet.map)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre)
     paths = paths_of(plan)
-    draw_paths(sheet.map, paths, list(colours.values()))
-    if len(paths) <= MAX_TOLD_APART:
-        for path, colour in zip(paths, colours.values(), strict=True):
+    draw_paths(sheet.map, paths, colours)
+    for path, (name, colour) in zip(paths, colours.of.items(), strict=True):
+        if name in colours.told:
             draw_arrows(sheet.map, path, colour, every=HEADS_PX)
     marks, places = draw_ends(sheet.map, members, colours)
     marks += draw_stations(sheet.map, members)
@@ -69,14 +71,9 @@ def draw_fleet_map(
     arrows = draw_wait_arrows(sheet.map, labels, motion.place_at, timelines, colours)
     labels.place(np.vstack([*paths, np.zeros((0, 2))]), places, marker_size=5.0)
     column = SideColumn(sheet)
-    column.legend([*_robots(plan), *marks, *arrows, *handles, *_chart_keys(timelines)])
+    column.legend([*robot_keys(colours), *marks, *arrows, *handles, *_chart_keys(timelines)])
     why = [f"{one.name}: {one.reason}" for one in plan.not_served]
     column.notes("Not served", [line for words in why for line in textwrap.wrap(words, NOTE_WIDTH)])
-
-
-def robot_colours(plan: FleetPlan) -> dict[str, str]:
-    """The colours of the robots that are served, by name."""
-    return dict(zip(plan.plans, colours_of(len(plan.plans)), strict=True))
 
 
 def scene_of(plan: FleetPlan) -> tuple[Scene, Box]:
@@ -91,15 +88,19 @@ def scene_of(plan: FleetPlan) -> tuple[Scene, Box]:
     return scene, view_of(seen, scene.corners, scene.box, max(least, 0.5))
 
 
-def _robots(plan: FleetPlan) -> list[Artist]:
-    """The legend's lines of the robots, as far as their colours tell them apart."""
-    if len(plan.plans) > MAX_TOLD_APART:
-        words = f"paths of {len(plan.plans)} robots"
-        return [Line2D([], [], color=style.PATH, linewidth=1.6, label=words)]
-    return [
-        Line2D([], [], color=colour, linewidth=2.4, label=style.short(name, 24))
-        for name, colour in robot_colours(plan).items()
+def robot_keys(colours: FleetColours) -> list[Artist]:
+    """The legend's lines of the robots, and of the kinds of those that aren't told apart."""
+    lines: list[Artist] = [
+        Line2D([], [], color=colours.of[name], linewidth=2.4, label=style.short(name, 24))
+        for name in colours.told
     ]
+    others = Counter(colour for name, colour in colours.of.items() if name not in colours.told)
+    for colour, count in others.items():
+        kinds = [kind for kind, its in colours.kinds.items() if its == colour]
+        what = style.short(", ".join(kinds), 24) if len(colours.kinds) > 1 else "robots"
+        words = f"{count} other {what}" if colours.told else f"{count} {what}"
+        lines.append(Line2D([], [], color=colour, linewidth=1.6, label=words))
+    return lines
 
 
 def _chart_keys(timelines: Sequence[Timeline]) -> list[Artist]:

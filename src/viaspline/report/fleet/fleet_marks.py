@@ -5,7 +5,7 @@ Tested through ``report/fleet/test_fleet_picture``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -22,7 +22,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.report import style
 from viaspline.report.canvas import polyline
-from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART
+from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART, FleetColours
 from viaspline.report.labels import Labels
 
 PlaceAt: TypeAlias = Callable[[str, float], tuple[float, float]]
@@ -43,46 +43,53 @@ def paths_of(plan: FleetPlan) -> list[Floats]:
     return [polyline(one.path.spans, each) for one in plan.plans.values()]
 
 
-def draw_paths(axes: Axes, paths: Sequence[Floats], colours: Sequence[str]) -> None:
-    """Each path in its robot's colour; many are thin, so that none hides the others."""
+def draw_paths(axes: Axes, paths: Sequence[Floats], colours: FleetColours) -> None:
+    """Each path in its robot's colour; those that aren't told apart are thin and below."""
     many = len(paths) > MAX_PLAIN
-    width = 1.6 if len(paths) <= MAX_TOLD_APART else 0.9 if not many else 0.5
-    lines = LineCollection(
-        list(paths), colors=list(colours), linewidths=width, alpha=0.55 if many else 0.95,
-        zorder=7, capstyle="round",
-    )  # fmt: skip
-    if not many:
-        lines.set_path_effects([Stroke(linewidth=width + 1.2, foreground="white"), Normal()])
-    axes.add_collection(lines, autolim=False)
+    named = list(zip(colours.of.items(), paths, strict=True))
+    for is_told, width, order in ((False, 0.7 if many else 1.1, 6.5), (True, 1.6, 7)):
+        some = [one for one in named if (one[0][0] in colours.told) == is_told]
+        if not some:
+            continue
+        lines = LineCollection(
+            [path for _, path in some], colors=[colour for (_, colour), _ in some],
+            linewidths=width, alpha=0.95, zorder=order, capstyle="round",
+        )  # fmt: skip
+        if is_told:
+            lines.set_path_effects([Stroke(linewidth=width + 1.2, foreground="white"), Normal()])
+        axes.add_collection(lines, autolim=False)
 
 
 def draw_ends(
-    axes: Axes, members: Sequence[FleetMember], colours: Mapping[str, str]
+    axes: Axes, members: Sequence[FleetMember], colours: FleetColours
 ) -> tuple[list[Artist], Floats]:
     """Starts as discs, goals as squares, in the robots' colours; those not served are crossed.
 
     Returns:
         What belongs in a legend, and the centres of the markers [m], (k, 2).
     """
-    size = 8.0 if len(members) <= MAX_TOLD_APART else 5.0 if len(members) <= MAX_PLAIN else 2.6
-    served = [one for one in members if one.name in colours]
-    left = [one for one in members if one.name not in colours]
-    starts = np.array([one.mission.route.start.at[:2] for one in served]).reshape(-1, 2)
-    goals = np.array([goal_of(one) for one in served]).reshape(-1, 2)
-    inks = [colours[one.name] for one in served]
-    area = size * size
-    edge: dict[str, Any] = {"edgecolors": style.INK, "linewidths": 0.8 if size > 3 else 0.3}
-    bare: dict[str, Any] = {"linewidths": 0.0}
-    white = ["white"] * len(served)
-    _scatter(axes, goals, area, inks, marker="s", **edge)
-    _scatter(axes, starts, area, white, marker="o", **edge)
-    _scatter(axes, starts, 0.4 * area, inks, marker="o", **bare)
+    small = 5.0 if len(members) <= MAX_PLAIN else 2.6
+    left = [one for one in members if one.name not in colours.of]
     handles: list[Artist] = [_key("o", "white", "start"), _key("s", "white", "goal")]
-    places = np.vstack([starts, goals])
+    places = np.zeros((0, 2))
+    for is_told, size in ((False, small), (True, 8.0)):
+        some = [
+            one for one in members
+            if one.name in colours.of and (one.name in colours.told) == is_told
+        ]  # fmt: skip
+        starts = np.array([one.mission.route.start.at[:2] for one in some]).reshape(-1, 2)
+        goals = np.array([goal_of(one) for one in some]).reshape(-1, 2)
+        inks = [colours.of[one.name] for one in some]
+        edge: dict[str, Any] = {"edgecolors": style.INK, "linewidths": 0.8 if size > 3 else 0.3}
+        _scatter(axes, goals, size**2, inks, marker="s", **edge)
+        _scatter(axes, starts, size**2, ["white"] * len(some), marker="o", **edge)
+        _scatter(axes, starts, 0.4 * size**2, inks, marker="o", linewidths=0.0)
+        places = np.vstack([places, starts, goals])
     if left:
         stuck = np.array([one.mission.route.start.at[:2] for one in left])
         crossed = [style.TIGHTEST] * len(left)
-        _scatter(axes, stuck, 1.6 * area, crossed, marker="X", edgecolors="white", linewidths=0.7)
+        area = 1.6 * (8.0 if len(members) <= MAX_TOLD_APART else small) ** 2
+        _scatter(axes, stuck, area, crossed, marker="X", edgecolors="white", linewidths=0.7)
         handles.append(_key("X", style.TIGHTEST, f"not served: {len(left)}"))
         places = np.vstack([places, stuck])
     return handles, places
@@ -108,19 +115,22 @@ def goal_of(member: FleetMember) -> tuple[float, float]:
     return end.at[0], end.at[1]
 
 
-def name_robots(labels: Labels, members: Sequence[FleetMember], colours: Mapping[str, str]) -> None:
-    """Ask for the names of the robots at their starts, if colours tell them apart."""
-    if len(members) > MAX_TOLD_APART:
-        return
+def name_robots(labels: Labels, members: Sequence[FleetMember], colours: FleetColours) -> None:
+    """Ask for the names of robots at their starts: of those that colours tell apart.
+
+    Those that aren't served are named as well where all are.
+    """
     for one in members:
+        if one.name not in colours.told and (one.name in colours.of or not colours.all_told):
+            continue
         x, y = one.mission.route.start.at[:2]
-        colour = colours.get(one.name, style.TIGHTEST)
+        colour = colours.of.get(one.name, style.TIGHTEST)
         labels.add(style.short(one.name, 16), (x, y), rank=2, colour=colour, gap=8)
 
 
 def draw_wait_arrows(
     axes: Axes, labels: Labels, place_at: PlaceAt, timelines: Sequence[Timeline],
-    colours: Mapping[str, str],
+    colours: FleetColours,
 ) -> list[Artist]:  # fmt: skip
     """Arrows from where a robot waits to where the other one passes before it.
 
@@ -129,7 +139,7 @@ def draw_wait_arrows(
         labels: Takes how long the longest waits are.
         place_at: Where a robot is at a time.
         timelines: Who waits when.
-        colours: Of robots by name.
+        colours: Of the robots.
 
     Returns:
         What belongs in a legend.
@@ -144,14 +154,14 @@ def draw_wait_arrows(
             *tail,
             marker="o",
             markersize=5.0,
-            markerfacecolor=colours[name],
+            markerfacecolor=colours.of[name],
             zorder=13.5,
             markeredgecolor=style.INK,
             markeredgewidth=0.8,
             linestyle="none",
         )
-        if rank < MAX_TOLD_WAITS and len(timelines) <= MAX_TOLD_APART:
-            labels.add(f"{wait.lost:.1f} s", tail, rank=4, colour=colours[name], gap=7)
+        if rank < MAX_TOLD_WAITS and name in colours.told:
+            labels.add(f"{wait.lost:.1f} s", tail, rank=4, colour=colours.of[name], gap=7)
     if not waits:
         return []
     words = "waits for"

@@ -17,6 +17,7 @@ from viaspline.report.sheet import LEFT, TOP, Box, Sheet, draw_heading, draw_sca
 from viaspline.report.style import DPI, INK, TEXT_PT
 
 WIDEST, TALLEST, NARROWEST, LOWEST = 7.6, 6.6, 4.4, 1.4  # of the map [inch]
+WIDEST_BESIDE: Final = 8.6  # of a map that has room above and below [inch]
 COLUMN: Final = 2.55  # for the legend [inch]
 BETWEEN: Final = 0.75  # from one column or row of panels to the next [inch]
 BOTTOM: Final = 0.6  # below the lowest panel [inch]
@@ -63,9 +64,13 @@ def new_fleet_page(
     is_below = max(height + more + 0.25, times_tall) < max(height, times_tall + more)
     below, beside = (more + 0.25, 0.0) if is_below else (0.0, more)
     whole = max(height + below, times_tall + beside)
+    if not is_below:  # the map may be as tall as what is beside it
+        scale = max(scale, min(WIDEST_BESIDE / across, whole / up))
+        width, height = max(across * scale, NARROWEST), max(up * scale, LOWEST)
     panels = sum(small) + BETWEEN * max(len(small) - 1, 0)
     times = LEFT + max(width + COLUMN, panels + 0.3 if is_below else 0.0) + BETWEEN
-    total_w, total_h = times + TIMES_WIDE + 0.65, BOTTOM + whole + TOP
+    times_wide = max(TIMES_WIDE, 0.0 if is_below else panels)
+    total_w, total_h = times + times_wide + 0.65, BOTTOM + whole + TOP
     figure = new_figure(total_w, total_h)
 
     def axes(left: float, bottom: float, wide: float, tall: float) -> Axes:
@@ -83,9 +88,9 @@ def new_fleet_page(
     left, low = (LEFT, bottom - below) if is_below else (times, BOTTOM)
     lefts = left + np.cumsum([0.0, *(wide + BETWEEN for wide in small)])
     placed = [axes(*at, SMALL_TALL) for at in zip(lefts, [low] * len(small), small, strict=False)]
-    apart = axes(times, BOTTOM + beside, TIMES_WIDE, APART_TALL)
+    apart = axes(times, BOTTOM + beside, times_wide, APART_TALL)
     first = BOTTOM + beside + APART_TALL + BETWEEN
-    row_axes = axes(times, first, TIMES_WIDE, BOTTOM + whole - first)
+    row_axes = axes(times, first, times_wide, BOTTOM + whole - first)
     side = LEFT + width + 0.25, 0.2 if not is_below else bottom, COLUMN - 0.35, 0.0
     side = (*side[:3], BOTTOM + whole - side[1])
     sheet = Sheet(figure, drawn, (), side, scale * DPI)

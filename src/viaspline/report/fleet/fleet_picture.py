@@ -11,8 +11,8 @@ from viaspline.fleet.timelines import Timeline, timelines_of
 from viaspline.report import style
 from viaspline.report.canvas import any_name, png
 from viaspline.report.fleet.coordination_panel import draw_coordination, pair_to_show
-from viaspline.report.fleet.fleet_colours import MAX_TOLD_APART
-from viaspline.report.fleet.fleet_map import draw_fleet_map, robot_colours, scene_of
+from viaspline.report.fleet.fleet_colours import fleet_colours
+from viaspline.report.fleet.fleet_map import draw_fleet_map, scene_of
 from viaspline.report.fleet.fleet_page import SMALL_TALL, new_fleet_page
 from viaspline.report.fleet.places_over_time import FleetMotion, instants, span_of
 from viaspline.report.fleet.separation_panel import draw_separation
@@ -32,18 +32,18 @@ def fleet_picture(plan: FleetPlan, name: str) -> bytes:
     scene, view = scene_of(plan)
     timelines, motion = timelines_of(plan), motion_of(plan)
     rows = rows_of(timelines)
-    colours = robot_colours(plan)
+    colours = fleet_colours(list(plan.plans), plan.fleet, timelines, plan.certificate)
     pair = pair_to_show(plan)
-    is_large = len(plan.plans) > MAX_TOLD_APART
+    is_large = not colours.all_told
     small = ([SMALL_TALL + 0.5] if pair else []) + ([map_width(view)] if is_large else [])
     page = new_fleet_page(view, small, len(rows), *heading(plan, timelines, name))
-    draw_fleet_map(page.sheet, scene, plan, timelines, motion)
+    draw_fleet_map(page.sheet, scene, plan, timelines, motion, colours)
     panels = list(page.small)
     if pair:
-        draw_coordination(panels.pop(0), plan, pair, colours)
+        draw_coordination(panels.pop(0), plan, pair, colours.of)
     if is_large:
         draw_waiting_map(panels.pop(0), plan, view)
-    draw_waits(page.rows, rows, len(timelines), colours, span_of(plan))
+    draw_waits(page.rows, rows, timelines, colours.of, span_of(plan))
     page.apart.set_xlim(page.rows.get_xlim())
     draw_separation(page.apart, motion.nearest_two(), plan.certificate)
     return png(page.sheet.figure)

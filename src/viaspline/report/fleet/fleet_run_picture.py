@@ -13,7 +13,8 @@ from viaspline.fleet.timelines import Timeline
 from viaspline.report import style
 from viaspline.report.canvas import any_name, png
 from viaspline.report.fleet.driven_timelines import driven_timelines
-from viaspline.report.fleet.fleet_map import draw_fleet_map, robot_colours, scene_of
+from viaspline.report.fleet.fleet_colours import fleet_colours
+from viaspline.report.fleet.fleet_map import draw_fleet_map, scene_of
 from viaspline.report.fleet.fleet_page import SMALL_TALL, name_panel, new_fleet_page
 from viaspline.report.fleet.fleet_picture import apart_words
 from viaspline.report.fleet.places_over_time import FleetMotion, instants, span_of
@@ -39,15 +40,16 @@ def fleet_run_picture(plan: FleetPlan, run: FleetRun, name: str) -> bytes:
     times = instants(begin, run.end_s, len(plan.plans), certificate.at_s)
     motion = FleetMotion.of_run(plan, run, times)
     timelines = driven_timelines(plan, run)
-    rows, colours = rows_of(timelines), robot_colours(plan)
+    rows = rows_of(timelines)
+    colours = fleet_colours(list(plan.plans), plan.fleet, timelines, certificate)
     lines = (apart_words(certificate), _late_words(timelines, run))
     page = new_fleet_page(view, [SMALL_TALL + 0.5], len(rows), _title(plan, run, name), lines)
-    draw_fleet_map(page.sheet, scene, plan, timelines, motion)
-    draw_waits(page.rows, rows, len(timelines), colours, (begin, run.end_s))
+    draw_fleet_map(page.sheet, scene, plan, timelines, motion, colours)
+    draw_waits(page.rows, rows, timelines, colours.of, (begin, run.end_s))
     _mark_planned(page.rows, plan, rows)
     page.apart.set_xlim(page.rows.get_xlim())
     draw_separation(page.apart, motion.nearest_two(), certificate)
-    draw_arrivals(page.small[0], plan, run, colours)
+    draw_arrivals(page.small[0], plan, run, colours.of)
     return png(page.sheet.figure)
 
 
@@ -92,7 +94,8 @@ def _title(plan: FleetPlan, run: FleetRun, name: str) -> str:
 
 
 def _late_words(timelines: Sequence[Timeline], run: FleetRun) -> str:
-    words = f"{seconds(run.mean_delay)} later than planned in the mean"
+    when = "later" if run.mean_delay >= 0.0 else "sooner"
+    words = f"{seconds(abs(run.mean_delay))} {when} than planned in the mean"
     if timelines and run.delays:
         worst = max(timelines, key=lambda one: one.late)
         words += f"; most of all {style.short(worst.name, 24)}, by {seconds(worst.late)}"

@@ -19,6 +19,7 @@ from viaspline.report.sheet import Box
 from viaspline.report.style import MUTED
 
 SQUARES = 44  # along the longer side of the view
+SHOWN_S = 0.05  # of a square that isn't white
 
 
 def waiting_seconds(plan: FleetPlan, view: Box, squares: int = SQUARES) -> Floats:
@@ -51,7 +52,7 @@ def draw_waiting_map(axes: Axes, plan: FleetPlan, view: Box) -> None:
     sums = waiting_seconds(plan, view)
     colours = ListedColormap(colormaps["magma_r"](np.linspace(0.12, 1.0, 256)))
     shown = axes.imshow(
-        np.where(sums > 0.0, sums, np.nan), origin="lower", aspect="equal", cmap=colours,
+        np.where(sums >= SHOWN_S, sums, np.nan), origin="lower", aspect="equal", cmap=colours,
         extent=(view[0], view[2], view[1], view[3]), interpolation="nearest", vmin=0.0,
         vmax=max(float(sums.max()), 1e-9),
     )  # fmt: skip

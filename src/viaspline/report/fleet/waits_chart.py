@@ -16,35 +16,50 @@ from viaspline.report.canvas import text_width
 from viaspline.report.fleet.fleet_page import name_panel
 
 MAX_ROWS = 40  # of the robots that are most delayed
+ALL_ROWS = 20  # robots that have a row each, delayed or not
+LEAST_ROWS = 8  # of a larger fleet
 BAR = 0.72  # of a row
 WAITING_BAR = 0.4  # of a row
 WORTH_SAYING_S = 0.05  # of lateness
 STANDS_COLOUR = "#dfe3e8"
 
 
-def rows_of(timelines: Sequence[Timeline], most: int = MAX_ROWS) -> list[Timeline]:
-    """The robots that get a row: all of them, or those that are most delayed, in their order."""
-    if len(timelines) <= most:
+def rows_of(timelines: Sequence[Timeline]) -> list[Timeline]:
+    """The robots that get a row: all of a small fleet, of a larger one those that are delayed.
+
+    Of a small fleet they are in their order, of a larger one the latest comes first.
+    """
+    if len(timelines) <= ALL_ROWS:
         return list(timelines)
-    late = sorted(range(len(timelines)), key=lambda k: (-timelines[k].late, k))[:most]
-    return [timelines[k] for k in late]
+    late = sorted(range(len(timelines)), key=lambda k: (-timelines[k].late, k))
+    count = sum(one.late > WORTH_SAYING_S for one in timelines)
+    return [timelines[k] for k in late[: min(max(count, LEAST_ROWS), MAX_ROWS)]]
+
+
+def _which(shown: Sequence[Timeline], timelines: Sequence[Timeline]) -> str:
+    """Which robots have a row, where that isn't all."""
+    if len(shown) == len(timelines):
+        return ""
+    late = sum(one.late > WORTH_SAYING_S for one in timelines)
+    if late <= len(shown):
+        return f"; {late or 'none'} of {len(timelines)} robots {'are' if late > 1 else 'is'} late"
+    return f": the {len(shown)} latest of {len(timelines)} robots"
 
 
 def draw_waits(
-    axes: Axes, shown: Sequence[Timeline], count: int, colours: Mapping[str, str],
-    span: tuple[float, float],
+    axes: Axes, shown: Sequence[Timeline], timelines: Sequence[Timeline],
+    colours: Mapping[str, str], span: tuple[float, float],
 ) -> None:  # fmt: skip
     """Draw the chart.
 
     Args:
         axes: Empty ones.
         shown: The robots that get a row, from the top.
-        count: How many robots there are.
+        timelines: Of all robots.
         colours: Of robots by name.
         span: From when to when it goes [s].
     """
-    which = "" if len(shown) == count else f", the {len(shown)} latest of {count} robots"
-    name_panel(axes, f"Who waits when, and for whom{which}")
+    name_panel(axes, f"Who waits when, and for whom{_which(shown, timelines)}")
     axes.set_xlim(span[0], span[1] + 0.09 * (span[1] - span[0]))
     axes.set_ylim(len(shown) - 0.4, -0.6)
     axes.set_yticks(range(len(shown)), [style.short(one.name, 10) for one in shown])

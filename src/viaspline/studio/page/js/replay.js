@@ -1,5 +1,6 @@
 /** A drive that is played: where the robot is at a time, what it has seen, what it is doing. */
 
+import { robotName } from "./core/fleet.js";
 import { Playback } from "./playback.js";
 
 export const PLAY_FACTORS = [0.5, 1, 2, 5, 10, 20, 50];
@@ -14,7 +15,7 @@ export class Drive extends Playback {
     store.on("run", () => {
       if (store.run === this.run) return;
       this.run = store.run;
-      this.begin = this.time = this.run?.samples.time[0] ?? 0;
+      this.begin = this.time = this.run?.begin ?? this.run?.samples.time[0] ?? 0;
       this.end = this.run?.duration ?? 0;
       this.isPlaying = false;
       this.tell();
@@ -23,7 +24,14 @@ export class Drive extends Playback {
 
   /** To the event before or after. @param {1|-1} way */
   step(way) {
-    if (this.run) this.stepTo(way, this.run.events.map((/** @type {any} */ event) => event.time));
+    if (this.run) this.stepTo(way, this.moments().map((/** @type {any} */ event) => event.time));
+  }
+
+  /** What happens; of a fleet, to the robot that is chosen. @returns {any[]} */
+  moments() {
+    const { file, robot } = this.store;
+    const name = this.run.fleet ? robotName(file, robot ?? 0) : null;
+    return this.run.events.filter((/** @type {any} */ event) => name === null || event.robot === name);
   }
 
   /** The last sample that is not later than now. */
@@ -42,8 +50,10 @@ export class Drive extends Playback {
     return this.stateAt(this.time);
   }
 
-  /** @param {number} time */
+  /** Of a fleet that of the robot that is chosen. @param {number} time */
   stateAt(time) {
+    const { file, robot } = this.store;
+    if (this.run.fleet) return this.run.fleet.stateOf(robotName(file, robot ?? 0), time);
     const s = this.run.samples;
     const i = this.index(time), j = Math.min(i + 1, s.time.length - 1);
     const t = s.time[j] > s.time[i] ? Math.min(1, (time - s.time[i]) / (s.time[j] - s.time[i])) : 0;

@@ -31,6 +31,17 @@ export function kindOf(file, index) {
   return member.robot ?? kindsOf(file)[0] ?? FIRST_KIND;
 }
 
+/** The file of a robot's mission, from the folder of the studio. @param {string|null} fleet its file @param {string} mission as that names it */
+export function missionFile(fleet, mission) {
+  const steps = [...(fleet ?? "").split("/").slice(0, -1), ...mission.split("/")];
+  /** @type {string[]} */ const path = [];
+  for (const step of steps) {
+    if (step === "..") path.pop();
+    else if (step && step !== ".") path.push(step);
+  }
+  return path.join("/");
+}
+
 /** How many robots are of a kind. @param {any} file @param {string} kind */
 export const countOfKind = (file, kind) => membersOf(file).filter((_, i) => kindOf(file, i) === kind).length;
 

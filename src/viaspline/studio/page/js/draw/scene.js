@@ -38,7 +38,7 @@ export class Scene {
     this.preview = preview;
     this.ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
     this.maps = new MapPictures(() => this.later());
-    this.fleet = new FleetLayer(store, preview);
+    this.fleet = new FleetLayer(store, preview, drive);
     this.isDue = false;
     this.patience = 0;
     /** @type {HTMLCanvasElement|undefined} */ this.still = undefined;
@@ -157,7 +157,7 @@ export class Scene {
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
     drawCorridor(pen, store.goodPlan?.corridor ?? []);
     drawHovered(pen, known, store.hover);
-    const isDriving = !!drive.run;
+    const isDriving = !!drive.run && !drive.run.fleet; // robots of a fleet keep to their paths
     const moving = placedAt([...movingOf(obstacles), ...tracksOf(store.plan?.tracks ?? [])], this.time);
     drawTrails(pen, moving, this.preview, store.selection && whole(store.selection));
     if (isDriving) drawSight(pen, drive);

@@ -2,6 +2,7 @@
 
 import { addObstacle } from "../core/edits.js";
 import { fill, h, icon } from "../panels/dom.js";
+import { robotName } from "../core/fleet.js";
 import { packed } from "./share.js";
 import { svgOf } from "./svg.js";
 
@@ -12,9 +13,19 @@ const PLAN_EXPORTS = [
   ["scene.svg", "The scene as curves, in metres"],
   ["scene.png", "The map as it is on the screen"],
 ];
+const ONE_ROBOT = ["plan.json", "path.csv", "plan.png"]; // of a fleet, that which is chosen
 const RUN_EXPORTS = [
   ["run.json", "What was driven, every event and every re-plan"],
   ["run.csv", "The driven path over time"],
+  ["run.png", "The picture of the drive"],
+];
+
+const FLEET_EXPORTS = [
+  ["fleet.json", "Who drives when, what is proven, who passes first: the bytes that viaspline plan writes"],
+  ["fleet.png", "The picture that viaspline plan draws of the fleet"],
+];
+const FLEET_RUN_EXPORTS = [
+  ["run.json", "When each robot arrived, what held it up, and what is proven of the drive"],
   ["run.png", "The picture of the drive"],
 ];
 
@@ -147,7 +158,10 @@ export class Files {
 
   export() {
     const { store } = this.app;
-    const list = [...PLAN_EXPORTS, ...(store.run ? RUN_EXPORTS : [])];
+    const isOfFleet = store.robot !== null;
+    const whose = isOfFleet ? ` · ${robotName(store.file, store.robot ?? 0)}` : "";
+    const own = PLAN_EXPORTS.map(([kind, words]) => [kind, ONE_ROBOT.includes(kind) ? `${words}${whose}` : words]);
+    const list = [...(isOfFleet ? FLEET_EXPORTS : []), ...own, ...(!store.run ? [] : isOfFleet ? FLEET_RUN_EXPORTS : RUN_EXPORTS)];
     this.show("Export", h("ul", { class: "file-list" }, ...list.map(([kind, words]) => h("li", {}, h("button", { type: "button", class: "file", onclick: () => this.attempt(() => this.take(kind)) }, icon("export", 16), h("span", {}, h("strong", {}, kind), h("small", {}, words)))))),
       store.run ? null : h("p", { class: "hint" }, "After a drive its files are here as well."));
   }
@@ -162,7 +176,8 @@ export class Files {
       app.scene.canvas.toBlob((/** @type {Blob|null} */ blob) => blob && download(`${stem}.png`, blob), "image/png");
     } else {
       await app.settled();
-      const answer = await app.link.ask({ type: "export", kind });
+      const { file, robot } = app.store;
+      const answer = await app.link.ask({ type: "export", kind, ...(robot !== null && ONE_ROBOT.includes(kind) ? { robot: robotName(file, robot) } : {}) });
       const bytes = Uint8Array.from(atob(answer.data), (c) => c.charCodeAt(0));
       download(answer.name, new Blob([bytes]));
     }

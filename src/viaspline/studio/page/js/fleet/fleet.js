@@ -1,6 +1,6 @@
 /** A fleet on the page: its newest plan, the robot that is chosen, and the panels that only fleets have. */
 
-import { addRobot, fleetOf, isFleet, removeRobot, robotName } from "../core/fleet.js";
+import { addRobot, fleetOf, isFleet, missionFile, removeRobot, robotName } from "../core/fleet.js";
 import { FleetPlan } from "../core/fleet_plan.js";
 import { bodyOf } from "../core/mission.js";
 import { FleetProof } from "./fleet_proof.js";
@@ -18,8 +18,21 @@ export class Fleet {
     const { store } = app;
     store.on("robot", () => this.chosen());
     store.on("document file", () => this.dress());
-    store.on("elsewhere", () => app.toast(`The route of ${robotName(store.file, store.robot)} stands in ${store.file.fleet[store.robot].mission}: open that file to edit it.`));
+    store.on("elsewhere", () => this.sayElsewhere());
     document.querySelector("#make-fleet")?.addEventListener("click", () => this.make());
+  }
+
+  /** Say that a mission is only shown here, and where it is edited. */
+  sayElsewhere() {
+    const { store, toast } = this.app;
+    const { mission } = store.file.fleet[store.robot];
+    toast(`The mission of ${robotName(store.file, store.robot)} stands in ${mission}: here it is only shown.`, "", { label: `Open ${mission}`, act: () => this.openMission(mission) });
+  }
+
+  /** Open the file of a robot's mission instead of the fleet's. @param {string} mission as the fleet names it */
+  openMission(mission) {
+    const { files, store } = this.app;
+    files.leaving(() => files.load(missionFile(store.name, mission)));
   }
 
   /** What only a fleet has is shown only then. */

@@ -1,7 +1,7 @@
 /** What has been proven of a fleet: how far apart its robots stay, where and when; who waits; who isn't served. */
 
 import { isFleet, membersOf, robotName } from "../core/fleet.js";
-import { fill, h, lazily } from "../panels/dom.js";
+import { fill, h, lazily, sentence } from "../panels/dom.js";
 import { clock, down, metres, seconds } from "../units.js";
 
 const MOST_SHOWN = 8; // robots that aren't served, and waits, one by one
@@ -44,9 +44,10 @@ export class FleetProof {
   /** Who isn't served, and why. @param {import("../core/fleet_plan.js").FleetPlan} plan */
   missing(plan) {
     const { missing } = plan;
-    return missing.slice(0, MOST_SHOWN).map((robot) => h("div", { class: "problem" },
-      this.named(robot.name, "link problem-key"),
-      h("p", {}, `${robot.missing?.outcome}: ${robot.missing?.reason}`), h("p", { class: "hint" }, robot.missing?.remedy ?? "")))
+    if (!missing.length) return [];
+    return [h("h3", {}, "Not served")].concat(missing.slice(0, MOST_SHOWN).map((robot) => h("div", { class: "problem" },
+      this.named(robot.name, "link problem-key"), ` ${robot.missing?.outcome}`,
+      h("p", {}, sentence(robot.missing?.reason ?? "")), h("p", { class: "hint" }, sentence(robot.missing?.remedy ?? "")))))
       .concat(missing.length > MOST_SHOWN ? [h("p", { class: "hint" }, `and ${missing.length - MOST_SHOWN} more`)] : []);
   }
 

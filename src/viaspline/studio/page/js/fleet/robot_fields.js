@@ -47,7 +47,10 @@ export class RobotFields {
   /** What it is, among the kinds that there are. @param {string|null} kind @param {string|undefined} mission */
   kind(kind, mission) {
     const { store } = this.app;
-    if (kind === null) return [h("p", { class: "hint" }, `Its robot and its route stand in ${mission}.`)];
+    if (kind === null) {
+      return [h("p", { class: "hint" }, `Its robot and its route stand in ${mission}: here they are only shown.`),
+        h("button", { type: "button", class: "button", onclick: () => this.app.fleet.openMission(mission) }, icon("file", 15), `Open ${mission}`)];
+    }
     const kinds = kindsOf(store.file);
     const count = countOfKind(store.file, kind);
     return [

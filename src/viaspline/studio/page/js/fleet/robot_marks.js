@@ -7,16 +7,16 @@ const TRAIL_S = 12; // that a trail goes back [s]
 const TRAIL_PIECES = 12;
 const LEAST_RADIUS_PX = 6.5;
 
-/** @param {Pen} pen @param {{spans: number[], points: any[], colour: string, isStale: boolean}} route */
-export function drawRoute(pen, { spans, points, colour, isStale }) {
+/** @param {Pen} pen @param {{spans: number[], points: any[], colour: string, isStale: boolean, isThin: boolean}} route `isThin`: one of many */
+export function drawRoute(pen, { spans, points, colour, isStale, isThin }) {
   const { ctx, camera, colours } = pen;
   ctx.lineCap = ctx.lineJoin = "round";
   if (spans.length) {
     ctx.beginPath();
     pen.spans(spans);
-    if (!isStale) pen.stroke(colours.casing, 4.5);
-    ctx.globalAlpha = isStale ? 0.5 : 0.85;
-    pen.stroke(colour, 2, isStale ? [2, 5] : []);
+    if (!isStale && !isThin) pen.stroke(colours.casing, 4.5);
+    ctx.globalAlpha = isStale || isThin ? 0.5 : 0.85;
+    pen.stroke(colour, isThin ? 1.2 : 2, isStale ? [2, 5] : []);
     ctx.globalAlpha = 1;
   }
   for (const point of points) {
@@ -24,10 +24,11 @@ export function drawRoute(pen, { spans, points, colour, isStale }) {
     const [x, y] = camera.toScreen(point.at[0], point.at[1]);
     const isEnd = point.id === "start" || point.id === "goal";
     ctx.beginPath();
-    if (point.id === "goal") ctx.rect(x - 4.5, y - 4.5, 9, 9);
-    else ctx.arc(x, y, isEnd ? 4.5 : 3, 0, 2 * Math.PI);
+    const half = isThin ? 2.6 : 4.5;
+    if (point.id === "goal") ctx.rect(x - half, y - half, 2 * half, 2 * half);
+    else ctx.arc(x, y, isThin ? (isEnd ? 3 : 1.8) : isEnd ? 4.5 : 3, 0, 2 * Math.PI);
     pen.fill(colours.paper);
-    pen.stroke(colour, isEnd ? 2 : 1.5);
+    pen.stroke(colour, isThin ? 1 : isEnd ? 2 : 1.5);
   }
 }
 

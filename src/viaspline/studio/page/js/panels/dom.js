@@ -196,3 +196,6 @@ export function fitted(panel) {
     panel.draw();
   }).observe(canvas);
 }
+
+/** With a capital at its beginning. @param {string} text */
+export const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);

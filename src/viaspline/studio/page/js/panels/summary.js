@@ -5,7 +5,7 @@ import { idAt, obstaclesOf, part, pointsOf } from "../core/mission.js";
 import { missionOf, robotName } from "../core/fleet.js";
 import { timingRows } from "./timing.js";
 import { bend, down, metres, number, place, seconds } from "../units.js";
-import { fill, h, icon, lazily } from "./dom.js";
+import { fill, h, icon, lazily, sentence } from "./dom.js";
 
 export class Summary {
   /** @param {any} app */
@@ -192,6 +192,3 @@ export class Summary {
     return point?.name ?? path.reduce((/** @type {string} */ text, step) => (typeof step === "number" ? `${text}[${step}]` : text ? `${text}.${step}` : String(step)), "");
   }
 }
-
-/** @param {string} text */
-const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);

@@ -3,8 +3,9 @@
  * fast; every event is a mark on it.
  */
 
+import { FleetRun } from "../core/fleet_run.js";
 import { PLAY_FACTORS } from "../replay.js";
-import { clock, metres, seconds } from "../units.js";
+import { clock, down, metres, seconds } from "../units.js";
 import { fill, h, icon, lazily } from "./dom.js";
 
 /** Each kind of event has a sign of its own, so that colour is not all. */
@@ -12,7 +13,7 @@ const EVENT_SIGNS = {
   started: ["▶", "is-plain"], detected: ["◉", "is-seen"], replanned: ["↝", "is-replan"], via: ["•", "is-plain"],
   arrived: ["■", "is-stop"], dwell: ["□", "is-stop"], skipped: ["✕", "is-bad"], braked: ["▼", "is-seen"],
   stopped: ["■", "is-bad"], reached: ["⚑", "is-good"], contact: ["✕", "is-bad"], waits: ["▼", "is-seen"],
-  tightest: ["△", "is-seen"],
+  tightest: ["△", "is-seen"], "goes on": ["▶", "is-plain"], swapped: ["⇄", "is-replan"],
 };
 
 export class Timeline {
@@ -51,6 +52,7 @@ export class Timeline {
     app.drive.on(() => this.render());
     app.preview.on(() => this.render());
     app.store.on("run plan", () => this.render());
+    app.store.on("robot", () => { if (app.drive.run?.fleet) this.marksSoon(); });
     this.shown = null;
     this.lastEvent = null;
     this.render();
@@ -79,15 +81,11 @@ export class Timeline {
   /** Drive the mission as it is now, then play it. */
   async drive() {
     const { store, link, drive, toast } = this.app;
-    if (store.robot !== null) { // a fleet's plan is played
-      this.toggle();
-      return;
-    }
     if (this.isAsked) {
       link.send({ type: "halt" });
       return;
     }
-    if (!store.plan?.ok) {
+    if (!this.canDrive) {
       toast("There is no path to drive yet.");
       return;
     }
@@ -97,10 +95,10 @@ export class Timeline {
     this.app.say("driving");
     try {
       await this.app.settled();
-      const doc = store.doc;
+      const { file, fleetPlan } = store;
       const answer = await link.ask({ type: "drive", seed: 0 });
-      if (answer.type === "driven" && doc === store.doc) {
-        store.run = answer;
+      if (answer.type === "driven" && file === store.file) {
+        store.run = fleetPlan ? { ...answer, fleet: new FleetRun(answer, fleetPlan) } : answer;
         store.select(null);
         store.lookAt(null);
         store.tell("run");
@@ -116,6 +114,12 @@ export class Timeline {
       store.tell("status");
       this.render();
     }
+  }
+
+  /** Whether there is a plan: of a fleet, of any of its robots. */
+  get canDrive() {
+    const { store } = this.app;
+    return store.fleetPlan ? store.fleetPlan.answer?.ok && store.fleetPlan.driving.length > 0 : store.plan?.ok;
   }
 
   /** A factor with which a drive takes about half a minute. @param {number} duration */
@@ -138,11 +142,10 @@ export class Timeline {
     const { run } = drive;
     this.panel.classList.toggle("is-driving", !!run);
     document.body.classList.toggle("is-driving", !!run);
-    const isFleet = store.robot !== null;
-    const verb = this.isAsked ? "Stop" : isFleet ? (preview.isPlaying ? "Pause" : "Play") : run ? (drive.isPlaying ? "Pause" : "Play") : "Drive";
+    const verb = this.isAsked ? "Stop" : run ? (drive.isPlaying ? "Pause" : "Play") : "Drive";
     this.dress(this.button, verb, icon(verb === "Pause" ? "pause" : verb === "Stop" ? "stop" : "play", 16), verb);
     const canPlay = this.played.end > this.played.begin;
-    this.button.disabled = isFleet ? !canPlay : !run && !this.isAsked && !store.plan?.ok;
+    this.button.disabled = !run && !this.isAsked && !this.canDrive;
     const watch = preview.isPlaying ? "Pause the plan" : "Play the plan";
     this.dress(this.watch, watch, icon(preview.isPlaying ? "pause" : "watch"));
     this.watch.setAttribute("aria-label", watch);
@@ -178,7 +181,7 @@ export class Timeline {
     this.clock.textContent = !store.plan?.ok ? "–" : isMoved ? `${clock(preview.time)} · ${speed.toFixed(2)} m/s` : seconds(store.plan.duration);
     if (this.isAsked) return;
     const last = preview.moments().filter((/** @type {{time: number}} */ { time }) => time <= preview.time + 1e-6).at(-1);
-    this.note.textContent = isMoved && last ? `${clock(last.time)} ${last.text}` : store.robot === null ? "Drive the mission in simulation, with what is not on the map." : "All robots, as they are planned.";
+    this.note.textContent = isMoved && last ? `${clock(last.time)} ${last.text}` : store.robot === null ? "Drive the mission in simulation, with what is not on the map." : "Drive all robots in simulation, or play them as they are planned.";
   }
 
   renderDrive() {
@@ -196,17 +199,17 @@ export class Timeline {
       if (event) this.app.say(event.message);
     }
     if (drive.time >= run.duration && !drive.isPlaying) {
-      this.note.textContent = run.reached
+      this.note.textContent = run.fleet ? fleetWords(run) : run.reached
         ? `reached the goal in ${seconds(run.duration)}, ${metres(run.distance, 1)}, never closer than ${metres(run.clearance)} · ${run.replans.length} re-plan${run.replans.length === 1 ? "" : "s"}`
         : `did not reach the goal: ${run.reason}`;
     }
   }
 
-  /** What happens on the line of time. @returns {{time: number, kind: string, words: string}[]} */
+  /** What happens on the line of time; of a fleet that drives, to the robot that is chosen. @returns {{time: number, kind: string, words: string}[]} */
   events() {
     const { drive, preview } = this.app;
     if (!drive.run) return preview.moments().map((/** @type {any} */ moment) => ({ time: moment.time, kind: moment.kind, words: moment.text }));
-    return drive.run.events.map((/** @type {any} */ event) => ({ time: event.time, kind: event.kind, words: event.message }));
+    return drive.moments().map((/** @type {any} */ event) => ({ time: event.time, kind: event.kind, words: event.message }));
   }
 
   drawMarks() {
@@ -223,4 +226,11 @@ export class Timeline {
       return mark;
     }));
   }
+}
+
+/** What came of the drive of a fleet. @param {any} run */
+function fleetWords(run) {
+  const late = `${seconds(Math.abs(run.mean_delay))} ${run.mean_delay < 0 ? "sooner" : "later"} than planned in the mean`;
+  const apart = run.clearance === null ? "" : `, proven ${down(run.clearance)} apart`;
+  return `${run.reached ? "all" : run.arrived} arrived in ${seconds(run.duration)}, ${late}${apart}${run.reason ? `: ${run.reason}` : ""}`;
 }

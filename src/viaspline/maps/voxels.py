@@ -1,0 +1,106 @@
+"""Voxels as a value: which cubes of space are blocked."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viaspline.errors import GeometryError
+from viaspline.handed_in import number_from, numbers_from
+
+MOST_VOXELS_ASIDE = 4096
+MOST_VOXELS = 2**31
+
+Corner = tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Voxels:
+    """Equal cubes in a box whose sides lie along the axes.
+
+    Two are equal when they block the same cubes of the same space, whatever file they came from.
+
+    Attributes:
+        blocked: True where a cube is to be kept clear of, shape (nx, ny, nz), read-only.
+        cell: Side of a cube [m].
+        origin: x, y, z [m] of the outer corner of cube (0, 0, 0).
+        source: The file they were read from, as the mission names it; None for some made in memory.
+
+    An array that is read-only already is kept as it is; another one is copied.
+
+    Raises:
+        GeometryError: For no cubes, too many of them, or numbers that make no space.
+
+    Example:
+        >>> cube = np.zeros((2, 3, 4), bool)
+        >>> Voxels(cube, cell=0.5, origin=(1.0, 2.0, 0.0)).extent
+        (1.0, 2.0, 0.0, 2.0, 3.5, 2.0)
+    """
+
+    blocked: NDArray[np.bool_]
+    cell: float
+    origin: Corner = (0.0, 0.0, 0.0)
+    source: str | None = None
+    digest: bytes = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        cubes = _read_only(self.blocked)
+        if cubes.ndim != 3 or not cubes.size:
+            raise GeometryError(f"voxels have shape (nx, ny, nz), not {cubes.shape}")
+        if max(cubes.shape) > MOST_VOXELS_ASIDE or cubes.size > MOST_VOXELS:
+            aside = " x ".join(map(str, cubes.shape))
+            raise GeometryError(
+                f"{aside} voxels are too many; at most {MOST_VOXELS_ASIDE} aside, "
+                f"{MOST_VOXELS} in all"
+            )
+        side = number_from("cell", self.cell)
+        if not 0.0 < side < math.inf:
+            raise GeometryError(f"cell is {self.cell}; give a side above 0 m")
+        corner = _corner(self.origin)
+        numbers = np.array((*cubes.shape, side, *corner), dtype="<f8")
+        digest = hashlib.blake2b(np.packbits(cubes).tobytes(), digest_size=16)
+        digest.update(numbers.tobytes())
+        object.__setattr__(self, "blocked", cubes)
+        object.__setattr__(self, "cell", side)
+        object.__setattr__(self, "origin", corner)
+        object.__setattr__(self, "digest", digest.digest())
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Voxels) and self.digest == other.digest
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __repr__(self) -> str:
+        aside = " x ".join(map(str, self.blocked.shape))
+        return f"Voxels({aside} of {self.cell:g} m, {int(self.blocked.sum())} blocked)"
+
+    @property
+    def extent(self) -> tuple[float, float, float, float, float, float]:
+        """``x_min, y_min, z_min, x_max, y_max, z_max`` [m]."""
+        nx, ny, nz = self.blocked.shape
+        x, y, z = self.origin
+        return x, y, z, x + nx * self.cell, y + ny * self.cell, z + nz * self.cell
+
+
+def _read_only(cubes: ArrayLike) -> NDArray[np.bool_]:
+    """The cubes as an array that nobody can write to, without a copy if nobody can already."""
+    given = np.asarray(cubes)
+    if given.dtype == np.bool_ and given.flags.c_contiguous and not given.flags.writeable:
+        return given
+    copy = np.array(given, dtype=np.bool_, order="C")
+    copy.flags.writeable = False
+    return copy
+
+
+def _corner(given: Sequence[float]) -> Corner:
+    numbers = numbers_from("origin", given)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+        raise GeometryError(f"the origin of voxels is x, y, z [m], not {given}")
+    x, y, z = (numbers + 0.0).tolist()
+    return x, y, z

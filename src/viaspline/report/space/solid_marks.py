@@ -1,0 +1,126 @@
+"""Solids and ground seen from above: outlines with the heights of their roofs, contour lines."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+import shapely
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, PathPatch
+
+from viaspline.maps.terrain import Terrain
+from viaspline.maps.voxels import Voxels
+from viaspline.mission.shapes.solids import Prism
+from viaspline.report import style
+from viaspline.report.canvas import outline
+from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
+
+MAX_HEIGHTS_WRITTEN: Final = 40
+"""Roofs whose heights are written on the map; of more only the largest."""
+
+MAX_CONTOUR_NODES: Final = 400
+"""Of a terrain aside; of a finer one every so many nodes are drawn."""
+
+LEAST_LABEL_PX: Final = 26
+"""Width of an outline on the page that has room for a height."""
+
+
+def draw_solids(axes: Axes, scene: SpatialScene, pixels_per_metre: float) -> list[Artist]:
+    """Draw what stands in the world and the ground under it; returns handles for the legend."""
+    handles: list[Artist] = []
+    if scene.terrain is not None:
+        handles.append(_draw_contours(axes, scene.terrain))
+    prisms = [one for one in scene.solids if isinstance(one.solid, Prism)]
+    overhead = [one for one in prisms if one.heights[0] > 0.0 and math.isfinite(one.heights[0])]
+    standing = [one for one in prisms if one not in overhead]
+    lines = [one for one in scene.solids if not isinstance(one.solid, Prism | Voxels)]
+    if standing:
+        _fill(axes, standing, style.OBSTACLE, "-", 1.0)
+        face = Patch(facecolor=style.OBSTACLE, edgecolor=style.OBSTACLE_EDGE)
+        face.set_label("stands there, roof height [m]")
+        handles.append(face)
+    if overhead:
+        _fill(axes, overhead, style.OBSTACLE, (0, (3, 2)), 0.45)
+        face = Patch(
+            facecolor=style.OBSTACLE, edgecolor=style.OBSTACLE_EDGE, alpha=0.5, linestyle="--"
+        )
+        face.set_label("overhead, from - to [m]")
+        handles.append(face)
+    if lines:
+        _fill(axes, lines, style.OBSTACLES[1][0], "-", 0.7)
+        face = Patch(facecolor=style.OBSTACLES[1][0], edgecolor=style.OBSTACLES[1][1])
+        face.set_label("ball, cable or mast")
+        handles.append(face)
+    fields = [one.solid for one in scene.solids if isinstance(one.solid, Voxels)]
+    handles += [_draw_voxels(axes, voxels) for voxels in fields]
+    _write_heights(axes, [*standing, *overhead, *lines], pixels_per_metre)
+    return handles
+
+
+def _fill(
+    axes: Axes, solids: list[NamedSolid], face: str, dash: str | tuple[int, tuple[int, ...]],
+    alpha: float,
+) -> None:  # fmt: skip
+    edge = style.OBSTACLE_EDGE if face == style.OBSTACLE else style.OBSTACLES[1][1]
+    for one in solids:
+        axes.add_patch(
+            PathPatch(
+                outline(one.shadow),
+                facecolor=face,
+                edgecolor=edge,
+                linewidth=0.7,
+                linestyle=dash,
+                alpha=alpha,
+                zorder=2,
+            )
+        )
+
+
+def _draw_contours(axes: Axes, terrain: Terrain) -> Artist:
+    """Contour lines of the ground, labelled."""
+    step = max(1, math.ceil(max(terrain.heights.shape) / MAX_CONTOUR_NODES))
+    heights = terrain.heights[::step, ::step]
+    ny, nx = heights.shape
+    x = terrain.origin[0] + terrain.cell * step * np.arange(nx)
+    y = terrain.origin[1] + terrain.cell * step * np.arange(ny)
+    if terrain.highest > terrain.lowest:
+        lines = axes.contour(x, y, heights, 9, colors="#8a7350", linewidths=0.6, zorder=1)
+        axes.clabel(lines, fontsize=style.SMALL_PT - 1.5, fmt="%g")
+    return Line2D([], [], color="#8a7350", linewidth=0.8, label="height of the ground [m]")
+
+
+def _draw_voxels(axes: Axes, voxels: Voxels) -> Artist:
+    """The highest blocked cube of each column, the darker the higher."""
+    blocked = voxels.blocked
+    tops = blocked.shape[2] - np.argmax(blocked[:, :, ::-1], axis=2)
+    image = np.where(blocked.any(axis=2), tops * voxels.cell + voxels.origin[2], np.nan)
+    x0, y0, z0, x1, y1, z1 = voxels.extent
+    axes.imshow(
+        image.T, origin="lower", extent=(x0, x1, y0, y1), cmap="Greys", vmin=z0 - 0.4 * (z1 - z0),
+        vmax=z1 + 0.4 * (z1 - z0), interpolation="nearest", aspect="auto", zorder=1.5,
+    )  # fmt: skip
+    return Patch(facecolor="#8d8d8d", edgecolor="none", label="voxels, the darker the higher")
+
+
+def _write_heights(axes: Axes, solids: list[NamedSolid], pixels_per_metre: float) -> None:
+    """The heights of roofs on those outlines that have room for them."""
+    wide = []
+    for one in solids:
+        x0, y0, x1, y1 = shapely.bounds(one.shadow).tolist()
+        room = min(x1 - x0, 2.5 * (y1 - y0)) * pixels_per_metre
+        if room >= LEAST_LABEL_PX and math.isfinite(one.heights[1]):
+            wide.append((room, one))
+    wide.sort(key=lambda each: -each[0])
+    for _, one in wide[:MAX_HEIGHTS_WRITTEN]:
+        low, high = one.heights
+        from_ground = not math.isfinite(low) or low <= 0.0
+        text = f"{high:g}" if from_ground else f"{low:g} - {high:g}"
+        x, y = shapely.get_coordinates(shapely.point_on_surface(one.shadow))[0].tolist()
+        axes.annotate(
+            text, (x, y), size=style.SMALL_PT - 1, color=style.INK, ha="center",
+            va="center", zorder=3, annotation_clip=True,
+        )  # fmt: skip

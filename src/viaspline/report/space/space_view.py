@@ -1,0 +1,134 @@
+"""A small picture in perspective; what is far from the path is a ghost."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+import shapely
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+from mpl_toolkits.mplot3d.axes3d import Axes3D
+
+from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
+from viaspline.maps.voxels import Voxels
+from viaspline.mission.shapes.solids import Prism, RoundedSegment
+from viaspline.report import style
+from viaspline.report.space.spatial_scene import SpatialScene
+
+GHOST_M: Final = 25.0
+"""From the path in plan; what stands farther away is drawn as a ghost."""
+
+MAX_SOLIDS: Final = 150
+MAX_CUBES: Final = 4000
+MAX_NODES: Final = 40
+
+Face = list[tuple[float, float, float]]
+
+
+def draw_space(figure: Figure, box: tuple[float, float, float, float], path: Path,
+               scene: SpatialScene) -> Axes3D:  # fmt: skip
+    """Draw the path among what stands near it.
+
+    Args:
+        figure: Where to.
+        box: Left, bottom, width, height as fractions of the figure.
+        path: In space.
+        scene: What stands in the world.
+    """
+    axes = figure.add_axes(box, projection="3d")
+    assert isinstance(axes, Axes3D)
+    places = path.at_distance(np.linspace(0.0, path.length, 400))
+    low, high = places.min(axis=0), places.max(axis=0)
+    _draw_ground(axes, scene, low, high)
+    _draw_solids(axes, scene, places)
+    axes.plot(places[:, 0], places[:, 1], places[:, 2], color=style.PATH, linewidth=1.6, zorder=9)
+    ends = places[[0, -1]]
+    axes.scatter(ends[:, 0], ends[:, 1], ends[:, 2], color=[style.START, style.GOAL], s=12)
+    size = np.maximum(high - low, 0.05 * float((high - low).max()) + 1e-6)
+    axes.set_box_aspect((float(size[0]), float(size[1]), float(max(size[2], 0.25 * size.max()))))
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    floor = _floor(scene, places)
+    axes.set_zlim(min(floor, low[2]), max(high[2], floor + 0.1))
+    axes.tick_params(labelsize=style.SMALL_PT - 2, pad=-3)
+    axes.view_init(elev=32, azim=-60)
+    return axes
+
+
+def _floor(scene: SpatialScene, places: Floats) -> float:
+    """The lowest ground under the path [m]; its lowest place where none is known."""
+    ground = scene.ground(places[:, :2])
+    known = ground[np.isfinite(ground)]
+    return float(known.min()) if known.size else float(places[:, 2].min())
+
+
+def _draw_ground(axes: Axes3D, scene: SpatialScene, low: Floats, high: Floats) -> None:
+    if scene.terrain is None:
+        return
+    x, y = (np.linspace(low[k], high[k], MAX_NODES) for k in (0, 1))
+    across, up = np.meshgrid(x, y)
+    heights = scene.terrain.height_at(np.stack((across, up), axis=-1))
+    axes.plot_surface(across, up, heights, color="#cdb98f", alpha=0.5, linewidth=0, shade=True)
+
+
+def _draw_solids(axes: Axes3D, scene: SpatialScene, places: Floats) -> None:
+    line = shapely.LineString(places[:, :2])
+    apart = shapely.distance(line, scene.shadows) if len(scene.solids) else np.empty(0)
+    floor, roof = _floor(scene, places), float(places[:, 2].max()) + 20.0
+    for k in np.argsort(apart, kind="stable")[:MAX_SOLIDS].tolist():
+        solid = scene.solids[k].solid
+        alpha = 0.45 if apart[k] <= GHOST_M else 0.1
+        if isinstance(solid, Prism):
+            faces = _prism_faces(
+                scene.solids[k].shadow, max(solid.low, floor), min(solid.high, roof)
+            )
+        elif isinstance(solid, RoundedSegment):
+            ends = np.array([solid.first, solid.last])
+            axes.plot(*ends.T, color=style.OBSTACLES[1][1], linewidth=2.0, alpha=2.0 * alpha)
+            axes.scatter(*ends.T, color=style.OBSTACLES[1][1], s=4, alpha=2.0 * alpha)
+            continue
+        else:
+            _draw_cubes(axes, solid, places)
+            continue
+        axes.add_collection3d(
+            Poly3DCollection(
+                faces,
+                facecolor=style.OBSTACLE,
+                edgecolor=style.OBSTACLE_EDGE,
+                linewidth=0.3,
+                alpha=alpha,
+            )
+        )
+
+
+def _prism_faces(shadow: shapely.Geometry, low: float, high: float) -> list[Face]:
+    """Walls and roof of a prism."""
+    parts = shapely.get_parts(shapely.simplify(shadow, 0.05))
+    faces: list[Face] = []
+    for part in parts.tolist():
+        ring = [(float(x), float(y)) for x, y, *_ in part.exterior.coords]
+        faces.append([(x, y, high) for x, y in ring])
+        for (x0, y0), (x1, y1) in pairwise(ring):
+            faces.append([(x0, y0, low), (x1, y1, low), (x1, y1, high), (x0, y0, high)])
+    return faces
+
+
+def _draw_cubes(axes: Axes3D, voxels: Voxels, places: Floats) -> None:
+    """The middles of cubes on the surface, thinned to as many as a small picture shows."""
+    blocked = voxels.blocked
+    inner = np.zeros_like(blocked)
+    if min(blocked.shape) > 2:
+        inner[1:-1, 1:-1, 1:-1] = (
+            blocked[:-2, 1:-1, 1:-1] & blocked[2:, 1:-1, 1:-1] & blocked[1:-1, :-2, 1:-1]
+            & blocked[1:-1, 2:, 1:-1] & blocked[1:-1, 1:-1, :-2] & blocked[1:-1, 1:-1, 2:]
+        )  # fmt: skip
+    cubes = np.argwhere(blocked & ~inner)
+    at = (cubes + 0.5) * voxels.cell + np.array(voxels.origin)
+    low, high = places.min(axis=0) - GHOST_M, places.max(axis=0) + GHOST_M
+    at = at[((at >= low) & (at <= high)).all(axis=1)]
+    at = at[:: max(1, math.ceil(len(at) / MAX_CUBES))]
+    axes.scatter(at[:, 0], at[:, 1], at[:, 2], color=style.OBSTACLE_EDGE, s=1.2, alpha=0.25)

@@ -1,0 +1,1 @@
+"""From taut ways and via points to one smooth curve."""

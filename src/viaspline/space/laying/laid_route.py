@@ -1,0 +1,160 @@
+"""A route in space as one curve: spline where nothing is in the way, rounded detours elsewhere.
+
+Legs that are left to the spline are runs of one cardinal spline each. A run ends at the via points
+where a detour begins, with the detour's direction and without curvature, as the detour has it
+there; so the curve is G2 wherever the tangents are ``continuous``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viaspline.curve.cardinal import CardinalSpline, Knots, Tangents
+from viaspline.kernels.arrays import Floats
+from viaspline.space.laying.leg_polygon import LegPolygon
+from viaspline.space.laying.via_directions import Inner, via_directions
+
+
+@dataclass(frozen=True, eq=False)
+class CurveShape:
+    """How the spline runs between via points.
+
+    Attributes:
+        tension: Of each leg, shape (n - 1,).
+        knots: See `viaspline.curve.cardinal.CardinalSpline`.
+        tangents: See there.
+    """
+
+    tension: Floats
+    knots: Knots = "chordal"
+    tangents: Tangents = "continuous"
+
+
+@dataclass(frozen=True, eq=False)
+class RouteLegs:
+    """What a curve is laid through.
+
+    Attributes:
+        vias: The via points [m], shape (n, d).
+        given: Directions that are fixed at via points, unit vectors, shape (n, d); NaN where free.
+        inner: The detour via points of each leg, (k, d), n - 1; None where it is the spline.
+        radii: How gently legs that aren't the spline turn at their via points and detours [m], one
+            array (k + 2,) for each leg.
+        shape: Of the spline.
+    """
+
+    vias: Floats
+    given: Floats
+    inner: tuple[Inner, ...]
+    radii: tuple[Floats, ...]
+    shape: CurveShape
+
+    @classmethod
+    def left_to_the_spline(cls, vias: Floats, given: Floats, shape: CurveShape) -> RouteLegs:
+        """A route without a detour."""
+        count = len(vias) - 1
+        return cls(vias, given, (None,) * count, (np.empty(0),) * count, shape)
+
+    def led_round(self, leg: int, inner: Floats, radius: float) -> RouteLegs:
+        """This route with detour via points on one leg.
+
+        Args:
+            leg: Which one.
+            inner: They [m], shape (k, d).
+            radius: Of curvature, to be had at each corner if there is room [m].
+        """
+        radii = np.full(len(inner) + 2, radius)
+        return replace(
+            self,
+            inner=(*self.inner[:leg], inner, *self.inner[leg + 1 :]),
+            radii=(*self.radii[:leg], radii, *self.radii[leg + 1 :]),
+        )
+
+    def tightened(self, leg: int, corner: int, share: float) -> RouteLegs:
+        """This route, turning more tightly at one corner of a leg that is led round something."""
+        radii = self.radii[leg].copy()
+        radii[corner] *= share
+        return replace(self, radii=(*self.radii[:leg], radii, *self.radii[leg + 1 :]))
+
+
+@dataclass(frozen=True, eq=False)
+class LaidRoute:
+    """The curve of a route.
+
+    Attributes:
+        spans: Bézier control polygons [m], shape (m, 4, d).
+        joints: The joints at which the via points lie, shape (n,).
+        detours: The joints at which the detour via points of each leg lie.
+    """
+
+    spans: Floats
+    joints: NDArray[np.intp]
+    detours: tuple[NDArray[np.intp], ...]
+
+    def leg(self, k: int) -> Floats:
+        """The spans of one leg [m], shape (l, 4, d)."""
+        return self.spans[self.joints[k] : self.joints[k + 1]]
+
+
+def lay_route(legs: RouteLegs) -> LaidRoute:
+    """The curve through the via points of a route.
+
+    >>> vias = np.array([[0.0, 0, 5], [10, 0, 5], [10, 10, 5]])
+    >>> shape = CurveShape(np.zeros(2))
+    >>> legs = RouteLegs.left_to_the_spline(vias, np.full((3, 3), np.nan), shape)
+    >>> laid = lay_route(legs.led_round(0, np.array([[5.0, 2, 5]]), 3.0))
+    >>> bool(np.array_equal(laid.spans[laid.joints[1], 0], vias[1])), laid.detours[1]
+    (True, array([], dtype=int64))
+    """
+    ways = via_directions(legs.vias, legs.inner, legs.given)
+    pieces: list[Floats] = []
+    joints, detours = [0], []
+    leg = 0
+    while leg < len(legs.inner):
+        inner = legs.inner[leg]
+        if inner is None:
+            end = _end_of_run(legs, leg)
+            run = _run(legs, ways, leg, end)
+            per_leg = len(run) // (end - leg)
+            joints += [joints[-1] + per_leg * (k + 1) for k in range(end - leg)]
+            detours += [np.empty(0, np.intp)] * (end - leg)
+            pieces.append(run)
+        else:
+            end = leg + 1
+            points = np.concatenate((legs.vias[leg : leg + 1], inner, legs.vias[end : end + 1]))
+            spans, within = LegPolygon(points, ways[leg : end + 1], legs.radii[leg]).spans()
+            detours.append(joints[-1] + within.astype(np.intp))
+            joints.append(joints[-1] + len(spans))
+            pieces.append(spans)
+        leg = end
+    return LaidRoute(np.concatenate(pieces), np.array(joints, np.intp), tuple(detours))
+
+
+def _end_of_run(legs: RouteLegs, leg: int) -> int:
+    """The via point up to which one spline runs from the beginning of a leg."""
+    end = leg + 1
+    while (
+        end < len(legs.inner) and legs.inner[end] is None and bool(np.isnan(legs.given[end]).any())
+    ):
+        end += 1
+    return end
+
+
+def _run(legs: RouteLegs, ways: Floats, first: int, last: int) -> Floats:
+    """The spans of the spline from one via point to another."""
+    shape = legs.shape
+    return CardinalSpline(
+        legs.vias[first : last + 1],
+        shape.tension[first:last],
+        knots=shape.knots,
+        start_heading=_direction(ways[first]),
+        end_heading=_direction(ways[last]),
+        tangents=shape.tangents,
+    ).spans
+
+
+def _direction(way: Floats) -> Floats | None:
+    return None if np.isnan(way).any() else way

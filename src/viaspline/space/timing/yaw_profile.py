@@ -1,0 +1,161 @@
+"""Which way a body in space faces along its path.
+
+The heading is linear between the nodes of a profile. That is what is flown, so its rate is known
+exactly.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viaspline.curve.path import Path
+from viaspline.kernels.arrays import Floats
+
+NODES_PER_SPAN: Final = 24
+
+UPRIGHT: Final = 1e-6
+"""Where the level part of the unit tangent is smaller, the heading is the one before."""
+
+
+@dataclass(frozen=True, eq=False)
+class YawProfile:
+    """Headings along a path.
+
+    Attributes:
+        distances: Of the nodes along the path [m], not decreasing, shape (n,); two nodes at one
+            place are a turn on the spot.
+        headings: There [rad], anticlockwise from x, going on beyond pi, shape (n,).
+    """
+
+    distances: Floats
+    headings: Floats
+
+    def at(self, distances: ArrayLike) -> Floats:
+        """Headings at distances along the path [m]: [rad], shape of the distances."""
+        return np.asarray(np.interp(np.asarray(distances, float), self.distances, self.headings))
+
+    @property
+    def turns(self) -> tuple[tuple[float, float], ...]:
+        """Turns on the spot: where [m] and by how much [rad]."""
+        jumps = np.flatnonzero(np.diff(self.distances) == 0.0)
+        by = np.diff(self.headings)[jumps]
+        places = zip(self.distances[jumps].tolist(), by.tolist(), strict=True)
+        return tuple((at, turn) for at, turn in places if turn != 0.0)
+
+
+@dataclass(frozen=True)
+class FacingAlong:
+    """The body faces where it goes; on an upright leg where it went before."""
+
+    def headings(self, places: Floats, ways: Floats) -> Floats:
+        """Of places [m], (n, 3), and unit tangents, (n, 3): [rad], (n,)."""
+        level = np.hypot(ways[:, 0], ways[:, 1]) > UPRIGHT
+        if not level.any():
+            return np.zeros(len(ways))
+        last = np.maximum.accumulate(np.where(level, np.arange(len(ways)), -1))
+        taken = np.where(last < 0, int(np.argmax(level)), last)
+        return np.asarray(np.arctan2(ways[taken, 1], ways[taken, 0]))
+
+
+@dataclass(frozen=True)
+class FacingPlace:
+    """The body faces a place.
+
+    Attributes:
+        x: [m].
+        y: [m].
+    """
+
+    x: float
+    y: float
+
+    def headings(self, places: Floats, ways: Floats) -> Floats:
+        """Of places [m], (n, 3), and unit tangents, (n, 3): [rad], (n,)."""
+        apart = np.array([self.x, self.y]) - places[:, :2]
+        seen = np.hypot(apart[:, 0], apart[:, 1]) > 1e-9
+        if not seen.any():
+            return np.zeros(len(places))
+        last = np.maximum.accumulate(np.where(seen, np.arange(len(places)), -1))
+        taken = np.where(last < 0, int(np.argmax(seen)), last)
+        return np.asarray(np.arctan2(apart[taken, 1], apart[taken, 0]))
+
+
+@dataclass(frozen=True)
+class FacingFixed:
+    """The body keeps one heading.
+
+    Attributes:
+        heading: [rad].
+    """
+
+    heading: float
+
+    def headings(self, places: Floats, ways: Floats) -> Floats:
+        """Of places [m], (n, 3), and unit tangents, (n, 3): [rad], (n,)."""
+        return np.full(len(places), self.heading)
+
+
+Facing = FacingAlong | FacingPlace | FacingFixed
+
+
+def yaw_profile(
+    path: Path, facing: Facing, looks: Sequence[tuple[int, tuple[float, float]]] = ()
+) -> YawProfile:
+    """The headings along a path.
+
+    At a via point from which something is looked at, the body faces that; on its way from the via
+    point before and to the one after, it turns there and back evenly with the distance.
+
+    Args:
+        path: In space.
+        facing: What it does where nothing is looked at.
+        looks: Which of the path's via points of the route look at what: their places among them,
+            and x, y [m].
+
+    >>> from viaspline.curve.path import PathVia
+    >>> line = [[0, 0, 5], [3, 0, 5], [6, 0, 5], [9, 0, 5]]
+    >>> ends = [PathVia("start", (0, 0, 5), "user", 0.0, index=0),
+    ...         PathVia("goal", (9, 0, 5), "user", 1.0, index=1)]
+    >>> profile = yaw_profile(Path([line], ends), FacingAlong(), [(1, (9.0, 4.0))])
+    >>> profile.at([0.0, 4.5, 9.0]).round(3)
+    array([0.   , 0.785, 1.571])
+    """
+    count = len(path.spans)
+    shares = np.linspace(0.0, 1.0, NODES_PER_SPAN + 1)
+    u = np.arange(float(count))[:, None] + shares
+    places = path.evaluate(u.ravel())
+    ways = np.concatenate([_tangents(span, shares) for span in path.spans])
+    at = np.asarray(path.distance(u.ravel()))
+    headings = np.unwrap(facing.headings(places, ways))
+    stops = path.stops
+    for index, (x, y) in looks:
+        here = stops[index][1]
+        toward = FacingPlace(x, y).headings(np.asarray([stops[index][0].at]), ways[:1])[0]
+        general = float(np.interp(here, at, headings))
+        by = math.remainder(toward - general, 2.0 * math.pi)
+        before = stops[index - 1][1] if index > 0 else here
+        after = stops[index + 1][1] if index + 1 < len(stops) else here
+        headings = headings + by * _hat(at, before, here, after)
+    return YawProfile(at, headings)
+
+
+def _tangents(span: Floats, shares: Floats) -> Floats:
+    """Unit tangents of one span, at its ends from within."""
+    sides = np.diff(span, axis=0)
+    w = np.clip(shares, 1e-9, 1.0 - 1e-9)[:, None]
+    ways = (1 - w) ** 2 * sides[0] + 2 * w * (1 - w) * sides[1] + w * w * sides[2]
+    sizes = np.linalg.norm(ways, axis=1)[:, None]
+    return np.asarray(np.divide(ways, sizes, out=np.zeros_like(ways), where=sizes > 0.0))
+
+
+def _hat(at: Floats, before: float, here: float, after: float) -> Floats:
+    """1 at one place, 0 from its neighbours on, linear between."""
+    rise = np.where(at <= here, (at - before) / (here - before) if here > before else 1.0, 0.0)
+    fall = np.where(at > here, (after - at) / (after - here) if after > here else 0.0, 0.0)
+    return np.asarray(np.clip(rise, 0.0, 1.0) + np.clip(fall, 0.0, 1.0))
