@@ -151,6 +151,7 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "Fleet separation": lambda junk: vs.Fleet.of(FLEET.members, junk),
     "plan_fleet": vs.plan_fleet,
     "plan_fleet improve": lambda junk: vs.plan_fleet(FLEET, improve=junk),
+    "plan_fleet periods": lambda junk: vs.plan_fleet(FLEET, periods=junk),
     "plan_fleet progress": lambda junk: vs.plan_fleet(FLEET, progress=uncallable(junk)),
     "simulate_fleet": vs.simulate_fleet,
     "simulate_fleet delays": lambda junk: vs.simulate_fleet(FLEET, junk, FLEET_PLAN),

@@ -34,7 +34,7 @@ def plan_spatial_mission(asked: Mission, file: Path, out: Path | None, *, quiet:
     """
     with (
         result_folder(out or default_folder(file), SPATIAL_PLAN_NAMES) as folder,
-        progress_bar(quiet, asked.robot) as watch,
+        progress_bar(quiet) as watch,
     ):
         with watch.stage("plan", "planning"):
             from viaspline.space.plan_spatial import plan_spatial
@@ -69,7 +69,7 @@ def run_spatial_mission(
     with (
         result_folder(out or default_folder(file), SPATIAL_RUN_NAMES) as folder,
         film_file(animate) as film,
-        progress_bar(quiet, asked.robot) as watch,
+        progress_bar(quiet) as watch,
     ):
         with watch.stage("plan", "planning"):
             from viaspline.space.plan_spatial import plan_spatial

@@ -172,6 +172,33 @@ def test_a_file_in_the_place_of_a_folder_is_told_before_the_work(tmp_path: Path)
     check_robot_folders(tmp_path, ["west"])
 
 
+def test_what_never_ends_is_told_with_its_period_and_proven_for_all_time(tmp_path: Path) -> None:
+    fleet = vs.Fleet.model_validate(
+        {
+            "fleet": [
+                {"name": "guard", "route": {"start": [0, 0], "via": [[9, 0], [9, 9]],
+                                            "closed": True}},
+                {"name": "guest", "route": {"start": [4, -9], "goal": [4, 19]}},
+            ]
+        }
+    )  # fmt: skip
+    plan = vs.plan_fleet(fleet)
+    data = json.loads(fleet_json(plan, "yard", folder_names(["guard", "guest"])))
+    assert plan.patrols is not None
+    assert data["certificate"]["for"] == "all time"
+    assert data["certificate"]["period_s"] == data["patrols"]["period_s"] == plan.patrols.period
+    (robot,) = data["patrols"]["robots"]
+    assert (robot["name"], robot["begins_s"], robot["laps_a_period"]) == ("guard", 0.0, 1)
+    write_robots(plan, tmp_path, lambda _share: None)
+    written = json.loads((tmp_path / "guard" / "plan.json").read_text())
+    assert len(written["path"]["spans"]) % robot["laps_planned"] == 0
+    words = " ".join(words for _, words in fleet_summary(fleet))
+    assert "1 on patrols that never end" in words
+    console = Console(width=120, record=True, file=StringIO())
+    console.print(fleet_tables(plan, "yard"))
+    assert "proven for all time" in console.export_text()
+
+
 def test_robots_of_an_earlier_run_that_have_no_plan_now_are_removed(
     planned: FleetPlan, half_served: FleetPlan, tmp_path: Path
 ) -> None:

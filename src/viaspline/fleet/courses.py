@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -16,9 +17,12 @@ from viaspline.kernels.fleet.cut_courses import cut_courses
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_paths import PackedPaths
 from viaspline.planner import Plan
+from viaspline.trajectory.trajectory import Trajectory
 
 END_CELL_M = 0.01
 """Length of the first and of the last cell of a course [m]."""
+SAME_KNOT_M = 1e-7
+"""Knots that are no farther apart are one [m]."""
 OFF_PATH_SHARE = 1e-9
 """Of a path's length, by which its time law may end beyond it by rounding."""
 
@@ -51,12 +55,18 @@ class FleetPath:
     reach: float
 
 
-def courses_of(plans: Mapping[str, Plan], separation: float) -> FleetCourses:
+NO_LAWS: Mapping[str, Trajectory] = MappingProxyType({})
+
+
+def courses_of(
+    plans: Mapping[str, Plan], separation: float, laws: Mapping[str, Trajectory] = NO_LAWS
+) -> FleetCourses:
     """The paths of plans, cut into cells; the time laws of the plans change at nodes alone.
 
     Args:
         plans: By the names of their robots.
         separation: Free space between any two bodies [m].
+        laws: Other time laws along these paths, by name, which change at nodes alone as well.
 
     Returns:
         Courses in the order of the plans. A robot's reach is the smallest circle about its
@@ -80,14 +90,28 @@ def courses_of(plans: Mapping[str, Plan], separation: float) -> FleetCourses:
     if not 0.0 <= separation < np.inf:
         raise GeometryError(f"separation is {separation} m; give a finite distance of 0 or more")
     paths = [
-        FleetPath(
-            plan.path,
-            _with_short_ends(plan.trajectory.distances, plan.path.length),
-            plan.mission.robot.outer_radius + plan.tracking_error + 0.5 * separation,
-        )
-        for plan in plans.values()
+        fleet_path(plan, separation, *([laws[name].distances] if name in laws else []))
+        for name, plan in plans.items()
     ]
     return courses_along(tuple(plans), paths)
+
+
+def fleet_path(plan: Plan, separation: float, *knots: Floats) -> FleetPath:
+    """The path of a plan, as it is to be cut.
+
+    Args:
+        plan: Its time law changes at nodes alone.
+        separation: Free space between any two bodies [m].
+        knots: Other distances that have to be nodes, not decreasing [m].
+    """
+    places = plan.trajectory.distances
+    for more in knots:
+        places = _joined(places, more)
+    return FleetPath(
+        plan.path,
+        _with_short_ends(places, plan.path.length),
+        plan.mission.robot.outer_radius + plan.tracking_error + 0.5 * separation,
+    )
 
 
 def courses_along(names: Sequence[str], paths: Sequence[FleetPath]) -> FleetCourses:
@@ -132,6 +156,14 @@ def courses_along(names: Sequence[str], paths: Sequence[FleetPath]) -> FleetCour
     )
 
 
+def _joined(knots: Floats, more: Floats) -> Floats:
+    """Knots, and those of others that aren't as good as there."""
+    at = np.searchsorted(knots, more)
+    before = np.abs(more - knots[np.maximum(at - 1, 0)])
+    after = np.abs(more - knots[np.minimum(at, len(knots) - 1)])
+    return np.sort(np.concatenate([knots, more[np.minimum(before, after) > SAME_KNOT_M]]))
+
+
 def _with_short_ends(knots: Floats, length: float) -> Floats:
     """Knots, and two more that make the first and the last cell short.
 
@@ -139,7 +171,7 @@ def _with_short_ends(knots: Floats, length: float) -> Floats:
     """
     if length <= 4.0 * END_CELL_M:
         return knots
-    return np.sort(np.concatenate([knots, [END_CELL_M, length - END_CELL_M]]))
+    return _joined(knots, np.array([END_CELL_M, length - END_CELL_M]))
 
 
 def _firsts(arrays: Sequence[Floats]) -> Ints:

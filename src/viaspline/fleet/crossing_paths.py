@@ -14,6 +14,7 @@ from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.laying.lay_paths import LaidPaths, LayingProgress, lay_paths
 from viaspline.fleet.renewed_courses import renewed_courses
 from viaspline.fleet.renewed_crossings import renewed_crossings
+from viaspline.fleet.still_world import without_motion
 from viaspline.kernels.arrays import Ints
 from viaspline.mission.fleet.fleet import Fleet
 
@@ -38,7 +39,7 @@ class CrossingPaths:
 def crossing_paths(
     fleet: Fleet, progress: LayingProgress | None = None, before: CrossingPaths | None = None
 ) -> CrossingPaths:
-    """Lay the paths of a fleet, and find where they come near each other.
+    """Lay the paths of a fleet as if nothing moved, and find where they come near each other.
 
     Args:
         fleet: What is asked for.
@@ -60,6 +61,7 @@ def crossing_paths(
         >>> [then.laid.plans[name] is first.laid.plans[name] for name in ("a", "b")]
         [True, False]
     """
+    fleet = without_motion(fleet)
     laid = lay_paths(fleet, progress, None if before is None else before.laid.kept)
     separation, plans = fleet.separation_m, laid.plans
     changed = _changed(laid, separation, before)

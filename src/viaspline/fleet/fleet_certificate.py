@@ -23,6 +23,8 @@ class FleetCertificate:
         pair: The two robots that are nearest; None where there are no two.
         at_s: When that is [s].
         at: Where the two are then [m]; None where there are no two.
+        repeats: From when on [s] and after how long [s] all comes again; None where nothing does.
+            What is proven of the time until then and of a period after it holds for ever.
     """
 
     separation: float
@@ -30,6 +32,7 @@ class FleetCertificate:
     pair: tuple[str, str] | None
     at_s: float
     at: tuple[tuple[float, float], tuple[float, float]] | None
+    repeats: tuple[float, float] | None = None
 
     @property
     def holds(self) -> bool:

@@ -50,13 +50,18 @@ def static_laws(courses: FleetCourses, trajectories: Sequence[Trajectory]) -> Fl
     arrive, leave, speed = (np.empty_like(packed.distance) for _ in range(3))
     for k, trajectory in enumerate(trajectories):
         part = slice(packed.first[k], packed.first[k + 1])
-        arrive[part], leave[part], speed[part] = _at_nodes(trajectory, packed.distance[part])
+        arrive[part], leave[part], speed[part] = law_at_nodes(trajectory, packed.distance[part])
     is_timed = np.ones(len(courses.names), dtype=np.bool_)
     return FleetLaws(PackedLaws(arrive, leave, speed, is_timed))
 
 
-def _at_nodes(law: Trajectory, nodes: Floats) -> tuple[Floats, Floats, Floats]:
-    """When a robot comes to nodes, when it goes on, and how fast it is there, (k,) each."""
+def law_at_nodes(law: Trajectory, nodes: Floats) -> tuple[Floats, Floats, Floats]:
+    """When a robot comes to nodes, when it goes on, and how fast it is there, (k,) each.
+
+    Args:
+        law: It stands at its start from its first time on, and at its end for ever.
+        nodes: Distances, from the start to the end [m], (k,).
+    """
     come, speed = law.time_at(nodes), law.speed_at(nodes)
     first = np.minimum(law.distances.searchsorted(nodes, side="left"), len(law.times) - 1)
     last = np.maximum(law.distances.searchsorted(nodes, side="right") - 1, 0)

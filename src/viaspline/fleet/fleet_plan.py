@@ -13,6 +13,7 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.precedences import Precedence
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.mission.fleet.fleet import Fleet
@@ -47,12 +48,15 @@ class FleetPlan:
         not_served: The others, with the reason.
         certificate: The least separation of any two robots that have a path, over all time.
         precedences: Who passes first, wherever two paths come near each other.
-        alone: How long each robot would drive if it were alone [s], by name.
+        alone: How long each robot would drive if it were alone [s], by name; a patrol all laps of
+            its plan, with what it waits for the next period.
         courses: Their paths, cut into cells, and those of robots that have a path but no law.
         crossings: Where these come near each other; in each of them one robot passes first.
         laws: When each robot is where on its course. Those that are not served stand at their
             starts for ever.
         rides: How each robot drives where nobody is in its way.
+        patrols: The robots that never end, of which plans and courses hold the first laps; None
+            where all of them end.
     """
 
     fleet: Fleet
@@ -65,6 +69,7 @@ class FleetPlan:
     crossings: FleetCrossings
     laws: FleetLaws
     rides: FleetRides
+    patrols: FleetPatrols | None = None
 
     def __repr__(self) -> str:
         asked, proof = len(self.fleet.members), self.certificate

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from viaspline.errors import GeometryError
+from viaspline.fleet.among_moving import among_moving, proven_among
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
+from viaspline.fleet.patrols.timed_patrols import timed_patrols
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet
+from viaspline.fleet.still_world import without_motion
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
 from viaspline.handed_in import check_callable, check_kind, number_from
 from viaspline.mission.fleet.fleet import Fleet
@@ -19,12 +23,17 @@ from viaspline.mission.fleet.fleet import Fleet
 FleetProgress = Callable[[str, float], None]
 """Called with what is being done, and the share of it that is done."""
 
+PERIODS = 2
+"""Of patrols that never end so many periods are planned, from when nobody else moves any more."""
+
 
 def plan_fleet(
     fleet: Fleet,
     improve: float = 0.0,
     progress: FleetProgress | None = None,
     paths: CrossingPaths | None = None,
+    *,
+    periods: int = PERIODS,
 ) -> FleetPlan:
     """Plan a fleet: a path for each robot, when it drives along it, and the proof of both.
 
@@ -37,12 +46,16 @@ def plan_fleet(
         improve: For so long sooner orders are sought [s, on the reference machine].
         progress: See ``FleetProgress``.
         paths: Of the very fleet, if they are laid already.
+        periods: Plans of patrols, which never end, hold so many periods at least from when nobody
+            else moves any more.
 
     Returns:
         The plans of those that are served, proven apart, and why the others are not.
 
     Raises:
-        GeometryError: ``improve`` is no finite number of 0 or more.
+        GeometryError: ``improve`` is no finite number of 0 or more, or ``periods`` no whole number
+            of 1 or more.
+        GaveUpError: There are too many crossings, or too many laps until all others have arrived.
 
     Example:
         >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
@@ -59,6 +72,8 @@ def plan_fleet(
     improve = number_from("improve", improve)
     if not 0.0 <= improve < math.inf:
         raise GeometryError(f"improve is {improve}; give a finite number of seconds, 0 or more")
+    if isinstance(periods, bool) or not isinstance(periods, int) or periods < 1:
+        raise GeometryError(f"periods is {periods!r}; give a whole number of 1 or more")
     if progress is not None:
         check_callable("progress", progress, "give a function of words and a share")
 
@@ -69,9 +84,18 @@ def plan_fleet(
     if paths is None:
         paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
     tell("timing", 0.0)
-    timed = _served(fleet, FleetWays.of(fleet, paths))
-    if improve > 0.0:
-        timed = timed.improved(improve, lambda share: tell("improving", share))
+    still = without_motion(fleet)
+    ways = FleetWays.of(still, paths)
+
+    def better(timed: TimedFleet) -> TimedFleet:
+        if improve == 0.0:
+            return timed
+        return timed.improved(improve, lambda share: tell("improving", share))
+
+    if still is fleet:
+        timed = better(_served(fleet, ways, periods))
+    else:
+        timed = among_moving(fleet, ways, lambda out: better(_of_those_that_end(still, ways, out)))
     tell("proving", 0.0)
     return _planned(fleet, timed, paths.laid.not_served)
 
@@ -86,17 +110,51 @@ def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
         fleet: What is asked for.
         paths: Of the very fleet.
     """
-    timed = TimedFleet.by_priority(FleetWays.of(fleet, paths))
-    if timed.blocked:
-        timed = timed.past_standing_ones()
+    still = without_motion(fleet)
+    ways = FleetWays.of(still, paths)
+    if still is not fleet:
+        timed = among_moving(fleet, ways, lambda out: _by_priority(ways, out))
+    elif _has_patrols(ways):
+        timed = timed_patrols(ways, fleet.separation_m, PERIODS, _by_priority)
+    else:
+        timed = _by_priority(ways, {})
     return _planned(fleet, timed, paths.laid.not_served)
 
 
-def _served(fleet: Fleet, ways: FleetWays) -> TimedFleet:
+def _by_priority(ways: FleetWays, left_out: dict[int, int]) -> TimedFleet:
+    """Robots timed by priority, past those that can't be, which stand at their starts."""
+    timed = TimedFleet.by_priority(ways, left_out)
+    return timed.past_standing_ones() if timed.blocked else timed
+
+
+def _has_patrols(ways: FleetWays) -> bool:
+    return any(one.mission.route.is_patrol for one in ways.members)
+
+
+def _served(fleet: Fleet, ways: FleetWays, periods: int) -> TimedFleet:
     """Robots timed along their paths, with other paths where that leaves some without a law."""
-    timed = TimedFleet.by_priority(ways)
+    if not _has_patrols(ways):
+        return _of_those_that_end(fleet, ways, {})
+
+    def serve(among: FleetWays, left_out: dict[int, int]) -> TimedFleet:
+        return _of_those_that_end(fleet, among, left_out)
+
+    return timed_patrols(ways, fleet.separation_m, periods, serve)
+
+
+def _of_those_that_end(fleet: Fleet, ways: FleetWays, left_out: dict[int, int]) -> TimedFleet:
+    """As ``_served``, where patrols have their laws already.
+
+    Args:
+        fleet: What is asked for.
+        ways: Of its robots.
+        left_out: Robots that stand at their starts, each with one that is in its way.
+    """
+    timed = TimedFleet.by_priority(ways, left_out)
     if not timed.blocked:
         return timed
+    if left_out:
+        return timed.past_standing_ones()
     led = on_lattice(ways, fleet.separation_m)
     if isinstance(led, TimedFleet) and not led.blocked:
         return led
@@ -110,22 +168,36 @@ def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -
     courses, names = ways.courses, ways.courses.names
     unserved = [
         NotServed(
-            names[robot], "gave up",
-            f"it can't be timed along its path: '{names[other]}' is in its way",
-            f"give '{names[other]}' another start, goal or priority, or let it leave",
+            names[robot],
+            "gave up",
+            *timed.reasons.get(
+                robot,
+                (
+                    f"it can't be timed along its path: '{names[other]}' is in its way",
+                    f"give '{names[other]}' another start, goal or priority, or let it leave",
+                ),
+            ),
         )
         for robot, other in sorted(timing.blocked.items())
-    ]  # fmt: skip
+    ]
+    patrols = timed.patrols
+    certificate = certify_fleet(courses, timing.laws, fleet.separation_m)
+    if patrols is not None:
+        certificate = replace(certificate, repeats=(patrols.repeats_from, patrols.period))
     crossings = ordered_crossings(courses, ways.crossings, timing.laws)
+    plans = timed.plans()
+    if fleet.world.moving:
+        plans = {name: proven_among(fleet, plan) for name, plan in plans.items()}
     return FleetPlan(
         fleet=fleet,
-        plans=timed.plans(),
+        plans=plans,
         not_served=(*not_served, *unserved),
-        certificate=certify_fleet(courses, timing.laws, fleet.separation_m),
+        certificate=certificate,
         precedences=precedences_of(courses, crossings, timing.laws, ways.rides.laws),
         alone=dict(zip(names, ways.rides.alone.tolist(), strict=True)),
         courses=courses,
         crossings=crossings,
         laws=timing.laws,
         rides=ways.rides,
+        patrols=patrols,
     )

@@ -50,7 +50,8 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
     if len(ways.members) > MOST_AMONG:
         return None
     fixed = timed.plans()
-    wanted = sorted(blocked, key=lambda k: (-ways.members[k].priority, k))
+    wanted = [k for k in blocked if not ways.members[k].mission.route.is_patrol]
+    wanted.sort(key=lambda k: (-ways.members[k].priority, k))
     names = [ways.members[k].name for k in wanted]
     best: TimedFleet | None = None
     for room in ROOMS_M:
@@ -73,7 +74,7 @@ def _along(
     plans = {
         member.name: plan
         if found.get(member.name) is fixed.get(member.name)
-        else _alone(found.get(member.name, plan))
+        else driven_alone(found.get(member.name, plan))
         for member, plan in zip(ways.members, ways.plans, strict=True)
     }
     again = TimedFleet.by_priority(ways.along(plans, fleet.separation_m))
@@ -113,8 +114,12 @@ def _as_laid(
     return TimedFleet(led, Timing(laws, {}))
 
 
-def _alone(plan: Plan) -> Plan:
-    """A plan with the law that its robot would drive along its path if it were alone."""
+def driven_alone(plan: Plan) -> Plan:
+    """A plan with the law that its robot would drive along its path if it were alone.
+
+    Args:
+        plan: With whatever law.
+    """
     robot, zones = plan.mission.robot, plan.mission.world.speed_zones
     law = retime(plan.path, limits_of(robot), stations(plan.path, robot), zones=zones)
     return replace(plan, trajectory=law, timed=None)

@@ -6,22 +6,29 @@ Tested through ``fleet/test_plan_fleet``.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 import numpy as np
 
 from viaspline.fleet.courses import FleetCourses, courses_of
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
+from viaspline.fleet.fleet_laws import FleetLaws, law_at_nodes
 from viaspline.fleet.lattice_order.lattice_paths import lattice_paths
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
+from viaspline.fleet.patrols.driven_laps import on_nodes
+from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.rides import FleetRides, rides_of
-from viaspline.fleet.timing.time_paths import Timing, time_paths
+from viaspline.fleet.timing.time_paths import Timing, standing_laws, time_paths
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
+from viaspline.trajectory.trajectory import Trajectory
+
+NOBODY: Mapping[int, int] = MappingProxyType({})
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +41,7 @@ class FleetWays:
         courses: These paths, cut into cells.
         crossings: Where they come near each other.
         rides: How each robot drives alone.
+        settled: The laws of robots that have theirs before the others are timed, by name.
     """
 
     members: tuple[FleetMember, ...]
@@ -41,6 +49,7 @@ class FleetWays:
     courses: FleetCourses
     crossings: FleetCrossings
     rides: FleetRides
+    settled: Mapping[str, Trajectory] = field(default_factory=dict)
 
     @classmethod
     def of(cls, fleet: Fleet, paths: CrossingPaths) -> FleetWays:
@@ -62,10 +71,27 @@ class FleetWays:
             plans: By name, in the order of the robots.
             separation: Free space between any two bodies [m].
         """
-        courses = courses_of(plans, separation)
+        courses = courses_of(plans, separation, self.settled)
         laid = tuple(plans.values())
         rides = rides_of(self.members, laid, courses)
-        return FleetWays(self.members, laid, courses, crossings_of(courses), rides)
+        return replace(
+            self, plans=laid, courses=courses, crossings=crossings_of(courses), rides=rides
+        )
+
+    def settled_laws(self) -> FleetLaws:
+        """The laws of the robots that have theirs, at the nodes of the courses."""
+        packed, laws = self.courses.packed, standing_laws(self.courses)
+        for robot, name in enumerate(self.courses.names):
+            if name in self.settled:
+                part = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
+                nodes = packed.distance[part]
+                law = on_nodes(self.settled[name], nodes)
+                arrive, leave, speed = law_at_nodes(law, nodes)
+                laws.packed.arrive[part], laws.packed.leave[part] = arrive, leave
+                laws.packed.arrive[part.start] = self.rides.packed.depart[robot]
+                laws.packed.speed[part] = speed
+                laws.packed.is_timed[robot] = True
+        return laws
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,16 +101,29 @@ class TimedFleet:
     Attributes:
         ways: Their paths.
         timing: When each drives among the others.
+        patrols: What never ends; None where all do.
+        reasons: Why some of those that are blocked are, and what would help.
     """
 
     ways: FleetWays
     timing: Timing
+    patrols: FleetPatrols | None = None
+    reasons: Mapping[int, tuple[str, str]] = field(default_factory=dict)
 
     @classmethod
-    def by_priority(cls, ways: FleetWays) -> TimedFleet:
-        """Robots timed by priority, and by the orders that are forced."""
+    def by_priority(cls, ways: FleetWays, left_out: Mapping[int, int] = NOBODY) -> TimedFleet:
+        """Robots timed by priority, and by the orders that are forced.
+
+        Args:
+            ways: Their paths.
+            left_out: Robots that stand at their starts, each with one that is in its way.
+        """
         priorities = [one.priority for one in ways.members]
-        return cls(ways, time_paths(ways.courses, ways.crossings, ways.rides, priorities))
+        timing = time_paths(
+            ways.courses, ways.crossings, ways.rides, priorities, sorted(left_out),
+            ways.settled_laws(),
+        )  # fmt: skip
+        return cls(ways, replace(timing, blocked={**timing.blocked, **left_out}))
 
     @property
     def blocked(self) -> tuple[str, ...]:
@@ -109,8 +148,9 @@ class TimedFleet:
         blocked = dict(self.timing.blocked)
         while True:
             timing = time_paths(
-                ways.courses, ways.crossings, ways.rides, priorities, sorted(blocked)
-            )
+                ways.courses, ways.crossings, ways.rides, priorities, sorted(blocked),
+                ways.settled_laws(),
+            )  # fmt: skip
             if not timing.blocked:
                 return replace(self, timing=replace(timing, blocked=blocked))
             blocked |= timing.blocked
@@ -121,10 +161,26 @@ class TimedFleet:
         """With sooner laws, for so much work [s on the reference machine]."""
         ways = self.ways
         priorities = np.array([one.priority for one in ways.members], float)
+        settled = ways.settled_laws().packed.is_timed
+        settled[list(self.timing.blocked)] = True
         timing = improve_laws(
-            ways.courses, ways.crossings, ways.rides, self.timing, priorities, seconds, progress
-        )
-        return replace(self, timing=timing)
+            ways.courses, ways.crossings, ways.rides, self.timing, priorities, seconds, progress,
+            settled,
+        )  # fmt: skip
+        found = replace(self, timing=timing)
+        if self.patrols is None:
+            return found
+        last = max(found.last_arrival(), *self.patrols.begins.values())
+        if last + self.patrols.period > self.patrols.planned_until:
+            return self  # somebody would arrive after the laps that are laid out
+        return replace(found, patrols=replace(self.patrols, repeats_from=last))
+
+    def last_arrival(self) -> float:
+        """When the last robot that ends has arrived [s]; minus infinity if none is under way."""
+        laws, first = self.timing.laws.packed, self.ways.courses.packed.first
+        ends = [not one.mission.route.is_patrol for one in self.ways.members]
+        arrivals = laws.arrive[first[1:] - 1][laws.is_timed & np.array(ends, np.bool_)]
+        return float(arrivals[np.isfinite(arrivals)].max(initial=-np.inf))
 
 
 def on_lattice(ways: FleetWays, separation: float) -> TimedFleet | NoLatticeOrder:
@@ -134,7 +190,9 @@ def on_lattice(ways: FleetWays, separation: float) -> TimedFleet | NoLatticeOrde
         ways: The paths that robots would drive alone.
         separation: Free space between any two bodies [m].
     """
-    laid = lattice_paths(dict(zip(ways.courses.names, ways.plans, strict=True)), separation)
+    plans = dict(zip(ways.courses.names, ways.plans, strict=True))
+    leaving = [one.name for one in ways.members if one.rest == "leave"]
+    laid = lattice_paths(plans, separation, leaving=leaving)
     if isinstance(laid, NoLatticeOrder):
         return laid
     led = ways.along(laid.plans, separation)

@@ -147,7 +147,8 @@ class Route(Value):
         order: ``given``, or ``shortest``: the via points are served in the order that makes the
             round short; soon where ``optimise`` is ``time``, if there are no more than 16.
         laps: How often a closed route is driven, without a halt between laps. The path is that of
-            the whole drive, and every lap visits every point.
+            the whole drive, and every lap visits every point. In a fleet a closed route that
+            doesn't say its laps is a patrol that never ends.
         corridor: A strip that the path stays inside of.
         optimise: What sides and shapes are chosen by: the ``time`` in which the path is driven
             within the robot's limits, or its ``length``, the paper's rule.
@@ -185,6 +186,16 @@ class Route(Value):
         return any(key is not None for key in given) or any(
             point.is_spatial for _, point in self.points()
         )
+
+    @property
+    def is_patrol(self) -> bool:
+        """Whether it is closed and doesn't say how often it is driven: in a fleet it never ends.
+
+        >>> round_trip = {"start": [0, 0], "via": [[9, 0], [9, 9]], "closed": True}
+        >>> [Route.model_validate({**round_trip, **laps}).is_patrol for laps in ({}, {"laps": 1})]
+        [True, False]
+        """
+        return self.closed and "laps" not in self.model_fields_set
 
     def points(self) -> Iterator[tuple[str, ViaPoint]]:
         """Every point of the route in order, with its key in the mission file."""

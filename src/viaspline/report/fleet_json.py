@@ -33,6 +33,7 @@ def fleet_json(plan: FleetPlan, name: str, folders: Mapping[str, str]) -> str:
             "served": plan.served,
             "robots": [_robot(plan, one, folders) for one in plan.fleet.members],
             "certificate": certificate_of_fleet(plan.certificate),
+            **_patrols(plan),
             "precedences": [
                 {
                     "first": one.first,
@@ -56,6 +57,29 @@ def fleet_json(plan: FleetPlan, name: str, folders: Mapping[str, str]) -> str:
     )
 
 
+def _patrols(plan: FleetPlan) -> dict[str, Any]:
+    """What never ends; nothing where all do."""
+    patrols = plan.patrols
+    if patrols is None:
+        return {}
+    return {
+        "patrols": {
+            "period_s": patrols.period,
+            "repeats_from_s": patrols.repeats_from,
+            "planned_until_s": patrols.planned_until,
+            "robots": [
+                {
+                    "name": name,
+                    "begins_s": begin,
+                    "laps_a_period": patrols.laps[name],
+                    "laps_planned": plan.plans[name].mission.route.laps,
+                }
+                for name, begin in patrols.begins.items()
+            ],
+        }
+    }
+
+
 def certificate_of_fleet(certificate: FleetCertificate) -> dict[str, Any]:
     """What is proven of the distance between robots; no separation where there are no two."""
     return {
@@ -65,7 +89,12 @@ def certificate_of_fleet(certificate: FleetCertificate) -> dict[str, Any]:
         "pair": certificate.pair,
         "at_s": certificate.at_s,
         "at": certificate.at,
+        **({} if certificate.repeats is None else _for_ever(*certificate.repeats)),
     }
+
+
+def _for_ever(begin: float, period: float) -> dict[str, Any]:
+    return {"for": "all time", "repeats_from_s": begin, "period_s": period}
 
 
 def _robot(plan: FleetPlan, member: FleetMember, folders: Mapping[str, str]) -> dict[str, Any]:

@@ -66,10 +66,12 @@ def fleet_plan_remarks(fleet: Fleet) -> list[str]:
 
 def _robots(members: tuple[FleetMember, ...]) -> str:
     words = [counted(len(members), "robot")]
-    closed = sum(one.mission.route.closed for one in members)
+    endless = sum(one.mission.route.is_patrol for one in members)
+    closed = sum(one.mission.route.closed for one in members) - endless
     leaving = sum(one.rest == "leave" for one in members)
     late = sum(one.mission.route.depart_s > 0.0 for one in members)
     told = (
+        (endless, "on patrols that never end"),
         (closed, "on closed rounds"),
         (leaving, "leaving at the goal"),
         (late, "departing later"),

@@ -30,9 +30,14 @@ def fleet_tables(plan: FleetPlan, name: str) -> RenderableType:
     facts.add_row("served", f"{len(plan.plans)} of {len(members)}")
     if plan.plans:
         lengths = [one.path.length for one in plan.plans.values()]
-        ends = [one.trajectory.end_time for one in plan.plans.values()]
+        patrols = {} if plan.patrols is None else plan.patrols.begins
+        ends = [one.trajectory.end_time for n, one in plan.plans.items() if n not in patrols]
         facts.add_row("driven", f"{metres(sum(lengths), 1)} in all")
-        facts.add_row("all are home", f"after {seconds(max(ends))}")
+        if ends:
+            facts.add_row("all are home", f"after {seconds(max(ends))}")
+        if plan.patrols is not None:
+            words = f"{len(patrols)} that never end, again every {seconds(plan.patrols.period)}"
+            facts.add_row("patrols", f"{words}, proven for all time")
         facts.add_row("later than alone", _late_words(plan))
     for title, words in _apart(plan.certificate):
         facts.add_row(title, words)

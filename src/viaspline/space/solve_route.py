@@ -24,14 +24,14 @@ from viaspline.space.laying.via_directions import via_directions
 from viaspline.space.leg_check import LegCheck
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_solution import SpatialSolution
-from viaspline.space.weighed_ways import Router, corner_radius, weighed
+from viaspline.space.weighed_ways import WaysPast, corner_radius, weighed
 from viaspline.space.without_ground import without_ground
 
 TAKE_OFF, LANDING = "take-off", "landing"
 """What the places on the ground are called."""
 
 
-def solve_route(problem: SpatialProblem, router: Router) -> SpatialSolution:
+def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
     """Find a path.
 
     Args:

@@ -43,7 +43,7 @@ class TautWay:
     inner: Floats
 
 
-class Router(Protocol):
+class WaysPast(Protocol):
     """Finds the ways past what stands between two places."""
 
     def gates(self, leg: int) -> Floats:

@@ -62,3 +62,17 @@ def test_it_gives_the_same_each_time():
     assert isinstance(plans[0], LatticePlan)
     assert isinstance(plans[1], LatticePlan)
     assert plans[0].places.tobytes() == plans[1].places.tobytes()
+
+
+def test_a_robot_that_leaves_lets_others_pass_where_it_would_have_stood():
+    row = np.array([[1, -1], [2, 0], [3, 1], [-1, 2]], np.int32)
+    stays = solve_lattice(row, cells(1, 0), cells(2, 3))
+    assert isinstance(stays, NoLatticeOrder)
+    leaves = solve_lattice(row, cells(1, 0), cells(2, 3), leaves=np.array([True, False]))
+    assert leaves.places[:, -1].tolist() == [2, 3]
+
+
+def test_a_robot_stands_at_its_start_until_it_departs():
+    plan = solve_lattice(ROW, cells(2, 0), cells(3, 2), departs=np.array([5, 0], np.int32))
+    assert plan.places[0, :6].tolist() == [2] * 6
+    assert plan.arrivals[1] > 6

@@ -3,7 +3,8 @@ from collections import deque
 from pathlib import Path
 
 import numpy as np
-from hypothesis import assume, given, settings
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
 
 sys.path.insert(0, str(Path(__file__).parent))
 from lattice_oracles import is_a_way, keeps_a_step_apart, lattice_of, problems
@@ -17,22 +18,30 @@ from viaspline.kernels.fleet.prioritised_planning import prioritised_planning
 STEPS = 30
 
 
-def planned(neighbours, starts, goals, tries=5):
+def at_once(count):
+    """Robots that all depart at the first step, and stay."""
+    return np.zeros(count, np.int32), np.zeros(count, np.bool_)
+
+
+def planned(neighbours, starts, goals, tries=5, departs=None, leaves=None):
     distances = lattice_distances(neighbours, goals)
     assume((distances[np.arange(len(starts)), starts] < FAR).all())
     order = np.arange(len(starts), dtype=np.int32)
+    none, stay = at_once(len(starts))
     found, table, _ = prioritised_planning(
-        neighbours, starts, goals, distances, order, STEPS, tries, 1_000_000
-    )
+        neighbours, starts, goals, distances, none if departs is None else departs,
+        stay if leaves is None else leaves, order, STEPS, tries, 1_000_000,
+    )  # fmt: skip
     return found, table, distances
 
 
-def first_arrival(neighbours, first, start, goal):
-    """Of a robot that keeps a step apart from one whose places are known."""
+def first_arrival(neighbours, first, start, goal, departs=0, stays=True):
+    """Of a robot that keeps a step apart from one whose places are known, -1 where it isn't."""
     seen, queue = {(start, 0)}, deque([(start, 0)])
     while queue:
         cell, step = queue.popleft()
-        if cell == goal and goal not in first[step:]:
+        is_over = step >= departs or start != goal
+        if cell == goal and is_over and not (stays and goal in first[step:]):
             return step
         if step + 1 == STEPS:
             continue
@@ -41,6 +50,7 @@ def first_arrival(neighbours, first, start, goal):
             meets = first[step + 1] == to or (
                 moves and (first[step] == to or first[step + 1] == cell)
             )
+            meets = meets or (moves and step < departs)
             if to >= 0 and not meets and (to, step + 1) not in seen:
                 seen.add((to, step + 1))
                 queue.append((to, step + 1))
@@ -74,6 +84,30 @@ def test_the_second_robot_arrives_as_early_as_the_first_allows(problem):
         assert table.arrivals[1] == expected
 
 
+@given(problems(most_cells=9, most_robots=2), st.data())
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+def test_robots_depart_when_they_may_and_leave_their_goals_to_others(problem, data):
+    neighbours, starts, goals = problem
+    assume(len(starts) == 2 and (starts != goals).all())
+    departs = np.array(data.draw(st.tuples(*[st.integers(0, 6)] * 2)), np.int32)
+    leaves = np.array(data.draw(st.tuples(st.booleans(), st.booleans())), np.bool_)
+    found, table, distances = planned(*problem, tries=1, departs=departs, leaves=leaves)
+    assert table.arrivals[0] == distances[0, starts[0]] + departs[0]
+    first = table.places[0].tolist()
+    if leaves[0]:
+        gone = int(table.arrivals[0]) + 1
+        first[gone:] = [-1] * (STEPS - gone)
+    expected = first_arrival(
+        neighbours.tolist(), first, int(starts[1]), int(goals[1]), int(departs[1]),
+        not bool(leaves[1]),
+    )  # fmt: skip
+    assert found == (expected is not None)
+    if found:
+        assert table.arrivals[1] == expected
+        for robot in range(2):
+            assert (table.places[robot, : departs[robot] + 1] == starts[robot]).all()
+
+
 @given(problems())
 @settings(max_examples=60, deadline=None)
 def test_ways_that_are_spaced_out_keep_a_step_apart(problem):
@@ -93,7 +127,7 @@ def test_a_better_set_of_paths_is_still_one():
     distances = lattice_distances(neighbours, goals)
     order = np.arange(12, dtype=np.int32)
     found, table, _ = prioritised_planning(
-        neighbours, starts, goals, distances, order, 60, 20, 1_000_000
+        neighbours, starts, goals, distances, *at_once(12), order, 60, 20, 1_000_000
     )
     assert found
     before = int(table.arrivals.sum())

@@ -51,13 +51,13 @@ def carried_over(
         old = kept[robot]
         for now, was in zip(packed[1:], state.packed[1:], strict=True):
             now[robot] = was[old]
-        for name in ("speeds", "heard", "arrived", "silent", "out"):
+        for name in ("speeds", "heard", "arrived", "silent", "out", "driven"):
             getattr(new, name)[robot] = getattr(state, name)[old]
     packed.head[:] = orders.packed.first[:-1]
     packed.recall[:] = -1
     packed.recall_place[:] = np.inf
     packed.begin[kept < 0] = np.maximum(packed.begin[kept < 0], state.time)
-    _check_let_in(orders, packed.promised, packed.progress)
+    check_let_in(orders, packed.promised, packed.progress)
     open_bars(orders.packed, packed)
     return replace(new, time=state.time, events=state.events)
 
@@ -95,8 +95,17 @@ def _same_crossings(before: DrivenFleet, after: DrivenFleet, kept: Ints) -> dict
     return found
 
 
-def _check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> None:
-    """Refuse a leader of a crossing into which the other robot has been let already."""
+def check_let_in(orders: FleetOrders, promised: Floats, progress: Floats) -> None:
+    """Refuse a leader of a crossing into which the other robot has been let already.
+
+    Args:
+        orders: Who passes first where.
+        promised: The farthest that each robot may take to be granted [m], (n,).
+        progress: How far each has come at least [m], (n,).
+
+    Raises:
+        GeometryError: With who was to pass before whom.
+    """
     packed = orders.packed
     robot = np.repeat(np.arange(len(orders.names)), np.diff(packed.first))
     counts = orders.leaders[packed.crossing] == packed.other

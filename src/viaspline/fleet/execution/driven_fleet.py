@@ -14,6 +14,7 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.patrols.driven_laps import seams_of
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_rides import PackedRides
@@ -29,6 +30,8 @@ class DrivenFleet:
         laws: That were planned: they say who passes first.
         rides: How each robot drives where nobody is in its way; who departs at infinity never does.
         separation: The free space that the plan keeps between bodies [m].
+        rounds: How far each patrol drives in a period, again and again [m], 0 for robots that end,
+            (n,); None: all end.
     """
 
     courses: FleetCourses
@@ -36,6 +39,7 @@ class DrivenFleet:
     laws: FleetLaws
     rides: PackedRides
     separation: float
+    rounds: Floats | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -74,8 +78,30 @@ class DrivenFleet:
 
 
 def driven_fleet_of(plan: FleetPlan) -> DrivenFleet:
-    """What is driven of a plan: robots that are not served stay at their starts for ever."""
-    rides = plan.rides.packed
-    departs = np.where(plan.laws.packed.is_timed, rides.depart, np.inf)
-    rides, separation = rides._replace(depart=departs), plan.fleet.separation_m
-    return DrivenFleet(plan.courses, plan.crossings, plan.laws, rides, separation)
+    """What is driven of a plan: robots that are not served stay at their starts for ever.
+
+    They have a law by which they stand there; none is driven by it.
+    """
+    served = np.array([name in plan.plans for name in plan.courses.names], np.bool_)
+    rides, laws = plan.rides.packed, plan.laws.packed
+    departs = np.where(served, rides.depart, np.inf)
+    return DrivenFleet(
+        plan.courses,
+        plan.crossings,
+        FleetLaws(laws._replace(is_timed=laws.is_timed & served)),
+        rides._replace(depart=departs),
+        plan.fleet.separation_m,
+        _rounds(plan),
+    )
+
+
+def _rounds(plan: FleetPlan) -> Floats | None:
+    """How far patrols drive in a period [m], (n,); None where there are none."""
+    if plan.patrols is None:
+        return None
+    rounds = np.zeros(len(plan.courses.names))
+    for name, laps in plan.patrols.laps.items():
+        one = plan.plans[name]
+        robot = plan.courses.names.index(name)
+        rounds[robot] = seams_of(one.path, one.mission.route.laps)[laps]
+    return rounds

@@ -17,8 +17,11 @@ from viaspline.fleet.execution.fleet_orders import index_of, orders_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent, swapped_event
 from viaspline.fleet.execution.granted_commands import commands_of
+from viaspline.fleet.execution.rolled_over import rolled_over
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.still_world import check_still
 from viaspline.handed_in import all_of, check_kind, number_from, time_from
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.dispatching import dispatch_step
 from viaspline.kernels.fleet.order_flow import expected_shifts
 from viaspline.mission.fleet.fleet import FleetMember
@@ -46,6 +49,10 @@ class FleetNavigator:
     An order that a delay has made foolish is swapped, where neither robot is in the crossing, the
     first one says that it will stop before it, and the graph stays without a cycle.
 
+    Patrols that never end go on and on: their distances are counted over all laps, and orders come
+    again every period, once all patrols have driven one and all others have arrived. Until then a
+    patrol gets no farther than its plan.
+
     Args:
         plan: What is driven.
         margin_m: How much farther than it says a robot has to be until others take it to have
@@ -53,7 +60,8 @@ class FleetNavigator:
         period: Usual time between two steps [s].
 
     Raises:
-        GeometryError: The laws of the plan keep no order, or with the margin one with a cycle.
+        GeometryError: The laws of the plan keep no order, or with the margin one with a cycle; or
+            something moves in its world that waits for nobody.
 
     Example:
         >>> import viaspline as vs
@@ -70,6 +78,7 @@ class FleetNavigator:
 
     def __init__(self, plan: FleetPlan, *, margin_m: float = 0.0, period: float = PERIOD_S) -> None:
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
+        check_still(plan.fleet)
         self._begin(driven_fleet_of(plan), number_from("margin_m", margin_m), period)
         self._plan: FleetPlan | None = plan
 
@@ -118,7 +127,8 @@ class FleetNavigator:
         given = all_of("reports", reports, ProgressReport, "give ProgressReport(name, time, …)")
         fleet, state = self._fleet, self._state.copied(time)
         packed, orders = state.packed, state.orders.packed
-        robots, table, events = believed(fleet, state, given, self._margin)
+        counted = [_counted(one, fleet, state.driven) for one in given]
+        robots, table, events = believed(fleet, state, counted, self._margin)
         before = packed.leaders.copy()
         swaps = np.isfinite(self._state.time) and floor(time) > floor(self._state.time)
         grants, sequence = dispatch_step(
@@ -130,7 +140,8 @@ class FleetNavigator:
             events.append(swapped_event(one, two, time))
         events += state.silences(SILENT_S, fleet.rides.depart)
         commands = commands_of(fleet, state, grants, self._period)
-        return commands, self._with(replace(state, sequence=sequence, events=tuple(events)))
+        state = replace(state, sequence=sequence, events=tuple(events))
+        return commands, self._with(rolled_over(state, fleet))
 
     def without(self, name: str) -> FleetNavigator:
         """The fleet without a robot that was taken out of the world: nobody waits for it.
@@ -160,7 +171,8 @@ class FleetNavigator:
         """
         robot = index_of(self._fleet.names, name)
         most = float(self._state.packed.promised[robot])
-        until = most if until_m is None else number_from("until_m", until_m)
+        driven = float(self._state.driven[robot])
+        until = most if until_m is None else number_from("until_m", until_m) - driven
         if not 0.0 <= until <= self._fleet.lengths[robot]:
             raise GeometryError(
                 f"until_m is {until}; give a place on the path of {name}, which is "
@@ -181,6 +193,7 @@ class FleetNavigator:
                 the orders have a cycle.
         """
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
+        check_still(plan.fleet)
         navigator = self.with_fleet(driven_fleet_of(plan))
         navigator._plan = plan
         return navigator
@@ -236,7 +249,8 @@ class FleetNavigator:
     @property
     def progress(self) -> dict[str, float]:
         """How far each robot has come at least [m]; infinite: it has left the world."""
-        return dict(zip(self.names, self._state.packed.progress.tolist(), strict=True))
+        come = self._state.packed.progress + self._state.driven
+        return dict(zip(self.names, come.tolist(), strict=True))
 
     @property
     def reached(self) -> bool:
@@ -263,4 +277,17 @@ class FleetNavigator:
         ends = self._fleet.courses.packed.first[1:] - 1
         arrive = last + self._fleet.alone.arrive[ends]
         arrive[self._state.stuck() >= 0] = np.inf
+        if self._fleet.rounds is not None:
+            arrive[self._fleet.rounds > 0.0] = np.inf
         return dict(zip(self.names, arrive.tolist(), strict=True))
+
+
+def _counted(report: ProgressReport, fleet: DrivenFleet, driven: Floats) -> ProgressReport:
+    """A report of a patrol with distances from where those of its plan begin."""
+    if report.name not in fleet.names:
+        return report
+    past = float(driven[fleet.names.index(report.name)])
+    if past == 0.0:
+        return report
+    holds = None if report.holds is None else report.holds - past
+    return replace(report, distance=report.distance - past, holds=holds)

@@ -33,6 +33,8 @@ class FleetProgressState:
         arrived: Whether each has arrived, (n,).
         silent: Whether it was said that a robot isn't heard of, (n,).
         out: Whether a robot doesn't drive any more: dead, taken out, or never had a law, (n,).
+        driven: How far each patrol came in periods that are over; places count from there [m],
+            (n,).
         events: What happened in the last step.
     """
 
@@ -45,6 +47,7 @@ class FleetProgressState:
     arrived: Flags
     silent: Flags
     out: Flags
+    driven: Floats
     events: tuple[FleetEvent, ...] = ()
 
     @classmethod
@@ -56,7 +59,7 @@ class FleetProgressState:
         packed.fixed[:] = out
         return cls(
             orders, packed, orders.sequence, -np.inf, np.zeros(count), np.full(count, -np.inf),
-            np.zeros(count, np.bool_), np.zeros(count, np.bool_), out,
+            np.zeros(count, np.bool_), np.zeros(count, np.bool_), out, np.zeros(count),
         )  # fmt: skip
 
     def copied(self, time: float) -> FleetProgressState:
@@ -70,6 +73,7 @@ class FleetProgressState:
             arrived=self.arrived.copy(),
             silent=self.silent.copy(),
             out=self.out.copy(),
+            driven=self.driven.copy(),
             events=(),
         )
 

@@ -53,8 +53,9 @@ class FleetRun:
     """A drive of a fleet that was simulated.
 
     Attributes:
-        arrivals: When each robot arrived [s], by name; those that never did are left out.
-        delays: How much later than planned that was [s], by name.
+        arrivals: When each robot arrived [s], by name; those that never did are left out. A patrol
+            that never ends has arrived when it is back from the last lap of its plan.
+        delays: How much later than planned that was [s], by name, but of patrols that never end.
         events: What happened, in the order of time.
         deadlock: The robots that wait for each other for ever; none if the orders are acyclic.
         courses: As far as they were driven, with a node wherever a robot's acceleration changed.

@@ -37,12 +37,13 @@ def commands_of(
             one, two = orders.robots[recall].tolist()
             waits = fleet.names[two if one == robot else one]
         elif bar < orders.first[robot + 1]:
-            waits, opens = fleet.names[orders.other[bar]], float(orders.passed[bar])
+            other = int(orders.other[bar])
+            waits, opens = fleet.names[other], float(orders.passed[bar] + state.driven[other])
         commands[name] = FleetCommand(
             name=name,
             time=state.time,
-            granted=float(grants[robot]),
-            distance=float(places[robot]) if sets_out[robot] else 0.0,
+            granted=float(grants[robot] + state.driven[robot]),
+            distance=float(places[robot] + state.driven[robot]) if sets_out[robot] else 0.0,
             speed=float(speeds[robot]) if sets_out[robot] else 0.0,
             waits_for=waits,
             opens_at=opens,

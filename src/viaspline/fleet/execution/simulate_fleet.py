@@ -13,7 +13,8 @@ from viaspline.fleet.execution.driven_law import driven_laws, stretches_of
 from viaspline.fleet.execution.fleet_orders import FleetOrders, orders_of
 from viaspline.fleet.execution.fleet_run import FleetEvent, FleetRun, swapped_event
 from viaspline.fleet.fleet_plan import FleetPlan
-from viaspline.fleet.plan_fleet import FleetProgress, plan_fleet
+from viaspline.fleet.plan_fleet import PERIODS, FleetProgress, plan_fleet
+from viaspline.fleet.still_world import check_still
 from viaspline.handed_in import check_kind, seed_from, time_from
 from viaspline.kernels.fleet.fleet_ticks import SWAPPED, WAITS, FleetTicks, fleet_ticks
 from viaspline.kernels.fleet.granted_drive import PackedTrouble
@@ -21,6 +22,8 @@ from viaspline.mission.fleet.fleet import Fleet
 
 SWAPS_S = 1.0
 """Between two looks for orders to swap."""
+ROUNDED = 9
+"""Digits of a delay [s]; beyond that it is rounding, and would be told as less than none."""
 LONGEST_S = 1e5
 """A drive takes no longer than that."""
 
@@ -32,13 +35,14 @@ def simulate_fleet(
     *,
     seed: int = 0,
     step: float = 0.1,
+    periods: int = PERIODS,
     progress: FleetProgress | None = None,
 ) -> FleetRun:
     """Drive a fleet, with robots that are slow, that halt, and that aren't always heard.
 
     Every robot drives as fast as its law, its trouble and the others let it; they are let into
     crossings as ``FleetNavigator`` does it. Robots that are not served stay at home and are left
-    out.
+    out. Patrols, which never end, drive the laps that their plans hold, and stop at their starts.
 
     Args:
         fleet: What was asked for.
@@ -46,10 +50,15 @@ def simulate_fleet(
         plan: Its plan, if there is one already.
         seed: Of all that is random: the same seed makes the same run.
         step: From report to report [s].
+        periods: So many the plan holds of patrols that never end, if it isn't given; see
+            ``plan_fleet``.
         progress: See ``FleetProgress``; only planning tells of any.
 
+    Among things that move robots keep to the clock: they are where their plans have them.
+
     Raises:
-        GeometryError: An argument is something else.
+        GeometryError: An argument is something else, or there are delays among things that move:
+            these wait for nobody.
 
     Example:
         >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
@@ -66,8 +75,34 @@ def simulate_fleet(
     if plan is not None:
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
     step, seed = time_from("step", step), seed_from("seed", seed)
-    plan = plan_fleet(fleet, progress=progress) if plan is None else plan
-    return drive_fleet(driven_fleet_of(plan), delays, seed=seed, step=step)
+    plan = plan_fleet(fleet, progress=progress, periods=periods) if plan is None else plan
+    if plan.fleet.world.moving:
+        if delays != Delays():
+            check_still(plan.fleet)
+        return _by_the_clock(plan)
+    run = drive_fleet(driven_fleet_of(plan), delays, seed=seed, step=step)
+    if plan.patrols is None:
+        return run
+    ends = {name: late for name, late in run.delays.items() if name not in plan.patrols.begins}
+    return replace(run, delays=ends)
+
+
+def _by_the_clock(plan: FleetPlan) -> FleetRun:
+    """A drive in which every robot is just where its plan has it."""
+    arrivals = {name: one.trajectory.end_time for name, one in plan.plans.items()}
+    events = [
+        FleetEvent("arrived", time, name, f"{name} arrives") for name, time in arrivals.items()
+    ]
+    return FleetRun(
+        arrivals=arrivals,
+        delays=dict.fromkeys(arrivals, 0.0),
+        events=tuple(sorted(events, key=lambda event: (event.time, event.name))),
+        deadlock=(),
+        courses=plan.courses,
+        laws=plan.laws,
+        required=plan.fleet.separation_m,
+        end_s=max(arrivals.values(), default=0.0),
+    )
 
 
 def drive_fleet(
@@ -125,6 +160,8 @@ def _run(fleet: DrivenFleet, ticks: FleetTicks) -> FleetRun:
     packed, is_timed = fleet.courses.packed, fleet.laws.packed.is_timed
     came = np.isfinite(ticks.arrived)
     planned = fleet.laws.packed.arrive[packed.first[1:] - 1]
+    late = np.subtract(ticks.arrived, planned, out=np.zeros(len(came)), where=came)
+    late = np.round(late, ROUNDED) + 0.0
     leaves = np.where(fleet.rides.vanishes & came, ticks.arrived, np.inf)
     stretches = stretches_of(ticks, np.where(is_timed, fleet.rides.depart, 0.0))
     courses, laws = driven_laws(fleet.courses, stretches, ticks.place, leaves)
@@ -132,7 +169,7 @@ def _run(fleet: DrivenFleet, ticks: FleetTicks) -> FleetRun:
     arrivals = {fleet.names[r]: float(ticks.arrived[r]) for r in np.flatnonzero(came)}
     return FleetRun(
         arrivals=arrivals,
-        delays={fleet.names[r]: float(ticks.arrived[r] - planned[r]) for r in np.flatnonzero(came)},
+        delays={fleet.names[r]: float(late[r]) for r in np.flatnonzero(came)},
         events=_events(fleet.names, ticks),
         deadlock=tuple(fleet.names[r] for r in np.flatnonzero(~came & is_timed)),
         courses=courses,

@@ -13,7 +13,7 @@ import numpy as np
 
 from viaspline.fleet.lattice_order.cell_lattice import CellLattice
 from viaspline.fleet.lattice_order.solve_lattice import LatticePlan
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Floats, Ints, Steps
 from viaspline.kernels.fleet.straightened_motions import (
     along_its_line,
     straightened_motions,
@@ -65,7 +65,7 @@ class LatticeMotions:
 
 def lattice_motions(
     plan: LatticePlan, lattice: CellLattice, world: World, lines: Sequence[Floats], reach: Floats,
-    kept: Floats,
+    kept: Floats, soonest: Steps,
 ) -> LatticeMotions:  # fmt: skip
     """Motions of robots from start to goal, in the order of a lattice plan.
 
@@ -80,6 +80,7 @@ def lattice_motions(
             (n) of (k, 2).
         reach: How far each keeps others away on its part [m], (n,).
         kept: What the centre of each keeps of the world [m], (n,).
+        soonest: The step at which each may set out, (n,).
     """
     cells = np.hstack([plan.places, np.repeat(plan.places[:, -1:], LATER, axis=1)])
     places = lattice.places[cells]
@@ -99,7 +100,9 @@ def lattice_motions(
             along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
             takes = along[-1] / lattice.cell
             latest = max(int(arrives[robot] - takes), 0) + LATER // 2
-            start = along_its_line(places, reach, margin, robot, line, along, lattice.cell, latest)
+            start = along_its_line(
+                places, reach, margin, robot, line, along, lattice.cell, int(soonest[robot]), latest
+            )
             if start >= 0:
                 sets_out[robot] = departs[robot] = start
                 arrives[robot] = math.ceil(start + takes)

@@ -8,7 +8,7 @@ passes first wherever two paths come near each other. Steps are not times: timin
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,7 +20,7 @@ from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.rounded_path import rounded_lines
 from viaspline.fleet.lattice_order.solve_lattice import WORK, solve_lattice
 from viaspline.handed_in import number_from
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Steps
 from viaspline.machine.machine_limits import limits_of
 from viaspline.planner import Plan
 from viaspline.planning.checking.conflicts import proven
@@ -33,6 +33,8 @@ FARTHEST_SHARE = 0.3
 """Of a cell, how far the rounding of a corner may be from it."""
 CHORD_M = 0.25
 """Length of the chords that a path is taken for [m]."""
+MOST_LATER = 3.0
+"""Of the longest drive: who departs later than that does so after all others anyway."""
 SAME_M = 1e-6
 """Places that are no farther apart are one [m]."""
 
@@ -68,7 +70,10 @@ class LatticePaths:
 
 
 def lattice_paths(
-    plans: Mapping[str, Plan], separation: float, work: int = WORK
+    plans: Mapping[str, Plan],
+    separation: float,
+    work: int = WORK,
+    leaving: Collection[str] = (),
 ) -> LatticePaths | NoLatticeOrder:
     """Lay the paths of robots anew, so that all can pass each other in an order that is known.
 
@@ -80,6 +85,7 @@ def lattice_paths(
         plans: As the robots would drive if they were alone.
         separation: Free space between any two bodies [m].
         work: States and choices of each search on the lattice, at most.
+        leaving: The robots that leave the world when they have arrived.
 
     Example:
         >>> from viaspline.mission.model import Mission
@@ -109,11 +115,15 @@ def lattice_paths(
     lattice = lattice_over(world, starts, goals, apart, float(kept.max()))
     if isinstance(lattice, NoLatticeOrder):
         return lattice
-    solved = solve_lattice(lattice.neighbours, lattice.starts, lattice.goals, work=work)
+    soonest = _departures(many, lattice.cell)
+    leaves = np.array([name in leaving for name in plans], np.bool_)
+    solved = solve_lattice(
+        lattice.neighbours, lattice.starts, lattice.goals, departs=soonest, leaves=leaves, work=work
+    )
     if isinstance(solved, NoLatticeOrder):
         return solved
     lines = [_line(plan) for plan in many]
-    motions = lattice_motions(solved, lattice, world, lines, reach, kept)
+    motions = lattice_motions(solved, lattice, world, lines, reach, kept, soonest)
     laid: dict[str, Plan] = {}
     steps: dict[str, PassingSteps] = {}
     for robot, (name, plan) in enumerate(plans.items()):
@@ -128,6 +138,20 @@ def lattice_paths(
         places, when = motions.vertices(robot)
         laid[name], steps[name] = _laid(plan, places, when, world, FARTHEST_SHARE * lattice.cell)
     return LatticePaths(laid, steps)
+
+
+def _departures(plans: Sequence[Plan], cell: float) -> Steps:
+    """The step of the lattice at which each robot may set out, (n,).
+
+    The first one sets out in the first step. Who comes long after all others have arrived comes
+    after a round number of steps.
+    """
+    departs = np.array([plan.mission.route.depart_s for plan in plans])
+    durations = np.array([plan.trajectory.duration for plan in plans])
+    fastest = max(limits_of(plan.mission.robot).max_speed for plan in plans)
+    later = np.minimum(departs - departs.min(), MOST_LATER * durations.max(initial=0.0))
+    steps: Steps = np.floor(later * fastest / cell).astype(np.int32)
+    return steps
 
 
 def _line(plan: Plan) -> Floats:

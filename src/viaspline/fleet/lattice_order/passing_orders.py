@@ -21,18 +21,22 @@ CLEAR_MAJORITY = 0.7
 
 
 def passes_second(
-    courses: FleetCourses, crossings: FleetCrossings, steps: Sequence[PassingSteps]
+    courses: FleetCourses,
+    crossings: FleetCrossings,
+    steps: Sequence[PassingSteps],
+    vanishes: Flags,
 ) -> Flags:
     """Whether the robot of each box passes after the other one.
 
     The boxes of a crossing have one order, that of most of them, unless it holds several places at
     which robots pass in different orders. Who starts in a box passes first,
-    and who rests there at its goal passes last.
+    and who rests there at its goal passes last, unless it leaves.
 
     Args:
         courses: The paths.
         crossings: Where they come near each other.
         steps: At which step each robot is where, in the order of the courses.
+        vanishes: Which robots leave the world when they arrive, (n,).
     """
     packed, boxes = courses.packed, crossings.packed
     robot = box_owners(boxes)
@@ -41,8 +45,9 @@ def passes_second(
     other = (boxes.low + boxes.high) / 2.0
     later = _at(steps, robot, own) - _at(steps, boxes.other, other)
     other_last = packed.distance[packed.first[boxes.other + 1] - 1]
-    later[(boxes.cell == last - 1) | (boxes.low <= 0.0)] = SURE
-    later[(boxes.cell == first) | (boxes.high >= other_last)] = -SURE
+    rests, other_rests = ~vanishes[robot], ~vanishes[boxes.other]
+    later[((boxes.cell == last - 1) & rests) | (boxes.low <= 0.0)] = SURE
+    later[(boxes.cell == first) | ((boxes.high >= other_last) & other_rests)] = -SURE
     is_lower = robot == boxes.robots[boxes.crossing, 0]
     votes = np.sign(later) * np.where(is_lower, 1.0, -1.0)
     votes *= np.where(np.abs(later) == SURE, SURE, 1.0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
-from viaspline.kernels.arrays import Ints, Steps
+from viaspline.kernels.arrays import Flags, Ints, Steps
 from viaspline.kernels.fleet.lacam import FOUND, NONE, lacam
 from viaspline.kernels.fleet.lattice_distances import FAR, lattice_distances
 from viaspline.kernels.fleet.lattice_table import LatticeTable, spaced_out
@@ -33,7 +33,7 @@ class LatticePlan:
     Attributes:
         places: The cell of each robot at each step, (n, steps).
         arrivals: The step at which each comes to its goal for good, (n,).
-        shortest: How many steps it would take if it were alone, (n,).
+        shortest: The step at which it would arrive if it were alone, (n,).
     """
 
     places: Steps
@@ -42,7 +42,14 @@ class LatticePlan:
 
 
 def solve_lattice(
-    neighbours: Steps, starts: Steps, goals: Steps, *, work: int = WORK, improve: int | None = None
+    neighbours: Steps,
+    starts: Steps,
+    goals: Steps,
+    *,
+    departs: Steps | None = None,
+    leaves: Flags | None = None,
+    work: int = WORK,
+    improve: int | None = None,
 ) -> LatticePlan | NoLatticeOrder:
     """Bring robots from cell to cell, one step at a time, without meeting.
 
@@ -53,6 +60,9 @@ def solve_lattice(
         neighbours: The cells next to each cell, -1 where there is none, (cells, k).
         starts: Different cells, (n,).
         goals: Different cells, (n,).
+        departs: The step until which each stands at its start, (n,); none if it isn't given.
+        leaves: Whether it leaves the lattice when it has arrived, (n,); none does if it isn't
+            given.
         work: Of each search, in states or choices.
         improve: The same for making the result better; ``work`` if it isn't given.
 
@@ -74,24 +84,31 @@ def solve_lattice(
     shortest = distances[np.arange(robots), starts].astype(np.int64)
     if (shortest >= FAR).any():
         return _no_way()
-    table = _first(neighbours, starts, goals, distances, shortest, work)
+    waiting = np.zeros(robots, np.int32) if departs is None else departs
+    leaving = np.zeros(robots, np.bool_) if leaves is None else leaves
+    table = _first(neighbours, starts, goals, distances, shortest, waiting, leaving, work)
     if isinstance(table, NoLatticeOrder):
         return table
     better = work if improve is None else improve
     neighbourhood_search(neighbours, starts, goals, distances, table, NEIGHBOURHOOD, better, 1)
     steps = max(int(table.arrivals.max()), 1) + 1
-    return LatticePlan(table.places[:, :steps].copy(), table.arrivals.astype(np.int64), shortest)
+    alone = np.where(shortest > 0, shortest + table.departs, 0)
+    return LatticePlan(table.places[:, :steps].copy(), table.arrivals.astype(np.int64), alone)
 
 
 def _first(
-    neighbours: Steps, starts: Steps, goals: Steps, distances: Steps, shortest: Ints, work: int
-) -> LatticeTable | NoLatticeOrder:
-    """Ways of all robots, however long."""
-    longest = int(shortest.max())
+    neighbours: Steps, starts: Steps, goals: Steps, distances: Steps, shortest: Ints,
+    departs: Steps, leaves: Flags, work: int,
+) -> LatticeTable | NoLatticeOrder:  # fmt: skip
+    """Ways of all robots, however long.
+
+    Where all are searched for together, none departs later and none leaves: that is an order, too.
+    """
+    longest = int((shortest + departs).max())
     steps = min(longest + longest // 3 + SLACK, MOST_ENTRIES // len(neighbours))
     order = np.argsort(-shortest, kind="stable").astype(np.int32)
     found, table, _ = prioritised_planning(
-        neighbours, starts, goals, distances, order, steps, TRIES, work
+        neighbours, starts, goals, distances, departs, leaves, order, steps, TRIES, work
     )
     if found:
         return table
@@ -105,7 +122,7 @@ def _first(
         return _gave_up("its ways are too long for the tables")
     wide = np.empty((len(places), max(steps, count + SLACK)), np.int32)
     wide[:, :count], wide[:, count:] = places[:, :count], places[:, count - 1 : count]
-    return table_of(wide, len(neighbours))
+    return table_of(wide, len(neighbours), departs, leaves)
 
 
 def _no_way() -> NoLatticeOrder:

@@ -36,7 +36,7 @@ def time_in_order(
         The laws of all. ``blocked`` names robots whose order could not be kept, then the laws are
         not clear of each other.
     """
-    second = passes_second(courses, crossings, steps)
+    second = passes_second(courses, crossings, steps, rides.packed.vanishes)
     ends = np.array([one.steps[-1] for one in steps])
     order = np.argsort(ends, kind="stable").astype(np.int64)
     laws = standing_laws(courses)

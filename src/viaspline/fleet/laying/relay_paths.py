@@ -13,7 +13,7 @@ from viaspline.errors import GeometryError, PlanningError
 from viaspline.fleet.fleet_plan import NotServed
 from viaspline.fleet.laying.lay_paths import not_served
 from viaspline.fleet.laying.relay import relay
-from viaspline.mission.fleet.fleet import Fleet
+from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 
 MAX_TURNS = 3
@@ -64,7 +64,7 @@ def relay_paths(fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str]) -
         except (PlanningError, GeometryError) as error:
             failed[name] = not_served(name, error)
             turns[name] += 1
-            before = _in_the_way(error, plans)
+            before = [one for one in _in_the_way(error, plans) if not _is_patrol(members[one])]
             if before and turns[name] <= MAX_TURNS:
                 plans = {key: plan for key, plan in plans.items() if key not in before}
                 waiting = [name, *before, *waiting]
@@ -72,6 +72,11 @@ def relay_paths(fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str]) -
             best = plans
     asked = [key for key in members if key in {*fixed, *names} and key not in best]
     return RelaidPaths(best, tuple(failed.get(key) or _unlaid(key) for key in asked))
+
+
+def _is_patrol(member: FleetMember) -> bool:
+    """Whether a robot never ends: its laps stay as they are timed."""
+    return member.mission.route.is_patrol
 
 
 def _unlaid(name: str) -> NotServed:

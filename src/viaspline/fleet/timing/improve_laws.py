@@ -12,7 +12,7 @@ from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.time_paths import Timing
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.fleet.improved_laws import improved_laws
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 
@@ -32,6 +32,7 @@ def improve_laws(
     priorities: Floats,
     seconds: float,
     progress: Callable[[float], None] | None = None,
+    settled: Flags | None = None,
 ) -> Timing:
     """The timing with sooner laws.
 
@@ -45,6 +46,7 @@ def improve_laws(
         priorities: See ``time_paths``, (n,).
         seconds: What may be spent, on the reference machine.
         progress: Called with the share that is spent.
+        settled: Robots whose laws stay as they are, (n,); none if it isn't given.
 
     Returns:
         A timing of the same robots, in which the lateness of all, weighed by priority, is no more.
@@ -54,12 +56,14 @@ def improve_laws(
         given.arrive.copy(), given.leave.copy(), given.speed.copy(), given.is_timed.copy()
     )
     weight = PRIORITY_WEIGHT ** np.clip(priorities - priorities.mean(), -20.0, 20.0)
+    if settled is None:
+        settled = np.zeros(rides.alone.size, np.bool_)
     spent, seed = 0, 0
     work = int(seconds * BOXES_PER_S)
     while spent < work:
         _, done = improved_laws(
             courses.packed, crossings.packed, rides.packed, laws, rides.alone,
-            weight, min(work - spent, int(ROUND_S * BOXES_PER_S)), seed,
+            weight, settled, min(work - spent, int(ROUND_S * BOXES_PER_S)), seed,
         )  # fmt: skip
         spent, seed = spent + done, seed + 1
         if progress is not None:

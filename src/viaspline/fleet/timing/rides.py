@@ -72,8 +72,13 @@ def rides_of(
             brake=np.array([one.brake for one in limits]),
             depart=depart,
             keeps_pace=np.array(paced, np.bool_),
-            vanishes=np.array([member.rest == "leave" for member in members], np.bool_),
+            vanishes=np.array([_leaves(member) for member in members], np.bool_),
         ),
         np.array([plan.trajectory.duration for plan in plans]),
         FleetLaws(by_clock),
     )
+
+
+def _leaves(member: FleetMember) -> bool:
+    """Whether a robot leaves the world at its goal; a patrol has none, whatever it says."""
+    return member.rest == "leave" and not member.mission.route.is_patrol

@@ -39,6 +39,7 @@ def time_paths(
     rides: FleetRides,
     priorities: Sequence[float],
     left_out: Sequence[int] = (),
+    given: FleetLaws | None = None,
 ) -> Timing:
     """Time robots along their paths by priority, and by the orders that are forced.
 
@@ -52,17 +53,18 @@ def time_paths(
         rides: How they drive alone.
         priorities: Who has more is let pass, (n,).
         left_out: Robots that get no law and stand at their starts.
+        given: Laws of robots that have theirs already, and are let pass by the others.
     """
+    given = standing_laws(courses) if given is None else given
+    settled = [*left_out, *np.flatnonzero(given.packed.is_timed).tolist()]
     asked = forced_orders(courses.packed, crossings.packed, rides.packed.vanishes)
     ranks = [(-p, -t) for p, t in zip(priorities, rides.alone.tolist(), strict=True)]
     best: Timing | None = None
     for _ in range(MAX_REPAIRS):
-        found = _timed(courses, crossings, rides, asked, ranks, left_out)
+        found = _timed(courses, crossings, rides, asked, ranks, left_out, given)
         if best is None or len(found.blocked) < len(best.blocked):
             best = found
-        learned = [
-            (robot, other) for robot, other in found.blocked.items() if other not in left_out
-        ]
+        learned = [(robot, other) for robot, other in found.blocked.items() if other not in settled]
         pairs = np.unique(
             np.concatenate([asked, np.array(learned, np.int64).reshape(-1, 2)]), axis=0
         )
@@ -75,20 +77,28 @@ def time_paths(
 
 def _timed(
     courses: FleetCourses, crossings: FleetCrossings, rides: FleetRides, asked: Ints,
-    ranks: Sequence[tuple[float, ...]], left_out: Sequence[int],
+    ranks: Sequence[tuple[float, ...]], left_out: Sequence[int], given: FleetLaws,
 ) -> Timing:  # fmt: skip
     """One round: those that wait for each other in a circle come last, the foremost one first."""
-    laws = standing_laws(courses)
+    laws = FleetLaws(copied_laws(given.packed))
     laws.packed.is_timed[list(left_out)] = True
-    free = asked[~np.isin(asked, list(left_out)).any(axis=1)]
+    settled = np.flatnonzero(laws.packed.is_timed)
+    free = asked[~np.isin(asked, settled).any(axis=1)]
     plan = timing_order(free, ranks)
     circular = sorted(plan.circular.tolist(), key=lambda robot: ranks[robot])
     order = np.array([*plan.order.tolist(), *circular], np.int64)
-    order = order[~np.isin(order, list(left_out))]
+    order = order[~np.isin(order, settled)]
     boxes = timed_in_order(courses.packed, crossings.packed, rides.packed, laws.packed, order)
     failed = boxes != CLEAR
     others = crossings.packed.other[boxes[failed]].tolist()
     return Timing(laws, dict(zip(order[failed].tolist(), others, strict=True)))
+
+
+def copied_laws(laws: PackedLaws) -> PackedLaws:
+    """Laws of their own, to write to."""
+    return PackedLaws(
+        laws.arrive.copy(), laws.leave.copy(), laws.speed.copy(), laws.is_timed.copy()
+    )
 
 
 def standing_laws(courses: FleetCourses) -> FleetLaws:

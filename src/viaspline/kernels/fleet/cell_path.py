@@ -112,8 +112,10 @@ def cell_path(
         How many states were looked at; negative where no path was found.
     """
     last = min(table.places.shape[1] - 1, latest)
-    free = free_from(table, goal)
-    key = max(int(distances[robot, start]), free)
+    free = 0 if table.leaves[robot] else free_from(table, goal)
+    departs = int(table.departs[robot])
+    free = max(free, departs) if start == goal else free
+    key = max(int(distances[robot, start]) + departs, free)
     if key > last or table.robots[0, start] != 0:
         return -1
     for k in range(last + 2):
@@ -137,9 +139,9 @@ def cell_path(
         turn = random_below(search.random, width)
         for k in range(width + 1):
             to = cell if k == 0 else search.neighbours[cell, (k + turn) % width]
-            if to < 0 or distances[robot, to] >= FAR:
+            if to < 0 or distances[robot, to] >= FAR or (to != cell and step < departs):
                 continue
-            reached = max(step + 1 + int(distances[robot, to]), free)
+            reached = max(max(step + 1, departs) + int(distances[robot, to]), free)
             if reached > last or not may_move(table, step, cell, to):
                 continue
             if count == len(search.cells):

@@ -201,7 +201,8 @@ def drive_stretch(
     if now + lasts > until:
         late = until - now
         drive.place[robot] = min(drive.place[robot] + (speed + 0.25 * rise * late) * late, end)
-        drive.square[robot] = max(speed + 0.5 * rise * late, 0.0) ** 2
+        then = max(speed + 0.5 * rise * late, 0.0) ** 2
+        drive.square[robot] = 0.0 if then < NEAR_SQUARE else then
         return until
     drive.square[robot] = then
     if ends:

@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.blocked_times import blocked_times
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
@@ -48,14 +48,15 @@ def _lateness_of(
 
 @inner
 def _late_robot(
-    courses: PackedCourses, rides: PackedRides, laws: PackedLaws, alone: Floats, state: Ints
-) -> int:
+    courses: PackedCourses, rides: PackedRides, laws: PackedLaws, alone: Floats, settled: Flags,
+    state: Ints,
+) -> int:  # fmt: skip
     """A robot, the later the likelier: the latest of three."""
     count = alone.size
     best, worst = -1, -1.0
     for _ in range(3):
         robot = _next(state, count)
-        if laws.is_timed[robot]:
+        if laws.is_timed[robot] and not settled[robot]:
             late = _lateness_of(courses, rides, laws, alone, robot)
             if late > worst:
                 best, worst = robot, late
@@ -64,8 +65,9 @@ def _late_robot(
 
 @inner
 def _neighbourhood(
-    courses: PackedCourses, crossings: PackedCrossings, laws: PackedLaws, robot: int, state: Ints
-) -> Ints:
+    courses: PackedCourses, crossings: PackedCrossings, laws: PackedLaws, settled: Flags,
+    robot: int, state: Ints,
+) -> Ints:  # fmt: skip
     """A robot, those that it may have waited for, and some that it meets."""
     chosen = np.empty(MOST, np.int64)
     chosen[0] = robot
@@ -78,12 +80,14 @@ def _neighbourhood(
     for b in range(begin, end):
         gap = laws.arrive[crossings.cell[b]] - blocked[b - begin, 1]
         other = crossings.other[b]
-        if count < most and 0.0 <= gap < CLOSE_S and not (chosen[:count] == other).any():
+        is_close = 0.0 <= gap < CLOSE_S and not settled[other]
+        if count < most and is_close and not (chosen[:count] == other).any():
             chosen[count] = other
             count += 1
     for _ in range(most):
         other = crossings.other[begin + _next(state, end - begin)]
-        if count < most and laws.is_timed[other] and not (chosen[:count] == other).any():
+        is_free = laws.is_timed[other] and not settled[other]
+        if count < most and is_free and not (chosen[:count] == other).any():
             chosen[count] = other
             count += 1
     return chosen[:count]
@@ -139,7 +143,7 @@ def _timed_anew(
 @kernel
 def improved_laws(
     courses: PackedCourses, crossings: PackedCrossings, rides: PackedRides, laws: PackedLaws,
-    alone: Floats, weight: Floats, work: int, seed: int,
+    alone: Floats, weight: Floats, settled: Flags, work: int, seed: int,
 ) -> tuple[float, int]:  # fmt: skip
     """Make laws sooner by taking a few away and giving them back in another order.
 
@@ -150,6 +154,7 @@ def improved_laws(
         laws: Of all robots that are served; written to.
         alone: How long each robot takes if it is alone [s], (n,).
         weight: What a second of its lateness counts, (n,).
+        settled: Whether its law stays as it is, (n,).
         work: How many boxes may be looked at.
         seed: Of what is chosen.
 
@@ -160,10 +165,10 @@ def improved_laws(
     gained, done = 0.0, 0
     while done < work:
         done += 1
-        robot = _late_robot(courses, rides, laws, alone, state)
+        robot = _late_robot(courses, rides, laws, alone, settled, state)
         if robot < 0 or _lateness_of(courses, rides, laws, alone, robot) <= GAIN_S:
             continue
-        robots = _neighbourhood(courses, crossings, laws, robot, state)
+        robots = _neighbourhood(courses, crossings, laws, settled, robot, state)
         before = 0.0
         for other in robots:
             late = _lateness_of(courses, rides, laws, alone, other)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viaspline.kernels.arrays import Steps
+from viaspline.kernels.arrays import Flags, Steps
 from viaspline.kernels.jit import inlined, inner, kernel
 
 
@@ -26,27 +26,41 @@ class LatticeTable(NamedTuple):
         arrivals: The step at which each robot comes to its goal for good, (n,).
         robots: Who is in a cell at a step, the number of the robot plus 1, 0 for nobody,
             (steps, cells).
+        departs: The step until which each robot stands at its start, (n,).
+        leaves: Whether each leaves the lattice once it has arrived; its places go on all the same,
+            (n,).
     """
 
     places: Steps
     arrivals: Steps
     robots: Steps
+    departs: Steps
+    leaves: Flags
 
 
 @inner
-def empty_table(robots: int, cells: int, steps: int) -> LatticeTable:
+def empty_table(cells: int, steps: int, departs: Steps, leaves: Flags) -> LatticeTable:
     """The table of a lattice on which nobody moves yet."""
+    robots = len(departs)
     return LatticeTable(
         np.full((robots, steps), -1, np.int32),
         np.zeros(robots, np.int32),
         np.zeros((steps, cells), np.int32),
+        departs,
+        leaves,
     )
+
+
+@inlined
+def _steps_there(table: LatticeTable, robot: int) -> int:
+    """For how many steps a robot is on the lattice."""
+    return table.arrivals[robot] + 1 if table.leaves[robot] else table.places.shape[1]
 
 
 @inner
 def book(table: LatticeTable, robot: int) -> None:
     """Enter the path of a robot, which stands among the places, to who is where."""
-    for step in range(table.places.shape[1]):
+    for step in range(_steps_there(table, robot)):
         table.robots[step, table.places[robot, step]] = robot + 1
 
 
@@ -54,7 +68,8 @@ def book(table: LatticeTable, robot: int) -> None:
 def unbook(table: LatticeTable, robot: int) -> None:
     """Take a robot out of who is where; its places stay."""
     for step in range(table.places.shape[1]):
-        table.robots[step, table.places[robot, step]] = 0
+        if table.robots[step, table.places[robot, step]] == robot + 1:
+            table.robots[step, table.places[robot, step]] = 0
 
 
 @inlined

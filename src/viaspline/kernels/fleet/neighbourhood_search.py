@@ -23,16 +23,25 @@ WALKS = 12
 
 
 @inner
+def _lateness(table: LatticeTable, starts: Steps, distances: Steps, robot: int) -> int:
+    """How many steps later than if it were alone a robot arrives."""
+    soonest = distances[robot, starts[robot]]
+    if soonest > 0:
+        soonest += table.departs[robot]
+    return max(int(table.arrivals[robot]) - int(soonest), 0)
+
+
+@inner
 def _delayed(table: LatticeTable, starts: Steps, distances: Steps, random: Ints) -> int:
     """A robot that arrives late, drawn by how late it is; -1 where none is."""
     late = 0
     for robot in range(len(starts)):
-        late += table.arrivals[robot] - distances[robot, starts[robot]]
+        late += _lateness(table, starts, distances, robot)
     if late == 0:
         return -1
     drawn = random_below(random, late)
     for robot in range(len(starts)):
-        drawn -= table.arrivals[robot] - distances[robot, starts[robot]]
+        drawn -= _lateness(table, starts, distances, robot)
         if drawn < 0:
             return robot
     return -1
@@ -155,9 +164,9 @@ def neighbourhood_search(
         done, _total, looked = plan_in_order(search, table, order, starts, goals, distances, total)
         used += looked + count
         if done < count:
-            _restore(table, chosen, done, kept, count)
             for k in range(count):
                 table.arrivals[chosen[k]] = arrivals[chosen[k]]
+            _restore(table, chosen, done, kept, count)
         else:
             for k in range(count):
                 robot = chosen[k]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viaspline.kernels.arrays import Steps
+from viaspline.kernels.arrays import Flags, Steps
 from viaspline.kernels.fleet.cell_path import CellSearch, cell_path, new_search
 from viaspline.kernels.fleet.lattice_table import LatticeTable, book, empty_table, unbook
 from viaspline.kernels.jit import inner, kernel
@@ -51,8 +51,8 @@ def plan_in_order(
 
 @kernel
 def prioritised_planning(
-    neighbours: Steps, starts: Steps, goals: Steps, distances: Steps, order: Steps, steps: int,
-    tries: int, work: int,
+    neighbours: Steps, starts: Steps, goals: Steps, distances: Steps, departs: Steps,
+    leaves: Flags, order: Steps, steps: int, tries: int, work: int,
 ) -> tuple[bool, LatticeTable, int]:  # fmt: skip
     """Plan all robots by priority; one that finds no path goes to the front, and all is new.
 
@@ -61,6 +61,8 @@ def prioritised_planning(
         starts: Different cells, (n,).
         goals: Different cells, (n,).
         distances: Steps to every goal, (n, cells).
+        departs: The step until which each stands at its start, (n,).
+        leaves: Whether it leaves the lattice when it has arrived, (n,).
         order: The robots, the one that is planned first in front, (n,); rearranged.
         steps: How many steps there are, with that at the start.
         tries: How often to begin.
@@ -69,7 +71,7 @@ def prioritised_planning(
     Returns:
         Whether all have a path; these; and how many states were looked at.
     """
-    table = empty_table(len(starts), len(neighbours), steps)
+    table = empty_table(len(neighbours), steps, departs, leaves)
     search = new_search(neighbours, steps, ROOM, 1)
     used = 0
     for _ in range(tries):
@@ -91,15 +93,17 @@ def prioritised_planning(
 
 
 @kernel
-def table_of(places: Steps, cells: int) -> LatticeTable:
+def table_of(places: Steps, cells: int, departs: Steps, leaves: Flags) -> LatticeTable:
     """The table of paths that are known.
 
     Args:
         places: The cell of each robot at each step, (n, steps); at the last one all are at goals.
         cells: How many the lattice has.
+        departs: See ``LatticeTable``, (n,).
+        leaves: See ``LatticeTable``, (n,).
     """
     robots, steps = places.shape
-    table = empty_table(robots, cells, steps)
+    table = empty_table(cells, steps, departs, leaves)
     for robot in range(robots):
         for step in range(steps):
             table.places[robot, step] = places[robot, step]

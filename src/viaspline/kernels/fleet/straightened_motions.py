@@ -144,7 +144,7 @@ def _ride_along(
 @kernel
 def along_its_line(
     places: Floats, reach: Floats, margin: float, robot: int, points: Floats, along: Floats,
-    pace: float, latest: int,
+    pace: float, soonest: int, latest: int,
 ) -> int:  # fmt: skip
     """Let a robot drive along a line, at the first step at which it meets nobody on its way.
 
@@ -156,6 +156,7 @@ def along_its_line(
         points: Of the line, (k, 2), k >= 2.
         along: Their distances along it [m], (k,).
         pace: How far it drives in a step [m].
+        soonest: The first step at which it may set out.
         latest: The last step at which it may set out.
 
     Returns:
@@ -163,7 +164,7 @@ def along_its_line(
     """
     steps = places.shape[1]
     tried = np.empty((steps, 2))
-    for start in range(latest + 1):
+    for start in range(soonest, latest + 1):
         if start + along[along.size - 1] / pace > steps - 1:
             break
         for t in range(steps):

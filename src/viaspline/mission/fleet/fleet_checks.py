@@ -25,11 +25,6 @@ UNSEEN = (
     "on which it is proven apart from the others",
     "put these obstacles under world.known, or leave them out",
 )
-MOTION = (
-    "a fleet is planned in a world that stands still: a robot that lets another one pass comes "
-    "later to what moves than its path was proven for",
-    "leave the motion out, or make what moves a robot of the fleet with the highest priority",
-)
 HEIGHTS = (
     "a fleet is planned in the plane, and something here says heights",
     "plan each of the missions by itself, or leave out what is for space",
@@ -41,11 +36,6 @@ def fleet_faults(partial: PartialFleet) -> list[UnplacedFault]:
     faults, misshapen = world_faults(partial.world)
     if partial.world.unseen:
         faults.append(UnplacedFault(("world", "unseen"), *UNSEEN, at_key=True))
-    faults += [
-        UnplacedFault((*path, "motion"), *MOTION, at_key=True)
-        for path, obstacle in partial.world.known
-        if obstacle.motion is not None
-    ]
     for kind in partial.kinds.values():
         faults += _moved(robot_faults(kind), ("robot",), kind.robot_path)
     faults += _names(partial)

@@ -63,6 +63,9 @@ def heading(
     begin, end = span_of(plan)
     robots = "robot" if asked == 1 else "robots"
     title = f"{style.short(name, 48)}: {count} of {asked} {robots} served in {seconds(end - begin)}"
+    if plan.patrols is not None:
+        title = f"{style.short(name, 48)}: {count} of {asked} {robots} served"
+        title += f", {len(plan.patrols.begins)} for ever, every {seconds(plan.patrols.period)}"
     late = [max(one.late, 0.0) for one in timelines]
     alone = sum(plan.alone[one] for one in plan.plans)
     lines = (

@@ -1,0 +1,117 @@
+"""Patrols under way that never end: what is known of them, a period later.
+
+The plan of a patrol holds some periods. When all patrols have driven the first of them, and all
+others have arrived, the fleet is where it was a period before: every patrol is counted back by what
+it drives in a period, and the order in which robots pass a crossing is the one that holds for that
+crossing a period later. What comes into sight at the end has the order of the plan.
+
+Tested through ``fleet/execution/test_rolled_over``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from viaspline.fleet.execution.carried_over import check_let_in
+from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.fleet.execution.fleet_orders import decided, orders_led
+from viaspline.fleet.execution.fleet_progress import FleetProgressState
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.open_bars import open_bars
+
+SAME_M = 1e-4
+"""Places of two periods that differ by less are one."""
+
+
+def rolled_over(state: FleetProgressState, fleet: DrivenFleet) -> FleetProgressState:
+    """The state a period later, if patrols have driven one; else the very state.
+
+    A patrol that is dead holds the others up at the end of what is planned.
+
+    Args:
+        state: How far the fleet has come.
+        fleet: What is driven.
+
+    Raises:
+        GeometryError: The orders that hold have a cycle, or let two robots in at once.
+    """
+    rounds = fleet.rounds
+    if rounds is None or not _is_over(state, rounds):
+        return state
+    shift = np.where(state.out, 0.0, rounds)
+    planned_leaders, planned_by = decided(fleet)
+    leaders, by_second = planned_leaders.copy(), planned_by.copy()
+    planned = state.orders.leaders
+    for c, was in _a_period_later(fleet, shift).items():
+        leader = int(state.packed.leaders[was])
+        if leader >= 0:
+            is_planned = leader == planned[was]
+            leaders[c] = leader
+            by_second[c] = bool(state.orders.by_second[was]) if is_planned else True
+    orders = orders_led(fleet, leaders, by_second)
+    new = FleetProgressState.at_start(fleet, orders)
+    packed = new.packed
+    for now, was_there in zip(packed[1:], state.packed[1:], strict=True):
+        now[:] = was_there
+    packed.progress[:] -= shift
+    packed.promised[:] -= shift
+    packed.begin[:] += _alone(fleet, shift)
+    packed.head[:] = orders.packed.first[:-1]
+    packed.recall[:] = -1
+    packed.recall_place[:] = np.inf
+    check_let_in(orders, packed.promised, packed.progress)
+    open_bars(orders.packed, packed)
+    return replace(
+        new,
+        time=state.time,
+        speeds=state.speeds,
+        heard=state.heard,
+        arrived=state.arrived & (shift == 0.0),
+        silent=state.silent,
+        out=state.out,
+        driven=state.driven + shift,
+        events=state.events,
+    )
+
+
+def _is_over(state: FleetProgressState, rounds: Floats) -> bool:
+    """Whether all patrols have driven a period, and all others have arrived or are gone."""
+    progress = state.packed.progress
+    is_patrol = rounds > 0.0
+    gone = state.out & np.isinf(progress)
+    drives = is_patrol & ~gone
+    if not drives.any() or (state.out & drives).any() or (state.packed.recall >= 0).any():
+        return False
+    others = ~is_patrol & ~(state.arrived | state.out)
+    return not others.any() and bool((progress >= rounds)[drives].all())
+
+
+def _a_period_later(fleet: DrivenFleet, shift: Floats) -> dict[int, int]:
+    """For each crossing the one of the same robots a period later, where the plan has it."""
+    packed = fleet.crossings.packed
+    later: dict[tuple[int, int], list[int]] = {}
+    for c, pair in enumerate(packed.robots.tolist()):
+        later.setdefault((pair[0], pair[1]), []).append(c)
+    found = {}
+    for pair, crossings in later.items():
+        by = np.repeat(shift[list(pair)], 2)
+        spans = packed.span[crossings]
+        for c in crossings:
+            off = np.abs(spans - packed.span[c] - by).max(axis=1)
+            nearest = int(off.argmin())
+            if off[nearest] < SAME_M:
+                found[c] = crossings[nearest]
+    return found
+
+
+def _alone(fleet: DrivenFleet, places: Floats) -> Floats:
+    """When robots that set out at 0 s and never wait come to a place each [s], (n,)."""
+    first, alone = fleet.courses.packed.first, fleet.alone
+    times = np.zeros(len(places))
+    for robot in np.flatnonzero(places > 0.0):
+        nodes = slice(int(first[robot]), int(first[robot + 1]))
+        along = fleet.courses.packed.distance[nodes]
+        times[robot] = np.interp(places[robot], along, alone.arrive[nodes])
+    return times

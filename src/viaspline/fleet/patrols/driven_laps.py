@@ -1,0 +1,159 @@
+"""A closed path driven lap after lap, from rest to rest at its start."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from viaspline.curve.path import Path
+from viaspline.errors import GeometryError
+from viaspline.kernels.arrays import Floats
+from viaspline.machine.machine_limits import limits_of
+from viaspline.planner import Plan
+from viaspline.planning.plan_drive import repeated
+from viaspline.trajectory.limits import Station
+from viaspline.trajectory.retime import retime
+from viaspline.trajectory.trajectory import Trajectory
+from viaspline.whole_plan import stations
+
+SAME_M = 1e-6
+"""Places on a path that are no farther apart are one."""
+SAME_S = 1e-9
+"""Times that are no farther apart are one."""
+
+
+def driven_laps(lap: Plan, laps: int) -> Plan:
+    """A plan of several laps, with a halt at the start after each.
+
+    Args:
+        lap: A closed path, driven once from rest to rest.
+        laps: How often it is driven.
+
+    Example:
+        >>> from viaspline.mission.model import Mission
+        >>> from viaspline.planner import plan
+        >>> lap = plan(Mission.model_validate(
+        ...     {"route": {"start": [0, 0], "via": [[9, 0], [9, 9]], "closed": True}}))
+        >>> three = driven_laps(lap, 3)
+        >>> round(three.path.length / lap.path.length, 9)
+        3.0
+        >>> round(three.trajectory.duration / lap.trajectory.duration, 6)
+        3.0
+    """
+    mission = lap.mission
+    path = repeated(lap.path, laps)
+    stops = list(stations(path, mission.robot))
+    stops += [
+        Station(seam)
+        for seam in seams_of(path, laps)[1:-1].tolist()
+        if all(abs(stop.distance - seam) > SAME_M for stop in stops)
+    ]
+    law = retime(
+        path,
+        limits_of(mission.robot),
+        sorted(stops, key=lambda stop: stop.distance),
+        zones=mission.world.speed_zones,
+    )
+    route = mission.route.model_copy(update={"laps": laps})
+    return replace(
+        lap, mission=mission.model_copy(update={"route": route}), path=path, trajectory=law
+    )
+
+
+def seams_of(path: Path, laps: int) -> Floats:
+    """Where the laps of a path begin and end [m], (laps + 1,)."""
+    joints = np.arange(laps + 1) * (len(path.spans) // laps)
+    return np.asarray(path.distance(joints.astype(float)), dtype=np.float64)
+
+
+def set_out(law: Trajectory) -> Trajectory:
+    """A time law without what it waits at its start."""
+    waits = int(law.distances.searchsorted(law.distances[0], side="right")) - 1
+    pieces = slice(waits, None)
+    return replace(
+        law,
+        distances=law.distances[waits:],
+        speeds=law.speeds[waits:],
+        times=law.times[waits:],
+        accelerations=law.accelerations[pieces],
+        changes=None if law.changes is None else law.changes[pieces],
+        jerks=None if law.jerks is None else law.jerks[pieces],
+    )
+
+
+def repeated_law(law: Trajectory, seams: Floats, period: float) -> Trajectory:
+    """A time law from rest to rest, driven again every period.
+
+    Args:
+        law: It begins at 0 m when its robot sets out, and takes no longer than the period.
+        seams: Where the rounds begin and end [m], (n + 1,).
+        period: [s].
+
+    Raises:
+        GeometryError: The law takes longer.
+
+    Example:
+        >>> from viaspline.trajectory.limits import Limits
+        >>> from viaspline.curve.path import Path
+        >>> line = Path([[[0, 0], [3, 0], [6, 0], [9, 0]]], vias=[])
+        >>> law = retime(line, Limits(max_speed=1, max_accel=1))
+        >>> twice = repeated_law(law, np.array([0.0, 9.0, 18.0]), 15.0)
+        >>> twice.time_at([4.5, 13.5]).tolist()
+        [5.0, 20.0]
+    """
+    if law.duration > period + SAME_S:
+        raise GeometryError(
+            f"a lap of {law.duration:g} s doesn't fit a period of {period:g} s; give a longer one"
+        )
+    parts = [_moved(law, k, seams, period) for k in range(len(seams) - 1)]
+    firsts = [0 if k == 0 or law.duration < period - SAME_S else 1 for k in range(len(parts))]
+
+    def points(key: str) -> Floats:
+        return np.concatenate(
+            [getattr(part, key)[first:] for part, first in zip(parts, firsts, strict=True)]
+        )
+
+    def pieces(values: Floats | None) -> Floats | None:
+        if values is None:
+            return None
+        rows = [
+            np.concatenate(([0.0] if k > 0 and first == 0 else [], values))
+            for k, first in enumerate(firsts)
+        ]
+        return np.concatenate(rows)
+
+    accelerations = pieces(law.accelerations)
+    assert accelerations is not None
+    return replace(
+        law,
+        distances=points("distances"),
+        speeds=points("speeds"),
+        times=points("times"),
+        accelerations=accelerations,
+        changes=pieces(law.changes),
+        jerks=pieces(law.jerks),
+        stations=tuple(stop for part in parts for stop in part.stations),
+    )
+
+
+def _moved(law: Trajectory, k: int, seams: Floats, period: float) -> Trajectory:
+    """A law by k rounds later; it ends where the next round begins, to the bit."""
+    moved = law.moved(float(seams[k])).delayed(k * period)
+    distances = moved.distances.copy()
+    distances[distances >= seams[k + 1] - SAME_M] = seams[k + 1]
+    return replace(moved, distances=distances)
+
+
+def on_nodes(law: Trajectory, nodes: Floats) -> Trajectory:
+    """A time law whose points lie on the nodes of a course that they are as good as on.
+
+    Args:
+        law: Along the course.
+        nodes: Increasing distances [m], (m,).
+    """
+    after = np.clip(np.searchsorted(nodes, law.distances), 1, len(nodes) - 1)
+    low, high = nodes[after - 1], nodes[after]
+    nearest = np.where(law.distances - low < high - law.distances, low, high)
+    is_same = np.abs(nearest - law.distances) <= SAME_M
+    return replace(law, distances=np.where(is_same, nearest, law.distances))

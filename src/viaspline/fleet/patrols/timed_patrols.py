@@ -1,0 +1,271 @@
+"""Patrols that never end and robots that do, timed together.
+
+Patrols are timed first, in a period that is common to them all. So many of their laps are laid out
+that all others arrive while they last, and a whole period in which nobody but patrols moves comes
+after that. The others are timed past these laps as past robots that have their laws.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viaspline.errors import GaveUpError
+from viaspline.fleet.fleet_laws import FleetLaws, law_at_nodes
+from viaspline.fleet.laying.rest_in_the_way import rest_in_the_way
+from viaspline.fleet.laying.resting_places import rests_of
+from viaspline.fleet.patrols.driven_laps import (
+    driven_laps,
+    on_nodes,
+    repeated_law,
+    seams_of,
+    set_out,
+)
+from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
+from viaspline.fleet.patrols.homes_in_the_way import PatrolMeetings
+from viaspline.fleet.patrols.patrol_rhythm import PatrolRhythm, patrol_rhythm
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.timing.time_paths import copied_laws
+from viaspline.kernels.arrays import Flags
+from viaspline.trajectory.trajectory import Trajectory
+
+MOST_LAPS = 3000
+"""Of all patrols together, until all others have arrived and a period after that."""
+MOST_ROUNDS = 30
+"""How often more laps are laid out, or a patrol begins later."""
+MOST_EXTENSIONS = 3
+"""So often a robot that finds no time between laps is let try among twice as many."""
+SPARE_SHARE = 1.2
+"""Of the time until all others would have arrived if they were alone, for which laps are laid out
+at first."""
+
+SAME_SHARE = 1e-9
+"""Of a period, which is rounding."""
+
+Serve = Callable[[FleetWays, dict[int, int]], TimedFleet]
+"""Times robots along their ways, but for those that stand at their starts, each with one that is in
+its way."""
+
+
+def timed_patrols(ways: FleetWays, separation: float, periods: int, serve: Serve) -> TimedFleet:
+    """Time a fleet with patrols.
+
+    Args:
+        ways: With one lap of each patrol.
+        separation: Free space between any two bodies [m].
+        periods: So many of them at least come after all others have arrived.
+        serve: Times those that end.
+
+    Raises:
+        GaveUpError: There would be too many laps until all others have arrived.
+    """
+    asked = _AskedPatrols.of(ways, separation)
+    out = asked.hopeless()
+    while True:
+        out = asked.meetings.with_passers(out)
+        names = [name for k, name in enumerate(asked.names) if asked.flags[k] and k not in out]
+        if not names:
+            return replace(serve(ways, out), reasons=asked.reasons(out))
+        try:
+            rhythm = patrol_rhythm(
+                [one for one in ways.members if one.name in names],
+                {name: ways.plans[asked.names.index(name)] for name in names},
+                separation,
+            )
+        except GaveUpError as error:
+            who, whom = (asked.names.index(name) for name in error.obstacles)
+            out = {**out, who: whom}
+            continue
+        found = _among(asked, rhythm, out, periods, serve)
+        if isinstance(found, TimedFleet):
+            return replace(found, reasons=asked.reasons(out))
+        out = {**out, **found}
+
+
+@dataclass(frozen=True, eq=False)
+class _AskedPatrols:
+    """What is timed.
+
+    Attributes:
+        ways: With one lap of each patrol.
+        separation: Free space between any two bodies [m].
+        flags: Which robots are patrols, (n,).
+        meetings: Where patrols pass places at which others stand.
+    """
+
+    ways: FleetWays
+    separation: float
+    flags: Flags
+    meetings: PatrolMeetings
+
+    @classmethod
+    def of(cls, ways: FleetWays, separation: float) -> _AskedPatrols:
+        """The patrols among some robots."""
+        flags = np.array([one.mission.route.is_patrol for one in ways.members], np.bool_)
+        vanishes = ways.rides.packed.vanishes
+        meetings = PatrolMeetings.of(ways.courses, ways.crossings, vanishes, flags)
+        return cls(ways, separation, flags, meetings)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The robots that have a path."""
+        return self.ways.courses.names
+
+    def hopeless(self) -> dict[int, int]:
+        """See ``PatrolMeetings.hopeless``."""
+        return self.meetings.hopeless(self.flags)
+
+    def unrolled(self, rhythm: PatrolRhythm, later: dict[str, int], until: float) -> FleetWays:
+        """The ways with as many laps of each patrol as it takes.
+
+        Args:
+            rhythm: Of the patrols.
+            later: So many periods later than it could each sets out, by name.
+            until: The laps last until then at least [s].
+
+        Raises:
+            GaveUpError: There would be too many laps.
+        """
+        period, plans, laws = rhythm.period, {}, {}
+        rounds = {
+            name: max(math.ceil((until - law.start_time) / period - later[name] - SAME_SHARE), 1)
+            for name, law in rhythm.laws.items()
+        }
+        most = max(rounds, key=lambda name: rounds[name] * rhythm.laps[name])
+        if sum(rounds[name] * rhythm.laps[name] for name in rounds) > MOST_LAPS:
+            raise GaveUpError(
+                f"'{most}' would drive {rounds[most] * rhythm.laps[most]} laps until all others "
+                "have arrived",
+                where=rhythm.rounds[most].path.stops[0][0].at,
+                remedy=f"let '{most}' drive a longer lap, or the others depart sooner",
+                tried=("laps laid out until all others have arrived",),
+            )
+        for name, plan in zip(self.names, self.ways.plans, strict=True):
+            if name not in rounds:
+                plans[name] = plan
+                continue
+            laps = rhythm.laps[name]
+            plans[name] = driven_laps(plan, laps * rounds[name])
+            seams = seams_of(plans[name].path, laps * rounds[name])[::laps]
+            law = repeated_law(rhythm.laws[name], seams, period)
+            laws[name] = law.delayed(later[name] * period)
+        ways = replace(self.ways, settled=laws).along(plans, self.separation)
+        return self._compared(ways, rhythm, laws)
+
+    def _compared(
+        self, ways: FleetWays, rhythm: PatrolRhythm, laws: Mapping[str, Trajectory]
+    ) -> FleetWays:
+        """The ways with patrols that, if they were alone, would begin each round when they do."""
+        packed, rides = ways.courses.packed, ways.rides
+        alone, by_clock = rides.alone.copy(), copied_laws(rides.laws.packed)
+        for robot, name in enumerate(self.names):
+            if name not in laws:
+                continue
+            part = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
+            nodes = packed.distance[part]
+            laps = rhythm.laps[name]
+            ends = seams_of(ways.plans[robot].path, ways.plans[robot].mission.route.laps)[::laps]
+            begun = rhythm.rounds[name].trajectory.delayed(float(set_out(laws[name]).start_time))
+            law = on_nodes(repeated_law(begun, ends, rhythm.period), nodes)
+            arrive, leave, speed = law_at_nodes(law, nodes)
+            by_clock.arrive[part], by_clock.leave[part] = arrive, leave
+            by_clock.speed[part] = speed
+            by_clock.arrive[part.start] = rides.packed.depart[robot]
+            alone[robot] = law.end_time - rides.packed.depart[robot]
+        return replace(ways, rides=replace(rides, alone=alone, laws=FleetLaws(by_clock)))
+
+    def reasons(self, out: dict[int, int]) -> dict[int, tuple[str, str]]:
+        """Why robots aren't served, and what would help, where a place is in the way."""
+        found = {}
+        for robot, other in out.items():
+            passer, stands = (robot, other) if self.flags[robot] else (other, robot)
+            if [passer, stands] in self.meetings.starts.tolist():
+                rest = next(iter(rests_of(self.ways.members[stands], self._reach(stands))))
+            elif [passer, stands] in self.meetings.goals.tolist():
+                *_, rest = rests_of(self.ways.members[stands], self._reach(stands))
+            else:
+                continue
+            reason, remedy = rest_in_the_way(
+                self.names[passer], self.ways.plans[passer], rest, self._reach(passer)
+            )
+            found[robot] = (reason, remedy)
+            if self.flags[stands]:
+                name, (_, _, aside) = self.names[stands], remedy.partition(", or ")
+                found[robot] = (
+                    f"'{name}' comes back to its start every lap, where '{self.names[passer]}' "
+                    "has to pass",
+                    f"let '{name}' {aside or 'start elsewhere'}",
+                )
+        return found
+
+    def _reach(self, robot: int) -> float:
+        return float(self.ways.courses.packed.reach[robot])
+
+
+def _among(
+    asked: _AskedPatrols, rhythm: PatrolRhythm, out: dict[int, int], periods: int, serve: Serve
+) -> TimedFleet | dict[int, int]:
+    """The fleet timed past its patrols; or the patrols that can't be served, and why.
+
+    Who starts where a patrol passes leaves before that one sets out. Where this or a later arrival
+    takes more laps, all is timed anew.
+    """
+    period, names = rhythm.period, asked.names
+    later = dict.fromkeys(rhythm.laws, 0)
+    rides = asked.ways.rides
+    ends = (rides.packed.depart + rides.alone)[~asked.flags].max(initial=0.0)
+    begins = max(law.start_time for law in rhythm.laws.values())
+    until = max(SPARE_SHARE * float(ends), begins) + periods * period
+    extensions = 0
+    for _ in range(MOST_ROUNDS):
+        timed = serve(asked.unrolled(rhythm, later, until), out)
+        blocked = {robot: by for robot, by in timed.timing.blocked.items() if robot not in out}
+        held = {
+            names[patrol]
+            for robot in blocked
+            for patrol in asked.meetings.start_passed_by(robot)
+            if names[patrol] in later
+        }
+        if held:
+            soonest = float(min(rides.packed.depart[robot] for robot in blocked))
+            later = {
+                name: max(n + 1, math.floor((soonest - rhythm.laws[name].start_time) / period))
+                if name in held
+                else n
+                for name, n in later.items()
+            }
+            begins = max(law.start_time + later[n] * period for n, law in rhythm.laws.items())
+            until = max(until, begins + periods * period)
+            if max(later.values()) * period > SPARE_SHARE * float(ends) + 2.0 * period:
+                return {
+                    names.index(name): robot
+                    for robot in blocked
+                    for name in held
+                    if names.index(name) in asked.meetings.start_passed_by(robot)
+                }
+            continue
+        waits_on = [robot for robot, by in blocked.items() if names[by] in later]
+        if waits_on and extensions < MOST_EXTENSIONS:  # its turn may come after the laps laid out
+            extensions += 1
+            until += until - begins + periods * period
+            continue
+        last = max(timed.last_arrival(), begins)
+        if last + periods * period <= until:
+            laps = FleetPatrols(
+                period,
+                rhythm.laps,
+                {n: law.start_time + later[n] * period for n, law in rhythm.laws.items()},
+                last,
+                until,
+            )
+            return replace(timed, patrols=laps)
+        until = last + periods * period
+    raise GaveUpError(
+        "the robots that end don't arrive, however many laps their patrols drive",
+        where=next(iter(rhythm.rounds.values())).path.stops[0][0].at,
+        remedy="give patrols a number of laps",
+        tried=(f"{MOST_ROUNDS} times more laps",),
+    )

@@ -1,0 +1,77 @@
+"""One period for all patrols."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from viaspline.errors import GaveUpError
+from viaspline.fleet.patrols import patrol_rhythm as rhythm_module
+from viaspline.fleet.patrols.patrol_rhythm import PatrolRhythm, patrol_rhythm
+from viaspline.mission.fleet.fleet import Fleet
+from viaspline.planner import plan
+
+
+def rhythm_of(*robots: dict[str, Any]) -> PatrolRhythm:
+    named = [{"name": f"r{k}", **robot} for k, robot in enumerate(robots)]
+    fleet = Fleet.model_validate({"fleet": named})
+    laps = {one.name: plan(one.mission) for one in fleet.members}
+    return patrol_rhythm(fleet.members, laps, fleet.separation_m)
+
+
+def patrol(*points: list[float], **more: Any) -> dict[str, Any]:
+    return {"route": {"start": points[0], "via": list(points[1:]), "closed": True}, **more}
+
+
+def test_a_single_patrol_has_its_lap_for_a_period() -> None:
+    found = rhythm_of(patrol([0, 0], [20, 0], [20, 20]))
+    assert found.period == pytest.approx(found.laws["r0"].duration)
+    assert found.laps == {"r0": 1}
+
+
+def test_patrols_that_do_not_meet_have_the_longest_lap_for_a_period() -> None:
+    found = rhythm_of(patrol([0, 0], [20, 0]), patrol([0, 30], [60, 30]))
+    assert found.period == pytest.approx(found.laws["r1"].duration)
+    assert found.laps == {"r0": 2, "r1": 1}
+    assert found.laws["r0"].duration <= found.period
+
+
+def test_a_patrol_sets_out_when_it_may_whatever_the_period() -> None:
+    found = rhythm_of(patrol([0, 0], [20, 0]), patrol([0, 30], [60, 30], depart_s=1000))
+    assert found.laws["r1"].start_time == pytest.approx(1000.0)
+
+
+def test_who_has_priority_is_not_held_up() -> None:
+    ways = patrol([0, 0], [20, 0]), patrol([10, 9], [10, -14])
+    alone = [rhythm_of(one).period for one in ways]
+    for favoured in (0, 1):
+        robots = [{**way, "priority": int(k == favoured)} for k, way in enumerate(ways)]
+        found = rhythm_of(*robots)
+        assert found.laws[f"r{favoured}"].duration == pytest.approx(
+            alone[favoured] * found.laps[f"r{favoured}"]
+        )
+
+
+def test_a_period_that_gets_too_long_is_given_up_with_who_is_in_the_way(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    ways = patrol([0, 4], [0, 0], [40, 0], [0, 0.5]), patrol([40, 4], [40, 0], [1, 0], [40, 0.5])
+    assert rhythm_of(*ways).period > 0.0
+    monkeypatch.setattr(rhythm_module, "LONGEST_SHARE", 0.5)
+    with pytest.raises(GaveUpError) as caught:
+        rhythm_of(*ways)
+    assert set(caught.value.obstacles) <= {"r0", "r1"}
+
+
+def test_a_robot_that_turns_on_the_spot_has_time_for_it_between_two_laps() -> None:
+    robot = {"max_yaw_rate_degps": 20, "turn_on_spot": "vias"}
+    route = {"start": [0, 0], "via": [[20, 0], [20, 20]], "closed": True}
+    fleet = Fleet.model_validate(
+        {"robots": {"cart": robot}, "spline": {"tension": 1.0},
+         "fleet": [{"name": "r0", "robot": "cart", "route": route}]}
+    )  # fmt: skip
+    (member,) = fleet.members
+    lap = plan(member.mission)
+    found = patrol_rhythm(fleet.members, {"r0": lap}, 0.5)
+    assert found.period > lap.trajectory.duration + 2.0
