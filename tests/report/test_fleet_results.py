@@ -16,7 +16,8 @@ from rich.console import Console, RenderableType
 
 import viaspline as vs
 from viaspline.errors import OutputError
-from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.not_served import NotServed
 from viaspline.report.fleet_json import fleet_json
 from viaspline.report.fleet_results import (
     check_robot_folders,

@@ -8,7 +8,8 @@ from collections.abc import Callable, Sequence
 from viaspline.errors import GeometryError
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
-from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet

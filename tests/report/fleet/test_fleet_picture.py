@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import viaspline as vs
-from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.lost_times import lost_times
 from viaspline.fleet.timelines import Timeline, timelines_of
 from viaspline.report import style

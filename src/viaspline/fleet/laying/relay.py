@@ -14,7 +14,6 @@ from dataclasses import replace
 import numpy as np
 
 from viaspline.errors import Change, GeometryError, NoPathError, PlanningError
-from viaspline.fleet.laying.lay_among_rests import KEPT_MORE_M
 from viaspline.fleet.laying.resting_places import RestingPlaces, rests_of
 from viaspline.fleet.laying.robot_as_obstacle import as_obstacle
 from viaspline.kernels.arrays import Floats
@@ -31,7 +30,9 @@ from viaspline.world.world import World
 
 SETTLED_S = 1.0
 """For so long beyond the last arrival of others a robot holds its goal [s]."""
-LEAST_DISC_M = 0.01
+KEPT_MORE_M = 0.02
+"""What a path keeps from other robots beyond what it must [m]."""
+LEAST_OBSTACLE_M = 0.01
 """The radius of an obstacle that a robot's own clearance would make up for [m]."""
 
 
@@ -84,7 +85,7 @@ def _needed(fleet: Fleet, member: FleetMember, reach: float) -> float:
     A robot keeps its own clearance to obstacles; the rest is the obstacle's.
     """
     robot = member.mission.robot
-    return max(reach + 0.5 * fleet.separation_m - robot.clearance_m + KEPT_MORE_M, LEAST_DISC_M)
+    return max(reach + 0.5 * fleet.separation_m - robot.clearance_m + KEPT_MORE_M, LEAST_OBSTACLE_M)
 
 
 def _moving(fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan]) -> tuple[Obstacle, ...]:
