@@ -13,12 +13,20 @@ from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet
+from viaspline.fleet.rerouted_fleet import rerouted_fleet, try_cost
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
 from viaspline.handed_in import check_callable, check_kind, number_from
 from viaspline.mission.fleet.fleet import Fleet
 
 FleetProgress = Callable[[str, float], None]
 """Called with what is being done, and the share of it that is done."""
+
+REPAIR_S = 10.0
+"""What may be spent on other paths where not all are served [s on the reference machine]."""
+LEAST_TRIES = 8
+"""Other paths are sought for those that wait where there is time for so many, at least."""
+POLISH_SHARE = 0.02
+"""Of the time for other paths, in which sooner orders are sought with each of them."""
 
 
 def plan_fleet(
@@ -70,9 +78,9 @@ def plan_fleet(
     if paths is None:
         paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
     tell("timing", 0.0)
-    timed = _served(fleet, FleetWays.of(fleet, paths))
+    timed = _served(fleet, FleetWays.of(fleet, paths), paths)
     if improve > 0.0:
-        timed = timed.improved(improve, lambda share: tell("improving", share))
+        timed = _improved(fleet, timed, paths, improve, lambda share: tell("improving", share))
     tell("proving", 0.0)
     return _planned(fleet, timed, paths.laid.not_served)
 
@@ -93,7 +101,32 @@ def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
     return _planned(fleet, timed, paths.laid.not_served)
 
 
-def _served(fleet: Fleet, ways: FleetWays) -> TimedFleet:
+def _improved(
+    fleet: Fleet, timed: TimedFleet, paths: CrossingPaths, seconds: float,
+    progress: Callable[[float], None],
+) -> TimedFleet:  # fmt: skip
+    """Sooner orders, and if there is time for enough of them other paths for those that wait.
+
+    Args:
+        fleet: What is asked for.
+        timed: Where it begins.
+        paths: Of the fleet.
+        seconds: What may be spent [s on the reference machine].
+        progress: Called with the share that is spent.
+    """
+    third, kept = seconds / 3.0, paths.laid.kept
+    costs = [try_cost(timed, robot) for robot in range(len(timed.ways.members))]
+    if kept is None or timed.blocked or not costs or LEAST_TRIES * max(costs) > third:
+        return timed.improved(seconds, progress)
+    timed = timed.improved(third, lambda share: progress(share / 3.0))
+    timed = rerouted_fleet(
+        timed, kept, fleet.separation_m, third, polish=POLISH_SHARE * third,
+        progress=lambda share: progress((1.0 + share) / 3.0),
+    )  # fmt: skip
+    return timed.improved(third, lambda share: progress((2.0 + share) / 3.0))
+
+
+def _served(fleet: Fleet, ways: FleetWays, paths: CrossingPaths) -> TimedFleet:
     """Robots timed along their paths, with other paths where that leaves some without a law."""
     timed = TimedFleet.by_priority(ways)
     if not timed.blocked:
@@ -101,7 +134,10 @@ def _served(fleet: Fleet, ways: FleetWays) -> TimedFleet:
     led = on_lattice(ways, fleet.separation_m)
     if isinstance(led, TimedFleet) and not led.blocked:
         return led
-    timed = relaid_fleet(fleet, timed) or timed
+    if paths.laid.kept is not None:
+        timed = rerouted_fleet(timed, paths.laid.kept, fleet.separation_m, REPAIR_S)
+    if timed.blocked:
+        timed = relaid_fleet(fleet, timed) or timed
     return timed.past_standing_ones() if timed.blocked else timed
 
 

@@ -16,10 +16,13 @@ from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.lattice_order.lattice_paths import lattice_paths
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
+from viaspline.fleet.renewed_courses import renewed_courses
+from viaspline.fleet.renewed_crossings import renewed_crossings
 from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.rides import FleetRides, rides_of
-from viaspline.fleet.timing.time_paths import Timing, time_paths
+from viaspline.fleet.timing.time_paths import Timing, standing_laws, time_paths
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
+from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 
@@ -67,6 +70,25 @@ class FleetWays:
         rides = rides_of(self.members, laid, courses)
         return FleetWays(self.members, laid, courses, crossings_of(courses), rides)
 
+    def with_path(self, robot: int, plan: Plan, separation: float) -> FleetWays:
+        """The ways of the same robots, one of which takes another path.
+
+        What each takes alone stays as it was: along the path that it had.
+
+        Args:
+            robot: Which one.
+            plan: Its path, with the law that it would drive alone.
+            separation: Free space between any two bodies [m].
+        """
+        laid = (*self.plans[:robot], plan, *self.plans[robot + 1 :])
+        changed = np.array([robot], np.int64)
+        names = [one.name for one in self.members]
+        by_name = dict(zip(names, laid, strict=True))
+        courses = renewed_courses(self.courses, by_name, separation, changed)
+        crossings = renewed_crossings(self.crossings, self.courses, courses, changed)
+        rides = replace(rides_of(self.members, laid, courses), alone=self.rides.alone)
+        return FleetWays(self.members, laid, courses, crossings, rides)
+
 
 @dataclass(frozen=True, eq=False)
 class TimedFleet:
@@ -85,6 +107,32 @@ class TimedFleet:
         """Robots timed by priority, and by the orders that are forced."""
         priorities = [one.priority for one in ways.members]
         return cls(ways, time_paths(ways.courses, ways.crossings, ways.rides, priorities))
+
+    def with_ways(self, ways: FleetWays, robot: int) -> TimedFleet:
+        """One robot timed anew, along another path, among all others as they are timed.
+
+        Args:
+            ways: In which this robot alone has another path.
+            robot: Which one.
+        """
+        laws = standing_laws(ways.courses)
+        old, new = self.ways.courses.packed.first, ways.courses.packed.first
+        given = self.timing.laws.packed
+        for k in range(len(ways.members)):
+            if k == robot:
+                continue
+            was, now = slice(old[k], old[k + 1]), slice(new[k], new[k + 1])
+            for one, other in zip(laws.packed[:3], given[:3], strict=True):
+                one[now] = other[was]
+            laws.packed.is_timed[k] = given.is_timed[k]
+        failed = timed_in_order(
+            ways.courses.packed, ways.crossings.packed, ways.rides.packed, laws.packed,
+            np.array([robot], np.int64),
+        )  # fmt: skip
+        blocked = {k: by for k, by in self.timing.blocked.items() if k != robot}
+        if failed[0] != CLEAR:
+            blocked[robot] = int(ways.crossings.packed.other[failed[0]])
+        return TimedFleet(ways, Timing(laws, blocked))
 
     @property
     def blocked(self) -> tuple[str, ...]:
