@@ -108,7 +108,7 @@ def test_robots_that_are_not_served_are_named_and_the_others_written(
     assert data["robots"][1]["plan"] is None
     assert data["refused"] == [
         {"name": "north/1", "outcome": "refused", "reason": "'east' rests on its goal",
-         "remedy": "let 'east' leave"}
+         "remedy": "let 'east' leave", "in_the_way": [], "at": None}
     ]  # fmt: skip
     assert [folder.name for folder in write_robots(half_served, tmp_path, print)] == ["east"]
     lines = unserved_lines(half_served)

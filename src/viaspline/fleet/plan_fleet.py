@@ -12,17 +12,18 @@ from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
-from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet, try_cost
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
+from viaspline.fleet.served_fleet import WHOLE_EFFORT, served_fleet
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.unserved.explain_unserved import explain_unserved
 from viaspline.handed_in import check_callable, check_kind, number_from
 from viaspline.mission.fleet.fleet import Fleet
 
 FleetProgress = Callable[[str, float], None]
 """Called with what is being done, and the share of it that is done."""
 
-REPAIR_S = 10.0
-"""What may be spent on other paths where not all are served [s on the reference machine]."""
+TRIES_S = 20.0
+"""What may be spent on what would help those that aren't served [s on the reference machine]."""
 LEAST_TRIES = 8
 """Other paths are sought for those that wait where there is time for so many, at least."""
 POLISH_SHARE = 0.02
@@ -78,11 +79,12 @@ def plan_fleet(
     if paths is None:
         paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
     tell("timing", 0.0)
-    timed = _served(fleet, FleetWays.of(fleet, paths), paths)
+    timed = served_fleet(fleet, paths, WHOLE_EFFORT)
     if improve > 0.0:
         timed = _improved(fleet, timed, paths, improve, lambda share: tell("improving", share))
     tell("proving", 0.0)
-    return _planned(fleet, timed, paths.laid.not_served)
+    unserved = explain_unserved(fleet, paths, timed, TRIES_S)
+    return _planned(fleet, timed, (*paths.laid.not_served, *unserved))
 
 
 def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
@@ -98,7 +100,8 @@ def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
     timed = TimedFleet.by_priority(FleetWays.of(fleet, paths))
     if timed.blocked:
         timed = timed.past_standing_ones()
-    return _planned(fleet, timed, paths.laid.not_served)
+    unserved = explain_unserved(fleet, paths, timed, 0.0)
+    return _planned(fleet, timed, (*paths.laid.not_served, *unserved))
 
 
 def _improved(
@@ -126,38 +129,15 @@ def _improved(
     return timed.improved(third, lambda share: progress((2.0 + share) / 3.0))
 
 
-def _served(fleet: Fleet, ways: FleetWays, paths: CrossingPaths) -> TimedFleet:
-    """Robots timed along their paths, with other paths where that leaves some without a law."""
-    timed = TimedFleet.by_priority(ways)
-    if not timed.blocked:
-        return timed
-    led = on_lattice(ways, fleet.separation_m)
-    if isinstance(led, TimedFleet) and not led.blocked:
-        return led
-    if paths.laid.kept is not None:
-        timed = rerouted_fleet(timed, paths.laid.kept, fleet.separation_m, REPAIR_S)
-    if timed.blocked:
-        timed = relaid_fleet(fleet, timed) or timed
-    return timed.past_standing_ones() if timed.blocked else timed
-
-
 def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -> FleetPlan:
     """The plan of a fleet that is timed."""
     ways, timing = timed.ways, timed.timing
     courses, names = ways.courses, ways.courses.names
-    unserved = [
-        NotServed(
-            names[robot], "gave up",
-            f"it can't be timed along its path: '{names[other]}' is in its way",
-            f"give '{names[other]}' another start, goal or priority, or let it leave",
-        )
-        for robot, other in sorted(timing.blocked.items())
-    ]  # fmt: skip
     crossings = ordered_crossings(courses, ways.crossings, timing.laws)
     return FleetPlan(
         fleet=fleet,
         plans=timed.plans(),
-        not_served=(*not_served, *unserved),
+        not_served=tuple(not_served),
         certificate=certify_fleet(courses, timing.laws, fleet.separation_m),
         precedences=precedences_of(courses, crossings, timing.laws, ways.rides.laws),
         alone=dict(zip(names, ways.rides.alone.tolist(), strict=True)),

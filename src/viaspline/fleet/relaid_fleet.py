@@ -35,16 +35,15 @@ ROOMS_M = (0.3, 0.6, 0.15, 0.0)
 [m]: the boxes of crossings, which are half a metre long, tell who passes first if there is room."""
 PATHS_A_LAYING = 24
 """What one laying of a robot among others that move costs, in layings of a path."""
-BUDGET_S = 60.0
-"""What all of them may cost [s of the reference machine]."""
 
 
-def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
+def relaid_fleet(fleet: Fleet, timed: TimedFleet, budget: float) -> TimedFleet | None:
     """A fleet timed along other paths for those that are blocked.
 
     Args:
         fleet: What is asked for.
         timed: With robots that are blocked.
+        budget: What may be spent [s of the reference machine].
 
     Returns:
         None where no more are served by it.
@@ -55,7 +54,7 @@ def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
     names = [ways.members[k].name for k in wanted]
     best: TimedFleet | None = None
     cost = max(laying_cost(ways.plans[robot]) for robot in blocked)
-    left = int(BUDGET_S / (PATHS_A_LAYING * cost))
+    left = int(budget / (PATHS_A_LAYING * cost))
     for room in ROOMS_M:
         wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
         relaid = relay_paths(wider, fixed, names, left)

@@ -31,7 +31,7 @@ LEAST_GAIN_S = 0.5
 
 
 @dataclass(frozen=True)
-class Stretch:
+class ContestedStretch:
     """A stretch on which one robot is in another one's way.
 
     Attributes:
@@ -97,7 +97,7 @@ def try_cost(timed: TimedFleet, robot: int) -> float:
     return LAYINGS_A_TRY * laying_cost(timed.ways.plans[robot]) + boxes / BOXES_A_S
 
 
-def _key(stretch: Stretch) -> tuple[int, int, int, int]:
+def _key(stretch: ContestedStretch) -> tuple[int, int, int, int]:
     low, high = stretch.between
     return stretch.robot, stretch.other, round(low), round(high)
 
@@ -113,7 +113,7 @@ def _score(timed: TimedFleet, asked: Floats) -> tuple[int, float]:
     return int((~served).sum()), float((weight * np.where(served, late, 0.0)).sum())
 
 
-def _worst(timed: TimedFleet) -> Iterator[Stretch]:
+def _worst(timed: TimedFleet) -> Iterator[ContestedStretch]:
     """Stretches on which robots are in each other's way, those that cost most first."""
     ways, laws = timed.ways, timed.timing.laws
     packed = ways.crossings.packed
@@ -133,16 +133,16 @@ def _worst(timed: TimedFleet) -> Iterator[Stretch]:
         yield from _either(packed.robots[crossing], packed.span[crossing], second)
 
 
-def _either(robots: Ints, span: Floats, first: int) -> Iterator[Stretch]:
+def _either(robots: Ints, span: Floats, first: int) -> Iterator[ContestedStretch]:
     """One robot kept off the other one's stretch, then the other way round."""
     lower, upper = robots.tolist()
     a, b, c, d = span.tolist()
-    both = [Stretch(lower, upper, (c, d)), Stretch(upper, lower, (a, b))]
+    both = [ContestedStretch(lower, upper, (c, d)), ContestedStretch(upper, lower, (a, b))]
     yield from sorted(both, key=lambda one: one.robot != first)
 
 
 def _rerouted(
-    timed: TimedFleet, stretch: Stretch, kept: KeptPaths, separation: float
+    timed: TimedFleet, stretch: ContestedStretch, kept: KeptPaths, separation: float
 ) -> TimedFleet | None:
     """The fleet with one robot off a stretch of another one's path; None if there is no path."""
     ways, robot, other = timed.ways, stretch.robot, stretch.other

@@ -26,6 +26,9 @@ from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 
+MOST_TRIED_AGAIN = 40
+"""Robots that stand at their starts and are tried once more when others stand there too."""
+
 
 @dataclass(frozen=True, eq=False)
 class FleetWays:
@@ -153,15 +156,23 @@ class TimedFleet:
 
     def past_standing_ones(self) -> TimedFleet:
         """With those that could not be timed standing at their starts, in the way of others."""
-        ways, priorities = self.ways, [one.priority for one in self.ways.members]
         blocked = dict(self.timing.blocked)
-        while True:
-            timing = time_paths(
-                ways.courses, ways.crossings, ways.rides, priorities, sorted(blocked)
-            )
-            if not timing.blocked:
-                return replace(self, timing=replace(timing, blocked=blocked))
+        timing = self._around(blocked)
+        while timing.blocked:
             blocked |= timing.blocked
+            timing = self._around(blocked)
+        by_priority = sorted(blocked, key=lambda k: (-self.ways.members[k].priority, k))
+        for robot in by_priority[:MOST_TRIED_AGAIN]:  # in whose way others stand that don't now
+            fewer = {k: by for k, by in blocked.items() if k != robot}
+            again = self._around(fewer)
+            if not again.blocked:
+                blocked, timing = fewer, again
+        return replace(self, timing=replace(timing, blocked=blocked))
+
+    def _around(self, standing: Mapping[int, int]) -> Timing:
+        """All others timed by priority, round those that stand at their starts."""
+        ways, priorities = self.ways, [one.priority for one in self.ways.members]
+        return time_paths(ways.courses, ways.crossings, ways.rides, priorities, sorted(standing))
 
     def improved(
         self, seconds: float, progress: Callable[[float], None] | None = None
