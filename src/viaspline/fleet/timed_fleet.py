@@ -13,7 +13,7 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses, courses_of
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
-from viaspline.fleet.lattice_order.lattice_paths import lattice_paths
+from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_paths
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
 from viaspline.fleet.renewed_courses import renewed_courses
@@ -193,9 +193,18 @@ def on_lattice(ways: FleetWays, separation: float) -> TimedFleet | NoLatticeOrde
         ways: The paths that robots would drive alone.
         separation: Free space between any two bodies [m].
     """
-    laid = lattice_paths(dict(zip(ways.courses.names, ways.plans, strict=True)), separation)
-    if isinstance(laid, NoLatticeOrder):
-        return laid
-    led = ways.along(laid.plans, separation)
-    steps = list(laid.steps.values())
-    return TimedFleet(led, time_in_order(led.courses, led.crossings, led.rides, steps))
+    plans = dict(zip(ways.courses.names, ways.plans, strict=True))
+    best: TimedFleet | None = None
+    for shape in SHAPES:
+        laid = lattice_paths(plans, separation, shape=shape)
+        if isinstance(laid, NoLatticeOrder):
+            return laid
+        led = ways.along(laid.plans, separation)
+        steps = list(laid.steps.values())
+        timing = time_in_order(led.courses, led.crossings, led.rides, steps)
+        if best is None or len(timing.blocked) < len(best.blocked):
+            best = TimedFleet(led, timing)
+        if not best.blocked:
+            break
+    assert best is not None  # there are shapes
+    return best
