@@ -74,6 +74,7 @@ def test_all_are_served_and_apart(robots: tuple[dict[str, Any], ...]) -> None:
     assert least_distance(plan) >= APART - 1e-6
 
 
+@pytest.mark.slow
 def test_a_body_too_long_for_the_bay_is_not_served_and_told_so() -> None:
     walls = [(0.0, 13.0), (14.05, 30.0)]
     known = [{"polygon": [[a, 1.6], [b, 1.6], [b, 6], [a, 6]]} for a, b in walls]
