@@ -90,7 +90,7 @@ def cannot_both_arrive(world: World, first: PassingRobot, second: PassingRobot) 
 
     Example:
         >>> from viaspline.mission.model import Mission
-        >>> ends = (1.0, 1.0), (9.0, 1.0)
+        >>> ends = (1.0, 0.6), (9.0, 0.6)
         >>> there, back = (PassingRobot(one, 0.5, 0.5) for one in (ends, ends[::-1]))
         >>> aisle, hall = (World(bounds=(0, 0, 10, height)) for height in (1.2, 6.0))
         >>> cannot_both_arrive(aisle, there, back), cannot_both_arrive(hall, there, back)
