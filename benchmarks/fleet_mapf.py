@@ -27,7 +27,7 @@ import viaspline as vs
 from viaspline.fleet.courses import courses_of
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
-from viaspline.fleet.lattice_order.lattice_paths import lattice_paths
+from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_paths
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
 from viaspline.fleet.timing.rides import rides_of
@@ -91,13 +91,20 @@ def members_of(world, robot, ends) -> list[FleetMember]:
 
 def led(members, alone):
     """Robots led over a lattice: their paths, and their laws."""
-    paths = lattice_paths(alone, 0.0)
-    if isinstance(paths, NoLatticeOrder):
-        return None
-    courses = courses_of(paths.plans, 0.0)
-    crossings = crossings_of(courses)
-    rides = rides_of(members, list(paths.plans.values()), courses)
-    return courses, time_in_order(courses, crossings, rides, list(paths.steps.values()))
+    best = None
+    for shape in SHAPES:
+        paths = lattice_paths(alone, 0.0, shape=shape)
+        if isinstance(paths, NoLatticeOrder):
+            return None
+        courses = courses_of(paths.plans, 0.0)
+        crossings = crossings_of(courses)
+        rides = rides_of(members, list(paths.plans.values()), courses)
+        timing = time_in_order(courses, crossings, rides, list(paths.steps.values()))
+        if best is None or len(timing.blocked) < len(best[1].blocked):
+            best = courses, timing
+        if not timing.blocked:
+            break
+    return best
 
 
 def main(folder: Path, cases) -> None:

@@ -16,7 +16,8 @@ from rich.console import Console, RenderableType
 
 import viaspline as vs
 from viaspline.errors import OutputError
-from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.not_served import NotServed
 from viaspline.report.earlier_robots import earlier_robots, forget_robots
 from viaspline.report.fleet_json import fleet_json
 from viaspline.report.fleet_results import (
@@ -110,7 +111,7 @@ def test_robots_that_are_not_served_are_named_and_the_others_written(
     assert data["robots"][1]["plan"] is None
     assert data["refused"] == [
         {"name": "north/1", "outcome": "refused", "reason": "'east' rests on its goal",
-         "remedy": "let 'east' leave"}
+         "remedy": "let 'east' leave", "in_the_way": [], "at": None}
     ]  # fmt: skip
     assert [folder.name for folder in write_robots(half_served, tmp_path, print)] == ["east"]
     lines = unserved_lines(half_served)

@@ -7,34 +7,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import floor
-from typing import Literal
 
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
 from viaspline.fleet.precedences import Precedence
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
-
-
-@dataclass(frozen=True)
-class NotServed:
-    """A robot that has no plan.
-
-    Attributes:
-        name: The robot.
-        outcome: ``refused``: proven that there is none; ``gave up``: none was found.
-        reason: Why, in words, with the robots and places that are in the way.
-        remedy: The least change that would help.
-    """
-
-    name: str
-    outcome: Literal["refused", "gave up"]
-    reason: str
-    remedy: str
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,13 +10,17 @@ from viaspline.errors import GeometryError
 from viaspline.fleet.among_moving import among_moving, proven_among
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
-from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.patrols.timed_patrols import timed_patrols
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet
+from viaspline.fleet.rerouted_fleet import rerouted_fleet, try_cost
+from viaspline.fleet.served_fleet import WHOLE_EFFORT, served_fleet
 from viaspline.fleet.still_world import without_motion
-from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
+from viaspline.fleet.unserved.explain_unserved import explain_unserved
 from viaspline.handed_in import check_callable, check_kind, number_from
 from viaspline.mission.fleet.fleet import Fleet
 
@@ -25,6 +29,12 @@ FleetProgress = Callable[[str, float], None]
 
 PERIODS = 2
 """Of patrols that never end so many periods are planned, from when nobody else moves any more."""
+TRIES_S = 20.0
+"""What may be spent on what would help those that aren't served [s on the reference machine]."""
+LEAST_TRIES = 8
+"""Other paths are sought for those that wait where there is time for so many, at least."""
+POLISH_SHARE = 0.02
+"""Of the time for other paths, in which sooner orders are sought with each of them."""
 
 
 def plan_fleet(
@@ -87,17 +97,27 @@ def plan_fleet(
     still = without_motion(fleet)
     ways = FleetWays.of(still, paths)
 
-    def better(timed: TimedFleet) -> TimedFleet:
-        if improve == 0.0:
-            return timed
-        return timed.improved(improve, lambda share: tell("improving", share))
+    def improving(share: float) -> None:
+        tell("improving", share)
 
-    if still is fleet:
-        timed = better(_served(fleet, ways, periods))
+    if still is not fleet:
+        timed = among_moving(
+            fleet, ways,
+            lambda out: _sooner(_of_those_that_end(still, ways, out), improve, improving),
+        )  # fmt: skip
+    elif _has_patrols(ways):
+        timed = timed_patrols(
+            ways, fleet.separation_m, periods,
+            lambda among, out: _of_those_that_end(fleet, among, out),
+        )  # fmt: skip
+        timed = _sooner(timed, improve, improving)
     else:
-        timed = among_moving(fleet, ways, lambda out: better(_of_those_that_end(still, ways, out)))
+        timed = served_fleet(fleet, paths, WHOLE_EFFORT)
+        if improve > 0.0:
+            timed = _improved(fleet, timed, paths, improve, improving)
     tell("proving", 0.0)
-    return _planned(fleet, timed, paths.laid.not_served)
+    unserved = _unserved(fleet, paths, timed, TRIES_S)
+    return _planned(fleet, timed, (*paths.laid.not_served, *unserved))
 
 
 def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
@@ -118,7 +138,33 @@ def plan_by_priority(fleet: Fleet, paths: CrossingPaths) -> FleetPlan:
         timed = timed_patrols(ways, fleet.separation_m, PERIODS, _by_priority)
     else:
         timed = _by_priority(ways, {})
-    return _planned(fleet, timed, paths.laid.not_served)
+    return _planned(fleet, timed, (*paths.laid.not_served, *_unserved(fleet, paths, timed, 0.0)))
+
+
+def _unserved(
+    fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, budget: float
+) -> Sequence[NotServed]:
+    """Why robots couldn't be timed, and what would help.
+
+    Among patrols and what moves the reasons are known from their timing, and nothing is tried.
+    """
+    if not fleet.world.moving and timed.patrols is None:
+        return explain_unserved(fleet, paths, timed, budget)
+    names = timed.ways.courses.names
+    return [
+        NotServed(
+            names[robot],
+            "gave up",
+            *timed.reasons.get(
+                robot,
+                (
+                    f"it can't be timed along its path: '{names[other]}' is in its way",
+                    f"give '{names[other]}' another start, goal or priority, or let it leave",
+                ),
+            ),
+        )
+        for robot, other in sorted(timed.timing.blocked.items())
+    ]
 
 
 def _by_priority(ways: FleetWays, left_out: dict[int, int]) -> TimedFleet:
@@ -131,19 +177,8 @@ def _has_patrols(ways: FleetWays) -> bool:
     return any(one.mission.route.is_patrol for one in ways.members)
 
 
-def _served(fleet: Fleet, ways: FleetWays, periods: int) -> TimedFleet:
-    """Robots timed along their paths, with other paths where that leaves some without a law."""
-    if not _has_patrols(ways):
-        return _of_those_that_end(fleet, ways, {})
-
-    def serve(among: FleetWays, left_out: dict[int, int]) -> TimedFleet:
-        return _of_those_that_end(fleet, among, left_out)
-
-    return timed_patrols(ways, fleet.separation_m, periods, serve)
-
-
 def _of_those_that_end(fleet: Fleet, ways: FleetWays, left_out: dict[int, int]) -> TimedFleet:
-    """As ``_served``, where patrols have their laws already.
+    """Robots timed where patrols have their laws already, or something moves.
 
     Args:
         fleet: What is asked for.
@@ -155,31 +190,44 @@ def _of_those_that_end(fleet: Fleet, ways: FleetWays, left_out: dict[int, int]) 
         return timed
     if left_out:
         return timed.past_standing_ones()
-    led = on_lattice(ways, fleet.separation_m)
-    if isinstance(led, TimedFleet) and not led.blocked:
-        return led
-    timed = relaid_fleet(fleet, timed) or timed
+    timed = relaid_fleet(fleet, timed, WHOLE_EFFORT.relay) or timed
     return timed.past_standing_ones() if timed.blocked else timed
+
+
+def _sooner(timed: TimedFleet, seconds: float, progress: Callable[[float], None]) -> TimedFleet:
+    """Sooner orders along the same paths, if there is time for them."""
+    return timed.improved(seconds, progress) if seconds > 0.0 else timed
+
+
+def _improved(
+    fleet: Fleet, timed: TimedFleet, paths: CrossingPaths, seconds: float,
+    progress: Callable[[float], None],
+) -> TimedFleet:  # fmt: skip
+    """Sooner orders, and if there is time for enough of them other paths for those that wait.
+
+    Args:
+        fleet: What is asked for.
+        timed: Where it begins.
+        paths: Of the fleet.
+        seconds: What may be spent [s on the reference machine].
+        progress: Called with the share that is spent.
+    """
+    third, kept = seconds / 3.0, paths.laid.kept
+    costs = [try_cost(timed, robot) for robot in range(len(timed.ways.members))]
+    if kept is None or timed.blocked or not costs or LEAST_TRIES * max(costs) > third:
+        return timed.improved(seconds, progress)
+    timed = timed.improved(third, lambda share: progress(share / 3.0))
+    timed = rerouted_fleet(
+        timed, kept, fleet.separation_m, third, polish=POLISH_SHARE * third,
+        progress=lambda share: progress((1.0 + share) / 3.0),
+    )  # fmt: skip
+    return timed.improved(third, lambda share: progress((2.0 + share) / 3.0))
 
 
 def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -> FleetPlan:
     """The plan of a fleet that is timed."""
     ways, timing = timed.ways, timed.timing
     courses, names = ways.courses, ways.courses.names
-    unserved = [
-        NotServed(
-            names[robot],
-            "gave up",
-            *timed.reasons.get(
-                robot,
-                (
-                    f"it can't be timed along its path: '{names[other]}' is in its way",
-                    f"give '{names[other]}' another start, goal or priority, or let it leave",
-                ),
-            ),
-        )
-        for robot, other in sorted(timing.blocked.items())
-    ]
     patrols = timed.patrols
     certificate = certify_fleet(courses, timing.laws, fleet.separation_m)
     if patrols is not None:
@@ -191,7 +239,7 @@ def _planned(fleet: Fleet, timed: TimedFleet, not_served: Sequence[NotServed]) -
     return FleetPlan(
         fleet=fleet,
         plans=plans,
-        not_served=(*not_served, *unserved),
+        not_served=tuple(not_served),
         certificate=certificate,
         precedences=precedences_of(courses, crossings, timing.laws, ways.rides.laws),
         alone=dict(zip(names, ways.rides.alone.tolist(), strict=True)),

@@ -18,6 +18,7 @@ from viaspline.fleet.courses import courses_of
 from viaspline.fleet.crossings import crossings_of
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_laws import FleetLaws, static_laws
+from viaspline.fleet.laying.lay_round_stretch import laying_cost
 from viaspline.fleet.laying.relay_paths import relay_paths
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.fleet.timing.rides import rides_of
@@ -32,31 +33,33 @@ from viaspline.whole_plan import stations
 ROOMS_M = (0.3, 0.6, 0.15, 0.0)
 """So much farther apart than they must be robots are laid, if they can, one value after the other
 [m]: the boxes of crossings, which are half a metre long, tell who passes first if there is room."""
-MOST_AMONG = 12
-"""In a fleet of so many at most: each is a moving obstacle to those that are laid."""
+PATHS_A_LAYING = 24
+"""What one laying of a robot among others that move costs, in layings of a path."""
 
 
-def relaid_fleet(fleet: Fleet, timed: TimedFleet) -> TimedFleet | None:
+def relaid_fleet(fleet: Fleet, timed: TimedFleet, budget: float) -> TimedFleet | None:
     """A fleet timed along other paths for those that are blocked.
 
     Args:
         fleet: What is asked for.
         timed: With robots that are blocked.
+        budget: What may be spent [s of the reference machine].
 
     Returns:
-        None where the fleet is too large, or no more are served by it.
+        None where no more are served by it.
     """
     ways, blocked = timed.ways, timed.timing.blocked
-    if len(ways.members) > MOST_AMONG:
-        return None
     fixed = timed.plans()
     wanted = [k for k in blocked if not ways.members[k].mission.route.is_patrol]
     wanted.sort(key=lambda k: (-ways.members[k].priority, k))
     names = [ways.members[k].name for k in wanted]
     best: TimedFleet | None = None
+    cost = max(laying_cost(ways.plans[robot]) for robot in blocked)
+    left = int(budget / (PATHS_A_LAYING * cost))
     for room in ROOMS_M:
         wider = fleet.model_copy(update={"separation_m": fleet.separation_m + room})
-        found = relay_paths(wider, fixed, names).plans
+        relaid = relay_paths(wider, fixed, names, left)
+        found, left = relaid.plans, left - relaid.layings
         if len(found) <= len(fixed):
             continue
         again = _along(fleet, ways, fixed, found)

@@ -15,20 +15,26 @@ from viaspline.fleet.courses import FleetCourses, courses_of
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.fleet_laws import FleetLaws, law_at_nodes
-from viaspline.fleet.lattice_order.lattice_paths import lattice_paths
+from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_paths
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
 from viaspline.fleet.patrols.driven_laps import on_nodes
 from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
+from viaspline.fleet.renewed_courses import renewed_courses
+from viaspline.fleet.renewed_crossings import renewed_crossings
 from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import Timing, standing_laws, time_paths
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
+from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 from viaspline.trajectory.trajectory import Trajectory
 
 NOBODY: Mapping[int, int] = MappingProxyType({})
+
+MOST_TRIED_AGAIN = 40
+"""Robots that stand at their starts and are tried once more when others stand there too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +99,25 @@ class FleetWays:
                 laws.packed.is_timed[robot] = True
         return laws
 
+    def with_path(self, robot: int, plan: Plan, separation: float) -> FleetWays:
+        """The ways of the same robots, one of which takes another path.
+
+        What each takes alone stays as it was: along the path that it had.
+
+        Args:
+            robot: Which one.
+            plan: Its path, with the law that it would drive alone.
+            separation: Free space between any two bodies [m].
+        """
+        laid = (*self.plans[:robot], plan, *self.plans[robot + 1 :])
+        changed = np.array([robot], np.int64)
+        names = [one.name for one in self.members]
+        by_name = dict(zip(names, laid, strict=True))
+        courses = renewed_courses(self.courses, by_name, separation, changed)
+        crossings = renewed_crossings(self.crossings, self.courses, courses, changed)
+        rides = replace(rides_of(self.members, laid, courses), alone=self.rides.alone)
+        return replace(self, plans=laid, courses=courses, crossings=crossings, rides=rides)
+
 
 @dataclass(frozen=True, eq=False)
 class TimedFleet:
@@ -125,6 +150,32 @@ class TimedFleet:
         )  # fmt: skip
         return cls(ways, replace(timing, blocked={**timing.blocked, **left_out}))
 
+    def with_ways(self, ways: FleetWays, robot: int) -> TimedFleet:
+        """One robot timed anew, along another path, among all others as they are timed.
+
+        Args:
+            ways: In which this robot alone has another path.
+            robot: Which one.
+        """
+        laws = standing_laws(ways.courses)
+        old, new = self.ways.courses.packed.first, ways.courses.packed.first
+        given = self.timing.laws.packed
+        for k in range(len(ways.members)):
+            if k == robot:
+                continue
+            was, now = slice(old[k], old[k + 1]), slice(new[k], new[k + 1])
+            for one, other in zip(laws.packed[:3], given[:3], strict=True):
+                one[now] = other[was]
+            laws.packed.is_timed[k] = given.is_timed[k]
+        failed = timed_in_order(
+            ways.courses.packed, ways.crossings.packed, ways.rides.packed, laws.packed,
+            np.array([robot], np.int64),
+        )  # fmt: skip
+        blocked = {k: by for k, by in self.timing.blocked.items() if k != robot}
+        if failed[0] != CLEAR:
+            blocked[robot] = int(ways.crossings.packed.other[failed[0]])
+        return replace(self, ways=ways, timing=Timing(laws, blocked))
+
     @property
     def blocked(self) -> tuple[str, ...]:
         """The robots that could not be timed."""
@@ -144,16 +195,26 @@ class TimedFleet:
 
     def past_standing_ones(self) -> TimedFleet:
         """With those that could not be timed standing at their starts, in the way of others."""
-        ways, priorities = self.ways, [one.priority for one in self.ways.members]
         blocked = dict(self.timing.blocked)
-        while True:
-            timing = time_paths(
-                ways.courses, ways.crossings, ways.rides, priorities, sorted(blocked),
-                ways.settled_laws(),
-            )  # fmt: skip
-            if not timing.blocked:
-                return replace(self, timing=replace(timing, blocked=blocked))
+        timing = self._around(blocked)
+        while timing.blocked:
             blocked |= timing.blocked
+            timing = self._around(blocked)
+        by_priority = sorted(blocked, key=lambda k: (-self.ways.members[k].priority, k))
+        for robot in by_priority[:MOST_TRIED_AGAIN]:  # in whose way others stand that don't now
+            fewer = {k: by for k, by in blocked.items() if k != robot}
+            again = self._around(fewer)
+            if not again.blocked:
+                blocked, timing = fewer, again
+        return replace(self, timing=replace(timing, blocked=blocked))
+
+    def _around(self, standing: Mapping[int, int]) -> Timing:
+        """All others timed by priority, round those that stand at their starts."""
+        ways, priorities = self.ways, [one.priority for one in self.ways.members]
+        return time_paths(
+            ways.courses, ways.crossings, ways.rides, priorities, sorted(standing),
+            ways.settled_laws(),
+        )  # fmt: skip
 
     def improved(
         self, seconds: float, progress: Callable[[float], None] | None = None
@@ -192,9 +253,17 @@ def on_lattice(ways: FleetWays, separation: float) -> TimedFleet | NoLatticeOrde
     """
     plans = dict(zip(ways.courses.names, ways.plans, strict=True))
     leaving = [one.name for one in ways.members if one.rest == "leave"]
-    laid = lattice_paths(plans, separation, leaving=leaving)
-    if isinstance(laid, NoLatticeOrder):
-        return laid
-    led = ways.along(laid.plans, separation)
-    steps = list(laid.steps.values())
-    return TimedFleet(led, time_in_order(led.courses, led.crossings, led.rides, steps))
+    best: TimedFleet | None = None
+    for shape in SHAPES:
+        laid = lattice_paths(plans, separation, leaving=leaving, shape=shape)
+        if isinstance(laid, NoLatticeOrder):
+            return laid
+        led = ways.along(laid.plans, separation)
+        steps = list(laid.steps.values())
+        timing = time_in_order(led.courses, led.crossings, led.rides, steps)
+        if best is None or len(timing.blocked) < len(best.blocked):
+            best = TimedFleet(led, timing)
+        if not best.blocked:
+            break
+    assert best is not None  # there are shapes
+    return best

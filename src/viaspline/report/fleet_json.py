@@ -50,6 +50,8 @@ def fleet_json(plan: FleetPlan, name: str, folders: Mapping[str, str]) -> str:
                     "outcome": one.outcome,
                     "reason": one.reason,
                     "remedy": one.remedy,
+                    "in_the_way": one.obstacles,
+                    "at": one.where,
                 }
                 for one in plan.not_served
             ],

@@ -13,7 +13,8 @@ from rich.console import RenderableType
 
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_certificate import FleetCertificate
-from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.not_served import NotServed
 from viaspline.report.terminal_tables import facts_table
 from viaspline.report.units import asked_words, down, metres, place, seconds
 

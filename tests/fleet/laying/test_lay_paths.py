@@ -156,3 +156,69 @@ def test_the_bytes_do_not_depend_on_workers_nor_on_one_that_is_killed() -> None:
     assert len(here) == 28
     assert fingerprint(lay_paths(fleet, kill_one, workers=Processes(2))) == here
     assert killed
+
+
+def pen(x: float) -> dict[str, Any]:
+    """A closed fence round a place."""
+    ring = [(x - 10, -10), (x + 10, -10), (x + 10, 10), (x - 10, 10)]
+    hole = [(x - 8, -8), (x + 8, -8), (x + 8, 8), (x - 8, 8)]
+    return {"name": "pen", "polygon": ring, "holes": [hole]}
+
+
+def corridor(length: float) -> list[dict[str, Any]]:
+    """The walls of a corridor 3 m wide, in which two of these robots can't pass."""
+    walls = [(1.5, 2.5), (-2.5, -1.5)]
+    return [{"polygon": [[-5, a], [length, a], [length, b], [-5, b]]} for a, b in walls]
+
+
+def flanks() -> list[dict[str, Any]]:
+    """What closes the room beside the corridor."""
+    return [{"polygon": [[-5, a], [-4, a], [-4, b], [-5, b]]} for a, b in [(2.5, 12), (-12, -2.5)]]
+
+
+def test_nobody_is_laid_through_a_robot_that_has_no_path() -> None:
+    asked = {"bounds": [-5, -12, 250, 12], "known": [*corridor(180), *flanks(), pen(200)]}
+    stuck = robot("stuck", (20, 0), (200, 0), world=asked)
+    a, b = robot("a", (0, 0), (40, 0), world=asked), robot("b", (5, 0), (10, 0), world=asked)
+    found = laid(stuck, a, b)
+    assert set(found.plans) == {"b"}
+    first, second = found.not_served
+    assert (first.name, first.outcome, second.name, second.outcome) == (
+        "stuck", "refused", "a", "refused",
+    )  # fmt: skip
+    assert second.obstacles == ("stuck",)
+    assert "'stuck'" in second.reason
+    assert "'stuck'" in second.remedy
+
+
+def test_who_stands_for_ever_where_another_has_to_get_to_is_named_with_the_distance() -> None:
+    world = {"known": [pen(100)]}
+    stuck = robot("stuck", (20, 0.5), (100, 0), world=world)
+    found = laid(stuck, robot("a", (0, 0), (20, 0), (40, 0), world=world))
+    assert not found.plans
+    _, second = found.not_served
+    assert second.outcome == "refused"
+    assert "1.50 m too near to route.via[0]" in second.reason
+
+
+def test_who_is_hemmed_in_by_one_without_a_path_has_none_either() -> None:
+    asked = {"bounds": [-5, -12, 250, 12], "known": [*corridor(180), *flanks(), pen(200)]}
+    stuck = robot("stuck", (20, 0), (200, 0), world=asked)
+    inner, outer = (
+        robot(name, (x, 0), (x + 25, 0), world=asked) for name, x in (("c", 5), ("d", 1))
+    )
+    found = laid(inner, stuck, outer)
+    assert not found.plans
+    assert {one.name for one in found.not_served} == {"stuck", "c", "d"}
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.floats(2.0, 2.3), st.booleans())
+def test_tight_resting_places_are_kept_from_as_far_as_via_points_allow(
+    apart: float, on_the_left: bool
+) -> None:
+    side = apart if on_the_left else -apart
+    found = laid(robot("a", (0, 0), (30, 0)), robot("b", (0, side), (-30, side)))
+    assert not found.passed
+    assert least_distance(found, "a", (0, side)) >= APART - 1e-6
+    assert least_distance(found, "b", (0, 0)) >= APART - 1e-6

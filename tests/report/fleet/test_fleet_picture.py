@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import viaspline as vs
-from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.lost_times import lost_times
+from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.timelines import Timeline, timelines_of
 from viaspline.report import style
 from viaspline.report.fleet.coordination_panel import (

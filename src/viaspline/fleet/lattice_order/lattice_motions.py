@@ -20,8 +20,6 @@ from viaspline.kernels.fleet.straightened_motions import (
 )
 from viaspline.world.world import World
 
-ROUNDS = 3
-"""In which motions are made straighter."""
 ROOM_SHARE = 0.5
 """Of the room between two robots in neighbouring cells, kept between those that drive past."""
 LATER = 8
@@ -65,7 +63,7 @@ class LatticeMotions:
 
 def lattice_motions(
     plan: LatticePlan, lattice: CellLattice, world: World, lines: Sequence[Floats], reach: Floats,
-    kept: Floats, soonest: Steps,
+    kept: Floats, soonest: Steps, rounds: int,
 ) -> LatticeMotions:  # fmt: skip
     """Motions of robots from start to goal, in the order of a lattice plan.
 
@@ -81,6 +79,7 @@ def lattice_motions(
         reach: How far each keeps others away on its part [m], (n,).
         kept: What the centre of each keeps of the world [m], (n,).
         soonest: The step at which each may set out, (n,).
+        rounds: In which motions are made straighter.
     """
     cells = np.hstack([plan.places, np.repeat(plan.places[:, -1:], LATER, axis=1)])
     places = lattice.places[cells]
@@ -107,5 +106,5 @@ def lattice_motions(
                 sets_out[robot] = departs[robot] = start
                 arrives[robot] = math.ceil(start + takes)
         others = np.where(sets_out < 0, arrives, departs)  # nothing to do for those on their lines
-        straightened_motions(world.packed, kept, places, reach, margin, departs, others, ROUNDS)
+        straightened_motions(world.packed, kept, places, reach, margin, departs, others, rounds)
     return LatticeMotions(places, arrives, sets_out)

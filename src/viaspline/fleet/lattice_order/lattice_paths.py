@@ -29,14 +29,30 @@ from viaspline.trajectory.retime import retime
 from viaspline.whole_plan import stations
 from viaspline.world.world import World
 
-FARTHEST_SHARE = 0.3
-"""Of a cell, how far the rounding of a corner may be from it."""
 CHORD_M = 0.25
 """Length of the chords that a path is taken for [m]."""
 MOST_LATER = 3.0
 """Of the longest drive: who departs later than that does so after all others anyway."""
 SAME_M = 1e-6
 """Places that are no farther apart are one [m]."""
+
+
+@dataclass(frozen=True)
+class LatticeShape:
+    """How near paths keep to the cells of a lattice.
+
+    Attributes:
+        rounds: In which they are made straighter.
+        rounding: Of a cell, how far the rounding of a corner may be from it.
+    """
+
+    rounds: int
+    rounding: float
+
+
+SHAPES = (LatticeShape(3, 0.3), LatticeShape(0, 0.3), LatticeShape(0, 0.05))
+"""The quickest first: in dense fleets straighter paths come near each other where the lattice has
+no order for them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +90,7 @@ def lattice_paths(
     separation: float,
     work: int = WORK,
     leaving: Collection[str] = (),
+    shape: LatticeShape = SHAPES[0],
 ) -> LatticePaths | NoLatticeOrder:
     """Lay the paths of robots anew, so that all can pass each other in an order that is known.
 
@@ -86,6 +103,7 @@ def lattice_paths(
         separation: Free space between any two bodies [m].
         work: States and choices of each search on the lattice, at most.
         leaving: The robots that leave the world when they have arrived.
+        shape: How near they keep to its cells.
 
     Example:
         >>> from viaspline.mission.model import Mission
@@ -123,7 +141,7 @@ def lattice_paths(
     if isinstance(solved, NoLatticeOrder):
         return solved
     lines = [_line(plan) for plan in many]
-    motions = lattice_motions(solved, lattice, world, lines, reach, kept, soonest)
+    motions = lattice_motions(solved, lattice, world, lines, reach, kept, soonest, shape.rounds)
     laid: dict[str, Plan] = {}
     steps: dict[str, PassingSteps] = {}
     for robot, (name, plan) in enumerate(plans.items()):
@@ -136,7 +154,7 @@ def lattice_paths(
             )
             continue
         places, when = motions.vertices(robot)
-        laid[name], steps[name] = _laid(plan, places, when, world, FARTHEST_SHARE * lattice.cell)
+        laid[name], steps[name] = _laid(plan, places, when, world, shape.rounding * lattice.cell)
     return LatticePaths(laid, steps)
 
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viaspline.fleet.fleet_plan import NotServed
 from viaspline.fleet.laying.lay_among_rests import LaidPath, lay_among_rests
 from viaspline.fleet.laying.resting_places import RestingPlaces
+from viaspline.fleet.not_served import NotServed
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan
@@ -67,8 +67,11 @@ class KeptPaths:
             alone: Its path as if it were alone.
             reach: How far it keeps others away on its part [m].
             rests: Of all robots.
+
+        Raises:
+            PlanningError: When there is no path round robots that can't leave.
         """
-        known = self.laid[name] if self.alone.get(name) is alone else None
+        known = self.laid.get(name) if self.alone.get(name) is alone else None
         if known is not None and rests.places == self.rests.places:
             return known
         found = lay_among_rests(alone.plan, alone.mission, name, reach, rests)

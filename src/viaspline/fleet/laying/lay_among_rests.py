@@ -1,9 +1,10 @@
 """The path of one robot, round the resting places of others that it would come too near to.
 
-A path keeps a hair more from them than it must: bounds of a whole curve are a little short of what
-they bound. Where there is no path round a place, it is passed: the robot has to get by before the
-other one has arrived there, or once it has departed. That is a matter of timing, and not settled
-here.
+A path keeps more from them than it must, so much that what is known of crossings has none there:
+then timing may keep a robot at its resting place for as long as it likes. Where there is no path
+round a place, it is passed: the robot has to get by before the other one has arrived there, or once
+it has departed. That is a matter of timing, and not settled here. Where a robot stands that can't
+leave, no path passes.
 
 Tested through ``fleet/laying/test_lay_paths``.
 """
@@ -17,20 +18,23 @@ import numpy as np
 
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces
+from viaspline.fleet.laying.rests_as_obstacles import world_with_rests
 from viaspline.fleet.laying.step_aside import can_step_aside, stepped_aside
+from viaspline.fleet.laying.stranded_robots import no_way_past_stranded, stranded_at_point
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.mission.model import Mission
-from viaspline.mission.shapes.circle import Circle
-from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import Plan, plan_in
 from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.world.world import World
 
-KEPT_MORE_M = 0.02
+KEPT_MORE_M = 0.1
 """What a path keeps from resting places beyond what it must [m],"""
-ENOUGH_MORE_M = 0.01
-"""and what of that it has to keep indeed [m]."""
+ENOUGH_MORE_M = 0.085
+"""and what of that it has to keep indeed [m]: crossings may reach 0.02 m beyond a cell, 0.05 m
+beyond a piece of several, and as far as the end of a course, which is 0.01 m long."""
+HAIR_M = 1e-4
+"""What is left of that where a via point is nearer to a resting place [m], at least."""
 IN_SIGHT_M = 4.0
 """Once a path is led round something, it sees others that it comes so near to [m]."""
 MAX_ROUNDS = 12
@@ -61,26 +65,54 @@ def lay_among_rests(
         name: The robot.
         reach: How far it keeps others away on its part [m].
         rests: Of all robots.
+
+    Raises:
+        NoPathError: When there is no path round robots that can't leave.
+        GaveUpError: When none was found, or it isn't proven that these can't leave.
     """
     own = rests.of_robot(name)
-    past = rests.at(_points(mission), reach + KEPT_MORE_M)
+    points = _points(mission)
+    past = rests.at(points, reach)
+    stuck = rests.stranded - own
+    if stuck & past:
+        raise stranded_at_point(mission, reach, rests.places[min(stuck & past)])
+    eased = _eased(rests, points, reach, past | own)
     round_them: set[int] = set()
     plan = alone
     for _ in range(MAX_ROUNDS):
         out = own | past
-        met = rests.near(plan.path.spans, reach + ENOUGH_MORE_M, out)
+        met = eased.near(plan.path.spans, reach + ENOUGH_MORE_M, out)
         if not met.size:
             break
-        seen = rests.near(plan.path.spans, reach + IN_SIGHT_M, out)
-        aside, others = _aside(plan, reach, rests, seen)
-        if aside is not None and not rests.near(aside.path.spans, reach + ENOUGH_MORE_M, out).size:
+        seen = eased.near(plan.path.spans, reach + IN_SIGHT_M, out)
+        aside, others = _aside(plan, reach, eased, seen)
+        if aside is not None and not eased.near(aside.path.spans, reach + ENOUGH_MORE_M, out).size:
             plan = aside
             break
         round_them.update(others if set(others) - round_them else seen.tolist())
-        plan, past = _laid(alone, mission, reach, rests, round_them, past)
+        plan, past = _laid(alone, mission, reach, eased, round_them, past)
         round_them -= past
-    passed = rests.near(plan.path.spans, reach, own).tolist()
-    return LaidPath(plan, tuple(rests.places[k] for k in passed))
+    passed = [rests.places[k] for k in rests.near(plan.path.spans, reach, own).tolist()]
+    stands = [k for k, one in enumerate(rests.places) if one in passed and k in stuck]
+    if stands:
+        raise no_way_past_stranded(alone, mission, reach, rests, stands)
+    return LaidPath(plan, tuple(passed))
+
+
+def _eased(
+    rests: RestingPlaces, points: Floats, reach: float, out: frozenset[int]
+) -> RestingPlaces:
+    """Resting places of which less is kept where one of a robot's points doesn't allow for more."""
+    tight = rests.at(points, reach + KEPT_MORE_M) - out
+    if not tight:
+        return rests
+    places = list(rests.places)
+    for k in tight:
+        one = places[k]
+        spare = float(np.hypot(*(points - one.at).T).min()) - reach - one.reach
+        given = KEPT_MORE_M - max(0.5 * spare, HAIR_M)
+        places[k] = replace(one, reach=max(one.reach - given, 0.0))
+    return RestingPlaces(tuple(places))
 
 
 def _points(mission: Mission) -> Floats:
@@ -110,13 +142,22 @@ def _laid(
     round_them: set[int],
     past: frozenset[int],
 ) -> tuple[Plan, frozenset[int]]:
-    """The plan round as many places as there is a way round, and those that it may pass."""
+    """The plan round as many places as there is a way round, and those that it may pass.
+
+    Raises:
+        PlanningError: When there is no way round those that can't leave.
+    """
+    stuck = rests.stranded
     trying = sorted(round_them)
     while trying:
         try:
-            found = plan_in(mission, _with_rests(alone, mission, reach, rests, trying))
+            found = plan_in(
+                mission, world_with_rests(alone, mission, reach, rests, trying, KEPT_MORE_M)
+            )
         except (PlanningError, GeometryError) as error:
-            blamed = _blamed(error, rests, trying)
+            if set(trying) <= stuck:
+                raise no_way_past_stranded(alone, mission, reach, rests, trying) from error
+            blamed = _blamed(error, rests, trying) - stuck or frozenset(trying) - stuck
             past |= blamed
             trying = [k for k in trying if k not in blamed]
             continue
@@ -130,26 +171,6 @@ def _blamed(
     """The places that are in the way, as an error has it; all of them if it names none."""
     named = error.obstacles if isinstance(error, PlanningError) else ()
     return frozenset(k for k in tried if rests.places[k].name in named) or frozenset(tried)
-
-
-def _with_rests(
-    alone: Plan, mission: Mission, reach: float, rests: RestingPlaces, indices: Sequence[int]
-) -> World:
-    """The world with resting places in it.
-
-    A path keeps the robot's own clearance to a disc, which is another length than what robots keep
-    from each other: the discs are as large as it takes to make up for the difference.
-    """
-    required = Requirements.of(mission, alone.tracking_error).required
-    rows: Floats = rests.rows[list(indices)].copy()
-    rows[:, 2] = np.maximum(rows[:, 2] + reach + KEPT_MORE_M - required, KEPT_MORE_M)
-    discs = tuple(
-        Obstacle.model_construct(
-            name=rests.places[k].name, circle=Circle.model_construct(center=(x, y), radius=radius)
-        )
-        for k, (x, y, radius) in zip(indices, rows.tolist(), strict=True)
-    )
-    return alone.world.with_discs(discs, rows)
 
 
 def _in_world_as_it_is(plan: Plan, world: World) -> Plan:

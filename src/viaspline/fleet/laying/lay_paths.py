@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TypeAlias, TypeVar
 
 from viaspline.errors import GaveUpError, GeometryError, PlanningError
-from viaspline.fleet.fleet_plan import NotServed
 from viaspline.fleet.laying.kept_paths import KeptPaths, PathAlone
 from viaspline.fleet.laying.lay_among_rests import LaidPath, lay_among_rests
 from viaspline.fleet.laying.laying_workers import LayingWorkers, ThisProcess
 from viaspline.fleet.laying.resting_places import RestingPlace, RestingPlaces, all_rests
+from viaspline.fleet.not_served import NotServed, Outcome
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan_in
@@ -60,7 +61,8 @@ def lay_paths(
     """Lay the path of every robot, round those resting places of others that it would hit.
 
     Where there is no way round one of them, the path passes it, and timing has to see to it that
-    its robot isn't there then. A robot without a path stands at its start for good.
+    its robot isn't there then. A robot without a path stands at its start for good, and no path
+    passes there: who finds none round it stays at its start as well.
 
     Args:
         fleet: What is asked for.
@@ -82,14 +84,29 @@ def lay_paths(
     worlds = _worlds(members, before)
     alone = _alone(members, worlds, before, workers, tell)
     reaches = {one.name: _reach(fleet, one, alone[one.name]) for one in members}
-    rests = all_rests(members, list(reaches.values()))
-    laid = _among(alone, reaches, rests, before, workers, tell)
+    missing = {name: one for name, one in alone.items() if isinstance(one, NotServed)}
+    while True:
+        rests = _rests(members, reaches, missing)
+        laid = _among(alone, reaches, rests, before, workers, tell)
+        stuck = {name: one for name, one in laid.items() if isinstance(one, NotServed)}
+        if not stuck.keys() - missing.keys():
+            break
+        missing |= stuck
+    found = {name: one for name, one in laid.items() if isinstance(one, LaidPath)}
     return LaidPaths(
-        {name: one.plan for name, one in laid.items()},
-        tuple(one for one in alone.values() if isinstance(one, NotServed)),
-        {name: one.passed for name, one in laid.items() if one.passed},
-        KeptPaths({one.name: one.mission for one in members}, worlds, alone, rests, laid),
+        {name: one.plan for name, one in found.items()},
+        tuple(missing[one.name] for one in members if one.name in missing),
+        {name: one.passed for name, one in found.items() if one.passed},
+        KeptPaths({one.name: one.mission for one in members}, worlds, alone, rests, found),
     )
+
+
+def _rests(
+    members: Sequence[FleetMember], reaches: Mapping[str, float], missing: Mapping[str, NotServed]
+) -> RestingPlaces:
+    """Where robots rest, those for ever at their starts that have no path."""
+    stranded = {name: one.outcome == "refused" for name, one in missing.items()}
+    return all_rests(members, [reaches[one.name] for one in members], stranded)
 
 
 class _Told:
@@ -99,7 +116,7 @@ class _Told:
         self._progress, self._pieces, self._done = progress, pieces, 0
 
     def more(self, pieces: int) -> None:
-        self._done += pieces
+        self._done = min(self._done + pieces, self._pieces)  # some may be laid once more
         if self._progress is not None and pieces:
             self._progress(self._done, self._pieces)
 
@@ -132,12 +149,13 @@ def _alone(
 def _among(
     alone: Mapping[str, PathAlone | NotServed], reaches: Mapping[str, float], rests: RestingPlaces,
     before: KeptPaths | None, workers: LayingWorkers, tell: _Told,
-) -> dict[str, LaidPath]:  # fmt: skip
-    """The path among resting places of every robot that has one alone, by name."""
+) -> dict[str, LaidPath | NotServed]:  # fmt: skip
+    """The path among resting places of every robot that has one alone, or why there is none."""
     paths = {name: one for name, one in alone.items() if isinstance(one, PathAlone)}
     if before is not None:
         found = {
-            name: before.laid_of(name, one, reaches[name], rests) for name, one in paths.items()
+            name: _laid_or_not(name, partial(before.laid_of, name, one, reaches[name], rests))
+            for name, one in paths.items()
         }
         tell.more(len(alone))
         return found
@@ -182,12 +200,22 @@ class AmongRests:
     rests: RestingPlaces
 
 
-def lay_among(asked: AmongRests) -> list[LaidPath]:
-    """Lay paths among resting places."""
+def lay_among(asked: AmongRests) -> list[LaidPath | NotServed]:
+    """Lay paths among resting places, or say why there are none."""
     return [
-        lay_among_rests(one.plan, one.mission, name, reach, asked.rests)
+        _laid_or_not(
+            name, partial(lay_among_rests, one.plan, one.mission, name, reach, asked.rests)
+        )
         for name, one, reach in zip(asked.names, asked.alone, asked.reaches, strict=True)
     ]
+
+
+def _laid_or_not(name: str, lay: Callable[[], LaidPath]) -> LaidPath | NotServed:
+    """What comes of laying a robot's path."""
+    try:
+        return lay()
+    except PlanningError as error:
+        return not_served(name, error)
 
 
 def lay_alone(asked: AloneTask) -> list[PathAlone | NotServed]:
@@ -229,10 +257,10 @@ def _packed(mission: Mission, worlds: Worlds) -> World:
 
 def not_served(name: str, error: PlanningError | GeometryError) -> NotServed:
     """What is told of a robot that has no path."""
-    if isinstance(error, GaveUpError):
-        return NotServed(name, "gave up", error.reason, error.remedy)
     if isinstance(error, PlanningError):
-        return NotServed(name, "refused", error.reason, error.remedy)
+        outcome: Outcome = "gave up" if isinstance(error, GaveUpError) else "refused"
+        where = (error.where[0], error.where[1])
+        return NotServed(name, outcome, error.reason, error.remedy, error.obstacles, where)
     reason, _, remedy = str(error).partition("; ")
     return NotServed(name, "refused", reason, remedy)
 

@@ -4,17 +4,21 @@ Where robots want each other's places, or meet head-on where two can't pass, no 
 paths serves all of them: one has to get out of the other's way. So those that are timed are things
 that move as it is known to the next one, which finds a path and a law together: on another side,
 later, or aside into a bay until the others are past.
+
+The work of that grows with everything that moves. So at first only those are looked at that are
+known to be in the way, and then, round by round, those that the law that was found comes too near
+to.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
 
-from viaspline.errors import Change, GeometryError, NoPathError, PlanningError
-from viaspline.fleet.laying.lay_among_rests import KEPT_MORE_M
+from viaspline.errors import Change, GaveUpError, GeometryError, NoPathError, PlanningError
+from viaspline.fleet.laying.met_on_the_way import comes_too_near
 from viaspline.fleet.laying.resting_places import RestingPlaces, rests_of
 from viaspline.fleet.laying.robot_as_obstacle import as_obstacle
 from viaspline.kernels.arrays import Floats
@@ -31,11 +35,19 @@ from viaspline.world.world import World
 
 SETTLED_S = 1.0
 """For so long beyond the last arrival of others a robot holds its goal [s]."""
-LEAST_DISC_M = 0.01
+KEPT_MORE_M = 0.02
+"""What a path keeps from other robots beyond what it must [m]."""
+MAX_LOOKS = 6
+"""How often a robot is laid, each time among those as well that it came too near to."""
+MOST_NEAR = 12
+"""Among so many that move a robot is laid, at most."""
+LEAST_OBSTACLE_M = 0.01
 """The radius of an obstacle that a robot's own clearance would make up for [m]."""
 
 
-def relay(fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan]) -> Plan:
+def relay(
+    fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan], near: Collection[str] = ()
+) -> Plan:
     """Lay and time one robot's path among robots that are timed.
 
     Those that are neither timed nor this one stand at their starts as long as that is possible:
@@ -45,6 +57,7 @@ def relay(fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan]) -> Plan:
         fleet: What is asked for.
         member: The robot.
         fixed: Plans of those that are timed, by name: with laws by the clock of the fleet.
+        near: Those of them that are known to be in its way.
 
     Returns:
         A plan whose law begins when the robot may depart; it may wait at its start first.
@@ -64,9 +77,36 @@ def relay(fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan]) -> Plan:
         >>> second.path.length < 40.0, second.trajectory.end_time < 30.0
         (True, True)
     """
+    others = {name: plan for name, plan in fixed.items() if name != member.name}
+    among = [name for name in others if name in near]
+    for _ in range(MAX_LOOKS):
+        moving = _moving(fleet, member, {name: others[name] for name in among})
+        _refuse_overrun(member, moving)
+        found = _laid(fleet, member, others, moving)
+        met = [
+            name
+            for name, plan in others.items()
+            if name not in among and comes_too_near(fleet, member, found, name, plan)
+        ]
+        if not met:
+            return found
+        among += met
+        if len(among) > MOST_NEAR:
+            break
+    raise GaveUpError(
+        f"too many robots come by: {', '.join(among[:5])} …",
+        where=member.mission.route.start.at,
+        remedy="let it depart later (depart_s), or send fewer robots through there",
+        obstacles=among,
+        tried=("moving robots",),
+    )
+
+
+def _laid(
+    fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan], moving: tuple[Obstacle, ...]
+) -> Plan:
+    """A robot's path and law among some that move, and those that stand at their starts."""
     mission, world = in_order(member.mission)
-    moving = _moving(fleet, member, fixed)
-    _refuse_overrun(member, moving)
     rests = _standing(fleet, member, fixed)
     among = _among(mission, member, moving, fixed)
     if rests.places:
@@ -84,7 +124,7 @@ def _needed(fleet: Fleet, member: FleetMember, reach: float) -> float:
     A robot keeps its own clearance to obstacles; the rest is the obstacle's.
     """
     robot = member.mission.robot
-    return max(reach + 0.5 * fleet.separation_m - robot.clearance_m + KEPT_MORE_M, LEAST_DISC_M)
+    return max(reach + 0.5 * fleet.separation_m - robot.clearance_m + KEPT_MORE_M, LEAST_OBSTACLE_M)
 
 
 def _moving(fleet: Fleet, member: FleetMember, fixed: Mapping[str, Plan]) -> tuple[Obstacle, ...]:
@@ -135,7 +175,7 @@ def _among(
     """The mission among robots that move; it holds its goal until they have arrived."""
     known = (*mission.world.known, *moving)
     route = mission.route
-    if member.rest == "stay" and moving:
+    if member.rest == "stay" and fixed:
         last = max(plan.trajectory.end_time for plan in fixed.values())
         hold = max(route.hold_s, last - route.depart_s + SETTLED_S, 0.0)
         route = route.model_copy(update={"hold_s": hold})

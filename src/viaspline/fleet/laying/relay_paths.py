@@ -10,14 +10,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from viaspline.errors import GeometryError, PlanningError
-from viaspline.fleet.fleet_plan import NotServed
 from viaspline.fleet.laying.lay_paths import not_served
 from viaspline.fleet.laying.relay import relay
+from viaspline.fleet.not_served import NotServed
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
 
 MAX_TURNS = 3
 """How often a robot that finds no path is laid before those that are in its way."""
+
+MAX_LAYINGS = 200
+"""How many times a robot is laid."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,13 +30,17 @@ class RelaidPaths:
     Attributes:
         plans: Of all robots that are served, by name, with laws by the clock of the fleet.
         not_served: Those that are to be served and are not.
+        layings: How many times a robot was laid.
     """
 
     plans: dict[str, Plan]
     not_served: tuple[NotServed, ...] = ()
+    layings: int = 0
 
 
-def relay_paths(fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str]) -> RelaidPaths:
+def relay_paths(
+    fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str], layings: int = MAX_LAYINGS
+) -> RelaidPaths:
     """Lay and time robots one after the other, each among all that are timed by then.
 
     Who finds no path because of one that is timed goes first, and that one is laid anew after it.
@@ -43,6 +50,7 @@ def relay_paths(fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str]) -
         fleet: What is asked for.
         fixed: Plans of robots that are timed, by name, with laws by the clock of the fleet.
         names: The others that are to be served, the most important first.
+        layings: How many times a robot may be laid.
 
     Example:
         >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
@@ -57,8 +65,9 @@ def relay_paths(fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str]) -
     waiting = list(names)
     failed: dict[str, NotServed] = {}
     turns: Counter[str] = Counter()
-    while waiting:
-        name = waiting.pop(0)
+    spent = 0
+    while waiting and spent < layings:
+        name, spent = waiting.pop(0), spent + 1
         try:
             plans = {**plans, name: relay(fleet, members[name], plans)}
         except (PlanningError, GeometryError) as error:
@@ -71,7 +80,7 @@ def relay_paths(fleet: Fleet, fixed: Mapping[str, Plan], names: Sequence[str]) -
         if len(plans) > len(best):
             best = plans
     asked = [key for key in members if key in {*fixed, *names} and key not in best]
-    return RelaidPaths(best, tuple(failed.get(key) or _unlaid(key) for key in asked))
+    return RelaidPaths(best, tuple(failed.get(key) or _unlaid(key) for key in asked), spent)
 
 
 def _is_patrol(member: FleetMember) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -17,7 +17,7 @@ from viaspline.mission.fleet.fleet import FleetMember
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
 
-RestKind = Literal["start", "goal", "home"]
+RestKind = Literal["start", "goal", "home", "stranded"]
 
 
 @dataclass(frozen=True)
@@ -26,19 +26,24 @@ class RestingPlace:
 
     Attributes:
         robot: Its name.
-        kind: ``start``: until it departs; ``goal``: from when it has arrived; ``home``: both.
+        kind: ``start``: until it departs; ``goal``: from when it has arrived; ``home``: both;
+            ``stranded``: at its start for ever, for it has no path.
         at: [m].
         reach: How far it keeps others away on its part [m]; see ``PackedCourses``.
+        is_proven: Of one that is stranded, that there is no path for it.
     """
 
     robot: str
     kind: RestKind
     at: tuple[float, float]
     reach: float
+    is_proven: bool = False
 
     @property
     def name(self) -> str:
         """What it is called as an obstacle."""
+        if self.kind == "stranded":
+            return f"{self.robot}, which can't leave its start"
         return f"{self.robot}, resting at its {self.kind}"
 
 
@@ -129,6 +134,11 @@ class RestingPlaces:
             if math.dist(point, self.places[index].at) < reach + self.places[index].reach
         )
 
+    @cached_property
+    def stranded(self) -> frozenset[int]:
+        """Indices of those that are never left."""
+        return frozenset(k for k, one in enumerate(self.places) if one.kind == "stranded")
+
     def of_robot(self, name: str) -> frozenset[int]:
         """Indices of the places of one robot."""
         return self._owners.get(name, frozenset())
@@ -155,7 +165,22 @@ class RestingPlaces:
         return ordered
 
 
-def all_rests(members: Sequence[FleetMember], reaches: Sequence[float]) -> RestingPlaces:
-    """The resting places of robots with these reaches [m]."""
-    pairs = zip(members, reaches, strict=True)
-    return RestingPlaces(tuple(rest for member, reach in pairs for rest in rests_of(member, reach)))
+def all_rests(
+    members: Sequence[FleetMember], reaches: Sequence[float], stranded: Mapping[str, bool]
+) -> RestingPlaces:
+    """The resting places of robots.
+
+    Args:
+        members: The robots.
+        reaches: Of each [m].
+        stranded: Those that have no path, and of each whether that is proven.
+    """
+    found: list[RestingPlace] = []
+    for member, reach in zip(members, reaches, strict=True):
+        if member.name in stranded:
+            x, y = member.mission.route.start.at[:2]
+            is_proven = stranded[member.name]
+            found.append(RestingPlace(member.name, "stranded", (x, y), reach, is_proven))
+        else:
+            found += rests_of(member, reach)
+    return RestingPlaces(tuple(found))

@@ -17,7 +17,8 @@ import numpy as np
 from viaspline.curve.path import Path, PathVia
 from viaspline.errors import GeometryError
 from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.sidestep import ASIDE, FIXED, FREE, KEPT, step_aside
+from viaspline.kernels.fleet.marked_joints import ASIDE, FIXED, FREE, KEPT
+from viaspline.kernels.fleet.sidestep import step_aside
 from viaspline.machine.allowance import allowance
 from viaspline.machine.machine_limits import limits_of
 from viaspline.machine.robot_model import is_driven

@@ -10,7 +10,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.not_served import NotServed
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.planner import Plan
 from viaspline.studio.fleet.planned_fleet import PlannedFleet

@@ -48,7 +48,7 @@ export class RobotList {
     const { fleetPlan } = this.app.store;
     const robot = fleetPlan?.byName.get(name);
     if (!robot) return { note: "", title: "", isBad: false };
-    if (robot.missing) return { note: robot.missing.outcome, title: robot.missing.reason, isBad: true };
+    if (robot.missing) return { note: robot.missing.outcome, title: `${robot.missing.reason}; ${robot.missing.remedy}`, isBad: true };
     const waits = fleetPlan.waitsOf(name);
     const late = robot.law.times.at(-1) - robot.law.times[0] - robot.alone;
     const title = waits.map((/** @type {any} */ wait) => `waits ${wait.seconds.toFixed(1)} s for ${wait.waits_for}`).join("\n");

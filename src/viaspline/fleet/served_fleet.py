@@ -1,0 +1,61 @@
+"""Robots timed along their paths, with other paths where that leaves some without a law.
+
+Tested through ``fleet/test_plan_fleet``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from viaspline.fleet.crossing_paths import CrossingPaths
+from viaspline.fleet.relaid_fleet import relaid_fleet
+from viaspline.fleet.rerouted_fleet import rerouted_fleet
+from viaspline.fleet.timed_fleet import FleetWays, TimedFleet, on_lattice
+from viaspline.fleet.unserved.pair_refusal import cannot_both_be_served
+from viaspline.mission.fleet.fleet import Fleet
+
+
+@dataclass(frozen=True)
+class LadderEffort:
+    """What may be spent where priority alone leaves robots without a law.
+
+    Attributes:
+        reroute: On other paths, timed like all of them [s of the reference machine].
+        relay: On paths that are laid in space and time at once [s of the reference machine].
+    """
+
+    reroute: float
+    relay: float
+
+
+WHOLE_EFFORT = LadderEffort(10.0, 60.0)
+"""For a plan."""
+TRIAL_EFFORT = LadderEffort(2.0, 2.0)
+"""To find out whether something would help."""
+
+
+def served_fleet(fleet: Fleet, paths: CrossingPaths, effort: LadderEffort) -> TimedFleet:
+    """Time robots by priority; where that leaves some without a law, look for other ways.
+
+    All are led over a lattice, if they can be; else some are laid off the stretches on which they
+    are in each other's way, else among the others that move as it is known, unless it is proven
+    that this is of no use.
+
+    Args:
+        fleet: What is asked for.
+        paths: Of the very fleet.
+        effort: What may be spent.
+    """
+    ways = FleetWays.of(fleet, paths)
+    timed = TimedFleet.by_priority(ways)
+    if not timed.blocked:
+        return timed
+    led = on_lattice(ways, fleet.separation_m)
+    if isinstance(led, TimedFleet) and not led.blocked:
+        return led
+    if paths.laid.kept is not None:
+        timed = rerouted_fleet(timed, paths.laid.kept, fleet.separation_m, effort.reroute)
+    pairs = timed.timing.blocked.items()
+    if not all(cannot_both_be_served(fleet, timed, *pair) for pair in pairs):
+        timed = relaid_fleet(fleet, timed, effort.relay) or timed
+    return timed.past_standing_ones() if timed.blocked else timed

@@ -1,0 +1,123 @@
+"""What there is to say of robots that have a path, but no law among the others.
+
+Refused is only what is proven: that two robots can't both get to where they have to. Else it is
+said that the planner gave up. A remedy is named once it was tried: with it the robot is served, and
+everybody who was served without it.
+
+Tested through ``fleet/test_unserved_fleets``.
+"""
+
+from __future__ import annotations
+
+from viaspline.errors import ViasplineError
+from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
+from viaspline.fleet.laying.lay_round_stretch import laying_cost
+from viaspline.fleet.not_served import NotServed, Outcome
+from viaspline.fleet.rerouted_fleet import BOXES_A_S
+from viaspline.fleet.served_fleet import TRIAL_EFFORT, served_fleet
+from viaspline.fleet.timed_fleet import TimedFleet
+from viaspline.fleet.unserved.blocked_stretch import blocked_stretches
+from viaspline.fleet.unserved.fleet_changes import FleetChange, fleet_changes
+from viaspline.fleet.unserved.pair_refusal import cannot_both_be_served
+from viaspline.fleet.unserved.unserved_words import Blocking, reason_of
+from viaspline.mission.fleet.fleet import Fleet
+
+TRIAL_S = 1.0
+"""What a trial costs beside its paths and their timing [s of the reference machine]."""
+PROOF_S = 2.0
+"""What it costs to try a proof that two can't pass [s of the reference machine]."""
+
+
+def explain_unserved(
+    fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, budget: float
+) -> tuple[NotServed, ...]:
+    """Why robots couldn't be timed, and what would help.
+
+    Args:
+        fleet: What is asked for.
+        paths: That were laid for it.
+        timed: What came of it.
+        budget: What may be spent on proofs and on trying what would help [s of the reference
+            machine].
+
+    Returns:
+        One for each robot that has a path and no law, in their order.
+    """
+    found, left = [], budget
+    tried: dict[str, frozenset[str]] = {}
+    for robot, other in sorted(timed.timing.blocked.items()):
+        one, spent = _explained(fleet, paths, timed, robot, other, left, tried)
+        found.append(one)
+        left -= spent
+    return tuple(found)
+
+
+def _explained(
+    fleet: Fleet, paths: CrossingPaths, timed: TimedFleet, robot: int, other: int, budget: float,
+    tried: dict[str, frozenset[str]],
+) -> tuple[NotServed, float]:  # fmt: skip
+    """Why a robot couldn't be timed and what would help, and what it cost to find out [s].
+
+    What comes of changes that are tried is added to those that were.
+    """
+    ways = timed.ways
+    stretches = [] if robot == other else blocked_stretches(timed, robot, other)
+    names = ways.courses.names
+    if not stretches:
+        return (
+            NotServed(
+                names[robot], "gave up",
+                "the order in which all robots pass each other could not be kept",
+                "give the robots more room, or take some out",
+            ),
+            0.0,
+        )  # fmt: skip
+    blocking = Blocking(names[robot], names[other], other in timed.timing.blocked, stretches[0])
+    where = stretches[0].ends[0]
+    spent, is_proven = 0.0, False
+    if budget >= PROOF_S:
+        spent, is_proven = PROOF_S, cannot_both_be_served(fleet, timed, robot, other)
+    cost = _trial_cost(timed)
+    served = {one for k, one in enumerate(names) if k not in timed.timing.blocked}
+    remedy: str | None = None
+    for change in fleet_changes(fleet, timed, stretches):
+        if change.words not in tried:
+            spent += cost if change.lays_all else TRIAL_S
+        if spent > budget:
+            remedy = f"move '{names[other]}' out of the way, or leave it out (this wasn't tried)"
+            break
+        if change.words not in tried:
+            tried[change.words] = _served_with(change, fleet, paths)
+        kept = {one.name for one in change.fleet.members}
+        if (served & kept) | {names[robot]} <= tried[change.words]:
+            remedy = change.words
+            break
+    if remedy is None:
+        remedy = f"leave '{names[robot]}' out: it isn't served without '{names[other]}' either"
+    outcome: Outcome = "refused" if is_proven else "gave up"
+    reason = reason_of(blocking, is_proven=is_proven)
+    return NotServed(names[robot], outcome, reason, remedy, (names[other],), where), spent
+
+
+def _trial_cost(timed: TimedFleet) -> float:
+    """What it costs to plan the fleet once more [s of the reference machine]."""
+    plans = timed.ways.plans
+    laying = len(plans) * max(laying_cost(plan) for plan in plans)
+    return TRIAL_S + laying + len(timed.ways.crossings.packed.cell) / BOXES_A_S
+
+
+def _served_with(change: FleetChange, fleet: Fleet, paths: CrossingPaths) -> frozenset[str]:
+    """The robots that are served with a change."""
+    try:
+        then = crossing_paths(change.fleet, before=_reusable(change, fleet, paths))
+        tried = served_fleet(change.fleet, then, TRIAL_EFFORT)
+    except ViasplineError:
+        return frozenset()
+    return frozenset(tried.ways.courses.names) - frozenset(tried.blocked)
+
+
+def _reusable(change: FleetChange, fleet: Fleet, paths: CrossingPaths) -> CrossingPaths | None:
+    """The paths that there are, as far as they hold for a fleet of the same robots."""
+    names = [one.name for one in fleet.members]
+    is_same = names == [one.name for one in change.fleet.members]
+    return paths if is_same and fleet.separation_m == change.fleet.separation_m else None

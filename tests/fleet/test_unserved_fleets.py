@@ -1,0 +1,171 @@
+"""Who isn't served is told who is in the way, where, whether that is proven, and what helps."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+from viaspline.fleet.crossing_paths import crossing_paths
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.plan_fleet import plan_by_priority, plan_fleet
+from viaspline.mission.fleet.fleet import Fleet
+
+CART = {"radius_m": 0.4, "clearance_m": 0.1, "max_speed_mps": 1.5}
+AISLE = {"bounds": [0, 0, 30, 1.6]}
+APART = 1.1  # centre to centre
+
+
+def robot(name: str, start: Any, goal: Any, **more: Any) -> dict[str, Any]:
+    return {"name": name, "route": {"start": start, "goal": goal}, **more}
+
+
+def asked(*robots: dict[str, Any], **more: Any) -> dict[str, Any]:
+    return {"separation_m": 0.3, "robots": {"cart": CART}, "fleet": list(robots), **more}
+
+
+def planned(*robots: dict[str, Any], **more: Any) -> FleetPlan:
+    return plan_fleet(Fleet.model_validate(asked(*robots, **more)))
+
+
+def in_aisle(*ends: tuple[float, float], **more: Any) -> FleetPlan:
+    robots = [robot(f"r{k}", [a, 0.8], [b, 0.8]) for k, (a, b) in enumerate(ends)]
+    return planned(*robots, world=AISLE, **more)
+
+
+def test_two_that_cannot_change_ends_are_refused_with_the_stretch() -> None:
+    plan = in_aisle((2, 28), (28, 2))
+    assert not plan.plans
+    for one, other in zip(plan.not_served, reversed(plan.not_served), strict=True):
+        assert one.outcome == "refused"
+        assert one.obstacles == (other.name,)
+        assert "26.0 m" in one.reason
+        assert "whatever they do" in one.reason
+        assert one.remedy == f"leave '{other.name}' out"
+
+
+def test_who_rests_in_an_aisle_is_to_leave_and_then_all_are_served() -> None:
+    plan = in_aisle((2, 28), (10, 20))
+    assert set(plan.plans) == {"r1"}
+    (missing,) = plan.not_served
+    assert missing.outcome == "refused"
+    assert "'r1' rests at its goal where 'r0' has to pass" in missing.reason
+    assert missing.remedy == "let 'r1' leave (rest: leave)"
+    again = planned(
+        robot("r0", [2, 0.8], [28, 0.8]), robot("r1", [10, 0.8], [20, 0.8], rest="leave"),
+        world=AISLE,
+    )  # fmt: skip
+    assert again.served
+
+
+def test_of_what_is_told_while_a_route_is_dragged_nothing_was_tried() -> None:
+    fleet = Fleet.model_validate(
+        asked(robot("a", [2, 0.8], [28, 0.8]), robot("b", [28, 0.8], [2, 0.8]), world=AISLE)
+    )
+    plan = plan_by_priority(fleet, crossing_paths(fleet))
+    assert {one.outcome for one in plan.not_served} == {"gave up"}
+    assert all("wasn't tried" in one.remedy for one in plan.not_served)
+
+
+def side_step(depth: float) -> dict[str, Any]:
+    """An aisle with a pocket of some depth in its middle, a metre and a half wide."""
+    low, high = 14.0, 15.5
+    walls = [(0.0, low, 1.6), (high, 30.0, 1.6), (low, high, 1.6 + depth)]
+    known = [{"polygon": [[a, h], [b, h], [b, 9], [a, 9]]} for a, b, h in walls]
+    return {"bounds": [0, 0, 30, 8], "known": known}
+
+
+def could_pass(depth: float) -> bool:
+    """An oracle of its own: is one robot as far up the pocket as it gets clear of the aisle?"""
+    lowest, highest = 0.5, 1.6 + depth - 0.5
+    return highest - lowest >= APART
+
+
+@pytest.mark.parametrize(
+    ("depth", "has_third"),
+    [
+        (0.0, False),
+        pytest.param(0.3, False, marks=pytest.mark.slow),
+        pytest.param(2.5, True, marks=pytest.mark.slow),
+    ],
+)
+def test_refused_are_only_those_that_have_no_way(depth: float, has_third: bool) -> None:
+    robots = [robot("a", [2, 0.8], [28, 0.8]), robot("b", [28, 0.8], [2, 0.8])]
+    robots += [robot("c", [5, 0.8], [9, 0.8], rest="leave")] if has_third else []
+    plan = planned(*robots, world=side_step(depth))
+    refused = {one.name for one in plan.not_served if one.outcome == "refused"}
+    assert not (refused and could_pass(depth))
+    if not could_pass(depth):
+        assert refused <= {"a", "b"}
+        assert len({"a", "b"} & set(plan.plans)) < 2
+
+
+def named(remedy: str, data: dict[str, Any]) -> dict[str, Any]:
+    """The fleet that a remedy asks for."""
+    if found := re.fullmatch(r"leave '(\w+)' out", remedy):
+        data["fleet"] = [one for one in data["fleet"] if one["name"] != found[1]]
+    elif found := re.fullmatch(r"let '(\w+)' leave \(rest: leave\)", remedy):
+        next(one for one in data["fleet"] if one["name"] == found[1])["rest"] = "leave"
+    elif found := re.fullmatch(r"move the (\w+) of '(\w+)' to \((.*), (.*)\)", remedy):
+        one = next(one for one in data["fleet"] if one["name"] == found[2])
+        one["route"][found[1]] = [float(found[3]), float(found[4])]
+    elif found := re.fullmatch(r"let '(\w+)' depart at (.*) s \(depart_s\)", remedy):
+        next(one for one in data["fleet"] if one["name"] == found[1])["depart_s"] = float(found[2])
+    elif found := re.fullmatch(r"give '(\w+)' priority (.*)", remedy):
+        next(one for one in data["fleet"] if one["name"] == found[1])["priority"] = float(found[2])
+    elif found := re.fullmatch(r"ask for a separation of (.*) m \(separation_m\)", remedy):
+        data["separation_m"] = float(found[1])
+    else:
+        pytest.fail(remedy)
+    return data
+
+
+@pytest.mark.parametrize("seed", [0, 3, pytest.param(1, marks=pytest.mark.slow)])
+def test_what_is_named_as_a_remedy_helps(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    starts = random.permutation([2.0, 7.0, 12.0, 17.0, 22.0, 27.0])[:3]
+    goals = random.permutation([3.0, 8.0, 13.0, 18.0, 23.0, 28.0])[:3]
+    rests = random.choice(["stay", "leave"], 3)
+    robots = [
+        robot(f"r{k}", [float(a), 0.8], [float(b), 0.8], rest=str(rest))
+        for k, (a, b, rest) in enumerate(zip(starts, goals, rests, strict=True))
+    ]
+    plan = planned(*robots, world=AISLE)
+    assert plan.certificate.holds
+    for one in plan.not_served:
+        if "isn't served without" in one.remedy:
+            continue
+        then = plan_fleet(Fleet.model_validate(named(one.remedy, asked(*robots, world=AISLE))))
+        assert one.name in then.plans
+
+
+def line_is_possible(starts: Any, goals: Any) -> bool:
+    """On a line nobody passes anybody: who stays ends in the order in which all began."""
+    return list(np.argsort(starts)) == list(np.argsort(goals))
+
+
+@pytest.mark.parametrize(
+    ("starts", "goals"),
+    [
+        ([2.0, 7.0, 12.0, 17.0], [8.0, 13.0, 18.0, 27.0]),
+        ([17.0, 2.0, 12.0, 7.0], [20.0, 5.0, 17.0, 8.0]),
+        ([2.0, 7.0, 12.0], [8.0, 3.0, 13.0]),
+        pytest.param([2.0, 7.0, 12.0], [13.0, 8.0, 3.0], marks=pytest.mark.slow),
+    ],
+)
+def test_on_a_line_all_that_stay_are_served_just_where_their_order_stays(
+    starts: list[float], goals: list[float]
+) -> None:
+    plan = in_aisle(*zip(starts, goals, strict=True))
+    if line_is_possible(starts, goals):
+        assert plan.served
+    else:
+        assert plan.not_served
+        pairs = {
+            (one.name, one.obstacles[0]) for one in plan.not_served if one.outcome == "refused"
+        }
+        for mine, other in pairs:
+            i, j = int(mine[1:]), int(other[1:])
+            assert (starts[i] < starts[j]) != (goals[i] < goals[j])
