@@ -175,6 +175,8 @@ def _different(ways: Sequence[TautWay]) -> Sequence[TautWay]:
 
 def _side_past(solid: Solid | None, route: TautRoute) -> PassingSide:
     """On which side a route passes a solid; over, where it doesn't cross its gate."""
+    if route.is_direct:
+        return "straight"
     if solid is None:
         return "over"
     rows = gate(solid, route.points[0], route.points[-1], SIDE_BITS)

@@ -8,8 +8,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-PassingSide = Literal["left", "right", "over", "under"]
-"""On which side of a thing a way goes past it, seen along the leg."""
+PassingSide = Literal["left", "right", "over", "under", "straight"]
+"""On which side of a thing a way goes past it, seen along the leg; straight where it only keeps
+closer to the line than the spline does."""
 
 
 @dataclass(frozen=True)
