@@ -143,3 +143,13 @@ def test_a_ball_flies_through_voxels_as_well() -> None:
     apart = np.linalg.norm(np.maximum(np.maximum(low - places, places - high), 0), axis=1)
     assert apart.min() >= 1.0 - 1e-6
     assert plan.certificate.holds
+
+
+def test_a_plan_in_space_and_its_flight_show_themselves_in_a_line() -> None:
+    data = city(0)
+    data["world"]["known"] = []  # type: ignore[index]
+    plan = vs.plan(Mission.model_validate(data))
+    assert isinstance(plan, vs.SpatialPlan)
+    for value, word in ((plan, "m clear"), (vs.fly(plan), "reached")):
+        assert word in repr(value)
+        assert len(repr(value)) < 120
