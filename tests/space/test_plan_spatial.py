@@ -153,3 +153,10 @@ def test_a_plan_in_space_and_its_flight_show_themselves_in_a_line() -> None:
     for value, word in ((plan, "m clear"), (vs.fly(plan), "reached")):
         assert word in repr(value)
         assert len(repr(value)) < 120
+
+
+def test_a_wall_from_bound_to_bound_up_to_the_ceiling_is_refused_not_given_up() -> None:
+    data = city(0)
+    data["world"]["known"] = [{"box": {"min": [70, 0, 0], "max": [90, 160, 70]}}]  # type: ignore[index]
+    with pytest.raises(NoPathError):
+        vs.plan(Mission.model_validate(data))
