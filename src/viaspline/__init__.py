@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         PlanningError,
         ViasplineError,
     )
+    from viaspline.fleet.execution.changed_plans import add_robot, remove_robot, reroute_robot
     from viaspline.fleet.execution.delays import Delays
     from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
     from viaspline.fleet.execution.fleet_navigator import FleetNavigator
@@ -45,7 +46,7 @@ if TYPE_CHECKING:
     from viaspline.fleet.plan_fleet import plan_fleet
     from viaspline.formats.load import load
     from viaspline.maps.grid import Grid
-    from viaspline.mission.fleet.fleet import Fleet
+    from viaspline.mission.fleet.fleet import Fleet, FleetMember
     from viaspline.mission.load_map import load_map
     from viaspline.mission.model import Mission
     from viaspline.mission.shapes.obstacle import Obstacle
@@ -72,6 +73,7 @@ _HOMES = {
     "Delays": "fleet.execution.delays",
     "Fleet": "mission.fleet.fleet",
     "FleetCommand": "fleet.execution.fleet_messages",
+    "FleetMember": "mission.fleet.fleet",
     "FleetNavigator": "fleet.execution.fleet_navigator",
     "FleetPlan": "fleet.fleet_plan",
     "FleetRun": "fleet.execution.fleet_run",
@@ -104,6 +106,7 @@ _HOMES = {
     "Trajectory": "trajectory.trajectory",
     "ViasplineError": "errors",
     "World": "world.world",
+    "add_robot": "fleet.execution.changed_plans",
     "advise_tension": "advice",
     "certify": "curve.certificate",
     "certify_moving": "trajectory.moving_certificate",
@@ -111,6 +114,8 @@ _HOMES = {
     "load_map": "mission.load_map",
     "plan": "planner",
     "plan_fleet": "fleet.plan_fleet",
+    "remove_robot": "fleet.execution.changed_plans",
+    "reroute_robot": "fleet.execution.changed_plans",
     "retime": "trajectory.retime",
     "retime_lap": "trajectory.lap",
     "simulate": "robot.simulator",
