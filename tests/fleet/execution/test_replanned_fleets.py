@@ -51,9 +51,13 @@ class Drive:
         self.granted: dict[str, float] = {}
         self.heard = -1.0
 
+    def driving(self) -> list[str]:
+        """Those that have a plan; the others stand at their starts."""
+        return [name for name in self.nav.names if name in self.nav.paths]
+
     def where(self) -> dict[str, np.ndarray]:
         paths = self.nav.paths
-        for name in self.nav.names:
+        for name in self.driving():
             path = paths[name].path
             self.at[name] = np.asarray(path.at_distance(min(self.place[name], path.length)))
         return self.at
@@ -65,7 +69,7 @@ class Drive:
                 self.place[name] >= self.nav.paths[name].path.length - 1e-6,
                 self.holds[name], self.heard, self.number[name],
             )
-            for name in self.nav.names if name not in dead
+            for name in self.driving() if name not in dead
         ]  # fmt: skip
         commands, self.nav = self.nav.step(reports, self.time)
         assert not [one for one in self.nav.events if one.kind == "refused"]

@@ -198,4 +198,7 @@ def _cycle(names: tuple[str, ...], orders: PackedOrders, stuck: Ints) -> str:
                 f"{names[one]} waits at {orders.place[bar]:.1f} m for {names[orders.other[bar]]} "
                 f"to come to {orders.passed[bar]:.1f} m"
             )
-    return "the orders have a cycle: " + ", ".join(words) + "; time the fleet anew"
+    remedy = "time the fleet anew"
+    if orders.short.any():
+        remedy = f"let robots stop within less than {orders.short.max():g} m, or {remedy}"
+    return "the orders have a cycle: " + ", ".join(words) + "; " + remedy

@@ -131,17 +131,19 @@ class FleetUnderWay:
         """With a robot that begins a path of its own now, in place of one of its name."""
         missions, fleet, state = self.known, self.fleet, self.state
         out = [name for name, is_out in zip(fleet.names, state.out, strict=True) if is_out]
-        route = member.mission.route
-        later = route.model_copy(update={"depart_s": max(route.depart_s, self.now)})
-        member = replace(member, mission=member.mission.model_copy(update={"route": later}))
+        member = _departing(member, max(member.mission.route.depart_s, self.now))
         rests = rests_now(fleet, state, missions, member.name)
         plan = laid_from_rest(member, fleet.separation, rests, out)
         let_in = LetIn(state.packed.progress, state.packed.promised, state.out)
         leaves = fleet.names.index(member.name) if member.name in fleet.names else None
         laws = expected_laws(fleet, state, leaves)
-        grown = joined_fleet(fleet, laws, let_in, member, plan)
-        changed = replace(self.along(grown), missions=missions.with_way(member, plan))
-        return changed.told(event)
+        try:
+            changed = self.along(joined_fleet(fleet, laws, let_in, member, plan))
+        except GeometryError:  # too tight for robots that stop short: it lets all others pass first
+            ends = laws.arrive[fleet.courses.packed.first[1:] - 1]
+            last = float(ends[np.isfinite(ends)].max(initial=self.now))
+            changed = self.along(joined_fleet(fleet, laws, let_in, _departing(member, last), plan))
+        return replace(changed, missions=missions.with_way(member, plan)).told(event)
 
     def _laid_anew(self, name: str) -> FleetUnderWay:
         """With another path for a robot that stands, to what is left of its route."""
@@ -156,3 +158,9 @@ class FleetUnderWay:
         member = replace(self.known.members[name], mission=mission)
         place = float(self.state.places[index_of(self.fleet.names, name)])
         return self.joined(member, FleetEvent("re-planned", self.now, name, words, None, place))
+
+
+def _departing(member: FleetMember, time: float) -> FleetMember:
+    """A robot that may depart at a time [s]."""
+    route = member.mission.route.model_copy(update={"depart_s": time})
+    return replace(member, mission=member.mission.model_copy(update={"route": route}))
