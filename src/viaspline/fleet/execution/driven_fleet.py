@@ -74,8 +74,17 @@ class DrivenFleet:
 
 
 def driven_fleet_of(plan: FleetPlan) -> DrivenFleet:
-    """What is driven of a plan: robots that are not served stay at their starts for ever."""
-    rides = plan.rides.packed
-    departs = np.where(plan.laws.packed.is_timed, rides.depart, np.inf)
-    rides, separation = rides._replace(depart=departs), plan.fleet.separation_m
-    return DrivenFleet(plan.courses, plan.crossings, plan.laws, rides, separation)
+    """What is driven of a plan: robots that are not served stay at their starts for ever.
+
+    They have a law by which they stand there; none is driven by it.
+    """
+    served = np.array([name in plan.plans for name in plan.courses.names], np.bool_)
+    rides, laws = plan.rides.packed, plan.laws.packed
+    departs = np.where(served, rides.depart, np.inf)
+    return DrivenFleet(
+        plan.courses,
+        plan.crossings,
+        FleetLaws(laws._replace(is_timed=laws.is_timed & served)),
+        rides._replace(depart=departs),
+        plan.fleet.separation_m,
+    )
