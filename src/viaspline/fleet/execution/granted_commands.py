@@ -5,6 +5,8 @@ Tested through ``fleet/execution/test_fleet_navigator``.
 
 from __future__ import annotations
 
+import numpy as np
+
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.dwells import FleetStations
 from viaspline.fleet.execution.fleet_messages import FleetCommand
@@ -27,8 +29,9 @@ def commands_of(
         period: Until the next step [s].
     """
     orders, packed, commands = state.orders.packed, state.packed, {}
+    rides = fleet.rides._replace(stays=np.zeros_like(fleet.rides.stays))  # grants end at stations
     places, speeds = states_ahead(
-        fleet.courses.packed, fleet.rides, packed.progress, state.speeds, grants, period
+        fleet.courses.packed, rides, packed.progress, state.speeds, grants, period
     )
     sets_out = fleet.rides.depart < state.time + period
     for robot, name in enumerate(fleet.names):
