@@ -9,6 +9,8 @@ from viaspline.errors import GeometryError
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan, NotServed
+from viaspline.fleet.laying.lay_paths import THIS_PROCESS
+from viaspline.fleet.laying.laying_workers import LayingWorkers
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet
@@ -25,6 +27,7 @@ def plan_fleet(
     improve: float = 0.0,
     progress: FleetProgress | None = None,
     paths: CrossingPaths | None = None,
+    workers: LayingWorkers = THIS_PROCESS,
 ) -> FleetPlan:
     """Plan a fleet: a path for each robot, when it drives along it, and the proof of both.
 
@@ -37,12 +40,15 @@ def plan_fleet(
         improve: For so long sooner orders are sought [s, on the reference machine].
         progress: See ``FleetProgress``.
         paths: Of the very fleet, if they are laid already.
+        workers: Who lays the paths, if they aren't: this process, ``Processes`` or a ``Cluster``
+            (``viaspline.fleet.laying.laying_workers``). The plan doesn't depend on that.
 
     Returns:
         The plans of those that are served, proven apart, and why the others are not.
 
     Raises:
         GeometryError: ``improve`` is no finite number of 0 or more.
+        WorkersError: The workers died.
 
     Example:
         >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
@@ -61,13 +67,16 @@ def plan_fleet(
         raise GeometryError(f"improve is {improve}; give a finite number of seconds, 0 or more")
     if progress is not None:
         check_callable("progress", progress, "give a function of words and a share")
+    check_callable("workers.each", getattr(workers, "each", None), "give Processes(4)")
 
     def tell(stage: str, share: float) -> None:
         if progress is not None:
             progress(stage, share)
 
     if paths is None:
-        paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
+        paths = crossing_paths(
+            fleet, lambda done, of: tell("laying paths", done / of), workers=workers
+        )
     tell("timing", 0.0)
     timed = _served(fleet, FleetWays.of(fleet, paths))
     if improve > 0.0:

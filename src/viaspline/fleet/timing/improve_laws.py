@@ -15,11 +15,14 @@ from viaspline.fleet.timing.time_paths import Timing
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.improved_laws import improved_laws
 from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.passages import passages_of
 
-BOXES_PER_S = 8_000_000
-"""What a search looks at in a second of the reference machine."""
+WORK_PER_S = 8_000_000
+"""How many nodes and passages a search looks at in a second of the reference machine."""
 ROUND_S = 0.25
 """After so much work it says how far it is."""
+SEED = 1
+"""Of the random numbers of a search."""
 PRIORITY_WEIGHT = 2.0
 """What a second of a robot counts against one of a robot whose priority is less by one."""
 
@@ -54,14 +57,14 @@ def improve_laws(
         given.arrive.copy(), given.leave.copy(), given.speed.copy(), given.is_timed.copy()
     )
     weight = PRIORITY_WEIGHT ** np.clip(priorities - priorities.mean(), -20.0, 20.0)
-    spent, seed = 0, 0
-    work = int(seconds * BOXES_PER_S)
+    passages = passages_of(courses.packed, crossings.packed)
+    state = np.array([SEED], np.int64)
+    spent, work = 0, int(seconds * WORK_PER_S)
     while spent < work:
-        _, done = improved_laws(
-            courses.packed, crossings.packed, rides.packed, laws, rides.alone,
-            weight, min(work - spent, int(ROUND_S * BOXES_PER_S)), seed,
+        spent += improved_laws(
+            courses.packed, crossings.packed, passages, rides.packed, laws, rides.alone,
+            weight, min(work - spent, int(ROUND_S * WORK_PER_S)), state,
         )  # fmt: skip
-        spent, seed = spent + done, seed + 1
         if progress is not None:
             progress(min(spent / work, 1.0))
     return replace(timing, laws=FleetLaws(laws))

@@ -14,6 +14,8 @@ from viaspline.fleet.timing.forced_orders import forced_orders, timing_order
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.kernels.arrays import Ints
 from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_passages import PackedPassages
+from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 
 MAX_REPAIRS = 40
@@ -53,11 +55,12 @@ def time_paths(
         priorities: Who has more is let pass, (n,).
         left_out: Robots that get no law and stand at their starts.
     """
-    asked = forced_orders(courses.packed, crossings.packed, rides.packed.vanishes)
+    passages = passages_of(courses.packed, crossings.packed)
+    asked = forced_orders(courses.packed, passages, rides.packed.vanishes)
     ranks = [(-p, -t) for p, t in zip(priorities, rides.alone.tolist(), strict=True)]
     best: Timing | None = None
     for _ in range(MAX_REPAIRS):
-        found = _timed(courses, crossings, rides, asked, ranks, left_out)
+        found = _timed(courses, crossings, passages, rides, asked, ranks, left_out)
         if best is None or len(found.blocked) < len(best.blocked):
             best = found
         learned = [
@@ -74,8 +77,8 @@ def time_paths(
 
 
 def _timed(
-    courses: FleetCourses, crossings: FleetCrossings, rides: FleetRides, asked: Ints,
-    ranks: Sequence[tuple[float, ...]], left_out: Sequence[int],
+    courses: FleetCourses, crossings: FleetCrossings, passages: PackedPassages,
+    rides: FleetRides, asked: Ints, ranks: Sequence[tuple[float, ...]], left_out: Sequence[int],
 ) -> Timing:  # fmt: skip
     """One round: those that wait for each other in a circle come last, the foremost one first."""
     laws = standing_laws(courses)
@@ -85,7 +88,9 @@ def _timed(
     circular = sorted(plan.circular.tolist(), key=lambda robot: ranks[robot])
     order = np.array([*plan.order.tolist(), *circular], np.int64)
     order = order[~np.isin(order, list(left_out))]
-    boxes = timed_in_order(courses.packed, crossings.packed, rides.packed, laws.packed, order)
+    boxes = timed_in_order(
+        courses.packed, crossings.packed, passages, rides.packed, laws.packed, order
+    )
     failed = boxes != CLEAR
     others = crossings.packed.other[boxes[failed]].tolist()
     return Timing(laws, dict(zip(order[failed].tolist(), others, strict=True)))
