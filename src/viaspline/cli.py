@@ -49,7 +49,7 @@ IMPROVE = click.option(
 )  # fmt: skip
 WORKERS = click.option(
     "--workers", type=click.IntRange(1, 61), metavar="N",
-    help="So many processes lay a fleet's paths.  [default: one for each core, of 400 robots on]",
+    help="So many processes lay a fleet's paths.  [default: one for each core where that pays]",
 )  # fmt: skip
 SCHEDULER = click.option(
     "--scheduler", metavar="ADDRESS",

@@ -8,8 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from viaspline.fleet.courses import FleetCourses, courses_of
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
@@ -120,7 +118,7 @@ class TimedFleet:
     ) -> TimedFleet:
         """With sooner laws, for so much work [s on the reference machine]."""
         ways = self.ways
-        priorities = np.array([one.priority for one in ways.members], float)
+        priorities = [one.priority for one in ways.members]
         timing = improve_laws(
             ways.courses, ways.crossings, ways.rides, self.timing, priorities, seconds, progress
         )

@@ -13,7 +13,7 @@ import pytest
 
 from viaspline.errors import GeometryError, WorkersError
 from viaspline.fleet.laying.chosen_workers import (
-    MANY_ROBOTS,
+    ROBOTS_SAVED,
     cluster_workers,
     local_workers,
     usual_count,
@@ -120,9 +120,13 @@ def test_what_is_no_number_of_processes_is_refused(count: Any) -> None:
         Processes(count)
 
 
-def test_small_fleets_are_laid_here_and_large_ones_by_all_cores() -> None:
-    assert usual_count(MANY_ROBOTS - 1) == 1
-    assert 1 <= usual_count(MANY_ROBOTS) <= (os.cpu_count() or 1)
+def test_small_fleets_are_laid_here_and_large_ones_by_all_cores(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("os.sched_getaffinity", lambda _: {0, 1}, raising=False)
+    assert [usual_count(n) for n in (1, 2 * ROBOTS_SAVED - 2, 2 * ROBOTS_SAVED)] == [1, 1, 2]
+    monkeypatch.setattr("os.sched_getaffinity", lambda _: {0}, raising=False)
+    assert usual_count(100_000) == 1
     with local_workers(1) as workers:
         assert isinstance(workers, ThisProcess)
 

@@ -14,8 +14,8 @@ from typing import Any
 from viaspline.errors import WorkersError
 from viaspline.fleet.laying.laying_workers import Cluster, LayingWorkers, Processes, ThisProcess
 
-MANY_ROBOTS = 400
-"""From so many on processes lay paths sooner than one does, though each has to start first."""
+ROBOTS_SAVED = 500
+"""So many robots a first process has to be spared before it is worth it that others start."""
 MOST_PROCESSES = 32
 """So many at most, where nobody says."""
 CONNECT_S = 10.0
@@ -28,11 +28,9 @@ def usual_count(robots: int) -> int:
     Args:
         robots: Of the fleet.
     """
-    if robots < MANY_ROBOTS:
-        return 1
-    if hasattr(os, "sched_getaffinity"):
-        return min(len(os.sched_getaffinity(0)), MOST_PROCESSES)
-    return min(os.cpu_count() or 1, MOST_PROCESSES)
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    count = min(cores or 1, MOST_PROCESSES)
+    return count if robots - robots // count >= ROBOTS_SAVED else 1
 
 
 @contextmanager

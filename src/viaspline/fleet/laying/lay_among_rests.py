@@ -1,9 +1,9 @@
 """The path of one robot, round the resting places of others that it would come too near to.
 
-A path keeps a hair more from them than it must: bounds of a whole curve are a little short of what
-they bound. Where there is no path round a place, it is passed: the robot has to get by before the
-other one has arrived there, or once it has departed. That is a matter of timing, and not settled
-here.
+A path keeps a little more from them than it must: crossings are found by bounds of curves, some
+centimetres wide, and by these as well no path is to pass where another robot rests. Where there is
+no path round a place, it is passed: the robot has to get by before the other one has arrived there,
+or once it has departed. That is a matter of timing, and not settled here.
 
 Tested through ``fleet/laying/test_lay_paths``.
 """
@@ -27,9 +27,9 @@ from viaspline.planning.checking.conflicts import proven
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.world.world import World
 
-KEPT_MORE_M = 0.02
+KEPT_MORE_M = 0.1
 """What a path keeps from resting places beyond what it must [m],"""
-ENOUGH_MORE_M = 0.01
+ENOUGH_MORE_M = 0.08
 """and what of that it has to keep indeed [m]."""
 IN_SIGHT_M = 4.0
 """Once a path is led round something, it sees others that it comes so near to [m]."""

@@ -42,14 +42,17 @@ def forced_orders(courses: PackedCourses, passages: PackedPassages, vanishes: Fl
         vanishes: Which robots leave the world when they arrive, (n,).
 
     Returns:
-        Each pair once, (m, 2).
+        Each pair once, (m, 2). Where the one passes the home of the other, which is away meanwhile,
+        each has to pass before the other: that forces no order on their timing, and is left out.
     """
     owner = np.repeat(np.arange(vanishes.size), np.diff(passages.first))
     at_start = passages.entry == courses.first[owner]
     at_goal = (passages.exit == courses.first[owner + 1] - 2) & ~vanishes[owner]
     leaves = np.column_stack([owner[at_start], passages.other[at_start]])
     arrives = np.column_stack([passages.other[at_goal], owner[at_goal]])
-    return np.unique(np.concatenate([leaves, arrives]), axis=0)
+    pairs = np.unique(np.concatenate([leaves, arrives]), axis=0)
+    there, back = pairs @ (vanishes.size, 1), pairs @ (1, vanishes.size)
+    return pairs[~np.isin(there, back)]
 
 
 def timing_order(pairs: Ints, ranks: Sequence[tuple[float, ...]]) -> TimingOrder:

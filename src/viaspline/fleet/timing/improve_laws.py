@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-
-import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.timing.law_search import LawSearch
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.time_paths import Timing
-from viaspline.kernels.arrays import Floats
-from viaspline.kernels.fleet.improved_laws import improved_laws
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.passages import passages_of
 
-WORK_PER_S = 8_000_000
+WORK_PER_S = 3_000_000
 """How many nodes and passages a search looks at in a second of the reference machine."""
 ROUND_S = 0.25
 """After so much work it says how far it is."""
-SEED = 1
-"""Of the random numbers of a search."""
-PRIORITY_WEIGHT = 2.0
-"""What a second of a robot counts against one of a robot whose priority is less by one."""
 
 
 def improve_laws(
@@ -32,7 +25,7 @@ def improve_laws(
     crossings: FleetCrossings,
     rides: FleetRides,
     timing: Timing,
-    priorities: Floats,
+    priorities: Sequence[float],
     seconds: float,
     progress: Callable[[float], None] | None = None,
 ) -> Timing:
@@ -50,21 +43,18 @@ def improve_laws(
         progress: Called with the share that is spent.
 
     Returns:
-        A timing of the same robots, in which the lateness of all, weighed by priority, is no more.
+        A timing of the same robots (those that are blocked stand as they did), in which the
+        lateness of all, weighed by priority, is no more.
     """
     given = timing.laws.packed
     laws = PackedLaws(
         given.arrive.copy(), given.leave.copy(), given.speed.copy(), given.is_timed.copy()
     )
-    weight = PRIORITY_WEIGHT ** np.clip(priorities - priorities.mean(), -20.0, 20.0)
     passages = passages_of(courses.packed, crossings.packed)
-    state = np.array([SEED], np.int64)
+    search = LawSearch.of(courses, crossings, passages, rides, priorities, sorted(timing.blocked))
     spent, work = 0, int(seconds * WORK_PER_S)
     while spent < work:
-        spent += improved_laws(
-            courses.packed, crossings.packed, passages, rides.packed, laws, rides.alone,
-            weight, min(work - spent, int(ROUND_S * WORK_PER_S)), state,
-        )  # fmt: skip
+        spent += search.look(laws, min(work - spent, int(ROUND_S * WORK_PER_S)))
         if progress is not None:
             progress(min(spent / work, 1.0))
     return replace(timing, laws=FleetLaws(laws))

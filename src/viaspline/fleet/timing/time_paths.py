@@ -11,6 +11,7 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.timing.forced_orders import forced_orders, timing_order
+from viaspline.fleet.timing.law_search import LawSearch
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.kernels.arrays import Ints
 from viaspline.kernels.fleet.packed_laws import PackedLaws
@@ -18,8 +19,10 @@ from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 
-MAX_REPAIRS = 40
-"""How often the order is changed because a robot could not let another one pass."""
+RIDES_EACH = 100
+"""So many rides are looked for, to find a law for a robot that can't let another one pass."""
+MAX_IDLE = 5
+"""How often the order is changed for such ones without serving more by it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +47,10 @@ def time_paths(
 ) -> Timing:
     """Time robots along their paths by priority, and by the orders that are forced.
 
-    Among equals those with the longer way come first. A robot that can't let another one pass is
-    timed before that one the next time. Where no path passes another's start or resting place,
-    every robot is served.
+    Among equals those with the longer way come first. For a robot that can't let others pass some
+    of these are timed anew, after it. Where that doesn't help, it is timed before the one that it
+    can't let pass, and all from the beginning. Where no path passes another's start or resting
+    place, every robot is served.
 
     Args:
         courses: Their paths.
@@ -58,11 +62,12 @@ def time_paths(
     passages = passages_of(courses.packed, crossings.packed)
     asked = forced_orders(courses.packed, passages, rides.packed.vanishes)
     ranks = [(-p, -t) for p, t in zip(priorities, rides.alone.tolist(), strict=True)]
-    best: Timing | None = None
-    for _ in range(MAX_REPAIRS):
-        found = _timed(courses, crossings, passages, rides, asked, ranks, left_out)
-        if best is None or len(found.blocked) < len(best.blocked):
-            best = found
+    found = _timed(courses, crossings, passages, rides, asked, ranks, left_out)
+    if not found.blocked:
+        return found
+    search = LawSearch.of(courses, crossings, passages, rides, priorities, left_out)
+    best, idle = _given_laws(search, found), 0
+    while best.blocked and idle < MAX_IDLE:
         learned = [
             (robot, other) for robot, other in found.blocked.items() if other not in left_out
         ]
@@ -72,8 +77,37 @@ def time_paths(
         if len(pairs) == len(asked):
             break
         asked = pairs
-    assert best is not None  # there is a first round
+        found = _timed(courses, crossings, passages, rides, asked, ranks, left_out)
+        idle += 1
+        if len(found.blocked) < len(best.blocked):
+            best, idle = found, 0
     return best
+
+
+def _given_laws(search: LawSearch, timing: Timing) -> Timing:
+    """A timing in which others are timed anew for those that are blocked, as far as that helps."""
+    laws = timing.laws.packed
+    given = PackedLaws(
+        laws.arrive.copy(), laws.leave.copy(), laws.speed.copy(), laws.is_timed.copy()
+    )
+    courses, passages = search.courses.packed, search.passages
+    work = RIDES_EACH * (courses.distance.size + passages.other.size) // laws.is_timed.size
+    for _ in range(len(timing.blocked)):
+        search.look(given, work)
+        if given.is_timed.all():
+            break
+    left = np.flatnonzero(~given.is_timed)
+    boxes = timed_in_order(
+        courses, search.crossings.packed, passages, search.rides.packed, given, left
+    )
+    return Timing(FleetLaws(given), _in_the_way(search.crossings, left, boxes))
+
+
+def _in_the_way(crossings: FleetCrossings, robots: Ints, boxes: Ints) -> dict[int, int]:
+    """Whom robots can't let pass, by the boxes where they can't."""
+    failed = boxes != CLEAR
+    others = crossings.packed.other[boxes[failed]].tolist()
+    return dict(zip(robots[failed].tolist(), others, strict=True))
 
 
 def _timed(
@@ -91,9 +125,7 @@ def _timed(
     boxes = timed_in_order(
         courses.packed, crossings.packed, passages, rides.packed, laws.packed, order
     )
-    failed = boxes != CLEAR
-    others = crossings.packed.other[boxes[failed]].tolist()
-    return Timing(laws, dict(zip(order[failed].tolist(), others, strict=True)))
+    return Timing(laws, _in_the_way(crossings, order, boxes))
 
 
 def standing_laws(courses: FleetCourses) -> FleetLaws:

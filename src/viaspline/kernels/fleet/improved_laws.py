@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.blocked_times import blocks_of, know_passage
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
@@ -26,35 +26,79 @@ from viaspline.kernels.jit import inner, kernel
 
 MOST: Final = 8
 """Robots in a neighbourhood."""
+LATEST_OF = 3
+"""Of so many robots the latest is the first of a neighbourhood."""
 CLOSE_S = 0.5
 """A robot that enters a crossing so soon after another one may have waited for it."""
 GAIN_S = 1e-6
 """By less than this nothing gets better: rounding could go round in circles."""
+UNSERVED_SHARE = 4
+"""Each so manieth neighbourhood is that of a robot without a law, if there is one."""
+UNSERVED_S = 1e9
+"""What a robot without a law counts, beside seconds of lateness."""
 
 
 @inner
-def _lateness_of(scene: Scene, alone: Floats, robot: int) -> float:
-    """How much later than if it were alone a robot arrives [s]."""
+def _cost(scene: Scene, alone: Floats, weight: Floats, robot: int) -> float:
+    """What the lateness of a robot counts [s]."""
+    if not scene.laws.is_timed[robot]:
+        return UNSERVED_S
     arrives = scene.laws.arrive[scene.courses.first[robot + 1] - 1]
-    return arrives - scene.rides.depart[robot] - alone[robot]
+    return weight[robot] * (arrives - scene.rides.depart[robot] - alone[robot])
 
 
 @inner
-def _late_robot(scene: Scene, alone: Floats, state: Ints) -> int:
-    """A robot, the later the likelier: the latest of three."""
-    best, worst = -1, -1.0
-    for _ in range(3):
+def _unserved(scene: Scene, state: Ints) -> int:
+    """Any of the robots that have no law; -1 if there is none."""
+    robots = scene.laws.is_timed.size
+    begin = random_below(state, robots)
+    for k in range(robots):
+        robot = (begin + k) % robots
+        if not scene.laws.is_timed[robot]:
+            return robot
+    return -1
+
+
+@inner
+def _late_robot(scene: Scene, alone: Floats, weight: Floats, movable: Flags, state: Ints) -> int:
+    """A robot, the later the likelier: the latest of some; now and then one without a law."""
+    if random_below(state, UNSERVED_SHARE) == 0:
+        robot = _unserved(scene, state)
+        if robot >= 0:
+            return robot
+    best, worst = -1, GAIN_S
+    for _ in range(LATEST_OF):
         robot = random_below(state, alone.size)
-        if scene.laws.is_timed[robot]:
-            late = _lateness_of(scene, alone, robot)
+        if movable[robot]:
+            late = _cost(scene, alone, weight, robot)
             if late > worst:
                 best, worst = robot, late
     return best
 
 
 @inner
-def _waits_for(scene: Scene, robot: int, chosen: Ints, count: int, most: int) -> int:
-    """Add those that a robot may have waited for to the ones that are chosen. How many then."""
+def _in_the_way(scene: Scene, robot: int, movable: Flags, chosen: Ints) -> int:
+    """Choose those that keep a robot from having a law, one after the other. How many then."""
+    count = 1
+    while count < chosen.size:
+        _, box = yielding_ride(scene, robot)
+        if box == CLEAR:
+            break
+        other = scene.crossings.other[box]
+        if not movable[other]:
+            break
+        scene.laws.is_timed[other] = False
+        chosen[count] = other
+        count += 1
+    for other in chosen[1:count]:
+        scene.laws.is_timed[other] = True
+    return count
+
+
+@inner
+def _waits_for(scene: Scene, robot: int, movable: Flags, chosen: Ints, most: int) -> int:
+    """Choose those that a robot may have waited for. How many then."""
+    count = 1
     courses, crossings, passages, laws = (
         scene.courses, scene.crossings, scene.passages, scene.laws,
     )  # fmt: skip
@@ -75,25 +119,27 @@ def _waits_for(scene: Scene, robot: int, chosen: Ints, count: int, most: int) ->
             gap = laws.arrive[crossings.cell[passages.box[begin + j]]] - blocks.times[at + j, 1]
             is_close = is_close or 0.0 <= gap < CLOSE_S
         other = passages.other[p]
-        if is_close and count < most and not (chosen[:count] == other).any():
+        if is_close and count < most and movable[other] and not (chosen[:count] == other).any():
             chosen[count] = other
             count += 1
     return count
 
 
 @inner
-def _neighbourhood(scene: Scene, robot: int, state: Ints) -> Ints:
+def _neighbourhood(scene: Scene, robot: int, movable: Flags, state: Ints) -> Ints:
     """A robot, those that it may have waited for, and some that it meets."""
     chosen = np.empty(MOST, np.int64)
     chosen[0] = robot
     begin, end = scene.passages.first[robot], scene.passages.first[robot + 1]
     if begin == end:
         return chosen[:1]
+    if not scene.laws.is_timed[robot]:
+        return chosen[: _in_the_way(scene, robot, movable, chosen)]
     most = 2 + random_below(state, MOST - 1)
-    count = _waits_for(scene, robot, chosen, 1, most)
+    count = _waits_for(scene, robot, movable, chosen, most)
     for _ in range(most):
         other = scene.passages.other[begin + random_below(state, end - begin)]
-        if count < most and scene.laws.is_timed[other] and not (chosen[:count] == other).any():
+        if count < most and movable[other] and not (chosen[:count] == other).any():
             chosen[count] = other
             count += 1
     return chosen[:count]
@@ -116,11 +162,14 @@ def _copied(courses: PackedCourses, laws: PackedLaws, robots: Ints) -> Floats:
 
 
 @inner
-def _put_back(courses: PackedCourses, laws: PackedLaws, robots: Ints, kept: Floats) -> None:
+def _put_back(
+    courses: PackedCourses, laws: PackedLaws, robots: Ints, kept: Floats, was_timed: Flags
+) -> None:
     """Undo what was done to the laws of some robots."""
     at = 0
-    for robot in robots:
-        laws.is_timed[robot] = True
+    for i in range(robots.size):
+        robot = robots[i]
+        laws.is_timed[robot] = was_timed[i]
         for node in range(courses.first[robot], courses.first[robot + 1]):
             laws.arrive[node], laws.leave[node] = kept[at, 0], kept[at, 1]
             laws.speed[node] = kept[at, 2]
@@ -134,20 +183,22 @@ def _timed_anew(
     """Give robots new laws in their order.
 
     Returns:
-        (the weighed sum of lateness, infinite if one has no law or it comes to ``most``; for how
-        many robots a ride was sought).
+        (what their lateness counts, infinite if it comes to ``most``; for how many of them a ride
+        was sought).
     """
     total = 0.0
     for i in range(robots.size):
         robot = robots[i]
         ride, box = yielding_ride(scene, robot)
-        if box != CLEAR:
-            return np.inf, i + 1
-        late = ride.arrive[ride.arrive.size - 1] - scene.rides.depart[robot] - alone[robot]
-        total += weight[robot] * late
+        if box == CLEAR:
+            late = ride.arrive[ride.arrive.size - 1] - scene.rides.depart[robot] - alone[robot]
+            total += weight[robot] * late
+        else:
+            total += UNSERVED_S
         if total >= most:
             return np.inf, i + 1
-        take_law(ride, scene.laws)
+        if box == CLEAR:
+            take_law(ride, scene.laws)
     return total, robots.size
 
 
@@ -165,18 +216,23 @@ def _shuffle(robots: Ints, state: Ints) -> None:
 @kernel
 def improved_laws(
     courses: PackedCourses, crossings: PackedCrossings, passages: PackedPassages,
-    rides: PackedRides, laws: PackedLaws, alone: Floats, weight: Floats, work: int, state: Ints,
+    rides: PackedRides, laws: PackedLaws, alone: Floats, weight: Floats, movable: Flags,
+    work: int, state: Ints,
 ) -> int:  # fmt: skip
     """Make laws sooner by taking a few away and giving them back in another order.
+
+    A robot that has no law yet counts as very late: it is given one as soon as nobody loses his for
+    it.
 
     Args:
         courses: PackedCourses.
         crossings: PackedCrossings.
         passages: Of these.
         rides: PackedRides.
-        laws: Of all robots that are served; written to.
+        laws: Written to.
         alone: How long each robot takes if it is alone [s], (n,).
         weight: What a second of its lateness counts, (n,).
+        movable: Whether a robot's law may be changed, (n,).
         work: How many nodes and passages may be looked at.
         state: Of the random numbers, (1,).
 
@@ -187,15 +243,17 @@ def improved_laws(
     done = 0
     while done < work:
         done += 1
-        robot = _late_robot(scene, alone, state)
-        if robot < 0 or _lateness_of(scene, alone, robot) <= GAIN_S:
+        robot = _late_robot(scene, alone, weight, movable, state)
+        if robot < 0:
             continue
-        robots = _neighbourhood(scene, robot, state)
+        robots = _neighbourhood(scene, robot, movable, state)
         done += passages.first[robot + 1] - passages.first[robot]
         before = 0.0
-        for other in robots:
-            before += weight[other] * _lateness_of(scene, alone, other)
+        was_timed = np.ones(robots.size, np.bool_)
         _shuffle(robots, state)
+        for i in range(robots.size):
+            before += _cost(scene, alone, weight, robots[i])
+            was_timed[i] = laws.is_timed[robots[i]]
         kept = _copied(courses, laws, robots)
         for other in robots:
             laws.is_timed[other] = False
@@ -204,5 +262,5 @@ def improved_laws(
             done += passages.first[other + 1] - passages.first[other]
             done += courses.first[other + 1] - courses.first[other]
         if not after < before - GAIN_S:
-            _put_back(courses, laws, robots, kept)
+            _put_back(courses, laws, robots, kept, was_timed)
     return done
