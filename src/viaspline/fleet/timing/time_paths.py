@@ -19,10 +19,10 @@ from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 
-RIDES_EACH = 100
-"""So many rides are looked for, to find a law for a robot that can't let another one pass."""
+RIDES_EACH = 200
+"""So many rides are looked for at a time, for laws of robots that can't let others pass."""
 MAX_IDLE = 5
-"""How often the order is changed for such ones without serving more by it."""
+"""How often that, or another order of all, is tried without serving more by it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,10 +92,11 @@ def _given_laws(search: LawSearch, timing: Timing) -> Timing:
     )
     courses, passages = search.courses.packed, search.passages
     work = RIDES_EACH * (courses.distance.size + passages.other.size) // laws.is_timed.size
-    for _ in range(len(timing.blocked)):
+    served, idle = 0, 0
+    while not given.is_timed.all() and idle < MAX_IDLE:
         search.look(given, work)
-        if given.is_timed.all():
-            break
+        idle = 0 if given.is_timed.sum() > served else idle + 1
+        served = int(given.is_timed.sum())
     left = np.flatnonzero(~given.is_timed)
     boxes = timed_in_order(
         courses, search.crossings.packed, passages, search.rides.packed, given, left
