@@ -91,7 +91,7 @@ def orca(courses, rides) -> None:
           f"{1e3 * np.median(spent):.2f} ms a step, {sum(spent):.1f} s in all")  # fmt: skip
 
 
-def ours(fleet, plans, courses, rides, improve: float) -> None:
+def ours(plans, courses, rides, improve: float) -> None:
     """Time the same paths and say what came of it."""
     equal = [0.0] * len(plans)
     met, crossings = clock(lambda: crossings_of(courses))
@@ -118,14 +118,14 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--improve", type=float, default=0.0)
     asked = parser.parse_args()
-    fleet = fleet_of(asked.robots, asked.seed)
-    plans = lay_paths(fleet).plans
-    courses = courses_of(plans, SEPARATION_M)
-    rides = rides_of(fleet.members, list(plans.values()), courses)
-    for _ in range(2):  # the first time kernels are loaded
-        crossings = crossings_of(courses)
-        time_paths(courses, crossings, rides, [0.0] * asked.robots)
-    ours(fleet, plans, courses, rides, asked.improve)
+    for count in (100, asked.robots):  # the first time kernels are loaded
+        fleet = fleet_of(count, asked.seed)
+        plans = lay_paths(fleet).plans
+        courses = courses_of(plans, SEPARATION_M)
+        rides = rides_of(fleet.members, list(plans.values()), courses)
+        if count != asked.robots:
+            time_paths(courses, crossings_of(courses), rides, [0.0] * count)
+    ours(plans, courses, rides, asked.improve)
     orca(courses, rides)
 
 
