@@ -34,6 +34,7 @@ AHEAD_M = 2.0
 HOME_M = 0.5  # so near its end a robot has arrived
 LONGEST_S = 600.0
 SLOWEST_MPS = 0.3  # that is asked for, so that robots set out
+LEAST_CELL_M = 1e-3  # over less than that an acceleration is rounding
 WINDOW = 40  # nodes of the path in which the nearest one is looked for
 
 
@@ -104,7 +105,9 @@ def ours(plans, courses, rides, improve: float) -> None:
     proved, proof = clock(lambda: certify_fleet(courses, timing.laws, SEPARATION_M))
     laws = timing.laws.packed
     inside = np.delete(np.arange(laws.speed.size - 1), courses.packed.first[1:-1] - 1)
-    rise = np.diff(laws.speed**2)[inside] / (2.0 * np.diff(courses.packed.distance)[inside])
+    wide = np.diff(courses.packed.distance)
+    inside = inside[wide[inside] > LEAST_CELL_M]
+    rise = np.diff(laws.speed**2)[inside] / (2.0 * wide[inside])
     apart = proof.separation + 2.0 * ROBOT["radius_m"]
     print(f"ours: {len(plans) - len(timing.blocked)} of {len(plans)} served, "
           f"{100 * lateness(rides, courses, timing):.1f} % later than alone; at most "

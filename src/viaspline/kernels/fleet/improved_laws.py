@@ -21,7 +21,7 @@ from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.kernels.fleet.random_numbers import random_below
-from viaspline.kernels.fleet.yielding_ride import CLEAR, Scene, take_law, yielding_ride
+from viaspline.kernels.fleet.yielding_ride import CLEAR, RideScene, take_law, yielding_ride
 from viaspline.kernels.jit import inner, kernel
 
 MOST: Final = 8
@@ -39,7 +39,7 @@ UNSERVED_S = 1e9
 
 
 @inner
-def _cost(scene: Scene, alone: Floats, weight: Floats, robot: int) -> float:
+def _cost(scene: RideScene, alone: Floats, weight: Floats, robot: int) -> float:
     """What the lateness of a robot counts [s]."""
     if not scene.laws.is_timed[robot]:
         return UNSERVED_S
@@ -48,7 +48,7 @@ def _cost(scene: Scene, alone: Floats, weight: Floats, robot: int) -> float:
 
 
 @inner
-def _unserved(scene: Scene, state: Ints) -> int:
+def _unserved(scene: RideScene, state: Ints) -> int:
     """Any of the robots that have no law; -1 if there is none."""
     robots = scene.laws.is_timed.size
     begin = random_below(state, robots)
@@ -60,7 +60,9 @@ def _unserved(scene: Scene, state: Ints) -> int:
 
 
 @inner
-def _late_robot(scene: Scene, alone: Floats, weight: Floats, movable: Flags, state: Ints) -> int:
+def _late_robot(
+    scene: RideScene, alone: Floats, weight: Floats, movable: Flags, state: Ints
+) -> int:
     """A robot, the later the likelier: the latest of some; now and then one without a law."""
     if random_below(state, UNSERVED_SHARE) == 0:
         robot = _unserved(scene, state)
@@ -77,7 +79,7 @@ def _late_robot(scene: Scene, alone: Floats, weight: Floats, movable: Flags, sta
 
 
 @inner
-def _in_the_way(scene: Scene, robot: int, movable: Flags, chosen: Ints) -> int:
+def _in_the_way(scene: RideScene, robot: int, movable: Flags, chosen: Ints) -> int:
     """Choose those that keep a robot from having a law, one after the other. How many then."""
     count = 1
     while count < chosen.size:
@@ -96,7 +98,7 @@ def _in_the_way(scene: Scene, robot: int, movable: Flags, chosen: Ints) -> int:
 
 
 @inner
-def _waits_for(scene: Scene, robot: int, movable: Flags, chosen: Ints, most: int) -> int:
+def _waits_for(scene: RideScene, robot: int, movable: Flags, chosen: Ints, most: int) -> int:
     """Choose those that a robot may have waited for. How many then."""
     count = 1
     courses, crossings, passages, laws = (
@@ -126,7 +128,7 @@ def _waits_for(scene: Scene, robot: int, movable: Flags, chosen: Ints, most: int
 
 
 @inner
-def _neighbourhood(scene: Scene, robot: int, movable: Flags, state: Ints) -> Ints:
+def _neighbourhood(scene: RideScene, robot: int, movable: Flags, state: Ints) -> Ints:
     """A robot, those that it may have waited for, and some that it meets."""
     chosen = np.empty(MOST, np.int64)
     chosen[0] = robot
@@ -178,7 +180,7 @@ def _put_back(
 
 @inner
 def _timed_anew(
-    scene: Scene, robots: Ints, most: float, weight: Floats, alone: Floats
+    scene: RideScene, robots: Ints, most: float, weight: Floats, alone: Floats
 ) -> tuple[float, int]:
     """Give robots new laws in their order.
 
@@ -239,7 +241,7 @@ def improved_laws(
     Returns:
         How many were.
     """
-    scene = Scene(courses, crossings, passages, rides, laws)
+    scene = RideScene(courses, crossings, passages, rides, laws)
     done = 0
     while done < work:
         done += 1

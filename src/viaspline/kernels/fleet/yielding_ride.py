@@ -42,7 +42,7 @@ STEPS_AHEAD = 4
 """Places nearer to the crossing than a running start takes."""
 
 
-class Scene(NamedTuple):
+class RideScene(NamedTuple):
     """What a robot rides among.
 
     Attributes:
@@ -61,7 +61,7 @@ class Scene(NamedTuple):
 
 
 @inner
-def _first_blocked(scene: Scene, ride: Ride, blocks: Blocks, i: int, before: int) -> int:
+def _first_blocked(scene: RideScene, ride: Ride, blocks: Blocks, i: int, before: int) -> int:
     """The first box of passage i in which a ride is while the other one is there, or CLEAR."""
     at = know_passage(scene.courses, scene.crossings, scene.passages, scene.laws, blocks, i)
     p, end = blocks.begin + i, ride.square.size - 1
@@ -79,7 +79,7 @@ def _first_blocked(scene: Scene, ride: Ride, blocks: Blocks, i: int, before: int
 
 
 @inner
-def _blocking(scene: Scene, ride: Ride, blocks: Blocks, before: int) -> tuple[int, int]:
+def _blocking(scene: RideScene, ride: Ride, blocks: Blocks, before: int) -> tuple[int, int]:
     """The first box in which a ride is while another robot is there, in cells before a node.
 
     Returns:
@@ -103,7 +103,7 @@ def _blocking(scene: Scene, ride: Ride, blocks: Blocks, before: int) -> tuple[in
 
 
 @inner
-def _lateness(scene: Scene, ride: Ride, blocks: Blocks, i: int) -> tuple[int, float]:
+def _lateness(scene: RideScene, ride: Ride, blocks: Blocks, i: int) -> tuple[int, float]:
     """The first node of passage i, and how much too early a ride is for letting the other pass."""
     at = know_passage(scene.courses, scene.crossings, scene.passages, scene.laws, blocks, i)
     p = blocks.begin + i
@@ -156,7 +156,7 @@ def waits_at(ride: Ride, courses: PackedCourses, rides: PackedRides, entry: int)
 
 
 @inner
-def _give_way(scene: Scene, ride: Ride, blocks: Blocks, entry: int, late: float) -> None:
+def _give_way(scene: RideScene, ride: Ride, blocks: Blocks, entry: int, late: float) -> None:
     """Slow a ride down so that it comes later to a crossing, clear of all before it if it can."""
     courses, rides = scene.courses, scene.rides
     places = waits_at(ride, courses, rides, entry)
@@ -171,11 +171,11 @@ def _give_way(scene: Scene, ride: Ride, blocks: Blocks, entry: int, late: float)
 
 
 @inner
-def yielding_ride(scene: Scene, robot: int) -> tuple[Ride, int]:
+def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
     """The ride of a robot among those that have their law.
 
     Args:
-        scene: Scene.
+        scene: What it rides among.
         robot: Which has none.
 
     Returns:
@@ -236,7 +236,7 @@ def timed_in_order(
         For each of these -1, or the box in which it can't let another robot pass: then it has no
         law, (m,).
     """
-    scene = Scene(courses, crossings, passages, rides, laws)
+    scene = RideScene(courses, crossings, passages, rides, laws)
     found = np.empty(order.size, np.int64)
     for i in range(order.size):
         ride, found[i] = yielding_ride(scene, order[i])
