@@ -4,20 +4,26 @@
 
 Rounds of 214 m in the mean, as in ``fleet_worlds.py``. Robots are slowed by up to 30 %, or halt
 once each in the mean, for 30 s. ``own`` is how late they would be if none had to wait for another.
+One delay of 20 s is told of each robot in turn; one robot more comes on another round.
 """
 
 from __future__ import annotations
 
 import sys
 import time
+from contextlib import suppress
 from dataclasses import replace
 
 import fleet_worlds
 import numpy as np
 
 import viaspline as vs
+from viaspline.fleet.courses import courses_of
+from viaspline.fleet.crossings import crossings_of
+from viaspline.fleet.execution.delay_propagation import DelayPropagation
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
 from viaspline.fleet.execution.fleet_orders import FleetOrders, orders_of
+from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
 from viaspline.fleet.execution.simulate_fleet import drive_fleet
 from viaspline.kernels.fleet.crossing_leaders import UNTIMED
 
@@ -57,14 +63,49 @@ def alone(orders: FleetOrders) -> FleetOrders:
     return replace(orders, leaders=np.full_like(orders.leaders, UNTIMED))
 
 
+def tell_of_delays(orders: FleetOrders) -> None:
+    """How long it takes to say whom a delay of each robot reaches."""
+    propagation = DelayPropagation.of(orders)
+    propagation.delays(orders.names[0], 20.0)
+    took, reached = [], []
+    for name in orders.names:
+        begin = time.process_time()
+        delays = propagation.delays(name, 20.0)
+        took.append(1e3 * (time.process_time() - begin))
+        reached.append(len(delays))
+    print(
+        f"one delay propagated: {np.mean(took):.2f} ms in the mean, {np.median(took):.2f} in the "
+        f"median, {max(took):.2f} at most; it reaches {np.mean(reached):.0f} robots in the mean"
+    )
+
+
+def one_more(plan: vs.FleetPlan) -> None:
+    """How long a robot more takes whose path is given: to find its law, and the whole plan."""
+    driven, names = driven_fleet_of(plan), plan.names
+    members = fleet_of(10, seed=77).members
+    nobody = LetIn(np.full(len(names), np.inf), np.zeros(len(names)), np.zeros(len(names), bool))
+    found, joined = [], []
+    for member in (replace(one, name="more") for one in members):
+        path = vs.plan(member.mission)
+        courses = courses_of({**plan.plans, "more": path}, plan.fleet.separation_m)
+        begin = time.process_time()
+        crossings_of(courses, np.array([len(names)]))
+        found.append(1e3 * (time.process_time() - begin))
+        begin = time.process_time()
+        with suppress(vs.GaveUpError):
+            joined_fleet(driven, plan.laws.packed, nobody, member, path)
+            joined.append(1e3 * (time.process_time() - begin))
+    print(
+        f"one robot more: its crossings {np.median(found):.1f} ms, with its law and put into the "
+        f"fleet {np.median(joined):.1f} ms"
+    )
+
+
 def measure(fleet: DrivenFleet, runs: int) -> None:
     begin = time.perf_counter()
     orders = orders_of(fleet)
     print(f"orders: {time.perf_counter() - begin:.3f} s, {orders.packed.place.size} bars")
-    orders.delays(fleet.names[0], 20.0)
-    begin = time.perf_counter()
-    orders.delays(fleet.names[0], 20.0)
-    print(f"one delay propagated: {1e3 * (time.perf_counter() - begin):.2f} ms")
+    tell_of_delays(orders)
     for words, delays in TROUBLE.items():
         late, own, contacts, stuck, least = [], [], 0, 0, np.inf
         begin = time.perf_counter()
@@ -87,4 +128,5 @@ if __name__ == "__main__":
     robots = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     plan = vs.plan_fleet(fleet_of(robots))
     print(f"{len(plan.plans)} of {robots} robots are served")
+    one_more(plan)
     measure(driven_fleet_of(plan), int(sys.argv[2]) if len(sys.argv) > 2 else 10)

@@ -337,3 +337,11 @@ def test_a_corridor_runs_along_the_via_points_in_the_order_that_was_found() -> N
     assert plan.mission.route.via[0].at == (20.0, 8.0)
     assert plan.world.corridor == vs.World.known(plan.mission).corridor
     assert plan.world.corridor != vs.World.known(asked).corridor
+
+
+def test_a_plan_and_a_run_show_themselves_in_a_line() -> None:
+    mission = vs.Mission.model_validate({"route": {"start": [0, 0], "goal": [50, 0]}})
+    assert repr(vs.plan(mission)).startswith("<Plan: 50.0 m in 27.0 s, inf m clear")
+    run = repr(vs.simulate(mission))
+    assert run.startswith("<Run: 27.0 s")
+    assert run.endswith("reached>")

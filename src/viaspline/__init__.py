@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         PlanningError,
         ViasplineError,
     )
+    from viaspline.fleet.execution.changed_plans import add_robot, remove_robot, reroute_robot
     from viaspline.fleet.execution.delays import Delays
     from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
     from viaspline.fleet.execution.fleet_navigator import FleetNavigator
@@ -47,7 +48,7 @@ if TYPE_CHECKING:
     from viaspline.maps.grid import Grid
     from viaspline.maps.terrain import Terrain
     from viaspline.maps.voxels import Voxels
-    from viaspline.mission.fleet.fleet import Fleet
+    from viaspline.mission.fleet.fleet import Fleet, FleetMember
     from viaspline.mission.load_map import load_map
     from viaspline.mission.model import Mission
     from viaspline.mission.shapes.obstacle import Obstacle
@@ -79,6 +80,7 @@ _HOMES = {
     "Delays": "fleet.execution.delays",
     "Fleet": "mission.fleet.fleet",
     "FleetCommand": "fleet.execution.fleet_messages",
+    "FleetMember": "mission.fleet.fleet",
     "FleetNavigator": "fleet.execution.fleet_navigator",
     "FleetPlan": "fleet.fleet_plan",
     "FleetRun": "fleet.execution.fleet_run",
@@ -116,6 +118,7 @@ _HOMES = {
     "ViasplineError": "errors",
     "Voxels": "maps.voxels",
     "World": "world.world",
+    "add_robot": "fleet.execution.changed_plans",
     "advise_tension": "advice",
     "certify": "curve.certificate",
     "certify_moving": "trajectory.moving_certificate",
@@ -124,6 +127,8 @@ _HOMES = {
     "load_map": "mission.load_map",
     "plan": "plan_mission",
     "plan_fleet": "fleet.plan_fleet",
+    "remove_robot": "fleet.execution.changed_plans",
+    "reroute_robot": "fleet.execution.changed_plans",
     "retime": "trajectory.retime",
     "retime_lap": "trajectory.lap",
     "simulate": "robot.simulator",

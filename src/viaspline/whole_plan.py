@@ -73,6 +73,12 @@ class Plan:
     tracking_error: float = 0.0
     timed: TimedDrive | None = None
 
+    def __repr__(self) -> str:
+        return (
+            f"<Plan: {self.path.length:.1f} m in {self.trajectory.duration:.1f} s, "
+            f"{self.certificate.clearance:.2f} m clear, {len(self.path.vias)} via points>"
+        )
+
     @property
     def moving_certificate(self) -> MovingCertificate | None:
         """The proven clearance to everything that is known to move; None where nothing is."""

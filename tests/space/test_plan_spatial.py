@@ -143,3 +143,20 @@ def test_a_ball_flies_through_voxels_as_well() -> None:
     apart = np.linalg.norm(np.maximum(np.maximum(low - places, places - high), 0), axis=1)
     assert apart.min() >= 1.0 - 1e-6
     assert plan.certificate.holds
+
+
+def test_a_plan_in_space_and_its_flight_show_themselves_in_a_line() -> None:
+    data = city(0)
+    data["world"]["known"] = []  # type: ignore[index]
+    plan = vs.plan(Mission.model_validate(data))
+    assert isinstance(plan, vs.SpatialPlan)
+    for value, word in ((plan, "m clear"), (vs.fly(plan), "reached")):
+        assert word in repr(value)
+        assert len(repr(value)) < 120
+
+
+def test_a_wall_from_bound_to_bound_up_to_the_ceiling_is_refused_not_given_up() -> None:
+    data = city(0)
+    data["world"]["known"] = [{"box": {"min": [70, 0, 0], "max": [90, 160, 70]}}]  # type: ignore[index]
+    with pytest.raises(NoPathError):
+        vs.plan(Mission.model_validate(data))

@@ -258,6 +258,13 @@ class Run:
     encounters: Encounters | None = None
     shortfalls: tuple[Shortfall, ...] = ()
 
+    def __repr__(self) -> str:
+        end = "reached" if self.reached else self.reason
+        return (
+            f"<Run: {self.duration:.1f} s, {self.certificate.clearance:.2f} m clear, "
+            f"{len(self.replans)} re-plans, {end}>"
+        )
+
     @property
     def excesses(self) -> tuple[Excess, ...]:
         """When the robot was farther beside its path than was kept for that, in order.

@@ -48,6 +48,13 @@ class SpatialPlan:
     yaw: YawProfile
     trajectory: Trajectory
 
+    def __repr__(self) -> str:
+        kept = f"{self.certificate.clearance:.2f} m clear"
+        return (
+            f"<SpatialPlan: {self.path.length:.1f} m in {self.trajectory.duration:.1f} s, {kept}, "
+            f"{len(self.ledger)} detours>"
+        )
+
     @cached_property
     def sharpest_radius(self) -> float:
         """The smallest radius of curvature of the path [m]; infinite on a straight one."""

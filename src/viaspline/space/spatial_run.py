@@ -60,6 +60,13 @@ class SpatialRun:
     reached: bool
     reason: str = ""
 
+    def __repr__(self) -> str:
+        end = "reached" if self.reached else self.reason
+        return (
+            f"<SpatialRun: {self.duration:.1f} s, {self.clearance:.2f} m clear, "
+            f"{len(self.replans)} re-plans, {end}>"
+        )
+
     @property
     def duration(self) -> float:
         """[s]."""

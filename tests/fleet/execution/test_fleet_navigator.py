@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -137,6 +137,57 @@ def test_old_reports_and_such_of_a_place_farther_back_are_ignored() -> None:
     assert after.progress["r0"] == 15.0
 
 
+@given(seed=st.integers(0, 10_000), parts=st.lists(st.floats(0.0, 1.0), min_size=9, max_size=9))
+@settings(max_examples=20, deadline=None)
+def test_robots_that_stop_within_the_tolerance_before_their_bars_all_arrive(
+    seed: int, parts: list[float]
+) -> None:
+    """Each comes to rest so far before the end of its grant, and stays there till it grows."""
+    fleet = driven_on(timed_lines(seed, 9))
+    nav = FleetNavigator.of(fleet, stops_within_m=0.3)
+    places = dict.fromkeys(nav.names, 0.0)
+    for time in range(0, 40 * len(nav.names)):
+        reports = [
+            ProgressReport(name, 30.0 * time, place, arrived=place == fleet.lengths[robot])
+            for robot, (name, place) in enumerate(places.items())
+        ]
+        commands, nav = nav.step(reports, 30.0 * time)
+        assert not [event for event in nav.events if event.kind == "refused"]
+        if nav.reached:
+            break
+        for robot, name in enumerate(nav.names):
+            granted, part = commands[name].granted, parts[robot]
+            is_end = granted == fleet.lengths[robot]
+            aim = granted if is_end else granted - 0.3 * part
+            places[name] = max(places[name], aim)
+    assert nav.reached
+
+
+def test_a_tolerance_with_which_robots_could_wait_for_each_other_for_ever_is_refused() -> None:
+    """r1 is to stop half a metre behind where r0 has to have seen it pass."""
+    lines = [((0.0, 0.0), (40.0, 0.0)), ((36.0, -8.0), (12.0, 34.0)), ((28.0, 34.0), (4.0, -8.0))]
+    fleet = driven_on(lines)
+    bars = [0.0, 0.05, 20.0]
+    refused = []
+    for short in bars:
+        try:
+            FleetNavigator.of(fleet, stops_within_m=short)
+        except GeometryError as error:
+            refused.append((short, str(error)))
+    assert [short for short, _ in refused] == [20.0]
+    assert refused[0][1].startswith("the orders have a cycle: ")
+    with pytest.raises(GeometryError, match="stops_within_m is -1"):
+        FleetNavigator.of(fleet, stops_within_m=-1.0)
+
+
+def test_a_report_along_another_path_is_ignored() -> None:
+    _, nav = start().step([], 0.0)
+    _, nav = nav.step([ProgressReport("r0", 10.0, 15.0, path=1)], 10.0)
+    assert nav.progress["r0"] == 0.0
+    assert nav.events[0].kind == "ignored"
+    assert "along its path 1, and it drives 0" in nav.events[0].message
+
+
 def test_a_robot_that_is_not_heard_of_is_named_once_and_others_wait_for_it() -> None:
     _, nav = start().step([], 0.0)
     said = []
@@ -213,6 +264,58 @@ def test_carts_that_obey_stay_apart_and_arrive_however_messages_are_lost_or_late
         if nav.reached:
             break
     assert nav.reached
+
+
+def all_can_arrive(nav: FleetNavigator) -> bool:
+    """By brute force: robots drive on in turns, as far as those before them let them."""
+    orders, packed = nav._state.orders.packed, nav._state.packed
+    come, count = packed.progress.copy(), len(nav.names)
+    while True:
+        before = come.copy()
+        for robot in range(count):
+            come[robot] = max(come[robot], orders.length[robot])
+            for b in range(orders.first[robot], orders.first[robot + 1]):
+                other = orders.other[b]
+                is_open = come[other] >= orders.passed[b] if other != robot else True
+                if packed.leaders[orders.crossing[b]] == other and not is_open:
+                    come[robot] = max(before[robot], orders.place[b] - orders.short[robot])
+                    break
+        if (come == before).all():
+            return bool((come >= orders.length).all())
+
+
+@given(seed=st.integers(0, 10_000), lost=st.floats(0.0, 0.3))
+@settings(max_examples=8, deadline=None)
+@example(seed=5, lost=0.0)
+def test_after_each_swap_all_can_still_arrive(seed: int, lost: float) -> None:
+    """Carts that stand still for a while now and then, so that orders become foolish."""
+    random = np.random.default_rng(seed)
+    nav = FleetNavigator.of(driven_on(timed_lines(seed, 9)), period=1.0)
+    carts = carts_of(nav)
+    stalled = np.zeros(len(carts))
+    swaps = 0
+    assert all_can_arrive(nav)
+    for tick in range(400):
+        time = float(tick)
+        reports = [cart.report(time) for cart in carts if random.uniform() >= lost]
+        commands, nav = nav.step(reports, time)
+        if any(event.kind == "swapped" for event in nav.events):
+            swaps += 1
+            assert all_can_arrive(nav)
+        for k, cart in enumerate(carts):
+            if random.uniform() < 0.03 and cart.speed < 1.0:
+                stalled[k] = time + random.uniform(10.0, 60.0)
+            if random.uniform() >= lost:
+                cart.hear(commands[cart.name])
+                if time >= stalled[k]:
+                    cart.drive(commands[cart.name])
+                    continue
+            slower = max(cart.speed - 1.0, 0.0)
+            cart.place = min(cart.place + 0.5 * (cart.speed + slower), cart.holds)
+            cart.speed = slower
+        if nav.reached:
+            break
+    assert nav.reached or any(stalled > 300.0)
 
 
 def test_who_leaves_the_world_has_left_every_crossing() -> None:

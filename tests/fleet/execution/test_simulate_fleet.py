@@ -135,6 +135,34 @@ def test_events_say_who_waits_for_whom_and_where() -> None:
     assert [event.kind for event in run.events] == ["waits", "goes on", "arrived", "arrived"]
 
 
+@pytest.mark.parametrize("seed", [85, 111, 773])
+def test_who_has_a_hair_of_speed_left_when_it_halts_comes_to_rest_and_goes_on(seed: int) -> None:
+    run = drive_fleet(
+        driven_on([((0.0, 0.0), (60.0, 0.0))]), Delays(halts=3.0, halts_s=5.0), seed=seed
+    )
+    assert run.reached
+    assert run.deadlock == ()
+
+
+@given(seed=st.integers(0, 10_000), delays=ALL_DELAYS)
+@settings(max_examples=15, deadline=None)
+@example(seed=69, delays=Delays(slowed=0.8125, stretch_m=8.5))
+def test_what_is_driven_is_proven_to_be_as_far_apart_as_was_planned(
+    seed: int, delays: Delays
+) -> None:
+    """Laws that say where a robot is at constant accelerations only about would cost a part."""
+    run = drive_fleet(driven_on(timed_lines(seed, 9)), delays, seed=seed)
+    assert run.certificate.holds
+    courses, laws = run.courses.packed, run.laws.packed
+    for first, end in zip(courses.first[:-1], courses.first[1:], strict=True):
+        speed, lasts = (
+            laws.speed[first:end],
+            laws.arrive[first + 1 : end] - laws.leave[first : end - 1],
+        )
+        off = np.diff(courses.distance[first:end]) - 0.5 * (speed[1:] + speed[:-1]) * lasts
+        assert np.abs(off).max() < 1e-5  # of a speed of a micrometre a second
+
+
 def test_lost_messages_only_delay() -> None:
     fleet = driven_on(CROSS)
     heard = drive_fleet(fleet).delays["r1"]

@@ -52,6 +52,7 @@ def believed(
             state.arrived[robot] = True
         state.heard[robot], state.silent[robot] = report.time, False
         state.speeds[robot] = abs(report.speed)
+        state.places[robot] = min(max(report.distance, 0.0), length)
         known.progress[robot] = max(known.progress[robot], place)
         robots.append(robot)
         says = report.holds is not None and report.heard is not None

@@ -11,17 +11,27 @@ import numpy as np
 
 from viaspline.errors import GeometryError
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
-from viaspline.fleet.execution.fleet_orders import FleetOrders, decided, orders_led
+from viaspline.fleet.execution.fleet_orders import (
+    FleetOrders,
+    check_settled,
+    laws_order,
+    orders_led,
+)
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.open_bars import open_bars
 
+KEPT = (
+    "speeds", "heard", "arrived", "silent", "out", "places", "paths", "stations", "stands",
+    "stops_at", "driven",
+)  # fmt: skip
+"""What a robot that keeps its path keeps of the state, beside what kernels see."""
 SAME_M = 1e-6
 """Places that differ by less are one."""
 
 
 def carried_over(
-    state: FleetProgressState, before: DrivenFleet, after: DrivenFleet
+    state: FleetProgressState, before: DrivenFleet, after: DrivenFleet, short: float
 ) -> FleetProgressState:
     """The state of a fleet with another plan.
 
@@ -29,37 +39,53 @@ def carried_over(
         state: Under the plan before.
         before: That plan.
         after: The other one.
+        short: How far before a bar each robot may stand and be believed to be farther back [m].
 
     Raises:
         GeometryError: A robot is to pass before one that may be in the crossing already, or the
             orders have a cycle.
     """
     kept = _kept(before, after)
-    leaders, by_second = decided(after)
-    leaders = leaders.copy()
+    leaders, by_second = laws_order(after)
     for c, found in _same_crossings(before, after, kept).items():
         old_leader = int(state.packed.leaders[found])
         if old_leader >= 0:
             number = int(np.flatnonzero(kept == old_leader)[0])
-            is_planned = leaders[c] == number
-            by_second[c] = bool(state.orders.by_second[found]) if is_planned else True
+            was_swapped = old_leader != state.orders.leaders[found]
+            by_second[c] = was_swapped or bool(state.orders.by_second[found])
             leaders[c] = number
-    orders = orders_led(after, leaders, by_second)
+    check_settled(after, leaders)
+    progress = np.where(kept >= 0, state.packed.progress[kept], 0.0)
+    back = np.full(len(after.names), short)
+    orders = orders_led(after, leaders, by_second, back, progress)
     new = FleetProgressState.at_start(after, orders)
     packed = new.packed
     for robot in np.flatnonzero(kept >= 0):
         old = kept[robot]
         for now, was in zip(packed[1:], state.packed[1:], strict=True):
             now[robot] = was[old]
-        for name in ("speeds", "heard", "arrived", "silent", "out", "driven"):
+        for name in KEPT:
             getattr(new, name)[robot] = getattr(state, name)[old]
     packed.head[:] = orders.packed.first[:-1]
     packed.recall[:] = -1
     packed.recall_place[:] = np.inf
+    _begin_anew(new, state, before, kept)
     packed.begin[kept < 0] = np.maximum(packed.begin[kept < 0], state.time)
     check_let_in(orders, packed.promised, packed.progress)
     open_bars(orders.packed, packed)
     return replace(new, time=state.time, events=state.events)
+
+
+def _begin_anew(
+    new: FleetProgressState, state: FleetProgressState, before: DrivenFleet, kept: Ints
+) -> None:
+    """Robots with other paths than before: what they say of the paths before isn't heeded."""
+    numbers = {name: robot for robot, name in enumerate(before.names)}
+    for robot in np.flatnonzero(kept < 0).tolist():
+        old = numbers.get(new.orders.names[robot], -1)
+        if old >= 0:
+            new.paths[robot] = state.paths[old] + 1
+            new.heard[robot] = state.time
 
 
 def _kept(before: DrivenFleet, after: DrivenFleet) -> Ints:

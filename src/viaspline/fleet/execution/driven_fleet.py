@@ -91,11 +91,11 @@ def driven_fleet_of(plan: FleetPlan) -> DrivenFleet:
         FleetLaws(laws._replace(is_timed=laws.is_timed & served)),
         rides._replace(depart=departs),
         plan.fleet.separation_m,
-        _rounds(plan),
+        rounds_of(plan),
     )
 
 
-def _rounds(plan: FleetPlan) -> Floats | None:
+def rounds_of(plan: FleetPlan) -> Floats | None:
     """How far patrols drive in a period [m], (n,); None where there are none."""
     if plan.patrols is None:
         return None

@@ -9,7 +9,7 @@ import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.fleet_ticks import FleetTicks
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
@@ -77,7 +77,9 @@ def _law(rows: Floats, nodes: Floats, end: float) -> Floats:
     """Place, arrival, departure and speed at all nodes and wherever the acceleration changes."""
     begins = np.flatnonzero(np.diff(rows[:, 1], prepend=-np.inf) > SAME_M)
     lasts = np.append(begins[1:], len(rows)) - 1
-    arrive, (leave, places, square) = rows[begins, 0], rows[lasts].T
+    slowest = _slowest(rows[:, 2], begins)
+    arrive, square = rows[slowest, 0], rows[slowest, 2]
+    leave, places = rows[lasts, 0], rows[lasts, 1]
     between = nodes[(nodes < end) & (nodes > places[0])]
     near = np.searchsorted(places, between - SAME_M)
     between = between[places[np.minimum(near, len(places) - 1)] > between + SAME_M]
@@ -98,6 +100,15 @@ def _law(rows: Floats, nodes: Floats, end: float) -> Floats:
     if len(law) > 1:
         return law
     return np.repeat(law, 2, axis=0)  # a robot that never set out has two nodes at its start
+
+
+def _slowest(square: Floats, begins: Ints) -> Ints:
+    """The first of the slowest rows of each group: who comes to rest is there when it does."""
+    ends = np.append(begins[1:], len(square))
+    slowest = begins.copy()
+    for k in np.flatnonzero(ends - begins > 1).tolist():
+        slowest[k] += int(square[begins[k] : ends[k]].argmin())
+    return slowest
 
 
 def _on_chords(packed: PackedCourses, nodes: slice, along: Floats) -> Floats:

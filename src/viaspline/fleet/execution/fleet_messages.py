@@ -26,6 +26,7 @@ class ProgressReport:
         holds: How far it takes itself to be let go [m]: the last grant that it has taken up. Only
             if it says so can a grant be taken back, for another robot to pass first.
         heard: The time of the newest command that it has heard [s].
+        path: Along which of its paths that is: the number in the newest command that it has heard.
 
     Raises:
         GeometryError: The name is no text, or one of the others no number.
@@ -38,9 +39,11 @@ class ProgressReport:
     arrived: bool = False
     holds: float | None = None
     heard: float | None = None
+    path: int = 0
 
     def __post_init__(self) -> None:
         check_kind("name", self.name, str, "give the name of a robot")
+        check_kind("path", self.path, int, "give the number of a path, from the command")
         for key in ("time", "distance", "speed", "holds", "heard"):
             value = getattr(self, key)
             if value is not None or key in ("time", "distance", "speed"):
@@ -65,6 +68,10 @@ class FleetCommand:
         waits_for: For whom it has to stop where its grant ends; None if that is its goal.
         opens_at: How far that one has to come along its own path [m].
         arrived: Whether its drive is over.
+        stands_until: When it may go on from the station at which it stands [s]; None: it stands at
+            none.
+        path: Which of its paths all of that is along: 0 is that of the plan, and each other one
+            that it gets counts one more.
     """
 
     name: str
@@ -75,3 +82,5 @@ class FleetCommand:
     waits_for: str | None = None
     opens_at: float | None = None
     arrived: bool = False
+    stands_until: float | None = None
+    path: int = 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from math import floor
 
@@ -10,14 +10,16 @@ import numpy as np
 
 from viaspline.errors import GeometryError
 from viaspline.fleet.execution.believed_reports import believed
-from viaspline.fleet.execution.carried_over import carried_over
 from viaspline.fleet.execution.driven_fleet import DrivenFleet, driven_fleet_of
+from viaspline.fleet.execution.dwells import FleetStations, dwell
 from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
 from viaspline.fleet.execution.fleet_orders import index_of, orders_of
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.fleet.execution.fleet_run import FleetEvent, swapped_event
+from viaspline.fleet.execution.fleet_under_way import FleetUnderWay
 from viaspline.fleet.execution.granted_commands import commands_of
 from viaspline.fleet.execution.rolled_over import rolled_over
+from viaspline.fleet.execution.ways_from_rest import FleetMissions, check_member
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.still_world import check_still
 from viaspline.handed_in import all_of, check_kind, number_from, time_from
@@ -25,9 +27,13 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.dispatching import dispatch_step
 from viaspline.kernels.fleet.order_flow import expected_shifts
 from viaspline.mission.fleet.fleet import FleetMember
+from viaspline.mission.route_spec import Route
+from viaspline.planner import Plan
 
 PERIOD_S = 0.1
 """Usual time between two steps."""
+STOPS_WITHIN_M = 0.05
+"""How far before where it has to stop a robot may come to rest, if nothing else is said."""
 SILENT_S = 5.0
 """A robot that isn't heard of for longer is said to be silent."""
 
@@ -53,15 +59,23 @@ class FleetNavigator:
     again every period, once all patrols have driven one and all others have arrived. Until then a
     patrol gets no farther than its plan.
 
+    A robot that comes to rest a little before where it has to stop opens what it would have opened
+    there only if that is behind it. So the graph is one of robots that stop ``stops_within_m``
+    short: however near to that they come to rest, nobody waits for ever.
+
+    A robot is let beyond a station when it has stood there for its time, by its reports.
+
     Args:
         plan: What is driven.
         margin_m: How much farther than it says a robot has to be until others take it to have
             passed [m]. The tracking error of its plan is kept in any case, round its body.
+        stops_within_m: How far before the end of what it is granted, or before a station, a robot
+            may come to rest [m]; at its goal it says that it has arrived.
         period: Usual time between two steps [s].
 
     Raises:
-        GeometryError: The laws of the plan keep no order, or with the margin one with a cycle; or
-            something moves in its world that waits for nobody.
+        GeometryError: The laws of the plan keep no order, or with the margin and what robots stop
+            short one with a cycle; or something moves in its world that waits for nobody.
 
     Example:
         >>> import viaspline as vs
@@ -76,27 +90,33 @@ class FleetNavigator:
         (40.0, 'a', True)
     """
 
-    def __init__(self, plan: FleetPlan, *, margin_m: float = 0.0, period: float = PERIOD_S) -> None:
+    def __init__(
+        self, plan: FleetPlan, *, margin_m: float = 0.0, stops_within_m: float = STOPS_WITHIN_M,
+        period: float = PERIOD_S,
+    ) -> None:  # fmt: skip
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
         check_still(plan.fleet)
-        self._begin(driven_fleet_of(plan), number_from("margin_m", margin_m), period)
-        self._plan: FleetPlan | None = plan
+        self._begin(driven_fleet_of(plan), margin_m, stops_within_m, period)
+        self._missions: FleetMissions | None = FleetMissions.of(plan)
 
     @classmethod
     def of(
-        cls, fleet: DrivenFleet, *, margin_m: float = 0.0, period: float = PERIOD_S
-    ) -> FleetNavigator:
+        cls, fleet: DrivenFleet, *, margin_m: float = 0.0, stops_within_m: float = STOPS_WITHIN_M,
+        period: float = PERIOD_S,
+    ) -> FleetNavigator:  # fmt: skip
         """The navigator of a fleet that was planned by other means."""
         navigator = object.__new__(cls)
-        navigator._begin(fleet, margin_m, period)
-        navigator._plan = None
+        navigator._begin(fleet, margin_m, stops_within_m, period)
+        navigator._missions = None
         return navigator
 
-    def _begin(self, fleet: DrivenFleet, margin: float, period: float) -> None:
-        if not 0.0 <= margin < np.inf:
-            raise GeometryError(f"margin_m is {margin}; give a number of 0 or more")
-        orders = orders_of(fleet, np.full(len(fleet.names), margin))
-        self._fleet, self._margin = fleet, margin
+    def _begin(
+        self, fleet: DrivenFleet, margin_m: float, stops_within_m: float, period: float
+    ) -> None:
+        self._margin = _length("margin_m", margin_m)
+        self._short = _length("stops_within_m", stops_within_m)
+        orders = orders_of(fleet, np.full(len(fleet.names), self._margin + self._short))
+        self._fleet, self._stations = fleet, FleetStations.of(fleet)
         self._period = time_from("period", period)
         self._state = FleetProgressState.at_start(fleet, orders)
 
@@ -105,6 +125,18 @@ class FleetNavigator:
         navigator.__dict__.update(self.__dict__)
         navigator._state = state
         return navigator
+
+    def _as(self, under_way: FleetUnderWay) -> FleetNavigator:
+        """The navigator of a fleet that was changed."""
+        navigator = self._with(under_way.state)
+        navigator._fleet, navigator._missions = under_way.fleet, under_way.missions
+        navigator._stations = FleetStations.of(under_way.fleet)
+        return navigator
+
+    @property
+    def _under_way(self) -> FleetUnderWay:
+        short = self._margin + self._short
+        return FleetUnderWay(self._fleet, self._missions, self._state, short)
 
     def step(
         self, reports: Iterable[ProgressReport], time: float
@@ -129,6 +161,7 @@ class FleetNavigator:
         packed, orders = state.packed, state.orders.packed
         counted = [_counted(one, fleet, state.driven) for one in given]
         robots, table, events = believed(fleet, state, counted, self._margin)
+        dwell(self._stations, state, self._short)
         before = packed.leaders.copy()
         swaps = np.isfinite(self._state.time) and floor(time) > floor(self._state.time)
         grants, sequence = dispatch_step(
@@ -139,9 +172,9 @@ class FleetNavigator:
             one, two = (fleet.names[r] for r in (packed.leaders[c], before[c]))
             events.append(swapped_event(one, two, time))
         events += state.silences(SILENT_S, fleet.rides.depart)
-        commands = commands_of(fleet, state, grants, self._period)
+        commands = commands_of(fleet, self._stations, state, grants, self._period)
         state = replace(state, sequence=sequence, events=tuple(events))
-        return commands, self._with(rolled_over(state, fleet))
+        return commands, self._with(rolled_over(state, fleet, self._stations))
 
     def without(self, name: str) -> FleetNavigator:
         """The fleet without a robot that was taken out of the world: nobody waits for it.
@@ -195,30 +228,86 @@ class FleetNavigator:
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
         check_still(plan.fleet)
         navigator = self.with_fleet(driven_fleet_of(plan))
-        navigator._plan = plan
+        navigator._missions = FleetMissions.of(plan)
         return navigator
 
     def with_fleet(self, fleet: DrivenFleet) -> FleetNavigator:
         """``with_plan`` for a fleet that was planned by other means."""
-        navigator = self._with(carried_over(self._state, self._fleet, fleet))
-        navigator._fleet, navigator._plan = fleet, None
+        navigator = self._as(self._under_way.along(fleet))
+        navigator._missions = None
         return navigator
 
-    def with_robot(
-        self, member: FleetMember, planned: Callable[[FleetPlan, FleetMember], FleetPlan]
-    ) -> FleetNavigator:
-        """The fleet with one robot more.
+    def with_robot(self, member: FleetMember) -> FleetNavigator:
+        """The fleet with one robot more, which stands at its start from now on.
+
+        Its path is laid round the places where others rest, and it is timed among those that are
+        under way, so that none of them is later for it: who is let in before it stays so. Only the
+        orders of crossings with its path are new.
 
         Args:
-            member: The robot.
-            planned: Plans it among the others, whose paths and laws stay as they are.
+            member: The robot; it departs now at the earliest.
 
         Raises:
-            GeometryError: As ``with_plan``; or this navigator has no plan.
+            PlanningError: It has no path, or can't be timed along it: who is in its way.
+            GeometryError: There is a robot of that name already, or this navigator has no plan.
         """
-        if self._plan is None:
-            raise GeometryError("this navigator has no FleetPlan; give one to FleetNavigator")
-        return self.with_plan(planned(self._plan, member))
+        check_member(member)
+        if member.name in self.names:
+            raise GeometryError(f"there is a robot {member.name!r} already; give another name")
+        words = f"{member.name} is added"
+        event = FleetEvent("added", self._under_way.now, member.name, words)
+        return self._as(self._under_way.joined(member, event))
+
+    def stopping(self, name: str) -> FleetNavigator:
+        """The fleet with a robot that is asked to stop as soon as it can.
+
+        It stands there until it is sent elsewhere with ``rerouted``, or on with ``resumed``.
+
+        Raises:
+            GeometryError: There is no such robot.
+        """
+        return self._as(self._under_way.stopping(name, self._period))
+
+    def resumed(self, name: str) -> FleetNavigator:
+        """The fleet with a robot that was asked to stop, and goes on.
+
+        Raises:
+            GeometryError: There is no such robot.
+        """
+        robot = index_of(self.names, name)
+        state = self._state.copied(self._state.time)
+        state.stops_at[robot] = np.inf
+        return self._with(replace(state, events=self._state.events))
+
+    def rerouted(self, name: str, route: Route) -> FleetNavigator:
+        """The fleet with a robot that is sent elsewhere, from where it stands.
+
+        Nobody else is touched but those whose paths its old or its new one crosses.
+
+        Args:
+            name: Of the robot. It has to stand at the end of what it is granted: at its start,
+                where it waits, at its goal, or where it was asked to with ``stopping``.
+            route: Its other route; it begins where the robot stands, whatever its start says.
+
+        Raises:
+            PlanningError: It has no path, or can't be timed along it: who is in its way.
+            GeometryError: There is no such robot, it doesn't stand, or this navigator has no plan.
+        """
+        check_kind("route", route, Route, "give Route.model_validate({...})")
+        return self._as(self._under_way.rerouted(name, route))
+
+    def replanned(self) -> FleetNavigator:
+        """The fleet with other paths for those that wait for a dead robot, from where they stand.
+
+        Those of ``blocked`` that stand where they wait for one that never gets on are laid anew one
+        after the other, round such robots, to what is left of their routes; those that wait behind
+        them only if they stand in their way. Those that are still on their way to where they will
+        wait are left for the next call. Who has no way stays where it is; an event says why.
+
+        Raises:
+            GeometryError: This navigator has no plan.
+        """
+        return self._as(self._under_way.replanned())
 
     def __repr__(self) -> str:
         state = self._state
@@ -227,9 +316,13 @@ class FleetNavigator:
         return f"FleetNavigator({len(self.names)} robots {when}, {arrived} arrived, {out} out)"
 
     @property
-    def plan(self) -> FleetPlan | None:
-        """What is driven; None if it was planned by other means."""
-        return self._plan
+    def paths(self) -> Mapping[str, Plan]:
+        """The path that each robot drives, with the law that it would drive alone, by name.
+
+        Raises:
+            GeometryError: This navigator has no plan.
+        """
+        return self._under_way.known.plans
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -291,3 +384,11 @@ def _counted(report: ProgressReport, fleet: DrivenFleet, driven: Floats) -> Prog
         return report
     holds = None if report.holds is None else report.holds - past
     return replace(report, distance=report.distance - past, holds=holds)
+
+
+def _length(name: str, value: float) -> float:
+    """A length of 0 or more [m]."""
+    length = number_from(name, value)
+    if not 0.0 <= length < np.inf:
+        raise GeometryError(f"{name} is {length}; give a number of 0 or more")
+    return length

@@ -8,6 +8,7 @@ import numpy as np
 
 from viaspline.errors import GeometryError
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.handed_in import check_kind
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.crossing_bars import crossing_bars, set_bar_times
 from viaspline.kernels.fleet.crossing_leaders import UNSETTLED, crossing_leaders
@@ -40,22 +41,6 @@ class FleetOrders:
     by_second: Flags
     sequence: Ints
 
-    def delays(self, name: str, seconds: float) -> Floats:
-        """How much later robots arrive when one of them sets out later [s], (n,).
-
-        Robots drive as fast as they may, and inertia is left out.
-
-        Args:
-            name: Of that robot.
-            seconds: By how much it sets out later.
-
-        Raises:
-            GeometryError: There is no such robot.
-        """
-        begin = np.zeros(len(self.names))
-        begin[index_of(self.names, name)] = seconds
-        return self.arrivals(begin) - self.arrivals(np.zeros(len(self.names)))
-
     def arrivals(self, begin: Floats) -> Floats:
         """When robots arrive that set out at some times [s], less what they take alone, (n,)."""
         orders = self.packed
@@ -69,26 +54,27 @@ def index_of(names: tuple[str, ...], name: str) -> int:
     Raises:
         GeometryError: There is no robot of that name.
     """
+    check_kind("name", name, str, "give the name of a robot")
     if name not in names:
         known = ", ".join(names[:5]) + (", …" if len(names) > 5 else "")
         raise GeometryError(f"there is no robot {name!r} in this fleet; it has {known or 'none'}")
     return names.index(name)
 
 
-def orders_of(fleet: DrivenFleet, margin: Floats | None = None) -> FleetOrders:
+def orders_of(fleet: DrivenFleet, short: Floats | None = None) -> FleetOrders:
     """The orders that the laws of a fleet keep.
 
     Args:
         fleet: With laws that keep clear of all crossings.
-        margin: How much farther than it says each robot has to be before others take it to be
-            there, but at its end [m], (n,); none if it isn't given.
+        short: How far before a bar, but not before its end, each robot may stand and be believed
+            to be farther back still [m], (n,); 0 if it isn't given.
 
     Raises:
         GeometryError: The laws keep no order in a crossing, or the orders have a cycle: each of
             some robots waits for the next one.
     """
     leaders, by_second = decided(fleet)
-    return orders_led(fleet, leaders, by_second, margin)
+    return orders_led(fleet, leaders, by_second, short)
 
 
 def decided(fleet: DrivenFleet) -> tuple[Ints, Flags]:
@@ -100,8 +86,28 @@ def decided(fleet: DrivenFleet) -> tuple[Ints, Flags]:
     Raises:
         GeometryError: The laws keep no order in a crossing.
     """
-    courses, crossings = fleet.courses.packed, fleet.crossings.packed
-    leaders, by_second = crossing_leaders(courses, crossings, fleet.laws.packed)
+    leaders, by_second = laws_order(fleet)
+    check_settled(fleet, leaders)
+    return leaders, by_second
+
+
+def laws_order(fleet: DrivenFleet) -> tuple[Ints, Flags]:
+    """Who passes each crossing first by the laws of a fleet, and by whose boxes.
+
+    Returns:
+        ``leaders`` and ``by_second``, as ``orders_led`` takes them; a leader is ``UNSETTLED`` where
+        the laws keep no order.
+    """
+    return crossing_leaders(fleet.courses.packed, fleet.crossings.packed, fleet.laws.packed)
+
+
+def check_settled(fleet: DrivenFleet, leaders: Ints) -> None:
+    """Refuse crossings in which neither robot passes first.
+
+    Raises:
+        GeometryError: There is one.
+    """
+    crossings = fleet.crossings.packed
     if (leaders == UNSETTLED).any():
         c = int(np.flatnonzero(leaders == UNSETTLED)[0])
         one, two = (fleet.names[r] for r in crossings.robots[c])
@@ -110,12 +116,12 @@ def decided(fleet: DrivenFleet) -> tuple[Ints, Flags]:
             f"{one} and {two} are too near each other between {begin:.1f} m and {end:.1f} m along "
             f"the path of {one}: neither passes first; time the fleet anew"
         )
-    return leaders, by_second
 
 
 def orders_led(
-    fleet: DrivenFleet, leaders: Ints, by_second: Flags, margin: Floats | None = None
-) -> FleetOrders:
+    fleet: DrivenFleet, leaders: Ints, by_second: Flags, short: Floats | None = None,
+    progress: Floats | None = None,
+) -> FleetOrders:  # fmt: skip
     """The orders in which given robots pass each crossing first.
 
     Args:
@@ -123,18 +129,19 @@ def orders_led(
         leaders: Who passes each crossing first; negative: there is no order in it, (c,).
         by_second: Whether the second robot is kept away by its own boxes, else by the leader's,
             (c,).
-        margin: As for ``orders_of``.
+        short: As for ``orders_of``.
+        progress: How far each robot has come [m], (n,); nowhere if it isn't given. Orders that were
+            swapped under way need have no cycle from there on only.
 
     Raises:
         GeometryError: The orders have a cycle.
     """
-    packed = _packed(fleet, leaders, by_second)
-    heads = packed.first[:-1].copy()
     none = np.zeros(len(fleet.names))
+    packed = _packed(fleet, leaders, by_second)._replace(short=none if short is None else short)
+    heads = packed.first[:-1].copy()
     fixed = np.zeros(len(fleet.names), np.bool_)
-    sequence, stuck = order_flow(
-        packed, leaders, none, heads, none if margin is None else margin, fixed
-    )
+    come = none if progress is None else progress
+    sequence, stuck = order_flow(packed, leaders, come, heads, fixed)
     if (stuck >= 0).any():
         raise GeometryError(_cycle(fleet.names, packed, stuck))
     return FleetOrders(fleet.names, packed, leaders, by_second, sequence)
@@ -168,6 +175,7 @@ def _packed(fleet: DrivenFleet, leaders: Ints, by_second: Flags) -> PackedOrders
         may_lead=may_lead,
         length=lengths,
         vanishes=vanishes,
+        short=np.zeros(len(fleet.names)),
     )
     set_bar_times(courses, fleet.alone, orders)
     return orders
@@ -190,4 +198,7 @@ def _cycle(names: tuple[str, ...], orders: PackedOrders, stuck: Ints) -> str:
                 f"{names[one]} waits at {orders.place[bar]:.1f} m for {names[orders.other[bar]]} "
                 f"to come to {orders.passed[bar]:.1f} m"
             )
-    return "the orders have a cycle: " + ", ".join(words) + "; time the fleet anew"
+    remedy = "time the fleet anew"
+    if orders.short.any():
+        remedy = f"let robots stop within less than {orders.short.max():g} m, or {remedy}"
+    return "the orders have a cycle: " + ", ".join(words) + "; " + remedy

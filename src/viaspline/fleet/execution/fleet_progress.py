@@ -35,6 +35,11 @@ class FleetProgressState:
         out: Whether a robot doesn't drive any more: dead, taken out, or never had a law, (n,).
         driven: How far each patrol came in periods that are over; places count from there [m],
             (n,).
+        places: How far along its path each said that it is [m], (n,).
+        paths: Which of its paths each one drives, (n,).
+        stations: Which of its stations each one comes to next, or stands at, (n,).
+        stands: Since when it stands there [s]; infinite: it doesn't yet, (n,).
+        stops_at: Where each was asked to stop [m]; infinite: nowhere, (n,).
         events: What happened in the last step.
     """
 
@@ -48,6 +53,11 @@ class FleetProgressState:
     silent: Flags
     out: Flags
     driven: Floats
+    places: Floats
+    paths: Ints
+    stations: Ints
+    stands: Floats
+    stops_at: Floats
     events: tuple[FleetEvent, ...] = ()
 
     @classmethod
@@ -60,6 +70,8 @@ class FleetProgressState:
         return cls(
             orders, packed, orders.sequence, -np.inf, np.zeros(count), np.full(count, -np.inf),
             np.zeros(count, np.bool_), np.zeros(count, np.bool_), out, np.zeros(count),
+            np.zeros(count), np.zeros(count, np.int64), np.zeros(count, np.int64),
+            np.full(count, np.inf), np.full(count, np.inf),
         )  # fmt: skip
 
     def copied(self, time: float) -> FleetProgressState:
@@ -74,6 +86,11 @@ class FleetProgressState:
             silent=self.silent.copy(),
             out=self.out.copy(),
             driven=self.driven.copy(),
+            places=self.places.copy(),
+            paths=self.paths.copy(),
+            stations=self.stations.copy(),
+            stands=self.stands.copy(),
+            stops_at=self.stops_at.copy(),
             events=(),
         )
 
@@ -88,6 +105,7 @@ class FleetProgressState:
             departs=fleet.rides.depart,
             heard=self.heard,
             out=self.out,
+            paths=self.paths,
         )
 
     def silences(self, longest: float, departs: Floats) -> list[FleetEvent]:
@@ -103,13 +121,17 @@ class FleetProgressState:
             found.append(FleetEvent("silent", self.time, names[robot], words))
         return found
 
-    def stuck(self) -> Ints:
-        """For each robot the bar at which it will wait for ever, or -1, (n,)."""
+    def stuck(self, leaves: int | None = None) -> Ints:
+        """For each robot the bar at which it will wait for ever, or -1, (n,).
+
+        Args:
+            leaves: A robot that is taken never to get on, as those that indeed don't.
+        """
         packed, orders = self.packed, self.orders.packed
-        none = np.zeros(packed.head.size)
-        stuck: Ints = order_flow(
-            orders, packed.leaders, packed.progress, packed.head, none, packed.fixed
-        )[1]
+        fixed = packed.fixed.copy()
+        if leaves is not None:
+            fixed[leaves] = True
+        stuck: Ints = order_flow(orders, packed.leaders, packed.progress, packed.head, fixed)[1]
         return stuck
 
     def taken_out(self, robot: int, event: FleetEvent) -> FleetProgressState:

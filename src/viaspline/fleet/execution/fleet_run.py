@@ -19,6 +19,7 @@ from viaspline.kernels.arrays import Floats
 
 FleetEventKind = Literal[
     "waits", "goes on", "swapped", "arrived", "refused", "ignored", "dead", "taken out", "silent",
+    "added", "stops", "re-planned", "has no way",
 ]  # fmt: skip
 
 

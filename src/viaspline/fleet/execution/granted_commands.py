@@ -6,6 +6,7 @@ Tested through ``fleet/execution/test_fleet_navigator``.
 from __future__ import annotations
 
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.fleet.execution.dwells import FleetStations
 from viaspline.fleet.execution.fleet_messages import FleetCommand
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
 from viaspline.kernels.arrays import Floats
@@ -13,12 +14,14 @@ from viaspline.kernels.fleet.dispatching import states_ahead
 
 
 def commands_of(
-    fleet: DrivenFleet, state: FleetProgressState, grants: Floats, period: float
-) -> dict[str, FleetCommand]:
+    fleet: DrivenFleet, stations: FleetStations, state: FleetProgressState, grants: Floats,
+    period: float,
+) -> dict[str, FleetCommand]:  # fmt: skip
     """A command for each robot that drives, by name.
 
     Args:
         fleet: What is driven.
+        stations: Its stations.
         state: How far it has come.
         grants: How far each robot may go [m], (n,).
         period: Until the next step [s].
@@ -36,7 +39,7 @@ def commands_of(
         if recall >= 0:
             one, two = orders.robots[recall].tolist()
             waits = fleet.names[two if one == robot else one]
-        elif bar < orders.first[robot + 1]:
+        elif bar < orders.first[robot + 1] and orders.place[bar] <= grants[robot]:
             other = int(orders.other[bar])
             waits, opens = fleet.names[other], float(orders.passed[bar] + state.driven[other])
         commands[name] = FleetCommand(
@@ -48,5 +51,7 @@ def commands_of(
             waits_for=waits,
             opens_at=opens,
             arrived=bool(state.arrived[robot]),
+            stands_until=stations.stands_until(state, robot),
+            path=int(state.paths[robot]),
         )
     return commands

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from viaspline.fleet.execution.fleet_messages import ProgressReport
 from viaspline.fleet.execution.fleet_run import FleetEvent, FleetEventKind
-from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.arrays import Flags, Floats, Ints
 
 LATE_S = 1e-9
 """So much later than now a report may say it is, for rounding."""
@@ -31,6 +31,7 @@ class KnownFleet:
         departs: When each sets out [s], (n,).
         heard: When each was last believed [s]; minus infinity: never, (n,).
         out: Whether a robot isn't listened to any more, (n,).
+        paths: Which of its paths each one drives, (n,).
     """
 
     names: dict[str, int]
@@ -41,6 +42,7 @@ class KnownFleet:
     departs: Floats
     heard: Floats
     out: Flags
+    paths: Ints
 
 
 def judged(report: ProgressReport, known: KnownFleet, now: float) -> FleetEvent | None:
@@ -74,6 +76,8 @@ def _fault(
         return "ignored", "is of a robot that doesn't drive any more"
     if report.time < known.heard[robot]:
         return "ignored", f"is old, of {report.time:.2f} s"
+    if report.path != known.paths[robot]:
+        return "ignored", f"is along its path {report.path}, and it drives {known.paths[robot]}"
     length, come = float(known.lengths[robot]), float(known.progress[robot])
     come, says = min(come, length), f"says {report.distance:.2f} m"
     if not -NOISE_M <= report.distance <= length + NOISE_M:

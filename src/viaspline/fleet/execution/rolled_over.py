@@ -16,16 +16,19 @@ import numpy as np
 
 from viaspline.fleet.execution.carried_over import check_let_in
 from viaspline.fleet.execution.driven_fleet import DrivenFleet
-from viaspline.fleet.execution.fleet_orders import decided, orders_led
+from viaspline.fleet.execution.dwells import FleetStations
+from viaspline.fleet.execution.fleet_orders import check_settled, laws_order, orders_led
 from viaspline.fleet.execution.fleet_progress import FleetProgressState
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.kernels.fleet.open_bars import open_bars
 
 SAME_M = 1e-4
 """Places of two periods that differ by less are one."""
 
 
-def rolled_over(state: FleetProgressState, fleet: DrivenFleet) -> FleetProgressState:
+def rolled_over(
+    state: FleetProgressState, fleet: DrivenFleet, stations: FleetStations
+) -> FleetProgressState:
     """The state a period later, if patrols have driven one; else the very state.
 
     A patrol that is dead holds the others up at the end of what is planned.
@@ -33,6 +36,7 @@ def rolled_over(state: FleetProgressState, fleet: DrivenFleet) -> FleetProgressS
     Args:
         state: How far the fleet has come.
         fleet: What is driven.
+        stations: Its stations.
 
     Raises:
         GeometryError: The orders that hold have a cycle, or let two robots in at once.
@@ -41,8 +45,10 @@ def rolled_over(state: FleetProgressState, fleet: DrivenFleet) -> FleetProgressS
     if rounds is None or not _is_over(state, rounds):
         return state
     shift = np.where(state.out, 0.0, rounds)
-    planned_leaders, planned_by = decided(fleet)
-    leaders, by_second = planned_leaders.copy(), planned_by.copy()
+    served = state.stations - _passed(stations, shift)
+    if (served < 0).any():
+        return state  # one still stands where its next lap begins, for as long as it has to
+    leaders, by_second = laws_order(fleet)
     planned = state.orders.leaders
     for c, was in _a_period_later(fleet, shift).items():
         leader = int(state.packed.leaders[was])
@@ -50,13 +56,16 @@ def rolled_over(state: FleetProgressState, fleet: DrivenFleet) -> FleetProgressS
             is_planned = leader == planned[was]
             leaders[c] = leader
             by_second[c] = bool(state.orders.by_second[was]) if is_planned else True
-    orders = orders_led(fleet, leaders, by_second)
+    check_settled(fleet, leaders)
+    come = state.packed.progress - shift
+    orders = orders_led(fleet, leaders, by_second, state.orders.packed.short, come)
     new = FleetProgressState.at_start(fleet, orders)
     packed = new.packed
     for now, was_there in zip(packed[1:], state.packed[1:], strict=True):
         now[:] = was_there
     packed.progress[:] -= shift
     packed.promised[:] -= shift
+    packed.halt[:] -= shift
     packed.begin[:] += _alone(fleet, shift)
     packed.head[:] = orders.packed.first[:-1]
     packed.recall[:] = -1
@@ -72,6 +81,11 @@ def rolled_over(state: FleetProgressState, fleet: DrivenFleet) -> FleetProgressS
         silent=state.silent,
         out=state.out,
         driven=state.driven + shift,
+        places=state.places - shift,
+        paths=state.paths,
+        stations=served,
+        stands=state.stands,
+        stops_at=state.stops_at - shift,
         events=state.events,
     )
 
@@ -86,6 +100,16 @@ def _is_over(state: FleetProgressState, rounds: Floats) -> bool:
         return False
     others = ~is_patrol & ~(state.arrived | state.out)
     return not others.any() and bool((progress >= rounds)[drives].all())
+
+
+def _passed(stations: FleetStations, shift: Floats) -> Ints:
+    """How many stations each robot has in a period, (n,)."""
+    inside = (stations.place > SAME_M) & (
+        stations.place <= np.repeat(shift, np.diff(stations.first)) + SAME_M
+    )
+    counts: Ints = np.concatenate(([0], np.cumsum(inside)))
+    passed: Ints = np.diff(counts[stations.first])
+    return passed
 
 
 def _a_period_later(fleet: DrivenFleet, shift: Floats) -> dict[int, int]:

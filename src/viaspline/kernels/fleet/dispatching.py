@@ -33,7 +33,7 @@ def new_dispatch(orders: PackedOrders, leaders: Ints, depart: Floats) -> PackedD
     return PackedDispatch(
         leaders.copy(), np.zeros(count), orders.first[:-1].copy(), np.zeros(count),
         np.full(count, -1), np.full(count, np.inf), np.zeros(count), depart.copy(), depart.copy(),
-        np.zeros(count, np.bool_),
+        np.zeros(count, np.bool_), depart.copy(), np.full(count, np.inf),
     )  # fmt: skip
 
 
@@ -56,7 +56,7 @@ def dispatch_copy(dispatch: PackedDispatch) -> PackedDispatch:
         dispatch.leaders.copy(), dispatch.progress.copy(), dispatch.head.copy(),
         dispatch.promised.copy(), dispatch.recall.copy(), dispatch.recall_place.copy(),
         dispatch.recalled_at.copy(), dispatch.begin.copy(), dispatch.moved_at.copy(),
-        dispatch.fixed.copy(),
+        dispatch.fixed.copy(), dispatch.departs.copy(), dispatch.halt.copy(),
     )  # fmt: skip
 
 
@@ -82,10 +82,11 @@ def take_report(
         dispatch.progress[robot] = place
     if place > before + MOVED_M or before >= dispatch.promised[robot] - HELD_M:
         dispatch.moved_at[robot] = max(now, dispatch.moved_at[robot])
-    if dispatch.recall[robot] < 0 or heard < dispatch.recalled_at[robot]:
+    is_held = dispatch.recall[robot] >= 0 or dispatch.halt[robot] < np.inf
+    if not is_held or heard < dispatch.recalled_at[robot]:
         return False
     dispatch.promised[robot] = holds
-    return True
+    return dispatch.recall[robot] >= 0
 
 
 @inner
@@ -105,13 +106,15 @@ def set_begin(
     if place < np.inf and not dispatch.fixed[robot]:
         latest = now - max(comes_to(courses, alone, robot, place), 0.0)
         earliest = now - goes_from(courses, alone, robot, place)
-        dispatch.begin[robot] = max(min(dispatch.begin[robot], latest), earliest)
+        begin = max(min(dispatch.begin[robot], latest), earliest)
+        dispatch.begin[robot] = max(begin, dispatch.departs[robot])
 
 
 @inlined
 def grant_of(orders: PackedOrders, dispatch: PackedDispatch, robot: int) -> float:
     """How far a robot may go now [m]; it is taken to be promised that."""
     grant = min(open_bars_of(orders, dispatch, robot), dispatch.recall_place[robot])
+    grant = min(grant, dispatch.halt[robot])
     dispatch.promised[robot] = max(dispatch.promised[robot], grant)
     return grant
 
@@ -172,9 +175,8 @@ def dispatch_step(
         swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
     if swapped > 0:
         sequence, _ = order_flow(
-            orders, dispatch.leaders, dispatch.progress, orders.first[:-1], np.zeros(count),
-            dispatch.fixed,
-        )  # fmt: skip
+            orders, dispatch.leaders, dispatch.progress, orders.first[:-1], dispatch.fixed
+        )
     grants = np.empty(count)
     for robot in range(count):
         grants[robot] = grant_of(orders, dispatch, robot)

@@ -125,10 +125,7 @@ def fleet_ticks(
     stretches, rows = new_floats(64 + 32 * count, 5), 0
     happened, events = new_floats(64, 5), 0
     heads = dispatch.head.copy()
-    none = np.zeros(count)
-    sequence, _ = order_flow(
-        orders, dispatch.leaders, dispatch.progress, heads, none, dispatch.fixed
-    )
+    sequence, _ = order_flow(orders, dispatch.leaders, dispatch.progress, heads, dispatch.fixed)
     tick, now = 0, begin
     for robot in range(count):  # those without a law never set out
         dispatch.fixed[robot] = rides.depart[robot] == np.inf
@@ -148,9 +145,8 @@ def fleet_ticks(
         if swap_every > 0 and tick % swap_every == 0:
             if is_old:
                 sequence, _ = order_flow(
-                    orders, dispatch.leaders, dispatch.progress, orders.first[:-1], none,
-                    dispatch.fixed,
-                )  # fmt: skip
+                    orders, dispatch.leaders, dispatch.progress, orders.first[:-1], dispatch.fixed
+                )
                 is_old = False
             swapped += swap_orders(courses, alone, orders, dispatch, sequence, now)
         if swapped > 0:

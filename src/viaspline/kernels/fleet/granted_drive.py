@@ -192,8 +192,9 @@ def drive_stretch(
     far = min(far, left)
     speed = math.sqrt(square)
     then = max(square + rise * far, 0.0)
-    if then < NEAR_SQUARE:
+    if then < NEAR_SQUARE or (ends and rides.square[node + 1] == 0.0):
         then = 0.0
+        rise = -square / far if far > 0.0 else rise
     if speed == 0.0 and then == 0.0:
         return until  # it can't go on before its grant grows
     drive.slope[robot] = rise
@@ -201,13 +202,12 @@ def drive_stretch(
     if now + lasts > until:
         late = until - now
         drive.place[robot] = min(drive.place[robot] + (speed + 0.25 * rise * late) * late, end)
-        then = max(speed + 0.5 * rise * late, 0.0) ** 2
-        drive.square[robot] = 0.0 if then < NEAR_SQUARE else then
+        square = max(speed + 0.5 * rise * late, 0.0) ** 2
+        has_stopped = rise <= 0.0 and square < NEAR_SQUARE  # else a hair of speed is kept for ever
+        drive.square[robot] = 0.0 if has_stopped else square
         return until
     drive.square[robot] = then
     if ends:
-        if rides.square[node + 1] == 0.0:
-            drive.square[robot] = 0.0
         enters_node(drive, courses, trouble, robot, node + 1)
     else:
         drive.place[robot] += far

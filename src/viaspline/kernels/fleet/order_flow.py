@@ -18,7 +18,7 @@ from viaspline.kernels.jit import kernel
 
 @kernel
 def order_flow(
-    orders: PackedOrders, leaders: Ints, progress: Floats, head: Ints, margin: Floats, fixed: Flags
+    orders: PackedOrders, leaders: Ints, progress: Floats, head: Ints, fixed: Flags
 ) -> tuple[Ints, Ints]:
     """Drive robots from bar to bar to their ends, without any times.
 
@@ -27,7 +27,6 @@ def order_flow(
         leaders: Who passes each crossing first, (c,).
         progress: How far each robot has come [m], (n,).
         head: The first bar of each robot that may not be open, (n,).
-        margin: How much farther than it says a robot has to be, but at its end [m], (n,).
         fixed: Whether a robot never gets on any more, (n,).
 
     Returns:
@@ -65,7 +64,7 @@ def order_flow(
         if b == end:
             come[robot] = np.inf if orders.vanishes[robot] else orders.length[robot]
         else:
-            come[robot] = max(come[robot], orders.place[b] - margin[robot])
+            come[robot] = max(come[robot], orders.place[b] - orders.short[robot])
         one = waiter[robot]
         waiter[robot] = -1
         while one >= 0:

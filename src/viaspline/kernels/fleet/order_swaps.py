@@ -66,7 +66,7 @@ def makes_cycle(
         robot = stack[top]
         waits[robot] = False
         b = cursor[robot]
-        while b < orders.first[robot + 1] and orders.place[b] < needed[robot]:
+        while b < orders.first[robot + 1] and orders.place[b] - orders.short[robot] < needed[robot]:
             other, c, passed = orders.other[b], orders.crossing[b], orders.passed[b]
             b += 1
             if c == crossing or dispatch.leaders[c] != other or needed[other] >= passed:
@@ -74,7 +74,7 @@ def makes_cycle(
             needed[other] = passed
             if dispatch.fixed[other]:
                 return True
-            if other == leader and needed[other] > orders.place[entry]:
+            if other == leader and needed[other] > orders.place[entry] - orders.short[leader]:
                 return True
             if not waits[other]:
                 waits[other] = True

@@ -21,10 +21,13 @@ class PackedDispatch(NamedTuple):
         recall: The crossing that a robot is to let another pass first, if it still can; -1: none,
             (n,).
         recall_place: Before which it is to stay for that [m]; infinite: none, (n,).
-        recalled_at: Since when it is asked to [s], (n,).
+        recalled_at: Since when it is asked to, or to stop where ``halt`` is [s], (n,).
         begin: When each robot would have set out to be where it is without any waits [s], (n,).
         moved_at: When it was last seen to get on, or held back [s], (n,).
         fixed: Whether a robot never gets on any more, (n,).
+        departs: When each robot may set out [s], (n,).
+        halt: Beyond which a robot isn't let for now, whoever is in its way: it has to stand there
+            [m]; infinite: nowhere, (n,).
     """
 
     leaders: Ints
@@ -37,3 +40,5 @@ class PackedDispatch(NamedTuple):
     begin: Floats
     moved_at: Floats
     fixed: Flags
+    departs: Floats
+    halt: Floats

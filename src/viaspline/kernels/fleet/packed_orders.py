@@ -33,6 +33,8 @@ class PackedOrders(NamedTuple):
             nor the other one begin in it.
         length: Of the robots' paths [m], (n,).
         vanishes: Whether a robot leaves the world when it arrives, (n,).
+        short: How far before a bar, but not before its end, each may stand and be believed to be
+            farther back still [m], (n,).
     """
 
     first: Ints
@@ -47,3 +49,4 @@ class PackedOrders(NamedTuple):
     may_lead: Flags
     length: Floats
     vanishes: Flags
+    short: Floats

@@ -20,7 +20,6 @@ from viaspline.kernels.space.routing.route_protocol import (
     PlaceLattice,
     answers_route,
     could_hold,
-    half_diagonal,
     is_free,
     is_open,
     neighbours,
@@ -94,15 +93,31 @@ def _open_moves(
 def _could_hold(
     space: PackedSpace, lattice: PlaceLattice, i: int, j: int, k: int, radius: float
 ) -> bool:
-    step = lattice.frame[3]
-    x = lattice.frame[0] + i * step
-    y = lattice.frame[1] + j * step
-    z = lattice.frame[2] + k * step
-    limits = space.height_limits
-    if z + 0.5 * step < limits[0] or z - 0.5 * step > limits[1]:
-        return False
-    needed = radius - half_diagonal(step)
-    return space_distance(space, x, y, z, needed)[0] >= needed
+    # Only the part of a cell that is within all limits can hold a free place: what of it lies
+    # beyond the bounds would lead round whatever reaches up to them.
+    half = 0.5 * lattice.frame[3] * (1.0 + 1e-9)
+    low = np.empty(3)
+    high = np.empty(3)
+    for axis, row in enumerate((i, j, k)):
+        middle = lattice.frame[axis] + row * lattice.frame[3]
+        low[axis] = middle - half
+        high[axis] = middle + half
+    low[2] = max(low[2], space.height_limits[0])
+    high[2] = min(high[2], space.height_limits[1])
+    kept = radius + space.core[0]
+    for row in range(space.bounds.shape[0]):
+        for axis in range(2):
+            low[axis] = max(low[axis], space.bounds[row, axis] + kept)
+            high[axis] = min(high[axis], space.bounds[row, axis + 2] - kept)
+    around = 0.0
+    for axis in range(3):
+        if low[axis] > high[axis]:
+            return False
+        around += (high[axis] - low[axis]) ** 2
+    needed = radius - 0.5 * math.sqrt(around) * (1.0 + 1e-9)
+    x = 0.5 * (low[0] + high[0])
+    y = 0.5 * (low[1] + high[1])
+    return space_distance(space, x, y, 0.5 * (low[2] + high[2]), needed)[0] >= needed
 
 
 @answers_route(touched, PackedSpace)

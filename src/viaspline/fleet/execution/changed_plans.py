@@ -1,0 +1,219 @@
+"""Plans of fleets with a robot more, one less, or one sent elsewhere; the others keep theirs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from viaspline.errors import GeometryError
+from viaspline.fleet.execution.driven_fleet import DrivenFleet, rounds_of
+from viaspline.fleet.execution.fleet_orders import index_of
+from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
+from viaspline.fleet.execution.left_fleet import fleet_without
+from viaspline.fleet.execution.ways_from_rest import check_member, laid_from_rest
+from viaspline.fleet.fleet_certificate import certify_fleet
+from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.laying.resting_places import RestingPlaces, rests_of
+from viaspline.fleet.ordered_crossings import ordered_crossings
+from viaspline.fleet.patrols.fleet_patrols import FleetPatrols
+from viaspline.fleet.precedences import precedences_of
+from viaspline.fleet.timing.rides import FleetRides
+from viaspline.fleet.timing.timed_trajectory import timed_trajectory
+from viaspline.handed_in import check_kind
+from viaspline.mission.fleet.fleet import Fleet, FleetMember
+from viaspline.planner import Plan
+
+
+def add_robot(plan: FleetPlan, member: FleetMember) -> FleetPlan:
+    """A plan with one robot more; the paths and the laws of the others stay as they are.
+
+    Its path is laid round the places where the others rest, and it lets pass whom it has to. Among
+    patrols that never end it arrives a period before the last lap that is laid out ends.
+
+    Args:
+        plan: Of the others.
+        member: The robot.
+
+    Raises:
+        PlanningError: It has no path, or can't be timed along it among the others.
+        GeometryError: There is a robot of its name, it never ends, or something moves in the world
+            that waits for nobody.
+
+    Example:
+        >>> import viaspline as vs
+        >>> plan = vs.plan_fleet(vs.Fleet.model_validate({"separation_m": 1, "fleet": [
+        ...     {"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}},
+        ... ]}))
+        >>> there = vs.Mission.model_validate({"route": {"start": [20, -20], "goal": [20, 20]}})
+        >>> both = add_robot(plan, vs.FleetMember("b", there))
+        >>> [(one.first, one.second) for one in both.precedences], both.served
+        ([('a', 'b')], True)
+        >>> both.plans["a"] is plan.plans["a"]
+        True
+    """
+    check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
+    check_member(member)
+    if member.name in {one.name for one in plan.fleet.members}:
+        raise GeometryError(f"there is a robot {member.name!r} already; give another name")
+    return _with(plan, member, (*plan.fleet.members, member))
+
+
+def reroute_robot(plan: FleetPlan, member: FleetMember) -> FleetPlan:
+    """A plan in which one robot has another mission; all else stays as it is.
+
+    Args:
+        plan: Of the fleet.
+        member: The robot with its other mission.
+
+    Raises:
+        PlanningError: It has no path, or can't be timed along it among the others.
+        GeometryError: There is no robot of its name, the mission never ends, or something moves in
+            the world that waits for nobody.
+    """
+    check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
+    check_member(member)
+    names = tuple(one.name for one in plan.fleet.members)
+    members = list(plan.fleet.members)
+    members[index_of(names, member.name)] = member
+    return _with(plan, member, members)
+
+
+def remove_robot(plan: FleetPlan, name: str) -> FleetPlan:
+    """A plan without one of its robots; the paths and the laws of the others stay as they are.
+
+    Args:
+        plan: Of the fleet.
+        name: Of the robot.
+
+    Raises:
+        GeometryError: There is no such robot, it is the only one, or something moves in the world
+            that waits for nobody.
+    """
+    check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
+    index_of(tuple(one.name for one in plan.fleet.members), name)
+    members = [one for one in plan.fleet.members if one.name != name]
+    if not members:
+        raise GeometryError(f"{name!r} is the only robot; a fleet has one at least")
+    _check_nothing_moves(plan)
+    driven = _driven(plan)
+    if name in plan.names:
+        driven = fleet_without(driven, plan.names.index(name))
+    plans = {one: it for one, it in plan.plans.items() if one != name}
+    return _planned(plan, members, driven, plans, _rides(driven, plan, name))
+
+
+def _check_nothing_moves(plan: FleetPlan) -> None:
+    """Refuse to change the plan of a fleet among things that move."""
+    if plan.fleet.world.moving:
+        name = plan.fleet.world.moving[0].name or "what moves"
+        raise GeometryError(
+            f"'{name}' waits for nobody, and only robots are timed among each other here; plan the "
+            "whole fleet anew with plan_fleet, or leave the motion out"
+        )
+
+
+def _with(plan: FleetPlan, member: FleetMember, members: Sequence[FleetMember]) -> FleetPlan:
+    """A plan with a robot more, or in place of one of its name."""
+    _check_nothing_moves(plan)
+    driven = _driven(plan)
+    others = [one for one in plan.fleet.members if one.name != member.name]
+    reaches = dict(zip(plan.names, plan.courses.packed.reach.tolist(), strict=True))
+    half = 0.5 * plan.fleet.separation_m
+    rests = RestingPlaces(
+        tuple(
+            rest
+            for one in others
+            for rest in rests_of(one, reaches.get(one.name, one.mission.robot.outer_radius + half))
+        )
+    )
+    out = [one.name for one in plan.not_served if one.name != member.name]
+    laid = laid_from_rest(member, plan.fleet.separation_m, rests, out)
+    count = len(plan.names)
+    nowhere = LetIn(np.full(count, np.inf), np.zeros(count), np.zeros(count, np.bool_))
+    joined = joined_fleet(driven, plan.laws.packed, nowhere, member, laid)
+    robot = joined.names.index(member.name)
+    rides = _rides(joined, plan, member.name)
+    law = timed_trajectory(laid.trajectory, joined.courses, rides, joined.laws, robot)
+    plans = {**plan.plans, member.name: replace(laid, trajectory=law)}
+    return _planned(plan, members, joined, plans, rides)
+
+
+def _driven(plan: FleetPlan) -> DrivenFleet:
+    """The parts of a plan that change with its robots."""
+    return DrivenFleet(
+        plan.courses, plan.crossings, plan.laws, plan.rides.packed, plan.fleet.separation_m,
+        rounds_of(plan),
+    )  # fmt: skip
+
+
+def _rides(driven: DrivenFleet, before: FleetPlan, changed: str) -> FleetRides:
+    """How robots drive alone; all but one as before."""
+    alone, first = driven.alone, driven.courses.packed.first
+    later = np.repeat(driven.rides.depart, np.diff(first))
+    leave = alone.leave + later
+    leave[first[1:] - 1] = np.inf
+    laws = alone._replace(arrive=alone.arrive + later, leave=leave)
+    lasts = alone.arrive[first[1:] - 1].copy()
+    known, was = before.rides.laws.packed, before.courses.packed.first
+    numbers = {name: k for k, name in enumerate(before.names) if name != changed}
+    for robot, name in enumerate(driven.names):
+        if name in numbers:
+            old = numbers[name]
+            lasts[robot] = before.rides.alone[old]
+            for one, other in zip(laws[:3], known[:3], strict=True):
+                one[first[robot] : first[robot + 1]] = other[was[old] : was[old + 1]]
+    return FleetRides(driven.rides, lasts, FleetLaws(laws))
+
+
+def _patrols(
+    before: FleetPlan, plans: Mapping[str, Plan], driven: DrivenFleet
+) -> FleetPatrols | None:
+    """What still never ends, and from when on nothing else moves; None: all end."""
+    if before.patrols is None or driven.rounds is None:
+        return None
+    names = [n for n, way in zip(driven.names, driven.rounds.tolist(), strict=True) if way > 0.0]
+    if not names:
+        return None
+    ends = [one.trajectory.end_time for name, one in plans.items() if name not in names]
+    old = before.patrols
+    since = max([old.repeats_from, *ends])
+    return FleetPatrols(
+        old.period,
+        {name: old.laps[name] for name in names},
+        {name: old.begins[name] for name in names},
+        since,
+        max(old.planned_until, since + old.period),
+    )
+
+
+def _planned(
+    before: FleetPlan,
+    members: Sequence[FleetMember],
+    driven: DrivenFleet,
+    plans: Mapping[str, Plan],
+    rides: FleetRides,
+) -> FleetPlan:
+    """The plan of a fleet that was changed, proven anew as a whole."""
+    fleet = Fleet.of(members, before.fleet.separation_m)
+    patrols = _patrols(before, plans, driven)
+    certificate = certify_fleet(driven.courses, driven.laws, fleet.separation_m)
+    if patrols is not None:
+        certificate = replace(certificate, repeats=(patrols.repeats_from, patrols.period))
+    crossings = ordered_crossings(driven.courses, driven.crossings, driven.laws)
+    names = [one.name for one in members]
+    return FleetPlan(
+        fleet=fleet,
+        plans={name: plans[name] for name in names if name in plans},
+        not_served=tuple(one for one in before.not_served if one.name in set(names) - set(plans)),
+        certificate=certificate,
+        precedences=precedences_of(driven.courses, crossings, driven.laws, rides.laws),
+        alone=dict(zip(driven.names, rides.alone.tolist(), strict=True)),
+        courses=driven.courses,
+        crossings=crossings,
+        laws=driven.laws,
+        rides=rides,
+        patrols=patrols,
+    )

@@ -1,0 +1,57 @@
+"""When every robot under way will be where, if none is delayed any more.
+
+These are laws that robots can't drive: they come to a bar as fast as they would pass it, and wait.
+But they keep every order that holds, so whoever is timed among them fits into the orders: the graph
+stays without a cycle.
+
+Tested through ``fleet/execution/test_changed_fleets``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.fleet.execution.fleet_progress import FleetProgressState
+from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.fleet.order_flow import expected_shifts
+from viaspline.kernels.fleet.packed_laws import PackedLaws
+
+
+def expected_laws(
+    fleet: DrivenFleet, state: FleetProgressState, leaves: int | None = None
+) -> PackedLaws:
+    """The laws of a fleet from now on; of robots that don't drive any more there are none.
+
+    Args:
+        fleet: What is driven.
+        state: How far it has come.
+        leaves: A robot that leaves its path where it is: those who wait for it there come later
+            than anybody else, however late that is.
+    """
+    orders, packed = state.orders.packed, state.packed
+    shift, _ = expected_shifts(orders, packed.leaders, state.sequence, packed.head, packed.begin)
+    alone, courses, stuck = fleet.alone, fleet.courses.packed, state.stuck(leaves)
+    arrive, leave = np.full_like(alone.arrive, np.inf), np.full_like(alone.leave, np.inf)
+    for robot in np.flatnonzero(~state.out).tolist():
+        nodes = slice(int(courses.first[robot]), int(courses.first[robot + 1]))
+        bars = slice(int(orders.first[robot]), int(orders.first[robot + 1]))
+        later = _later(shift[bars], int(packed.head[robot]) - bars.start, packed.begin[robot])
+        if stuck[robot] >= 0:
+            later[stuck[robot] - bars.start + 1 :] = np.inf
+        along, places = courses.distance[nodes], orders.place[bars]
+        comes: Ints = np.searchsorted(places, along, side="left")
+        goes: Ints = np.searchsorted(places, along, side="right")
+        arrive[nodes] = alone.arrive[nodes] + later[comes]
+        leave[nodes] = alone.leave[nodes] + later[goes]
+        gone = np.flatnonzero(along[1:] <= packed.progress[robot]) + nodes.start
+        arrive[gone] = leave[gone] = -np.inf  # who joins may have stood there since ever
+        leave[nodes.stop - 1] = arrive[nodes.stop - 1] if fleet.rides.vanishes[robot] else np.inf
+    return PackedLaws(arrive, leave, alone.speed.copy(), ~state.out)
+
+
+def _later(shift: Floats, head: int, begin: float) -> Floats:
+    """How much later than its law alone a robot is after so many of its bars [s], (m + 1,)."""
+    known = np.where(np.arange(len(shift)) < head, begin, shift)
+    later: Floats = np.maximum.accumulate(np.concatenate(([begin], known)))
+    return later

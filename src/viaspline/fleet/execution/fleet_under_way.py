@@ -1,0 +1,171 @@
+"""Changes of a fleet under way: robots that join it, that are sent elsewhere, that go round others.
+
+Tested through ``fleet/execution/test_replanned_fleets``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viaspline.errors import GeometryError, PlanningError
+from viaspline.fleet.execution.carried_over import carried_over
+from viaspline.fleet.execution.driven_fleet import DrivenFleet
+from viaspline.fleet.execution.dwells import STANDS_MPS
+from viaspline.fleet.execution.expected_laws import expected_laws
+from viaspline.fleet.execution.fleet_orders import index_of
+from viaspline.fleet.execution.fleet_progress import FleetProgressState
+from viaspline.fleet.execution.fleet_run import FleetEvent
+from viaspline.fleet.execution.joined_fleet import LetIn, joined_fleet
+from viaspline.fleet.execution.ways_from_rest import (
+    FleetMissions,
+    from_where_it_stands,
+    laid_from_rest,
+    rest_of_route,
+    rests_now,
+)
+from viaspline.kernels.fleet.dispatching import HELD_M
+from viaspline.mission.fleet.fleet import FleetMember
+from viaspline.mission.model import Mission
+from viaspline.mission.route_spec import Route
+
+
+@dataclass(frozen=True, eq=False)
+class FleetUnderWay:
+    """A fleet that is driven, at an instant.
+
+    Attributes:
+        fleet: What is driven.
+        missions: What its robots are to do; None if it was planned by other means.
+        state: How far it has come.
+        short: How far before a bar robots may stand and be believed to be farther back still [m].
+    """
+
+    fleet: DrivenFleet
+    missions: FleetMissions | None
+    state: FleetProgressState
+    short: float
+
+    @property
+    def now(self) -> float:
+        """The time of the last step [s]; 0 before the first one."""
+        return self.state.time if np.isfinite(self.state.time) else 0.0
+
+    @property
+    def known(self) -> FleetMissions:
+        """What its robots are to do.
+
+        Raises:
+            GeometryError: That isn't known.
+        """
+        if self.missions is None:
+            raise GeometryError("this navigator has no FleetPlan; give one to FleetNavigator")
+        return self.missions
+
+    def along(self, fleet: DrivenFleet) -> FleetUnderWay:
+        """With another plan; see ``carried_over``."""
+        state = carried_over(self.state, self.fleet, fleet, self.short)
+        return replace(self, fleet=fleet, state=state)
+
+    def told(self, *events: FleetEvent) -> FleetUnderWay:
+        """With something more that happened."""
+        return replace(self, state=replace(self.state, events=(*self.state.events, *events)))
+
+    def stands(self, robot: int) -> bool:
+        """Whether a robot stands, and isn't let any farther."""
+        state = self.state
+        left = state.packed.promised[robot] - state.places[robot]
+        is_bound = left <= self.short + HELD_M
+        return bool(is_bound and state.speeds[robot] <= STANDS_MPS and not state.out[robot])
+
+    def stopping(self, name: str, period: float) -> FleetUnderWay:
+        """With a robot that is asked to stop as soon as it can."""
+        robot = index_of(self.fleet.names, name)
+        state = self.state.copied(self.state.time)
+        speed = float(state.speeds[robot])
+        ahead = 0.5 * speed * speed / float(self.fleet.rides.brake[robot]) + 2.0 * speed * period
+        stops_at = min(float(state.places[robot]) + ahead, float(state.packed.promised[robot]))
+        state.stops_at[robot] = state.packed.halt[robot] = stops_at
+        state.packed.recalled_at[robot] = state.time
+        along = stops_at + float(state.driven[robot])
+        words = f"{name} is asked to stop at {along:.1f} m"
+        event = FleetEvent("stops", self.now, name, words, None, along)
+        return replace(self, state=replace(state, events=(*self.state.events, event)))
+
+    def rerouted(self, name: str, route: Route) -> FleetUnderWay:
+        """With a robot that is sent elsewhere, from where it stands."""
+        robot, missions = index_of(self.fleet.names, name), self.known
+        if not self.stands(robot):
+            raise GeometryError(
+                f"{name} drives, or may set out at any time; ask it to stop with stopping({name!r})"
+            )
+        place, path = float(self.state.places[robot]), missions.plans[name].path
+        mission = from_where_it_stands(missions.members[name].mission, route, path, place)
+        along = place + float(self.state.driven[robot])
+        return self._sent(name, mission, f"{name} is sent elsewhere from {along:.1f} m")
+
+    def replanned(self) -> FleetUnderWay:
+        """With other paths for those that wait for a dead robot, from where they stand."""
+        now, failed = self, dict[str, FleetEvent]()
+        while name := now._next_of(failed):
+            try:
+                now = now._laid_anew(name)
+                failed.clear()  # who found no way may find one now
+            except (PlanningError, GeometryError) as error:
+                failed[name] = FleetEvent("has no way", self.now, name, str(error))
+        return now.told(*failed.values())
+
+    def _next_of(self, failed: Mapping[str, FleetEvent]) -> str | None:
+        """Who is to be laid anew next: it waits for one that never gets on, or in another's way."""
+        stuck, others = self.state.stuck(), self.state.orders.packed.other
+        blocked = np.flatnonzero(stuck >= 0).tolist()
+        names, members = self.fleet.names, self.known.members
+        ready = [r for r in blocked if names[r] not in failed and self.stands(r)]
+        direct = [r for r in ready if self.state.out[others[stuck[r]]]]
+        chosen = direct or (ready if failed else [])
+        if not chosen:
+            return None
+        return names[max(chosen, key=lambda r: (members[names[r]].priority, -r))]
+
+    def joined(self, member: FleetMember, event: FleetEvent) -> FleetUnderWay:
+        """With a robot that begins a path of its own now, in place of one of its name."""
+        missions, fleet, state = self.known, self.fleet, self.state
+        out = [name for name, is_out in zip(fleet.names, state.out, strict=True) if is_out]
+        member = _departing(member, max(member.mission.route.depart_s, self.now))
+        rests = rests_now(fleet, state, missions, member.name)
+        plan = laid_from_rest(member, fleet.separation, rests, out)
+        let_in = LetIn(state.packed.progress, state.packed.promised, state.out)
+        leaves = fleet.names.index(member.name) if member.name in fleet.names else None
+        laws = expected_laws(fleet, state, leaves)
+        try:
+            changed = self.along(joined_fleet(fleet, laws, let_in, member, plan))
+        except GeometryError:  # too tight for robots that stop short: it lets all others pass first
+            ends = laws.arrive[fleet.courses.packed.first[1:] - 1]
+            last = float(ends[np.isfinite(ends)].max(initial=self.now))
+            changed = self.along(joined_fleet(fleet, laws, let_in, _departing(member, last), plan))
+        return replace(changed, missions=missions.with_way(member, plan)).told(event)
+
+    def _laid_anew(self, name: str) -> FleetUnderWay:
+        """With another path for a robot that stands, to what is left of its route."""
+        robot, missions = index_of(self.fleet.names, name), self.known
+        plan, place = missions.plans[name], float(self.state.places[robot])
+        if missions.members[name].mission.route.is_patrol:
+            raise GeometryError("it is a patrol that never ends; give it a route of its own")
+        route = rest_of_route(plan.mission, plan.path, place)
+        mission = missions.members[name].mission.model_copy(update={"route": route})
+        return self._sent(name, mission, f"{name} goes another way from {place:.1f} m")
+
+    def _sent(self, name: str, mission: Mission, words: str) -> FleetUnderWay:
+        """With a robot that has another mission from now on."""
+        member = replace(self.known.members[name], mission=mission)
+        robot = index_of(self.fleet.names, name)
+        place = float(self.state.places[robot] + self.state.driven[robot])
+        return self.joined(member, FleetEvent("re-planned", self.now, name, words, None, place))
+
+
+def _departing(member: FleetMember, time: float) -> FleetMember:
+    """A robot that may depart at a time [s]."""
+    route = member.mission.route.model_copy(update={"depart_s": time})
+    return replace(member, mission=member.mission.model_copy(update={"route": route}))

@@ -1,0 +1,308 @@
+"""Fleets under way that get a robot more, or others ways for some: all arrive, far enough apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import viaspline as vs
+from viaspline.errors import GeometryError, PlanningError
+from viaspline.mission.fleet.fleet import FleetMember
+from viaspline.mission.route_spec import Route
+
+APART_M = 2.0  # between centres: discs of half a metre, and a metre between them
+KINDS = {"cart": {"radius_m": 0.5, "clearance_m": 0.1, "max_speed_mps": 2.0}}
+PERIOD_S = 0.5
+
+
+def fleet(*routes: Any, world: Any = None) -> vs.Fleet:
+    robots = [{"name": f"r{k}", "route": route} for k, route in enumerate(routes)]
+    return vs.Fleet.model_validate(
+        {"separation_m": 1.0, "robots": KINDS, "world": world or {}, "fleet": robots}
+    )
+
+
+CROSS = ({"start": [0, 0], "goal": [40, 0]}, {"start": [20, -20], "goal": [20, 20]})
+ASIDE = {"start": [0, 40], "goal": [40, 40]}
+
+
+@dataclass
+class Drive:
+    """Robots that do what the navigator tells them, and are looked at every half a second.
+
+    A robot that is dead stands where it died.
+    """
+
+    nav: vs.FleetNavigator
+    time: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.place = dict.fromkeys(self.nav.names, 0.0)
+        self.speed = dict.fromkeys(self.nav.names, 0.0)
+        self.holds = dict.fromkeys(self.nav.names, 0.0)
+        self.number = dict.fromkeys(self.nav.names, 0)
+        self.at: dict[str, Any] = {}
+        self.nearest = np.inf
+        self.granted: dict[str, float] = {}
+        self.heard = -1.0
+
+    def driving(self) -> list[str]:
+        """Those that have a plan; the others stand at their starts."""
+        return [name for name in self.nav.names if name in self.nav.paths]
+
+    def where(self) -> dict[str, np.ndarray]:
+        paths = self.nav.paths
+        for name in self.driving():
+            path = paths[name].path
+            self.at[name] = np.asarray(path.at_distance(min(self.place[name], path.length)))
+        return self.at
+
+    def step(self, dead: tuple[str, ...] = ()) -> dict[str, vs.FleetCommand]:
+        reports = [
+            vs.ProgressReport(
+                name, self.time, self.place[name], self.speed[name],
+                self.place[name] >= self.nav.paths[name].path.length - 1e-6,
+                self.holds[name], self.heard, self.number[name],
+            )
+            for name in self.driving() if name not in dead
+        ]  # fmt: skip
+        commands, self.nav = self.nav.step(reports, self.time)
+        assert not [one for one in self.nav.events if one.kind == "refused"]
+        self.heard = self.time
+        for name, command in commands.items():
+            if name in dead:
+                continue
+            if command.path != self.number[name]:
+                self.number[name], self.place[name] = command.path, 0.0
+                self.speed[name] = self.holds[name] = 0.0
+            stops = self.place[name] + self.speed[name] ** 2 / 2.0
+            if command.granted >= self.holds[name] or stops <= command.granted:
+                self.holds[name] = command.granted
+            self.place[name] = max(self.place[name], min(command.distance, self.holds[name]))
+            self.speed[name] = command.speed
+        self.time += PERIOD_S
+        at = np.array(list(self.where().values()))
+        gaps = np.hypot(*np.moveaxis(at[:, None] - at[None], -1, 0)) + 9.0 * np.eye(len(at))
+        self.nearest = min(self.nearest, float(gaps.min()))
+        return commands
+
+    def take(self, nav: vs.FleetNavigator) -> None:
+        """A navigator of a fleet that was changed."""
+        self.nav = nav
+        for name in nav.names:
+            for table in (self.place, self.speed, self.holds):
+                table.setdefault(name, 0.0)
+            self.number.setdefault(name, 0)
+
+    def until(self, seconds: float, dead: tuple[str, ...] = ()) -> None:
+        while self.time < seconds and not self.nav.reached:
+            self.step(dead)
+
+
+def start(*routes: Any, world: Any = None) -> Drive:
+    plan = vs.plan_fleet(fleet(*routes, world=world))
+    assert plan.served
+    return Drive(vs.FleetNavigator(plan, period=PERIOD_S))
+
+
+def member(name: str, route: Any) -> FleetMember:
+    return FleetMember(name, fleet(route).members[0].mission)
+
+
+def test_a_robot_that_is_added_under_way_passes_the_others_and_nobody_else_is_touched() -> None:
+    drive = start(*CROSS, ASIDE)
+    drive.until(6.0)
+    before, _ = drive.nav.step([], drive.time)
+    drive.take(drive.nav.with_robot(member("new", {"start": [30, -20], "goal": [30, 20]})))
+    assert [(one.kind, one.name) for one in drive.nav.events][-1] == ("added", "new")
+    after, _ = drive.nav.step([], drive.time)
+    assert {name: after[name] for name in before} == before
+    drive.until(120.0)
+    assert drive.nav.reached
+    assert drive.nearest >= APART_M
+
+
+def test_a_robot_is_not_put_before_one_that_was_let_in_already() -> None:
+    """r0 may go on to its goal: who crosses its path waits until it has passed."""
+    drive = start(*CROSS)
+    drive.until(1.0)
+    nav = drive.nav.with_robot(member("new", {"start": [10, -2.5], "goal": [10, 20]}))
+    commands, _ = nav.step([], drive.time)
+    assert commands["r0"].granted == pytest.approx(40.0)
+    assert commands["new"].waits_for == "r0"
+
+
+def test_a_robot_that_is_to_rest_on_anothers_way_passes_before_it_or_is_refused() -> None:
+    drive = start(*CROSS)
+    drive.until(1.0)
+    with pytest.raises(PlanningError) as found:
+        drive.nav.with_robot(member("new", {"start": [30, -5], "goal": [30, 0]}))
+    assert "r0" in found.value.obstacles
+    with pytest.raises(GeometryError, match="there is a robot 'r0' already"):
+        drive.nav.with_robot(member("r0", ASIDE))
+
+
+def test_who_waits_for_a_dead_robot_goes_round_it() -> None:
+    drive = start(*CROSS, ASIDE)
+    while drive.place["r0"] < 20.0:
+        drive.step()
+    drive.take(drive.nav.dead("r0", drive.place["r0"]))
+    assert drive.nav.blocked == {"r1": "r0"}
+    drive.until(40.0, dead=("r0",))
+    assert not drive.nav.reached
+    place = drive.place["r1"]
+    drive.take(drive.nav.replanned())
+    assert drive.nav.blocked == {}
+    event = drive.nav.events[-1]
+    assert (event.kind, event.name, event.at_m) == ("re-planned", "r1", pytest.approx(place))
+    begins = np.asarray(drive.nav.paths["r1"].path.at_distance(0.0))
+    assert begins == pytest.approx([20.0, -20.0 + place])
+    drive.until(100.0, dead=("r0",))
+    assert drive.nav.reached
+    assert drive.nearest >= APART_M - 1e-6
+    assert drive.at["r1"] == pytest.approx([20.0, 20.0])
+
+
+def test_who_is_still_on_its_way_to_where_it_has_to_wait_is_left_for_later() -> None:
+    drive = start(*CROSS)
+    drive.until(2.0)
+    drive.take(drive.nav.dead("r0", 40.0))  # it may be anywhere
+    assert drive.nav.blocked == {"r1": "r0"}
+    same = drive.nav.replanned()
+    assert same.blocked == {"r1": "r0"}
+    assert same.paths["r1"] is drive.nav.paths["r1"]
+
+
+def test_who_has_no_way_round_a_dead_robot_stays_and_is_named() -> None:
+    walls = [
+        [[-2, 2], [42, 2], [42, 3], [-2, 3]],
+        [[-2, -3], [42, -3], [42, -2], [-2, -2]],
+        [[42, -3], [43, -3], [43, 3], [42, 3]],
+    ]
+    world = {"known": [{"polygon": one} for one in walls]}
+    one = {"start": [2, 0], "goal": [40, 0]}
+    drive = start(one, {"start": [-8, 0], "goal": [36, 0], "depart_s": 1}, world=world)
+    drive.until(8.0)
+    drive.take(drive.nav.dead("r0", drive.place["r0"]))
+    drive.until(60.0, dead=("r0",))
+    nav = drive.nav.replanned()
+    assert nav.blocked == {"r1": "r0"}
+    event = nav.events[-1]
+    assert (event.kind, event.name) == ("has no way", "r1")
+    assert "r0" in event.message
+    drive.take(drive.nav.without("r0"))  # it is carried off
+    drive.place["r0"] = 0.0
+    drive.until(120.0, dead=("r0",))
+    assert drive.nav.reached
+
+
+def test_a_robot_is_sent_elsewhere_from_where_it_was_asked_to_stop() -> None:
+    drive = start(*CROSS, ASIDE)
+    drive.until(6.0)
+    other = Route.model_validate({"start": [0, 0], "via": [[20, 30]], "goal": [0, 30]})
+    with pytest.raises(GeometryError, match=r"r2 drives, or may set out .* stopping\('r2'\)"):
+        drive.nav.rerouted("r2", other)
+    drive.take(drive.nav.stopping("r2"))
+    stopped_at = drive.nav.events[-1].at_m
+    drive.until(14.0)
+    assert drive.place["r2"] == pytest.approx(stopped_at, abs=0.05)
+    before, _ = drive.nav.step([], drive.time)
+    drive.take(drive.nav.rerouted("r2", other))
+    after, _ = drive.nav.step([], drive.time)
+    assert {name: after[name] for name in ("r0", "r1")} == {n: before[n] for n in ("r0", "r1")}
+    assert after["r2"].path == 1
+    drive.until(120.0)
+    assert drive.nav.reached
+    assert drive.at["r2"] == pytest.approx([0.0, 30.0])
+    assert drive.nearest >= APART_M
+
+
+def test_who_was_asked_to_stop_goes_on_when_it_is_told_to() -> None:
+    drive = start(*CROSS)
+    drive.until(6.0)
+    drive.take(drive.nav.stopping("r0"))
+    drive.until(40.0)
+    assert drive.place["r0"] < 20.0
+    drive.take(drive.nav.resumed("r0"))
+    drive.until(100.0)
+    assert drive.nav.reached
+    assert drive.nearest >= APART_M
+
+
+def test_what_is_left_of_a_route_has_the_via_points_ahead_with_their_dwells() -> None:
+    vias = [[10, 0], {"at": [20, 10], "dwell_s": 4}, [30, 0]]
+    drive = start(
+        {"start": [0, 0], "via": vias, "closed": True}, {"start": [15, -9], "goal": [15, 25]}
+    )
+    while drive.place["r0"] < 13.0:
+        drive.step()
+    drive.take(drive.nav.stopping("r0"))
+    drive.until(drive.time + 8.0)
+    stands = drive.where()["r0"]
+    way = [{"at": [20, 10], "dwell_s": 4}, [30, 0]]
+    route = Route.model_validate({"start": [0, 0], "via": way, "goal": [0, 0]})
+    drive.take(drive.nav.rerouted("r0", route))
+    names = [tuple(via.at) for via in drive.nav.paths["r0"].path.vias if via.kind == "user"]
+    assert names[1:] == [(20.0, 10.0), (30.0, 0.0), (0.0, 0.0)]
+    assert names[0] == pytest.approx(tuple(stands))
+    waits = []
+    while not drive.nav.reached and drive.time < 150.0:
+        waits.append(drive.step()["r0"].stands_until)
+    assert drive.nav.reached
+    assert len({one for one in waits if one is not None}) == 1
+    assert drive.nearest >= APART_M
+
+
+def test_without_a_plan_there_is_nothing_to_lay_a_path_from() -> None:
+    from viaspline.fleet.execution.driven_fleet import driven_fleet_of
+
+    nav = vs.FleetNavigator.of(driven_fleet_of(vs.plan_fleet(fleet(*CROSS))))
+    with pytest.raises(GeometryError, match="has no FleetPlan"):
+        nav.with_robot(member("new", ASIDE))
+    with pytest.raises(GeometryError, match="has no FleetPlan"):
+        _ = nav.paths
+
+
+@given(seed=st.integers(0, 1000))
+@settings(max_examples=6, deadline=None)
+def test_whoever_dies_joins_or_is_sent_elsewhere_the_others_arrive_apart(seed: int) -> None:
+    """Six robots across a square: one dies where it is, one more comes, all others arrive."""
+    random = np.random.default_rng(seed)
+    ends: list[Any] = []
+    while len(ends) < 14:
+        at = random.uniform(0.0, 50.0, 2)
+        if all(np.hypot(*(at - one)) > 5.0 for one in ends):
+            ends.append(at)
+    pairs = zip(ends[:6], ends[6:12], strict=True)
+    routes = [{"start": a.tolist(), "goal": b.tolist()} for a, b in pairs]
+    plan = vs.plan_fleet(fleet(*routes))
+    drive = Drive(vs.FleetNavigator(plan, period=PERIOD_S))
+    served = set(plan.plans)
+    drive.until(float(random.uniform(3.0, 20.0)))
+    dead = str(random.choice(sorted(served)))
+    drive.take(drive.nav.dead(dead, drive.place[dead]))
+    try:
+        more = {"start": ends[12].tolist(), "goal": ends[13].tolist()}
+        drive.take(drive.nav.with_robot(member("more", more)))
+    except PlanningError:
+        pass  # its start or its goal is in somebody's way
+    has_no_way: set[str] = set()
+    for _ in range(12):
+        drive.until(drive.time + 20.0, dead=(dead,))
+        drive.take(drive.nav.replanned())
+        has_no_way = {one.name for one in drive.nav.events if one.kind == "has no way"}
+        if drive.nav.reached:
+            break
+    late = set(drive.nav.names) - {dead} - set(drive.nav.blocked)
+    late &= served | {"more"}
+    arrived = {
+        name for name in late if drive.place[name] >= drive.nav.paths[name].path.length - 1e-6
+    }
+    assert arrived == late
+    assert has_no_way <= set(drive.nav.blocked)
+    assert drive.nearest >= APART_M - 1e-6
