@@ -22,16 +22,18 @@ ROBOT = {
 }
 ROUND_RADIUS_M = 63.5  # of the disc from which the places of a round are drawn
 ROUND_VIAS = 3
+HOMES_APART_M = 2.5  # a little more than robots have to be from each other
 CROSSING_SHARE = 0.97  # of the side, by which a crossing goes on the way it is to go
 MARGIN_M = 30.0  # by which bends may leave the square
 
 
 def round_missions(count: int, seed: int, side: float = 500.0) -> dict[str, vs.Mission]:
-    """Closed rounds from random homes through random places, in order round their middle."""
+    """Closed rounds from random homes apart through random places, in order round their middle."""
     rng = np.random.default_rng(seed)
     room = min(ROUND_RADIUS_M, 0.5 * side)
-    missions = {}
-    for i in range(count):
+    missions: dict[str, vs.Mission] = {}
+    homes = np.empty((0, 2))
+    while len(homes) < count:
         middle = rng.uniform(room, side - room, 2)
         angles = rng.uniform(0.0, 2.0 * math.pi, ROUND_VIAS + 1)
         radii = room * np.sqrt(rng.uniform(0.0, 1.0, ROUND_VIAS + 1))
@@ -39,7 +41,10 @@ def round_missions(count: int, seed: int, side: float = 500.0) -> dict[str, vs.M
         around = places - places.mean(axis=0)
         order = np.argsort(np.arctan2(around[:, 1], around[:, 0]))
         home, *via = np.roll(places[order], -int(rng.integers(ROUND_VIAS + 1)), axis=0).tolist()
-        missions[f"r{i + 1}"] = _mission(side, {"start": home, "via": via, "closed": True})
+        if (np.hypot(*(homes - home).T) < HOMES_APART_M).any():
+            continue  # such a fleet is refused
+        homes = np.vstack([homes, home])
+        missions[f"r{len(homes)}"] = _mission(side, {"start": home, "via": via, "closed": True})
     return missions
 
 

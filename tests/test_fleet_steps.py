@@ -137,10 +137,38 @@ def test_options_of_one_kind_of_file_are_refused_with_the_other(
     for arguments, words in (
         (("plan", one, "--improve", 3), "--improve is for fleets"),
         (("run", one, "--improve", 3), "--improve is for fleets"),
+        (("plan", one, "--workers", 2), "--workers is for fleets"),
+        (("run", one, "--scheduler", "tcp://a:1"), "--scheduler is for fleets"),
         (("plan", fleet, "--improve", -1), "is not in the range"),
+        (("plan", fleet, "--workers", 0), "is not in the range"),
+        (("run", fleet, "--workers", 2, "--scheduler", "tcp://a:1"), "not both"),
         (("tension", fleet), "this is a fleet"),
         (("run", fleet, "--real-time"), "--real-time is for the mission of one robot"),
     ):
         result = call(*arguments)
         assert result.exit_code == 2
         assert words in result.stderr
+
+
+@pytest.mark.slow
+def test_files_are_the_same_whoever_lays_the_paths(fleet: Path, tmp_path: Path) -> None:
+    here, there = tmp_path / "here", tmp_path / "there"
+    assert call("plan", fleet, "--out", here, "--quiet").exit_code == 0
+    assert call("plan", fleet, "--out", there, "--quiet", "--workers", 2).exit_code == 0
+    files = sorted(file.relative_to(here) for file in here.rglob("*.json"))
+    assert len(files) > 2
+    for file in files:
+        if file.name != "timing.json":
+            assert (here / file).read_bytes() == (there / file).read_bytes()
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_scheduler_that_is_not_there_is_told(
+    fleet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("viaspline.fleet.laying.chosen_workers.CONNECT_S", 0.3)
+    result = call("plan", fleet, "--out", tmp_path / "out", "--scheduler", "tcp://127.0.0.1:1")
+    assert result.exit_code == 2
+    assert "no scheduler of dask answers at tcp://127.0.0.1:1" in result.stderr
+    assert not any((tmp_path / "out").glob("*"))

@@ -150,6 +150,7 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "Fleet": vs.Fleet.model_validate,
     "Fleet separation": lambda junk: vs.Fleet.of(FLEET.members, junk),
     "plan_fleet": vs.plan_fleet,
+    "plan_fleet workers": lambda junk: vs.plan_fleet(FLEET, workers=junk),
     "plan_fleet improve": lambda junk: vs.plan_fleet(FLEET, improve=junk),
     "plan_fleet periods": lambda junk: vs.plan_fleet(FLEET, periods=junk),
     "plan_fleet progress": lambda junk: vs.plan_fleet(FLEET, progress=uncallable(junk)),

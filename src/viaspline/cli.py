@@ -47,6 +47,14 @@ IMPROVE = click.option(
     "--improve", type=click.FloatRange(min=0.0, max=1e6), default=0.0, metavar="SECONDS",
     help="For so long sooner orders of a fleet's robots are sought.  [default: 0]",
 )  # fmt: skip
+WORKERS = click.option(
+    "--workers", type=click.IntRange(1, 61), metavar="N",
+    help="So many processes lay a fleet's paths.  [default: one for each core where that pays]",
+)  # fmt: skip
+SCHEDULER = click.option(
+    "--scheduler", metavar="ADDRESS",
+    help="A cluster of dask.distributed lays them: the address of its scheduler.",
+)  # fmt: skip
 QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
 
 
@@ -54,6 +62,8 @@ QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all g
 @MISSION
 @OUT
 @IMPROVE
+@WORKERS
+@SCHEDULER
 @click.option("--seed", type=int, default=0, show_default=True, help="Of what is random.")
 @click.option(
     "--animate", type=click.Path(path_type=Path), metavar="FILE", help="A .gif or .mp4 of the run."
@@ -65,8 +75,8 @@ QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all g
 )
 @QUIET
 def run(
-    mission: Path, out: Path | None, improve: float, seed: int, animate: Path | None,
-    real_time: bool, quiet: bool,
+    mission: Path, out: Path | None, improve: float, workers: int | None, scheduler: str | None,
+    seed: int, animate: Path | None, real_time: bool, quiet: bool,
 ) -> None:  # fmt: skip
     r"""Plan a mission, drive it and report: the main job.
 
@@ -78,11 +88,13 @@ def run(
     Example:
       viaspline run examples/fig8-patrol.yaml --out patrol --animate patrol/run.gif
     """
+    if workers is not None and scheduler is not None:
+        raise click.UsageError("give --workers or --scheduler, not both")
     asked = load_asked(mission)
     from viaspline.mission.model import Mission
 
     if isinstance(asked, Mission):
-        check_of_fleets(improve)
+        check_of_fleets(improve, workers, scheduler)
         if asked.is_spatial:
             from viaspline.space_steps import run_spatial_mission
 
@@ -96,17 +108,25 @@ def run(
         return
     if real_time:
         raise click.UsageError("--real-time is for the mission of one robot; this is a fleet")
-    from viaspline.fleet_steps import run_fleet_file
+    from viaspline.fleet_steps import LaidBy, run_fleet_file
 
-    run_fleet_file(asked, mission, out, improve=improve, seed=seed, animate=animate, quiet=quiet)
+    run_fleet_file(
+        asked, mission, out, improve=improve, laid_by=LaidBy(workers, scheduler), seed=seed,
+        animate=animate, quiet=quiet,
+    )  # fmt: skip
 
 
 @cli.command()
 @MISSION
 @OUT
 @IMPROVE
+@WORKERS
+@SCHEDULER
 @QUIET
-def plan(mission: Path, out: Path | None, improve: float, quiet: bool) -> None:
+def plan(
+    mission: Path, out: Path | None, improve: float, workers: int | None, scheduler: str | None,
+    quiet: bool,
+) -> None:  # fmt: skip
     r"""Plan a mission: the path, its proof and what it was chosen from.
 
     Writes plan.json, path.csv, plan.png and timing.json; of a fleet fleet.json, fleet.png and
@@ -116,11 +136,13 @@ def plan(mission: Path, out: Path | None, improve: float, quiet: bool) -> None:
     Example:
       viaspline plan examples/fig7-obstacles.yaml --out detour
     """
+    if workers is not None and scheduler is not None:
+        raise click.UsageError("give --workers or --scheduler, not both")
     asked = load_asked(mission)
     from viaspline.mission.model import Mission
 
     if isinstance(asked, Mission):
-        check_of_fleets(improve)
+        check_of_fleets(improve, workers, scheduler)
         if asked.is_spatial:
             from viaspline.space_steps import plan_spatial_mission
 
@@ -130,15 +152,21 @@ def plan(mission: Path, out: Path | None, improve: float, quiet: bool) -> None:
 
         plan_mission(asked, mission, out, quiet=quiet)
     else:
-        from viaspline.fleet_steps import plan_fleet_file
+        from viaspline.fleet_steps import LaidBy, plan_fleet_file
 
-        plan_fleet_file(asked, mission, out, improve=improve, quiet=quiet)
+        laid_by = LaidBy(workers, scheduler)
+        plan_fleet_file(asked, mission, out, improve=improve, laid_by=laid_by, quiet=quiet)
 
 
-def check_of_fleets(improve: float) -> None:
-    """Refuse an option that means nothing to a single robot."""
-    if improve > 0.0:
-        raise click.UsageError("--improve is for fleets; this is the mission of one robot")
+def check_of_fleets(improve: float, workers: int | None, scheduler: str | None) -> None:
+    """Refuse options that mean nothing to a single robot."""
+    for name, is_given in (
+        ("--improve", improve > 0.0),
+        ("--workers", workers is not None),
+        ("--scheduler", scheduler is not None),
+    ):
+        if is_given:
+            raise click.UsageError(f"{name} is for fleets; this is the mission of one robot")
 
 
 @cli.command()

@@ -7,6 +7,7 @@
     ├── GeometryError       a curve, a world or an argument makes no sense     (exit code 2)
     ├── OutputError         a result can't be written                          (exit code 2)
     ├── StudioError         the studio can't be served                         (exit code 2)
+    ├── WorkersError        those who were to do the work can't, or are gone   (exit code 2)
     └── PlanningError       no path was laid: where, why, what would help
         ├── NoPathError     there is none: that is proven                      (exit code 3)
         └── GaveUpError     a budget ran out before it was known               (exit code 5)
@@ -101,6 +102,10 @@ class OutputError(ViasplineError):
 
 class StudioError(ViasplineError):
     """The studio can't be served: something isn't installed, or its address can't be had."""
+
+
+class WorkersError(ViasplineError):
+    """Those who were to do pieces of the work can't be had, or died."""
 
 
 class PlanningError(ViasplineError):

@@ -6,7 +6,8 @@ Tested through ``test_fleet_steps``.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -25,8 +26,35 @@ from viaspline.report.terminal_lines import say, say_error
 if TYPE_CHECKING:
     from viaspline.fleet.execution.fleet_run import FleetRun
     from viaspline.fleet.fleet_plan import FleetPlan
+    from viaspline.fleet.laying.laying_workers import LayingWorkers
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.report.progress_bar import ProgressBar
+
+
+@dataclass(frozen=True)
+class LaidBy:
+    """Who lays the paths of a fleet, as the command line has it.
+
+    Attributes:
+        processes: So many of this machine; None: as many as it is worth.
+        scheduler: In their place the workers of a cluster, by the address of its scheduler.
+    """
+
+    processes: int | None = None
+    scheduler: str | None = None
+
+    def workers(self, robots: int) -> AbstractContextManager[LayingWorkers]:
+        """Workers for so many robots, for as long as the block lasts."""
+        from viaspline.fleet.laying.chosen_workers import (
+            cluster_workers,
+            local_workers,
+            usual_count,
+        )
+
+        if self.scheduler is not None:
+            return cluster_workers(self.scheduler)
+        return local_workers(usual_count(robots) if self.processes is None else self.processes)
+
 
 MAX_NAMED: Final = 6
 """How many robots are named, before the rest is left."""
@@ -40,8 +68,9 @@ def check_fleet(fleet: Fleet) -> list[tuple[str, str]]:
 
 
 def plan_fleet_file(
-    fleet: Fleet, file: Path, out: Path | None, *, improve: float, quiet: bool
-) -> None:
+    fleet: Fleet, file: Path, out: Path | None, *,
+    improve: float, laid_by: LaidBy, quiet: bool,
+) -> None:  # fmt: skip
     """Plan a fleet, write its files and say what it is.
 
     Args:
@@ -49,6 +78,7 @@ def plan_fleet_file(
         file: From where.
         out: The folder for the results; None: the usual one.
         improve: For so long sooner orders are sought [s].
+        laid_by: Who lays the paths.
         quiet: Say nothing when all goes well.
     """
     from viaspline.report.earlier_robots import earlier_robots
@@ -61,7 +91,7 @@ def plan_fleet_file(
     ):
         check_robot_folders(target, (one.name for one in fleet.members))
         earlier = earlier_robots(target)
-        planned = watched_fleet_plan(fleet, watch, improve)
+        planned = watched_fleet_plan(fleet, watch, improve, laid_by)
         with watch.stage("report", "writing"):
             from viaspline.report.fleet_results import (
                 fleet_contents,
@@ -88,7 +118,7 @@ def plan_fleet_file(
 
 def run_fleet_file(
     fleet: Fleet, file: Path, out: Path | None, *,
-    improve: float, seed: int, animate: Path | None, quiet: bool,
+    improve: float, laid_by: LaidBy, seed: int, animate: Path | None, quiet: bool,
 ) -> None:  # fmt: skip
     """Plan a fleet, drive it, write the files of both and say what came of it.
 
@@ -97,6 +127,7 @@ def run_fleet_file(
         file: From where.
         out: The folder for the results; None: the usual one.
         improve: For so long sooner orders are sought [s].
+        laid_by: Who lays the paths.
         seed: Of what is random.
         animate: The file of a film; None: there is none.
         quiet: Say nothing when all goes well.
@@ -112,7 +143,7 @@ def run_fleet_file(
     ):
         check_robot_folders(target, (one.name for one in fleet.members))
         earlier = earlier_robots(target)
-        planned = watched_fleet_plan(fleet, watch, improve)
+        planned = watched_fleet_plan(fleet, watch, improve, laid_by)
         with watch.stage("simulate", "driving"):
             from viaspline.fleet.execution.simulate_fleet import simulate_fleet
 
@@ -161,12 +192,14 @@ def end_not_reached(done: FleetRun) -> None:
     click.get_current_context().exit(NOT_REACHED)
 
 
-def watched_fleet_plan(fleet: Fleet, watch: ProgressBar, improve: float) -> FleetPlan:
+def watched_fleet_plan(
+    fleet: Fleet, watch: ProgressBar, improve: float, laid_by: LaidBy
+) -> FleetPlan:
     """Plan a fleet, with progress."""
     with watch.stage("load", "loading"):
         from viaspline.fleet.plan_fleet import plan_fleet
-    with _stages(watch) as stages:
-        return plan_fleet(fleet, improve=improve, progress=stages.told)
+    with laid_by.workers(len(fleet.members)) as workers, _stages(watch) as stages:
+        return plan_fleet(fleet, improve=improve, progress=stages.told, workers=workers)
 
 
 class _Stages:

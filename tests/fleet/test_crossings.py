@@ -205,7 +205,7 @@ def test_too_many_robots_through_one_place_are_told_where() -> None:
     ]
     courses = courses_along([f"r{i}" for i in range(40)], paths)
     assert len(crossings_of(courses).packed.robots) == 40 * 39 // 2
-    for most in (100, 15_000):
+    for most, within in ((100, 17.0), (15_000, 15.0)):  # of 100 only the first pieces are looked at
         with pytest.raises(GaveUpError, match=f"more than {most} places") as caught:
             crossings_of(courses, max_boxes=most)
-        assert np.hypot(*caught.value.where) < 15.0
+        assert np.hypot(*caught.value.where) < within

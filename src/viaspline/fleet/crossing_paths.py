@@ -11,7 +11,8 @@ import numpy as np
 
 from viaspline.fleet.courses import FleetCourses, courses_of
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
-from viaspline.fleet.laying.lay_paths import LaidPaths, LayingProgress, lay_paths
+from viaspline.fleet.laying.lay_paths import THIS_PROCESS, LaidPaths, LayingProgress, lay_paths
+from viaspline.fleet.laying.laying_workers import LayingWorkers
 from viaspline.fleet.renewed_courses import renewed_courses
 from viaspline.fleet.renewed_crossings import renewed_crossings
 from viaspline.fleet.still_world import without_motion
@@ -37,7 +38,10 @@ class CrossingPaths:
 
 
 def crossing_paths(
-    fleet: Fleet, progress: LayingProgress | None = None, before: CrossingPaths | None = None
+    fleet: Fleet,
+    progress: LayingProgress | None = None,
+    before: CrossingPaths | None = None,
+    workers: LayingWorkers = THIS_PROCESS,
 ) -> CrossingPaths:
     """Lay the paths of a fleet as if nothing moved, and find where they come near each other.
 
@@ -46,9 +50,11 @@ def crossing_paths(
         progress: Hears how many paths are laid, and how many there are.
         before: What was found of an earlier state of the fleet; what is found is the same without
             it.
+        workers: Who lays the paths; these don't depend on that.
 
     Raises:
         GaveUpError: Too many robots pass one place.
+        WorkersError: The workers died.
 
     Example:
         >>> data = {"separation_m": 1, "fleet": [
@@ -62,7 +68,7 @@ def crossing_paths(
         [True, False]
     """
     fleet = without_motion(fleet)
-    laid = lay_paths(fleet, progress, None if before is None else before.laid.kept)
+    laid = lay_paths(fleet, progress, None if before is None else before.laid.kept, workers)
     separation, plans = fleet.separation_m, laid.plans
     changed = _changed(laid, separation, before)
     if before is None or changed is None:

@@ -11,6 +11,8 @@ from viaspline.fleet.among_moving import among_moving, proven_among
 from viaspline.fleet.crossing_paths import CrossingPaths, crossing_paths
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.fleet.laying.lay_paths import THIS_PROCESS
+from viaspline.fleet.laying.laying_workers import LayingWorkers
 from viaspline.fleet.not_served import NotServed
 from viaspline.fleet.ordered_crossings import ordered_crossings
 from viaspline.fleet.patrols.timed_patrols import timed_patrols
@@ -42,6 +44,7 @@ def plan_fleet(
     improve: float = 0.0,
     progress: FleetProgress | None = None,
     paths: CrossingPaths | None = None,
+    workers: LayingWorkers = THIS_PROCESS,
     *,
     periods: int = PERIODS,
 ) -> FleetPlan:
@@ -56,6 +59,8 @@ def plan_fleet(
         improve: For so long sooner orders are sought [s, on the reference machine].
         progress: See ``FleetProgress``.
         paths: Of the very fleet, if they are laid already.
+        workers: Who lays the paths, if they aren't: this process, ``Processes`` or a ``Cluster``
+            (``viaspline.fleet.laying.laying_workers``). The plan doesn't depend on that.
         periods: Plans of patrols, which never end, hold so many periods at least from when nobody
             else moves any more.
 
@@ -66,6 +71,7 @@ def plan_fleet(
         GeometryError: ``improve`` is no finite number of 0 or more, or ``periods`` no whole number
             of 1 or more.
         GaveUpError: There are too many crossings, or too many laps until all others have arrived.
+        WorkersError: The workers died.
 
     Example:
         >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
@@ -86,13 +92,16 @@ def plan_fleet(
         raise GeometryError(f"periods is {periods!r}; give a whole number of 1 or more")
     if progress is not None:
         check_callable("progress", progress, "give a function of words and a share")
+    check_callable("workers.each", getattr(workers, "each", None), "give Processes(4)")
 
     def tell(stage: str, share: float) -> None:
         if progress is not None:
             progress(stage, share)
 
     if paths is None:
-        paths = crossing_paths(fleet, lambda done, of: tell("laying paths", done / of))
+        paths = crossing_paths(
+            fleet, lambda done, of: tell("laying paths", done / of), workers=workers
+        )
     tell("timing", 0.0)
     still = without_motion(fleet)
     ways = FleetWays.of(still, paths)
@@ -170,7 +179,7 @@ def _unserved(
 def _by_priority(ways: FleetWays, left_out: dict[int, int]) -> TimedFleet:
     """Robots timed by priority, past those that can't be, which stand at their starts."""
     timed = TimedFleet.by_priority(ways, left_out)
-    return timed.past_standing_ones() if timed.blocked else timed
+    return timed.past_standing_ones(left_out) if timed.blocked else timed
 
 
 def _has_patrols(ways: FleetWays) -> bool:
@@ -189,7 +198,7 @@ def _of_those_that_end(fleet: Fleet, ways: FleetWays, left_out: dict[int, int]) 
     if not timed.blocked:
         return timed
     if left_out:
-        return timed.past_standing_ones()
+        return timed.past_standing_ones(left_out)
     timed = relaid_fleet(fleet, timed, WHOLE_EFFORT.relay) or timed
     return timed.past_standing_ones() if timed.blocked else timed
 

@@ -17,12 +17,12 @@ from viaspline.fleet.laying.kept_paths import KeptPaths, PathAlone
 from viaspline.fleet.laying.lay_round_stretch import lay_round_stretch, laying_cost
 from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.timed_fleet import TimedFleet
-from viaspline.fleet.timing.improve_laws import PRIORITY_WEIGHT
+from viaspline.fleet.timing.law_search import PRIORITY_WEIGHT
 from viaspline.kernels.arrays import Floats, Ints
 
 LAYINGS_A_TRY = 2.0
 """What a try costs, in layings of a path: it is laid alone, and among resting places."""
-BOXES_A_S = 2_000_000
+BOXES_A_S = 800_000
 """Boxes of crossings that are timed in a second of the reference machine."""
 SHORTEST_WAIT_S = 1.0
 """Waits that are shorter are left as they are [s]."""

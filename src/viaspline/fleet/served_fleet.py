@@ -37,9 +37,9 @@ TRIAL_EFFORT = LadderEffort(2.0, 2.0)
 def served_fleet(fleet: Fleet, paths: CrossingPaths, effort: LadderEffort) -> TimedFleet:
     """Time robots by priority; where that leaves some without a law, look for other ways.
 
-    All are led over a lattice, if they can be; else some are laid off the stretches on which they
-    are in each other's way, else among the others that move as it is known, unless it is proven
-    that this is of no use.
+    Where timing some others anew doesn't help (``time_paths``), all are led over a
+    lattice, if they can be; else some are laid off the stretches on which they are in each other's
+    way, else among the others that move as it is known, unless it is proven that this is of no use.
 
     Args:
         fleet: What is asked for.

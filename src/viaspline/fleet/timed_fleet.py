@@ -5,7 +5,7 @@ Tested through ``fleet/test_plan_fleet``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
@@ -26,6 +26,7 @@ from viaspline.fleet.timing.improve_laws import improve_laws
 from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import Timing, standing_laws, time_paths
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
+from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
@@ -34,7 +35,9 @@ from viaspline.trajectory.trajectory import Trajectory
 NOBODY: Mapping[int, int] = MappingProxyType({})
 
 MOST_TRIED_AGAIN = 40
-"""Robots that stand at their starts and are tried once more when others stand there too."""
+"""Robots that stand at their starts and are tried once more when others do too: so many,"""
+TRIED_AGAIN_BOXES = 10_000_000
+"""and as many as have no more boxes of the fleet's crossings than that to look at in all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,13 +170,14 @@ class TimedFleet:
             for one, other in zip(laws.packed[:3], given[:3], strict=True):
                 one[now] = other[was]
             laws.packed.is_timed[k] = given.is_timed[k]
+        packed, crossings = ways.courses.packed, ways.crossings.packed
         failed = timed_in_order(
-            ways.courses.packed, ways.crossings.packed, ways.rides.packed, laws.packed,
+            packed, crossings, passages_of(packed, crossings), ways.rides.packed, laws.packed,
             np.array([robot], np.int64),
         )  # fmt: skip
         blocked = {k: by for k, by in self.timing.blocked.items() if k != robot}
         if failed[0] != CLEAR:
-            blocked[robot] = int(ways.crossings.packed.other[failed[0]])
+            blocked[robot] = int(crossings.other[failed[0]])
         return replace(self, ways=ways, timing=Timing(laws, blocked))
 
     @property
@@ -193,15 +197,22 @@ class TimedFleet:
             if k not in self.timing.blocked
         }
 
-    def past_standing_ones(self) -> TimedFleet:
-        """With those that could not be timed standing at their starts, in the way of others."""
+    def past_standing_ones(self, left_out: Collection[int] = ()) -> TimedFleet:
+        """With those that could not be timed standing at their starts, in the way of others.
+
+        Args:
+            left_out: Those of them that are to stand there, and aren't tried once more.
+        """
         blocked = dict(self.timing.blocked)
         timing = self._around(blocked)
         while timing.blocked:
             blocked |= timing.blocked
             timing = self._around(blocked)
-        by_priority = sorted(blocked, key=lambda k: (-self.ways.members[k].priority, k))
-        for robot in by_priority[:MOST_TRIED_AGAIN]:  # in whose way others stand that don't now
+        to_try = [k for k in blocked if k not in left_out]
+        by_priority = sorted(to_try, key=lambda k: (-self.ways.members[k].priority, k))
+        most = TRIED_AGAIN_BOXES // max(len(self.ways.crossings.packed.cell), 1)
+        most = min(most, MOST_TRIED_AGAIN)
+        for robot in by_priority[:most]:  # in whose way others stand that don't now
             fewer = {k: by for k, by in blocked.items() if k != robot}
             again = self._around(fewer)
             if not again.blocked:
@@ -221,9 +232,8 @@ class TimedFleet:
     ) -> TimedFleet:
         """With sooner laws, for so much work [s on the reference machine]."""
         ways = self.ways
-        priorities = np.array([one.priority for one in ways.members], float)
-        settled = ways.settled_laws().packed.is_timed
-        settled[list(self.timing.blocked)] = True
+        priorities = [one.priority for one in ways.members]
+        settled = np.flatnonzero(ways.settled_laws().packed.is_timed).tolist()
         timing = improve_laws(
             ways.courses, ways.crossings, ways.rides, self.timing, priorities, seconds, progress,
             settled,

@@ -25,6 +25,7 @@ from viaspline.fleet.execution.driven_fleet import DrivenFleet
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import timed_in_order
 
 CROSS: list[Line] = [((0.0, 0.0), (40.0, 0.0)), ((20.0, -20.0), (20.0, 20.0))]
@@ -34,8 +35,10 @@ def timed_lines(seed: int, count: int) -> list[Line]:
     """Those of some random lines whose robots can be timed one after the other."""
     lines = lines_without_rests_in_the_way(seed, count)
     courses = courses_on(lines, REACH)
+    crossings = crossings_on(courses)
+    passages = passages_of(courses, crossings)
     found = timed_in_order(
-        courses, crossings_on(courses), rides_on(courses), no_laws(courses), np.arange(len(lines))
+        courses, crossings, passages, rides_on(courses), no_laws(courses), np.arange(len(lines))
     )
     return [line for line, box in zip(lines, found, strict=True) if box == -1]
 
@@ -49,7 +52,8 @@ def driven_on(
     rides = rides._replace(vanishes=np.full(len(lines), vanish))
     crossings = crossings_on(courses)
     numbers = np.arange(len(lines)) if order is None else np.array(order)
-    assert (timed_in_order(courses, crossings, rides, laws, numbers) == -1).all()
+    passages = passages_of(courses, crossings)
+    assert (timed_in_order(courses, crossings, passages, rides, laws, numbers) == -1).all()
     return fleet_with(courses_names(len(lines)), courses, crossings, laws, rides)
 
 

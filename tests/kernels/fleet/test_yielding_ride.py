@@ -23,6 +23,7 @@ from straight_fleets import (
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_rides import PackedRides
+from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import timed_in_order
 
 
@@ -31,7 +32,9 @@ def timed(
 ) -> tuple[PackedCourses, PackedRides, PackedLaws, list[int]]:
     courses = courses_on(lines, REACH)
     rides, laws = rides_on(courses, depart=depart), no_laws(courses)
-    found = timed_in_order(courses, crossings_on(courses), rides, laws, np.arange(len(lines)))
+    crossings = crossings_on(courses)
+    passages = passages_of(courses, crossings)
+    found = timed_in_order(courses, crossings, passages, rides, laws, np.arange(len(lines)))
     return courses, rides, laws, found.tolist()
 
 

@@ -1,5 +1,6 @@
 import heapq
 import itertools
+import pickle
 from collections.abc import Callable
 from typing import Any
 
@@ -12,7 +13,7 @@ from scipy import ndimage
 
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.planning.routing.route_problem import NO_BARRIERS
+from viaspline.planning.routing.route_problem import NO_BARRIERS, SearchSpace
 from viaspline.planning.routing.router import Router
 from viaspline.planning.routing.side_barrier import barriers_of
 from viaspline.planning.routing.taut_path import TautPath
@@ -267,3 +268,12 @@ def test_a_barrier_closes_one_side(obstacle: Obstacle, side: Any) -> None:
     assert found is not None
     assert not found.crosses(closed)
     assert found.crosses(other)
+
+
+def test_a_space_whose_lattices_were_begun_can_be_pickled_and_makes_the_same_again() -> None:
+    space = SearchSpace(World([disc(10, 0, 3)]), 0.5, np.array([[0.0, 0.0], [20.0, 0.0]]))
+    here = list(itertools.islice(space.ever_finer(), 2))
+    there = list(itertools.islice(pickle.loads(pickle.dumps(space)).ever_finer(), 2))
+    assert here
+    assert len(here) == len(there)
+    assert pickle.dumps(here[0]) == pickle.dumps(there[0])

@@ -21,6 +21,7 @@ from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.kernels.fleet.packed_rides import PackedRides
+from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.planner import Plan
@@ -203,7 +204,9 @@ def _timed(fleet: DrivenFleet, robot: int, depart: float) -> DrivenFleet:
     rides, old = fleet.rides._replace(depart=departs), fleet.laws.packed
     laws = PackedLaws(old.arrive.copy(), old.leave.copy(), old.speed.copy(), old.is_timed.copy())
     crossings = fleet.crossings.packed
-    (box,) = timed_in_order(fleet.courses.packed, crossings, rides, laws, np.array([robot]))
+    courses = fleet.courses.packed
+    passages = passages_of(courses, crossings)
+    (box,) = timed_in_order(courses, crossings, passages, rides, laws, np.array([robot]))
     if box != CLEAR:
         place = float(fleet.courses.packed.distance[crossings.cell[box]])
         raise _in_the_way(fleet, robot, int(crossings.other[box]), place)

@@ -27,7 +27,9 @@ LayingProgress: TypeAlias = Callable[[int, int], None]
 """Called with how many paths are laid, and how many have to be: alone, then among all."""
 
 AT_ONCE = 25
-"""So many robots are one piece of work."""
+"""So many robots are one piece of work, in a large fleet."""
+LEAST_PIECES = 12
+"""Into so many pieces the work of a small one is cut."""
 THIS_PROCESS = ThisProcess()
 Worlds: TypeAlias = tuple[tuple[Mission, World], ...]
 """Worlds that are packed, each with a mission that has it."""
@@ -121,6 +123,12 @@ class _Told:
             self._progress(self._done, self._pieces)
 
 
+def _pieces(robots: Sequence[Part]) -> list[Sequence[Part]]:
+    """Robots in pieces of work."""
+    size = min(AT_ONCE, -(-len(robots) // LEAST_PIECES))
+    return [robots[k : k + size] for k in range(0, len(robots), max(size, 1))]
+
+
 def _in_order(
     workers: LayingWorkers, task: Callable[[Part], list[Done]], parts: Sequence[Part], tell: _Told
 ) -> list[Done]:
@@ -140,7 +148,7 @@ def _alone(
     kept = {} if before is None else {one.name: before.alone_of(one) for one in members}
     anew = [one for one in members if kept.get(one.name) is None]
     tell.more(len(members) - len(anew))
-    parts = [AloneTask(tuple(anew[k : k + AT_ONCE]), worlds) for k in range(0, len(anew), AT_ONCE)]
+    parts = [AloneTask(tuple(part), worlds) for part in _pieces(anew)]
     laid = _in_order(workers, lay_alone, parts, tell)
     found = {one.name: path for one, path in zip(anew, laid, strict=True)}
     return {one.name: kept.get(one.name) or found[one.name] for one in members}
@@ -165,7 +173,7 @@ def _among(
         AmongRests(
             tuple(part), tuple(paths[name] for name in part), tuple(reaches[n] for n in part), rests
         )
-        for part in (names[k : k + AT_ONCE] for k in range(0, len(names), AT_ONCE))
+        for part in _pieces(names)
     ]
     return dict(zip(names, _in_order(workers, lay_among, tasks, tell), strict=True))
 

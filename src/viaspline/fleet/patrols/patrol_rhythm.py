@@ -30,6 +30,8 @@ from viaspline.fleet.timing.rides import FleetRides, rides_of
 from viaspline.fleet.timing.time_paths import standing_laws
 from viaspline.fleet.timing.timed_trajectory import timed_trajectory
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.fleet.packed_passages import PackedPassages
+from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.planner import Plan
@@ -122,6 +124,7 @@ class _RoundTiming:
         rounds: By name.
         courses: The rounds, and then several of them behind each other.
         crossings: Where a round comes near to something else.
+        passages: Of these.
         rides: How rounds are driven alone.
         seams: Where the rounds behind each other begin and end [m], by name.
         stays: How long each robot has to stand between two laps, as for a turn on the spot [s],
@@ -133,6 +136,7 @@ class _RoundTiming:
     rounds: dict[str, Plan]
     courses: FleetCourses
     crossings: FleetCrossings
+    passages: PackedPassages
     rides: FleetRides
     seams: dict[str, Floats]
     stays: Floats
@@ -165,9 +169,10 @@ class _RoundTiming:
         names = (*rounds, *(f"{name} again" for name in rounds))
         courses = courses_along(names, [*paths, *windows])
         crossings = crossings_of(courses, np.arange(len(rounds)))
+        passages = passages_of(courses.packed, crossings.packed)
         rides = rides_of(members, list(rounds.values()), alone)
         stays = np.array([_stay_between(laps[name]) for name in rounds])
-        return cls(members, counts, rounds, courses, crossings, rides, seams, stays)
+        return cls(members, counts, rounds, courses, crossings, passages, rides, seams, stays)
 
     @property
     def shortest(self) -> float:
@@ -189,7 +194,7 @@ class _RoundTiming:
         for robot in self._order():
             name = self.members[robot].name
             (box,) = timed_in_order(
-                packed, self.crossings.packed, rides.packed, laws.packed,
+                packed, self.crossings.packed, self.passages, rides.packed, laws.packed,
                 np.array([robot], np.int64),
             )  # fmt: skip
             if box != CLEAR:

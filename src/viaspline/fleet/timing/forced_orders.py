@@ -15,10 +15,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viaspline.fleet.crossings import box_owners
 from viaspline.kernels.arrays import Flags, Ints
 from viaspline.kernels.fleet.packed_courses import PackedCourses
-from viaspline.kernels.fleet.packed_crossings import PackedCrossings
+from viaspline.kernels.fleet.packed_passages import PackedPassages
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,23 +33,26 @@ class TimingOrder:
     circular: Ints
 
 
-def forced_orders(courses: PackedCourses, crossings: PackedCrossings, vanishes: Flags) -> Ints:
+def forced_orders(courses: PackedCourses, passages: PackedPassages, vanishes: Flags) -> Ints:
     """Pairs of robots of which the first has to pass before the second.
 
     Args:
         courses: PackedCourses.
-        crossings: PackedCrossings.
+        passages: PackedPassages.
         vanishes: Which robots leave the world when they arrive, (n,).
 
     Returns:
-        Each pair once, (m, 2).
+        Each pair once, (m, 2). Where the one passes the home of the other, which is away meanwhile,
+        each has to pass before the other: that forces no order on their timing, and is left out.
     """
-    owner = box_owners(crossings)
-    at_start = crossings.cell == courses.first[owner]
-    at_goal = (crossings.cell == courses.first[owner + 1] - 2) & ~vanishes[owner]
-    leaves = np.column_stack([owner[at_start], crossings.other[at_start]])
-    arrives = np.column_stack([crossings.other[at_goal], owner[at_goal]])
-    return np.unique(np.concatenate([leaves, arrives]), axis=0)
+    owner = np.repeat(np.arange(vanishes.size), np.diff(passages.first))
+    at_start = passages.entry == courses.first[owner]
+    at_goal = (passages.exit == courses.first[owner + 1] - 2) & ~vanishes[owner]
+    leaves = np.column_stack([owner[at_start], passages.other[at_start]])
+    arrives = np.column_stack([passages.other[at_goal], owner[at_goal]])
+    pairs = np.unique(np.concatenate([leaves, arrives]), axis=0)
+    there, back = pairs @ (vanishes.size, 1), pairs @ (1, vanishes.size)
+    return pairs[~np.isin(there, back)]
 
 
 def timing_order(pairs: Ints, ranks: Sequence[tuple[float, ...]]) -> TimingOrder:

@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-
-import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.fleet.timing.law_search import LawSearch
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.fleet.timing.time_paths import Timing
-from viaspline.kernels.arrays import Flags, Floats
-from viaspline.kernels.fleet.improved_laws import improved_laws
 from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.passages import passages_of
 
-BOXES_PER_S = 8_000_000
-"""What a search looks at in a second of the reference machine."""
+WORK_PER_S = 3_000_000
+"""How many nodes and passages a search looks at in a second of the reference machine."""
 ROUND_S = 0.25
 """After so much work it says how far it is."""
-PRIORITY_WEIGHT = 2.0
-"""What a second of a robot counts against one of a robot whose priority is less by one."""
 
 
 def improve_laws(
@@ -29,10 +25,10 @@ def improve_laws(
     crossings: FleetCrossings,
     rides: FleetRides,
     timing: Timing,
-    priorities: Floats,
+    priorities: Sequence[float],
     seconds: float,
     progress: Callable[[float], None] | None = None,
-    settled: Flags | None = None,
+    settled: Sequence[int] = (),
 ) -> Timing:
     """The timing with sooner laws.
 
@@ -46,26 +42,22 @@ def improve_laws(
         priorities: See ``time_paths``, (n,).
         seconds: What may be spent, on the reference machine.
         progress: Called with the share that is spent.
-        settled: Robots whose laws stay as they are, (n,); none if it isn't given.
+        settled: Robots that have their laws before the others, and keep them.
 
     Returns:
-        A timing of the same robots, in which the lateness of all, weighed by priority, is no more.
+        A timing of the same robots (those that are blocked stand as they did), in which the
+        lateness of all, weighed by priority, is no more.
     """
     given = timing.laws.packed
     laws = PackedLaws(
         given.arrive.copy(), given.leave.copy(), given.speed.copy(), given.is_timed.copy()
     )
-    weight = PRIORITY_WEIGHT ** np.clip(priorities - priorities.mean(), -20.0, 20.0)
-    if settled is None:
-        settled = np.zeros(rides.alone.size, np.bool_)
-    spent, seed = 0, 0
-    work = int(seconds * BOXES_PER_S)
+    passages = passages_of(courses.packed, crossings.packed)
+    fixed = sorted({*timing.blocked, *settled})
+    search = LawSearch.of(courses, crossings, passages, rides, priorities, fixed)
+    spent, work = 0, int(seconds * WORK_PER_S)
     while spent < work:
-        _, done = improved_laws(
-            courses.packed, crossings.packed, rides.packed, laws, rides.alone,
-            weight, settled, min(work - spent, int(ROUND_S * BOXES_PER_S)), seed,
-        )  # fmt: skip
-        spent, seed = spent + done, seed + 1
+        spent += search.look(laws, min(work - spent, int(ROUND_S * WORK_PER_S)))
         if progress is not None:
             progress(min(spent / work, 1.0))
     return replace(timing, laws=FleetLaws(laws))

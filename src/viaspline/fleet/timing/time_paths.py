@@ -11,13 +11,18 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.timing.forced_orders import forced_orders, timing_order
+from viaspline.fleet.timing.law_search import LawSearch
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.kernels.arrays import Ints
 from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_passages import PackedPassages
+from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 
-MAX_REPAIRS = 40
-"""How often the order is changed because a robot could not let another one pass."""
+RIDES_EACH = 200
+"""So many rides are looked for at a time, for laws of robots that can't let others pass."""
+MAX_IDLE = 5
+"""How often that, or another order of all, is tried without serving more by it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,9 +48,10 @@ def time_paths(
 ) -> Timing:
     """Time robots along their paths by priority, and by the orders that are forced.
 
-    Among equals those with the longer way come first. A robot that can't let another one pass is
-    timed before that one the next time. Where no path passes another's start or resting place,
-    every robot is served.
+    Among equals those with the longer way come first. For a robot that can't let others pass some
+    of these are timed anew, after it. Where that doesn't help, it is timed before the one that it
+    can't let pass, and all from the beginning. Where no path passes another's start or resting
+    place, every robot is served.
 
     Args:
         courses: Their paths.
@@ -57,13 +63,15 @@ def time_paths(
     """
     given = standing_laws(courses) if given is None else given
     settled = [*left_out, *np.flatnonzero(given.packed.is_timed).tolist()]
-    asked = forced_orders(courses.packed, crossings.packed, rides.packed.vanishes)
+    passages = passages_of(courses.packed, crossings.packed)
+    asked = forced_orders(courses.packed, passages, rides.packed.vanishes)
     ranks = [(-p, -t) for p, t in zip(priorities, rides.alone.tolist(), strict=True)]
-    best: Timing | None = None
-    for _ in range(MAX_REPAIRS):
-        found = _timed(courses, crossings, rides, asked, ranks, left_out, given)
-        if best is None or len(found.blocked) < len(best.blocked):
-            best = found
+    found = _timed(courses, crossings, passages, rides, asked, ranks, left_out, given)
+    if not found.blocked:
+        return found
+    search = LawSearch.of(courses, crossings, passages, rides, priorities, settled)
+    best, idle = _given_laws(search, found), 0
+    while best.blocked and idle < MAX_IDLE:
         learned = [(robot, other) for robot, other in found.blocked.items() if other not in settled]
         pairs = np.unique(
             np.concatenate([asked, np.array(learned, np.int64).reshape(-1, 2)]), axis=0
@@ -71,13 +79,41 @@ def time_paths(
         if len(pairs) == len(asked):
             break
         asked = pairs
-    assert best is not None  # there is a first round
+        found = _timed(courses, crossings, passages, rides, asked, ranks, left_out, given)
+        idle += 1
+        if len(found.blocked) < len(best.blocked):
+            best, idle = found, 0
     return best
 
 
+def _given_laws(search: LawSearch, timing: Timing) -> Timing:
+    """A timing in which others are timed anew for those that are blocked, as far as that helps."""
+    given = copied_laws(timing.laws.packed)
+    courses, passages = search.courses.packed, search.passages
+    work = RIDES_EACH * (courses.distance.size + passages.other.size) // given.is_timed.size
+    served, idle = 0, 0
+    while not given.is_timed.all() and idle < MAX_IDLE:
+        search.look(given, work)
+        idle = 0 if given.is_timed.sum() > served else idle + 1
+        served = int(given.is_timed.sum())
+    left = np.flatnonzero(~given.is_timed)
+    boxes = timed_in_order(
+        courses, search.crossings.packed, passages, search.rides.packed, given, left
+    )
+    return Timing(FleetLaws(given), _in_the_way(search.crossings, left, boxes))
+
+
+def _in_the_way(crossings: FleetCrossings, robots: Ints, boxes: Ints) -> dict[int, int]:
+    """Whom robots can't let pass, by the boxes where they can't."""
+    failed = boxes != CLEAR
+    others = crossings.packed.other[boxes[failed]].tolist()
+    return dict(zip(robots[failed].tolist(), others, strict=True))
+
+
 def _timed(
-    courses: FleetCourses, crossings: FleetCrossings, rides: FleetRides, asked: Ints,
-    ranks: Sequence[tuple[float, ...]], left_out: Sequence[int], given: FleetLaws,
+    courses: FleetCourses, crossings: FleetCrossings, passages: PackedPassages,
+    rides: FleetRides, asked: Ints, ranks: Sequence[tuple[float, ...]], left_out: Sequence[int],
+    given: FleetLaws,
 ) -> Timing:  # fmt: skip
     """One round: those that wait for each other in a circle come last, the foremost one first."""
     laws = FleetLaws(copied_laws(given.packed))
@@ -88,10 +124,10 @@ def _timed(
     circular = sorted(plan.circular.tolist(), key=lambda robot: ranks[robot])
     order = np.array([*plan.order.tolist(), *circular], np.int64)
     order = order[~np.isin(order, settled)]
-    boxes = timed_in_order(courses.packed, crossings.packed, rides.packed, laws.packed, order)
-    failed = boxes != CLEAR
-    others = crossings.packed.other[boxes[failed]].tolist()
-    return Timing(laws, dict(zip(order[failed].tolist(), others, strict=True)))
+    boxes = timed_in_order(
+        courses.packed, crossings.packed, passages, rides.packed, laws.packed, order
+    )
+    return Timing(laws, _in_the_way(crossings, order, boxes))
 
 
 def copied_laws(laws: PackedLaws) -> PackedLaws:

@@ -1,19 +1,27 @@
 """When a robot must not be in a cell, because others that have their law pass nearby.
 
+Most passages are over long before the other robot comes, or begin long after: that is told by two
+nodes of its law. Box by box only the rest is looked at.
+
 Tested through ``kernels/fleet/test_yielding_ride``.
 """
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.jit import inner
+
+ROUNDING_S = 1e-6
+"""By so much more passages are taken to be blocked than nodes have it."""
 
 
 @inner
@@ -65,22 +73,67 @@ def goes_from(courses: PackedCourses, laws: PackedLaws, robot: int, place: float
     return laws.leave[k] + _since_node(courses, laws, k, place)
 
 
-@inner
-def blocked_times(
-    courses: PackedCourses, crossings: PackedCrossings, laws: PackedLaws, robot: int
-) -> Floats:
-    """From when to when each box of a robot is blocked by a robot that has its law [s], (boxes, 2).
+class Blocks(NamedTuple):
+    """When the others are in the passages of one robot; all of it is written to.
 
-    Where the other one has none, the box is never blocked: from infinity to minus infinity.
+    Attributes:
+        begin: The first passage of the robot.
+        since: When the other one may come to each of its passages at the earliest [s], (p,).
+        until: When it has gone at the latest [s], (p,).
+        is_known: Whether the times of a passage's boxes are reckoned, (p,).
+        times: From when to when each box is blocked [s], passage by passage, (boxes, 2).
     """
-    begin, end = crossings.box_first[robot], crossings.box_first[robot + 1]
-    times = np.empty((end - begin, 2))
-    for b in range(begin, end):
-        other = crossings.other[b]
+
+    begin: int
+    since: Floats
+    until: Floats
+    is_known: Flags
+    times: Floats
+
+
+@inner
+def blocks_of(
+    courses: PackedCourses, passages: PackedPassages, laws: PackedLaws, robot: int
+) -> Blocks:
+    """When the passages of a robot are blocked, at most; their boxes are left for later.
+
+    Where the other robot has no law, a passage is never blocked: from infinity to minus infinity.
+    """
+    begin, end = passages.first[robot], passages.first[robot + 1]
+    count = end - begin
+    boxes = passages.box_first[end] - passages.box_first[begin]
+    blocks = Blocks(
+        begin, np.empty(count), np.empty(count), np.zeros(count, np.bool_), np.empty((boxes, 2))
+    )
+    for i in range(count):
+        p = begin + i
+        other = passages.other[p]
+        blocks.since[i], blocks.until[i] = np.inf, -np.inf
         if laws.is_timed[other]:
-            times[b - begin, 0] = comes_to(courses, laws, other, crossings.low[b])
-            times[b - begin, 1] = goes_from(courses, laws, other, crossings.high[b])
-        else:
-            times[b - begin, 0] = np.inf
-            times[b - begin, 1] = -np.inf
-    return times
+            low, after = passages.low[p], passages.high[p] + 1
+            comes = laws.arrive[low] if low > courses.first[other] else -np.inf
+            is_last = after == courses.first[other + 1] - 1
+            goes = laws.leave[after] if is_last else laws.arrive[after]
+            blocks.since[i], blocks.until[i] = comes - ROUNDING_S, goes + ROUNDING_S
+    return blocks
+
+
+@inner
+def know_passage(
+    courses: PackedCourses, crossings: PackedCrossings, passages: PackedPassages,
+    laws: PackedLaws, blocks: Blocks, i: int,
+) -> int:  # fmt: skip
+    """Reckon the times of the boxes of passage i of a robot, once. Where these begin."""
+    p = blocks.begin + i
+    at = passages.box_first[p] - passages.box_first[blocks.begin]
+    if not blocks.is_known[i]:
+        blocks.is_known[i] = True
+        other = passages.other[p]
+        is_timed = laws.is_timed[other]
+        for k in range(passages.box_first[p + 1] - passages.box_first[p]):
+            b = passages.box[passages.box_first[p] + k]
+            blocks.times[at + k, 0], blocks.times[at + k, 1] = np.inf, -np.inf
+            if is_timed:
+                blocks.times[at + k, 0] = comes_to(courses, laws, other, crossings.low[b])
+                blocks.times[at + k, 1] = goes_from(courses, laws, other, crossings.high[b])
+    return at

@@ -12,7 +12,7 @@ Tested through ``fleet/test_fleet_certificate``.
 from __future__ import annotations
 
 import math
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
@@ -22,6 +22,13 @@ from viaspline.kernels.fleet.fleet_motion import (
     stage_end,
     stage_error,
     stage_place,
+)
+from viaspline.kernels.fleet.fleet_windows import (
+    Windowed,
+    bucket_of,
+    cover_window,
+    file_window,
+    window_times,
 )
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_laws import PackedLaws
@@ -38,99 +45,8 @@ SECOND_Y: Final = 6
 BEST_COLUMNS: Final = 7
 
 HALF_SLACK = 5e-7  # half of PROOF_SLACK_M [m]
-WINDOW_REACHES = 2.0  # how far the fastest robot goes in a window, in mean reaches
 GROWTH = 4.0  # of the distance that is looked at, while nothing is found
 DEEPEST = 40
-MOST_WINDOWS = 200_000
-PRIME_X: Final = 73856093
-PRIME_Y: Final = 19349663
-
-
-class Windowed(NamedTuple):
-    """What the robots do in a window of time, and the grid of that.
-
-    Attributes:
-        stage: In which each robot is when the window begins, (n, 1).
-        box: What holds its way in it, grown by its reach: (x and y, from and to) [m], (n, 4).
-        square: The square of its box's middle, (n, 2).
-        head: The first robot of a bucket, or -1, (buckets, 1); the buckets are a power of two.
-        following: The next one in its bucket, or -1, (n, 1).
-    """
-
-    stage: Ints
-    box: Floats
-    square: Ints
-    head: Ints
-    following: Ints
-
-
-@inlined
-def _advanced(laws: PackedLaws, stage: int, last: int, instant: float) -> int:
-    """The stage at an instant, from an earlier one on."""
-    while stage < last and stage_end(laws, stage) <= instant:
-        stage += 1
-    return stage
-
-
-@inner
-def _cover(
-    courses: PackedCourses, laws: PackedLaws, begin: float, end: float, more: float,
-    now: Windowed,
-) -> float:  # fmt: skip
-    """Move all robots on to a window and cover their ways in it. The widest extent [m]."""
-    widest = 0.0
-    for robot in range(courses.reach.shape[0]):
-        if not laws.is_timed[robot]:
-            continue
-        last = 2 * (courses.first[robot + 1] - 1)
-        stage = _advanced(laws, now.stage[robot, 0], last, begin)
-        now.stage[robot, 0] = stage
-        if stage == last and laws.leave[stage >> 1] < begin:
-            now.square[robot, 0] = -1  # it has left
-            continue
-        x, y = stage_place(courses, laws, stage, begin)
-        low_x, low_y, high_x, high_y = x, y, x, y
-        error = stage_error(courses, laws, stage)
-        while stage < last and stage_end(laws, stage) < end:
-            stage += 1
-            x, y = courses.place[stage >> 1, 0], courses.place[stage >> 1, 1]
-            low_x, low_y = min(low_x, x), min(low_y, y)
-            high_x, high_y = max(high_x, x), max(high_y, y)
-            error = max(error, stage_error(courses, laws, stage))
-        x, y = stage_place(courses, laws, stage, end)
-        grown = courses.reach[robot] + error + more
-        low_x, low_y = min(low_x, x) - grown, min(low_y, y) - grown
-        high_x, high_y = max(high_x, x) + grown, max(high_y, y) + grown
-        now.box[robot, 0], now.box[robot, 1] = low_x, low_y
-        now.box[robot, 2], now.box[robot, 3] = high_x, high_y
-        now.square[robot, 0] = 0
-        widest = max(widest, max(high_x - low_x, high_y - low_y))
-    return widest
-
-
-@inlined
-def _bucket(x: int, y: int, mask: int) -> int:
-    return ((x * PRIME_X) ^ (y * PRIME_Y)) & mask
-
-
-@inner
-def _file(laws: PackedLaws, side: float, is_here: Ints, now: Windowed) -> None:
-    """Put the boxes of a window into the grid, each by its middle."""
-    mask = now.head.shape[0] - 1
-    for bucket in range(mask + 1):
-        now.head[bucket, 0] = -1
-    for robot in range(is_here.shape[0]):
-        is_here[robot, 0] = laws.is_timed[robot] and now.square[robot, 0] == 0
-        if is_here[robot, 0]:
-            x = math.floor(0.5 * (now.box[robot, 0] + now.box[robot, 2]) / side)
-            y = math.floor(0.5 * (now.box[robot, 1] + now.box[robot, 3]) / side)
-            now.square[robot, 0], now.square[robot, 1] = x, y
-            bucket = _bucket(x, y, mask)
-            now.following[robot, 0] = now.head[bucket, 0]
-            now.head[bucket, 0] = robot
-    for robot in range(is_here.shape[0]):
-        if not is_here[robot, 0]:
-            now.following[robot, 0] = -1
 
 
 @inlined
@@ -278,7 +194,7 @@ def _look(
             continue
         for beside in range(9):
             x, y = now.square[i, 0] + beside // 3 - 1, now.square[i, 1] + beside % 3 - 1
-            j = now.head[_bucket(x, y, mask), 0]
+            j = now.head[bucket_of(x, y, mask), 0]
             while j > i:  # a bucket has its robots from the last one on
                 is_near = now.square[j, 0] == x and now.square[j, 1] == y
                 is_near = is_near and box[j, 0] <= box[i, 2] and box[j, 2] >= box[i, 0]
@@ -288,27 +204,6 @@ def _look(
                         tolerance, stack, at, best, pair,
                     )  # fmt: skip
                 j = now.following[j, 0]
-
-
-@inner
-def _times(courses: PackedCourses, laws: PackedLaws) -> tuple[float, float, float]:
-    """When the first robot departs, when the last one arrives, and for how long a window lasts."""
-    begin, end, fastest, reach, count = np.inf, -np.inf, 0.0, 0.0, 0
-    for robot in range(courses.reach.shape[0]):
-        if laws.is_timed[robot]:
-            first, last = courses.first[robot], courses.first[robot + 1] - 1
-            reach, count = reach + courses.reach[robot], count + 1
-            begin = min(begin, laws.leave[first])
-            for node in range(first, last + 1):
-                fastest = max(fastest, laws.speed[node])
-                if laws.arrive[node] < np.inf:  # else it stands at its start for ever
-                    end = max(end, laws.arrive[node])
-    if not begin <= end:
-        return 0.0, 0.0, 0.0
-    lasts = end - begin
-    if fastest > 0.0 and reach > 0.0:
-        lasts = WINDOW_REACHES * reach / (count * fastest)
-    return begin, end, max(lasts, (end - begin) / MOST_WINDOWS)
 
 
 @kernel
@@ -342,7 +237,7 @@ def fleet_tightest(
         new_ints(robots, 1),
     )  # fmt: skip
     is_here, stack, at = new_ints(robots, 1), new_floats(DEEPEST + 2, 7), new_floats(1, 4)
-    begin, end, lasts = _times(courses, laws)
+    begin, end, lasts = window_times(courses, laws)
     within = 0.25 * max(lasts, 1.0)
     for robot in range(robots):
         if laws.is_timed[robot]:
@@ -356,8 +251,8 @@ def fleet_tightest(
         for window in range(windows):
             since = min(begin + window * lasts, max(begin, end))
             until = min(begin + (window + 1) * lasts, max(begin, end))
-            side = _cover(courses, laws, since, until, 0.5 * within, now)
-            _file(laws, max(side, 1e-9), is_here, now)
+            side = cover_window(courses, laws, since, until, 0.5 * within, now)
+            file_window(laws, max(side, 1e-9), is_here, now)
             _look(courses, laws, since, until, tolerance, is_here, now, stack, at, best, pair)
         within *= GROWTH
     return (

@@ -69,9 +69,13 @@ def _off_chord(courses: PackedCourses, begin: int, end: int) -> float:
 
 
 @inlined
-def _piece_end(courses: PackedCourses, begin: int, last: int, cells: int) -> int:
-    """The node at which a piece ends that begins at a node and may have so many cells."""
-    end = min(begin + cells, last)
+def _piece_end(courses: PackedCourses, begin: int, first: int, last: int, cells: int) -> int:
+    """The node at which a piece ends that begins at a node and may have so many cells.
+
+    The first cell of a course and the last one are pieces of their own: robots that rest side by
+    side are told apart by the curve within these.
+    """
+    end = begin + 1 if begin == first else max(min(begin + cells, last - 1), begin + 1)
     while end > begin + 1 and _off_chord(courses, begin, end) > WIDEST_OFF:
         end = begin + (end - begin + 1) // 2
     return end
@@ -90,9 +94,10 @@ def pieces_of(courses: PackedCourses, takes_part: Flags) -> PackedPieces:
     for robot in range(takes_part.shape[0]):
         if not takes_part[robot]:
             continue
-        node, last, cells = courses.first[robot], courses.first[robot + 1] - 1, MOST_CELLS
+        first, last, cells = courses.first[robot], courses.first[robot + 1] - 1, MOST_CELLS
+        node = first
         while node < last:
-            end = _piece_end(courses, node, last, cells)
+            end = _piece_end(courses, node, first, last, cells)
             cells = min(2 * (end - node), MOST_CELLS)
             ends[count, 0] = end
             node = end

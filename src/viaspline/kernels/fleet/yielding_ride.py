@@ -11,15 +11,16 @@ robot lies in a crossing, waiting at home until all have passed is always left.
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats, Ints
-from viaspline.kernels.fleet.blocked_times import blocked_times
+from viaspline.kernels.arrays import Ints
+from viaspline.kernels.fleet.blocked_times import Blocks, blocks_of, know_passage
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_passages import PackedPassages
 from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.kernels.fleet.ride_law import (
     Ride,
@@ -41,36 +42,76 @@ STEPS_AHEAD = 4
 """Places nearer to the crossing than a running start takes."""
 
 
+class RideScene(NamedTuple):
+    """What a robot rides among.
+
+    Attributes:
+        courses: PackedCourses.
+        crossings: PackedCrossings.
+        passages: PackedPassages.
+        rides: PackedRides.
+        laws: Of the robots; those that have none yet play no part.
+    """
+
+    courses: PackedCourses
+    crossings: PackedCrossings
+    passages: PackedPassages
+    rides: PackedRides
+    laws: PackedLaws
+
+
 @inner
-def _blocking(ride: Ride, crossings: PackedCrossings, blocked: Floats, before: int) -> int:
-    """The first box in which a ride is while another robot is there, in cells before a node."""
-    begin = crossings.box_first[ride.robot]
-    end = ride.square.size - 1
-    for b in range(blocked.shape[0]):
-        k = crossings.cell[begin + b] - ride.first
+def _first_blocked(scene: RideScene, ride: Ride, blocks: Blocks, i: int, before: int) -> int:
+    """The first box of passage i in which a ride is while the other one is there, or CLEAR."""
+    at = know_passage(scene.courses, scene.crossings, scene.passages, scene.laws, blocks, i)
+    p, end = blocks.begin + i, ride.square.size - 1
+    begin = scene.passages.box_first[p]
+    for j in range(scene.passages.box_first[p + 1] - begin):
+        b = scene.passages.box[begin + j]
+        k = scene.crossings.cell[b] - ride.first
         if k >= before:
             break
         comes = ride.arrive[k] if k > 0 else -np.inf
         goes = ride.arrive[k + 1] if k + 1 < end else ride.leave[end]
-        if comes < blocked[b, 1] and goes > blocked[b, 0]:
+        if comes < blocks.times[at + j, 1] and goes > blocks.times[at + j, 0]:
             return b
     return CLEAR
 
 
 @inner
-def _lateness(
-    ride: Ride, crossings: PackedCrossings, blocked: Floats, crossing: int
-) -> tuple[int, float]:
-    """The first node of a crossing, and how much too early the ride is for letting others pass."""
-    begin = crossings.box_first[ride.robot]
-    entry, late = -1, 0.0
-    for b in range(blocked.shape[0]):
-        if crossings.crossing[begin + b] == crossing:
-            k = crossings.cell[begin + b] - ride.first
-            if entry < 0:
-                entry = k
-            late = max(late, blocked[b, 1] - ride.arrive[k])
-    return entry, late
+def _blocking(scene: RideScene, ride: Ride, blocks: Blocks, before: int) -> tuple[int, int]:
+    """The first box in which a ride is while another robot is there, in cells before a node.
+
+    Returns:
+        (box, which passage of the robot it is in), or CLEAR twice.
+    """
+    end = ride.square.size - 1
+    box, passage = CLEAR, CLEAR
+    for i in range(blocks.since.size):
+        p = blocks.begin + i
+        k, last = scene.passages.entry[p] - ride.first, scene.passages.exit[p] - ride.first
+        if k >= before:
+            break
+        comes = ride.arrive[k] if k > 0 else -np.inf
+        goes = ride.arrive[last + 1] if last + 1 < end else ride.leave[end]
+        if comes < blocks.until[i] and goes > blocks.since[i]:
+            found = _first_blocked(scene, ride, blocks, i, before)
+            if found != CLEAR and (box == CLEAR or found < box):
+                box, passage = found, i
+                before = min(before, scene.crossings.cell[found] - ride.first + 1)
+    return box, passage
+
+
+@inner
+def _lateness(scene: RideScene, ride: Ride, blocks: Blocks, i: int) -> tuple[int, float]:
+    """The first node of passage i, and how much too early a ride is for letting the other pass."""
+    at = know_passage(scene.courses, scene.crossings, scene.passages, scene.laws, blocks, i)
+    p = blocks.begin + i
+    begin, late = scene.passages.box_first[p], 0.0
+    for j in range(scene.passages.box_first[p + 1] - begin):
+        k = scene.crossings.cell[scene.passages.box[begin + j]] - ride.first
+        late = max(late, blocks.times[at + j, 1] - ride.arrive[k])
+    return scene.passages.entry[p] - ride.first, late
 
 
 @inner
@@ -115,16 +156,14 @@ def waits_at(ride: Ride, courses: PackedCourses, rides: PackedRides, entry: int)
 
 
 @inner
-def _give_way(
-    ride: Ride, courses: PackedCourses, rides: PackedRides, crossings: PackedCrossings,
-    blocked: Floats, entry: int, late: float,
-) -> None:  # fmt: skip
+def _give_way(scene: RideScene, ride: Ride, blocks: Blocks, entry: int, late: float) -> None:
     """Slow a ride down so that it comes later to a crossing, clear of all before it if it can."""
+    courses, rides = scene.courses, scene.rides
     places = waits_at(ride, courses, rides, entry)
     square, waits = ride.square.copy(), ride.waits.copy()
     for i in range(places.size + 1):  # after the last one, the first again
         slow_down(ride, courses, rides, places[i % places.size], entry, late + TIME_SLACK_S)
-        if i == places.size or _blocking(ride, crossings, blocked, entry) == CLEAR:
+        if i == places.size or _blocking(scene, ride, blocks, entry)[0] == CLEAR:
             return
         for k in range(square.size):
             ride.square[k], ride.waits[k] = square[k], waits[k]
@@ -132,47 +171,39 @@ def _give_way(
 
 
 @inner
-def yielding_ride(
-    courses: PackedCourses, crossings: PackedCrossings, rides: PackedRides, laws: PackedLaws,
-    robot: int,
-) -> tuple[Ride, int]:  # fmt: skip
+def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
     """The ride of a robot among those that have their law.
 
     Args:
-        courses: PackedCourses.
-        crossings: PackedCrossings.
-        rides: PackedRides.
-        laws: Of the others.
+        scene: What it rides among.
         robot: Which has none.
 
     Returns:
         The ride, and -1; or a ride that isn't clear, and the number of a box in which it can't let
         the other one pass.
     """
-    ride = new_ride(courses, rides, robot)
-    begin = crossings.box_first[robot]
-    blocked = blocked_times(courses, crossings, laws, robot)
-    yields = np.empty(blocked.shape[0], np.int64)  # crossings, in the order of their first cells
+    ride = new_ride(scene.courses, scene.rides, robot)
+    blocks = blocks_of(scene.courses, scene.passages, scene.laws, robot)
+    yields = np.empty(blocks.since.size, np.int64)  # passages, in the order of their first cells
     count = 0
     while True:
-        box = _blocking(ride, crossings, blocked, ride.square.size)
+        box, passage = _blocking(scene, ride, blocks, ride.square.size)
         if box == CLEAR:
             return ride, CLEAR
-        crossing = crossings.crossing[begin + box]
-        entry, late = _lateness(ride, crossings, blocked, crossing)
-        if entry == 0 or math.isinf(late) or (yields[:count] == crossing).any():
-            return ride, begin + box
-        yields[count] = crossing
+        entry, late = _lateness(scene, ride, blocks, passage)
+        if entry == 0 or math.isinf(late) or (yields[:count] == passage).any():
+            return ride, box
+        yields[count] = passage
         count += 1
         k = count - 1
-        while k > 0 and _lateness(ride, crossings, blocked, yields[k - 1])[0] > entry:
+        while k > 0 and _lateness(scene, ride, blocks, yields[k - 1])[0] > entry:
             yields[k - 1], yields[k] = yields[k], yields[k - 1]
             k -= 1
-        forget_notches(ride, courses, rides)
+        forget_notches(ride, scene.courses, scene.rides)
         for i in range(count):
-            entry, late = _lateness(ride, crossings, blocked, yields[i])
+            entry, late = _lateness(scene, ride, blocks, yields[i])
             if late > 0.0:
-                _give_way(ride, courses, rides, crossings, blocked, entry, late)
+                _give_way(scene, ride, blocks, entry, late)
 
 
 @inner
@@ -188,14 +219,15 @@ def take_law(ride: Ride, laws: PackedLaws) -> None:
 
 @kernel
 def timed_in_order(
-    courses: PackedCourses, crossings: PackedCrossings, rides: PackedRides, laws: PackedLaws,
-    order: Ints,
+    courses: PackedCourses, crossings: PackedCrossings, passages: PackedPassages,
+    rides: PackedRides, laws: PackedLaws, order: Ints,
 ) -> Ints:  # fmt: skip
     """Give robots their laws, one after the other, each among those that have theirs by then.
 
     Args:
         courses: PackedCourses.
         crossings: PackedCrossings.
+        passages: Of these.
         rides: PackedRides.
         laws: They are written to.
         order: The robots, none of which has a law, (m,).
@@ -204,9 +236,10 @@ def timed_in_order(
         For each of these -1, or the box in which it can't let another robot pass: then it has no
         law, (m,).
     """
+    scene = RideScene(courses, crossings, passages, rides, laws)
     found = np.empty(order.size, np.int64)
     for i in range(order.size):
-        ride, found[i] = yielding_ride(courses, crossings, rides, laws, order[i])
+        ride, found[i] = yielding_ride(scene, order[i])
         if found[i] == CLEAR:
             take_law(ride, laws)
     return found

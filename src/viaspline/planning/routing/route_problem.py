@@ -104,6 +104,10 @@ class SearchSpace:
         """Those that are made, and those that are not yet."""
         return [], lattices(self.world, self.required, self.floor, self.places)
 
+    def __getstate__(self) -> dict[str, object]:
+        """For another process: without the lattices, which are made there if they are needed."""
+        return {name: part for name, part in vars(self).items() if name != "_lattices"}
+
 
 @dataclass(frozen=True)
 class RouteProblem:

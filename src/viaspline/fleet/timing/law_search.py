@@ -1,0 +1,84 @@
+"""Looking for sooner laws, and for laws of those that have none, a piece of work at a time.
+
+Tested through ``fleet/timing/test_improve_laws``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.crossings import FleetCrossings
+from viaspline.fleet.timing.rides import FleetRides
+from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.fleet.improved_laws import improved_laws
+from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.kernels.fleet.packed_passages import PackedPassages
+
+SEED = 1
+"""Of the random numbers of a search."""
+PRIORITY_WEIGHT = 2.0
+"""What a second of a robot counts against one of a robot whose priority is less by one."""
+
+
+@dataclass(frozen=True, eq=False)
+class LawSearch:
+    """A search for better laws.
+
+    Attributes:
+        courses: The paths of the robots.
+        crossings: Where these come near each other.
+        passages: Of these.
+        rides: How the robots drive alone.
+        weight: What a second of a robot's lateness counts, (n,).
+        movable: Whether a robot's law may be changed, (n,).
+        state: Of its random numbers, (1,): written to.
+    """
+
+    courses: FleetCourses
+    crossings: FleetCrossings
+    passages: PackedPassages
+    rides: FleetRides
+    weight: Floats
+    movable: Flags
+    state: Ints
+
+    @classmethod
+    def of(
+        cls, courses: FleetCourses, crossings: FleetCrossings, passages: PackedPassages,
+        rides: FleetRides, priorities: Sequence[float], fixed: Sequence[int],
+    ) -> LawSearch:  # fmt: skip
+        """A search that begins.
+
+        Args:
+            courses: The paths of the robots.
+            crossings: Where these come near each other.
+            passages: Of these.
+            rides: How the robots drive alone.
+            priorities: Who has more counts more, (n,).
+            fixed: The robots whose laws stay as they are.
+        """
+        by_mean = np.array(priorities, float) - np.mean(priorities)
+        movable = np.ones(len(priorities), np.bool_)
+        movable[list(fixed)] = False
+        weight = PRIORITY_WEIGHT ** np.clip(by_mean, -20.0, 20.0)
+        state = np.array([SEED], np.int64)
+        return cls(courses, crossings, passages, rides, weight, movable, state)
+
+    def look(self, laws: PackedLaws, work: int) -> int:
+        """Make laws better, in place.
+
+        Args:
+            laws: Clear of each other.
+            work: How many nodes and passages may be looked at.
+
+        Returns:
+            How many were.
+        """
+        return improved_laws(
+            self.courses.packed, self.crossings.packed, self.passages, self.rides.packed, laws,
+            self.rides.alone, self.weight, self.movable, work, self.state,
+        )  # fmt: skip
