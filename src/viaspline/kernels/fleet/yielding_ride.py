@@ -4,8 +4,9 @@ At first it drives as if it were alone. Where it would be in a crossing while an
 lets that one pass: it is slowed down so that it comes to the crossing when the other has left it,
 if it can with a running start, so that no more is lost than has to be. Where it would be in another
 one's way while it waits, it waits elsewhere, or lets that one pass as well. Each crossing is given
-way to at most once, so this comes to an end; and where neither a start nor a resting place of a
-robot lies in a crossing, waiting at home until all have passed is always left.
+way to at most once, so this comes to an end. If it has to be given way to once more, the robot
+waits at home until all have arrived: where neither a start nor a resting place of a robot lies in a
+crossing, that is always left.
 """
 
 from __future__ import annotations
@@ -171,6 +172,20 @@ def _give_way(scene: RideScene, ride: Ride, blocks: Blocks, entry: int, late: fl
 
 
 @inner
+def _is_clear_after_all(scene: RideScene, ride: Ride, blocks: Blocks) -> bool:
+    """Let a robot wait at home until all that have a law have arrived, and tell whether it may."""
+    courses, laws = scene.courses, scene.laws
+    over = -np.inf
+    for robot in range(laws.is_timed.size):
+        if laws.is_timed[robot]:
+            over = max(over, laws.arrive[courses.first[robot + 1] - 1])
+    forget_notches(ride, courses, scene.rides)
+    ride.waits[0] = max(0.0, over + TIME_SLACK_S - ride.leave[0])
+    set_times(ride, courses, scene.rides, 0)
+    return _blocking(scene, ride, blocks, ride.square.size)[0] == CLEAR
+
+
+@inner
 def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
     """The ride of a robot among those that have their law.
 
@@ -191,8 +206,10 @@ def yielding_ride(scene: RideScene, robot: int) -> tuple[Ride, int]:
         if box == CLEAR:
             return ride, CLEAR
         entry, late = _lateness(scene, ride, blocks, passage)
-        if entry == 0 or math.isinf(late) or (yields[:count] == passage).any():
+        if entry == 0 or math.isinf(late):
             return ride, box
+        if (yields[:count] == passage).any():
+            return ride, CLEAR if _is_clear_after_all(scene, ride, blocks) else box
         yields[count] = passage
         count += 1
         k = count - 1
