@@ -36,7 +36,7 @@ def plan(mission: Mission) -> Plan | SpatialPlan:
         ...     "route": {"start": [0, 0, 10], "goal": [50, 0, 10]},
         ... }))
         >>> result.certificate.holds, round(result.path.length, 1), result.ledger[0].chosen.side
-        (True, 50.9, 'right')
+        (True, 50.8, 'right')
     """
     check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
     if mission.is_spatial:

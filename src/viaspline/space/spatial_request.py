@@ -76,10 +76,10 @@ def _refuse_what_is_not_planned(mission: Mission) -> None:
 def spatial_limits_of(mission: Mission) -> SpatialLimits:
     """The limits of a mission's robot in space.
 
-    >>> mission = Mission.model_validate({"robot": {"max_climb_mps": 3},
+    >>> mission = Mission.model_validate({"robot": {"max_climb_mps": 1.5},
     ...     "route": {"start": [0, 0, 5], "goal": [9, 0, 5]}})
     >>> spatial_limits_of(mission).descent
-    3.0
+    1.5
     """
     robot = mission.robot
     rate = robot.max_yaw_rate_degps

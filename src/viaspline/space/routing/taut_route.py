@@ -16,7 +16,7 @@ from viaspline.planning.problem.method import Found, GaveUp, Refusal
 Place3 = tuple[float, float, float]
 
 Norm = tuple[float, float, float]
-"""Greatest level, climbing and sinking speed [m/s]: what is cheap is what takes little time."""
+"""Greatest speed, climbing speed and sinking speed [m/s]: cheap is what takes little time."""
 
 LENGTH: Norm = (0.0, 0.0, 0.0)
 """Instead of a norm of speeds: what is cheap is what is short."""

@@ -91,7 +91,9 @@ class SpatialWorld:
             GeometryError: For something else than that, or as many names as there are no solids.
         """
         given = all_of("solids", solids, SOLIDS, "give Prism, GridPrism, RoundedSegment or Voxels")
-        called = tuple((f"obstacle {i + 1}" for i in range(len(given))) if names is None else names)
+        called: tuple[str, ...] = tuple(f"obstacle {i + 1}" for i in range(len(given)))
+        if names is not None:
+            called = all_of("names", names, str, "give a name for each")
         if len(called) != len(given):
             raise GeometryError(
                 f"{len(called)} names for {len(given)} solids; give one for each, or none"

@@ -1,6 +1,9 @@
 """Voxels in words of bits, against the arrays that they came from."""
 
+import os
+
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -49,6 +52,7 @@ def test_a_skip_is_the_chessboard_distance_of_the_next_word_that_is_not_free(
         np.testing.assert_array_equal(block.skips, expected)
 
 
+@pytest.mark.skipif(os.environ.get("NUMBA_DISABLE_JIT") == "1", reason="a minute without the JIT")
 def test_eighty_eight_million_cubes_take_fewer_than_fifteen_million_bytes() -> None:
     blocked = np.zeros((1000, 440, 200), bool)
     blocked[::50, 3, 7] = True

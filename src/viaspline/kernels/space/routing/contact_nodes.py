@@ -31,8 +31,8 @@ _LONGEST_OUTLINE = 64
 def _add(
     space: PackedSpace, radius: float, x: float, y: float, z: float, places: Floats, size: Ints
 ) -> None:
-    """Add a place, if it is free and there is room for it."""
-    if size[0] == places.shape[0]:
+    """Add a place, if it is free and there is room for it; beyond all heights there is none."""
+    if size[0] == places.shape[0] or not math.isfinite(z):
         return
     low, high = heights_allowed(space, x, y)
     if not low <= z <= high or space_distance(space, x, y, z, radius)[0] < radius:

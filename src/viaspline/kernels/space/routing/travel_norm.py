@@ -18,7 +18,7 @@ def travel(norm: Floats, dx: float, dy: float, dz: float) -> float:
     """Cost of a straight way.
 
     Args:
-        norm: Greatest level, climbing and sinking speed [m/s], (3,); the cost is a length where
+        norm: Greatest speed, climbing and sinking speed [m/s], (3,); the cost is a length where
             the first is 0.
         dx: Eastward part [m].
         dy: Northward part [m].
@@ -31,7 +31,7 @@ def travel(norm: Floats, dx: float, dy: float, dz: float) -> float:
     if norm[0] <= 0.0:
         return math.sqrt(level + dz * dz)
     upright = dz / norm[1] if dz > 0.0 else -dz / norm[2]
-    return max(math.sqrt(level) / norm[0], upright)
+    return max(math.sqrt(level + dz * dz) / norm[0], upright)
 
 
 @inlined
