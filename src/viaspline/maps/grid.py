@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.handed_in import number_from, numbers_from
+from viaspline.maps.blocked_cells import blocked_cells
 from viaspline.maps.reading import Reading
 
 MOST_CELLS_ASIDE = 32_000  # kernels count columns in 16 bits
@@ -60,7 +61,7 @@ class Grid:
     digest: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        cells = _frozen(self.blocked)
+        cells = blocked_cells(self.blocked)
         if cells.ndim != 2 or not cells.size:
             raise GeometryError(f"a grid has shape (height, width), not {cells.shape}")
         if max(cells.shape) > MOST_CELLS_ASIDE:
@@ -72,7 +73,7 @@ class Grid:
         if not 0.0 < side < math.inf:
             raise GeometryError(f"resolution is {self.resolution}; give a side above 0 m")
         origin = _origin(self.origin)
-        unknown = None if self.unknown is None else _frozen(self.unknown)
+        unknown = None if self.unknown is None else blocked_cells(self.unknown)
         if unknown is not None and not (unknown.shape == cells.shape and (unknown <= cells).all()):
             raise GeometryError("unknown squares have to be blocked: give unknown <= blocked")
         numbers = np.array((*cells.shape, side, *origin), dtype="<f8")
@@ -170,16 +171,6 @@ def _places(points: ArrayLike) -> NDArray[np.float64]:
     if places.ndim != 2 or places.shape[1] != 2:
         raise GeometryError(f"points have shape {places.shape}; give (n, 2)")
     return places
-
-
-def _frozen(cells: ArrayLike) -> NDArray[np.bool_]:
-    """The cells as an array that nobody can write to, without a copy if nobody can already."""
-    given = np.asarray(cells)
-    if given.dtype == np.bool_ and given.flags.c_contiguous and not given.flags.writeable:
-        return given
-    copy = np.array(given, dtype=np.bool_, order="C")
-    copy.flags.writeable = False
-    return copy
 
 
 def _origin(given: Sequence[float]) -> Origin:

@@ -8,10 +8,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from viaspline.errors import GeometryError
 from viaspline.handed_in import number_from, numbers_from
+from viaspline.maps.blocked_cells import blocked_cells
 from viaspline.maps.reading import Reading
 
 MOST_VOXELS_ASIDE = 4096
@@ -52,7 +53,7 @@ class Voxels:
     digest: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        cubes = _read_only(self.blocked)
+        cubes = blocked_cells(self.blocked)
         if cubes.ndim != 3 or not cubes.size:
             raise GeometryError(f"voxels have shape (nx, ny, nz), not {cubes.shape}")
         if max(cubes.shape) > MOST_VOXELS_ASIDE or cubes.size > MOST_VOXELS:
@@ -89,16 +90,6 @@ class Voxels:
         nx, ny, nz = self.blocked.shape
         x, y, z = self.origin
         return x, y, z, x + nx * self.cell, y + ny * self.cell, z + nz * self.cell
-
-
-def _read_only(cubes: ArrayLike) -> NDArray[np.bool_]:
-    """The cubes as an array that nobody can write to, without a copy if nobody can already."""
-    given = np.asarray(cubes)
-    if given.dtype == np.bool_ and given.flags.c_contiguous and not given.flags.writeable:
-        return given
-    copy = np.array(given, dtype=np.bool_, order="C")
-    copy.flags.writeable = False
-    return copy
 
 
 def _corner(given: Sequence[float]) -> Corner:

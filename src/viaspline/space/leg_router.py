@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -22,6 +23,7 @@ from viaspline.planning.problem.ledger import PassingSide
 from viaspline.planning.problem.method import Found
 from viaspline.space.asked_passes import AskedPass, asked_passes, gates_of_leg
 from viaspline.space.gates_crossed import crossings, side_of
+from viaspline.space.laying.corner_rounding import straight_span
 from viaspline.space.routing.pass_gates import SIDE_BITS, gate
 from viaspline.space.routing.search_room import SearchRoom
 from viaspline.space.routing.side_seeds import seeds
@@ -71,8 +73,6 @@ class LegRouter:
 
     def gates(self, leg: int) -> Floats:
         """What a leg has to pass on which sides, (g, 8)."""
-        if not self._asked:
-            return gates_of_leg((), *self._ends(leg), 0.0)
         body = self.problem.required + float(self.problem.world.packed.core[0])
         return gates_of_leg(self._asked, *self._ends(leg), body)
 
@@ -180,9 +180,7 @@ def _side_past(solid: Solid | None, route: TautRoute) -> PassingSide:
     if solid is None:
         return "over"
     rows = gate(solid, route.points[0], route.points[-1], SIDE_BITS)
-    thirds = np.array([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0])[:, None]
-    ends = zip(route.points[:-1], route.points[1:], strict=True)
-    spans = np.array([(1.0 - thirds) * a + thirds * b for a, b in ends])
+    spans = np.array([straight_span(a, b) for a, b in pairwise(route.points)])
     for row in rows:
         for place in crossings(spans, row):
             bit = side_of(row, place)

@@ -19,6 +19,7 @@ from viaspline.errors import GaveUpError
 from viaspline.kernels.arrays import Floats
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.space.laying.clear_route import ClearRoute, StuckLegError, clear_route
+from viaspline.space.laying.corner_rounding import straight_span
 from viaspline.space.laying.laid_route import LaidRoute, RouteLegs
 from viaspline.space.laying.via_directions import via_directions
 from viaspline.space.leg_check import LegCheck
@@ -105,10 +106,10 @@ def _whole_path(problem: SpatialProblem, found: ClearRoute) -> tuple[Path, tuple
         vias += _lap_vias(problem, laid, lap, count)
     before = 0
     if problem.takeoff is not None:
-        spans.insert(0, _upright(problem.takeoff, laid.spans[0, 0]))
+        spans.insert(0, straight_span(problem.takeoff, laid.spans[0, 0])[None])
         before = 1
     if problem.landing is not None:
-        spans.append(_upright(laid.spans[-1, 3], problem.landing))
+        spans.append(straight_span(laid.spans[-1, 3], problem.landing)[None])
     every = np.concatenate(spans)
     vias = [_moved(via, before) for via in vias]
     if problem.takeoff is not None:
@@ -126,13 +127,6 @@ def _whole_path(problem: SpatialProblem, found: ClearRoute) -> tuple[Path, tuple
     path = Path(every, vias)
     ends = np.asarray(path.distance([float(before), float(before + count * problem.laps)]))
     return path, (float(ends[0]), float(ends[1]))
-
-
-def _upright(first: Floats, last: Floats) -> Floats:
-    shares = np.array([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0])[:, None]
-    line: Floats = (1.0 - shares) * first + shares * last
-    line[3] = last
-    return line[None]
 
 
 def _lap_vias(problem: SpatialProblem, laid: LaidRoute, lap: int, count: int) -> list[PathVia]:

@@ -103,24 +103,25 @@ def rounded(points: Floats, reaches: Floats) -> Floats:
         if turn <= STRAIGHT:
             continue
         if reach <= 0.0:
-            spans.append(_straight(here, corner))
+            spans.append(straight_span(here, corner))
             here = corner
             continue
         first, last = _spirals(corner, -ways[k], ways[k + 1], reach, turn)
         if np.linalg.norm(first[0] - here) > 1e-9 * (1.0 + lengths[k]):
-            spans.append(_straight(here, first[0]))
+            spans.append(straight_span(here, first[0]))
         else:
             first[0] = here
         spans += [first, last]
         here = last[3]
     if np.linalg.norm(points[-1] - here) > 1e-9 * (1.0 + lengths[-1]) or not spans:
-        spans.append(_straight(here, points[-1]))
+        spans.append(straight_span(here, points[-1]))
     else:
         spans[-1][3] = points[-1]
     return np.stack(spans)
 
 
-def _straight(first: Floats, last: Floats) -> Floats:
+def straight_span(first: Floats, last: Floats) -> Floats:
+    """The control polygon of a straight line between two places [m], (4, d)."""
     shares = np.array([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0])[:, None]
     line: Floats = (1.0 - shares) * first + shares * last
     line[3] = last

@@ -60,12 +60,7 @@ class FacingAlong:
 
     def headings(self, places: Floats, ways: Floats) -> Floats:
         """Of places [m], (n, 3), and unit tangents, (n, 3): [rad], (n,)."""
-        level = np.hypot(ways[:, 0], ways[:, 1]) > UPRIGHT
-        if not level.any():
-            return np.zeros(len(ways))
-        last = np.maximum.accumulate(np.where(level, np.arange(len(ways)), -1))
-        taken = np.where(last < 0, int(np.argmax(level)), last)
-        return np.asarray(np.arctan2(ways[taken, 1], ways[taken, 0]))
+        return _held(ways[:, :2], UPRIGHT)
 
 
 @dataclass(frozen=True)
@@ -82,13 +77,7 @@ class FacingPlace:
 
     def headings(self, places: Floats, ways: Floats) -> Floats:
         """Of places [m], (n, 3), and unit tangents, (n, 3): [rad], (n,)."""
-        apart = np.array([self.x, self.y]) - places[:, :2]
-        seen = np.hypot(apart[:, 0], apart[:, 1]) > 1e-9
-        if not seen.any():
-            return np.zeros(len(places))
-        last = np.maximum.accumulate(np.where(seen, np.arange(len(places)), -1))
-        taken = np.where(last < 0, int(np.argmax(seen)), last)
-        return np.asarray(np.arctan2(apart[taken, 1], apart[taken, 0]))
+        return _held(np.array([self.x, self.y]) - places[:, :2], SAME_PLACE_M)
 
 
 @dataclass(frozen=True)
@@ -107,6 +96,19 @@ class FacingFixed:
 
 
 Facing = FacingAlong | FacingPlace | FacingFixed
+
+
+def _held(ways: Floats, least: float) -> Floats:
+    """Headings of ways in plan (n, 2): [rad], (n,); of those no longer than ``least`` the last one.
+
+    At the beginning that is the first one there is, and 0 where there is none.
+    """
+    known = np.hypot(ways[:, 0], ways[:, 1]) > least
+    if not known.any():
+        return np.zeros(len(ways))
+    last = np.maximum.accumulate(np.where(known, np.arange(len(ways)), -1))
+    taken = np.where(last < 0, int(np.argmax(known)), last)
+    return np.asarray(np.arctan2(ways[taken, 1], ways[taken, 0]))
 
 
 def yaw_profile(
