@@ -8,7 +8,10 @@ import pytest
 from viaspline import precompile
 from viaspline.compile_fleets import drive_pair, timed_pair
 from viaspline.fleet.plan_fleet import plan_fleet
+from viaspline.kernels.kernel_cache import SOURCES
 from viaspline.mission.fleet.fleet import Fleet
+
+WHOLE = SOURCES.whole
 
 
 def test_every_job_that_is_done_leaves_a_mark(
@@ -16,9 +19,9 @@ def test_every_job_that_is_done_leaves_a_mark(
 ) -> None:
     monkeypatch.setattr(precompile, "CACHE_FOLDER", tmp_path)
     precompile.compile_all(["curves"])
-    assert {file.name for file in tmp_path.iterdir()} == {"curves-compiled"}
+    assert {file.name for file in tmp_path.iterdir()} == {f"curves-{WHOLE}-compiled"}
     precompile.compile_all(["driving"])
-    assert (tmp_path / "driving-compiled").exists()
+    assert (tmp_path / f"driving-{WHOLE}-compiled").exists()
 
 
 def test_the_second_process_is_started_once_and_ends_with_the_block(
@@ -38,7 +41,7 @@ def test_the_second_process_is_started_once_and_ends_with_the_block(
         assert len(started) == 1
     assert started[0].returncode is not None
     assert started[0].args[-1:] == ["curves"]  # type: ignore[index]
-    (tmp_path / "curves-compiled").touch()
+    (tmp_path / f"curves-{WHOLE}-compiled").touch()
     with precompile.second_compiler():
         assert len(started) == 1
 
@@ -55,7 +58,7 @@ def test_only_what_is_not_compiled_yet_is_asked_for(
     monkeypatch.setattr(precompile, "CACHE_FOLDER", tmp_path)
     monkeypatch.setattr(precompile.os, "cpu_count", lambda: 2)
     monkeypatch.setattr(precompile.subprocess, "Popen", refuses)
-    for made in ("", "curves-compiled"):
+    for made in ("", f"curves-{WHOLE}-compiled"):
         (tmp_path / (made or "nothing")).touch()
         with precompile.second_compiler(["curves", "driving"]):
             pass

@@ -18,7 +18,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal
 
-from viaspline.kernels.jit import CACHE_FOLDER
+from viaspline.kernels.kernel_cache import CACHE_FOLDER, SOURCES
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.report.interrupts import undone_at_the_end
 
@@ -167,7 +167,7 @@ def compile_all(jobs: Sequence[Job]) -> None:
 
 def _mark(job: Job) -> Path:
     assert CACHE_FOLDER is not None
-    return CACHE_FOLDER / f"{job}-compiled"
+    return CACHE_FOLDER / f"{job}-{SOURCES.whole}-compiled"
 
 
 def _taken() -> bool:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numba
 import pytest
 
-from viaspline.kernels import jit
+from viaspline.kernels import jit, kernel_cache
 
 compiled = pytest.mark.skipif(
     os.environ.get("NUMBA_DISABLE_JIT") == "1", reason="nothing is compiled with the JIT off"
@@ -18,11 +18,11 @@ def test_the_chosen_folder_is_taken_and_named_after_the_sources(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("VIASPLINE_CACHE_DIR", str(tmp_path / "mine"))
-    folder = jit.cache_folder()
+    folder = kernel_cache.cache_folder()
     assert folder is not None
     assert folder.parent == tmp_path / "mine"
     assert folder.is_dir()
-    assert folder == jit.cache_folder()
+    assert folder == kernel_cache.cache_folder()
 
 
 def test_where_the_first_folder_cannot_be_made_the_next_is_taken(
@@ -31,7 +31,7 @@ def test_where_the_first_folder_cannot_be_made_the_next_is_taken(
     (tmp_path / "file").write_text("in the way")
     monkeypatch.setenv("VIASPLINE_CACHE_DIR", str(tmp_path / "file"))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    folder = jit.cache_folder()
+    folder = kernel_cache.cache_folder()
     assert folder is not None
     assert folder.parent == tmp_path / "cache" / "viaspline"
 
@@ -43,8 +43,8 @@ def test_without_any_folder_there_is_no_cache(
         yield tmp_path / "file" / "below"
 
     (tmp_path / "file").write_text("in the way")
-    monkeypatch.setattr(jit, "_candidates", nowhere)
-    assert jit.cache_folder() is None
+    monkeypatch.setattr(kernel_cache, "_candidates", nowhere)
+    assert kernel_cache.cache_folder() is None
 
 
 @pytest.mark.skipif(not hasattr(os, "getuid"), reason="folders have no owner here")
@@ -53,8 +53,8 @@ def test_a_folder_of_somebody_else_is_not_trusted(
 ) -> None:
     stranger = tmp_path.stat().st_uid + 1
     monkeypatch.setattr(os, "getuid", lambda: stranger)
-    monkeypatch.setattr(jit, "_candidates", lambda: iter([tmp_path / "planted"]))
-    assert jit.cache_folder() is None
+    monkeypatch.setattr(kernel_cache, "_candidates", lambda: iter([tmp_path / "planted"]))
+    assert kernel_cache.cache_folder() is None
 
 
 @compiled
@@ -117,7 +117,7 @@ def test_where_no_cache_can_be_written_kernels_are_compiled_without_one(tmp_path
         "TMPDIR": nowhere,
     }  # fmt: skip
     block = "import tempfile; tempfile.tempdir = " + repr(nowhere) + "\n"
-    show = "from viaspline.kernels import jit; print(jit.CACHE_FOLDER)"
+    show = "from viaspline.kernels.kernel_cache import CACHE_FOLDER; print(CACHE_FOLDER)"
     done = subprocess.run(
         [sys.executable, "-c", block + ONE_KERNEL + show],
         env=environment, capture_output=True, text=True, timeout=120, check=False,

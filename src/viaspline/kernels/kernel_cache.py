@@ -1,0 +1,154 @@
+"""Where the compiled form of the kernels is kept.
+
+numba's own cache does not notice an edit of a helper in another file, is bound to the folder of
+the sources, and refuses to import a cached kernel when its own folder can't be written. So a
+kernel's folder is named after its module and a hash of all the sources that it reaches
+(``source_keys``), below one that is named after the versions of Python, of numba and of numpy
+(whose constants are compiled in) and the processor; and without a writable folder there is no
+cache.
+
+Tested through ``kernels/test_jit``.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy
+from llvmlite import binding
+from numba.core import types
+from numba.core.caching import CompileResultCacheImpl, FunctionCache
+
+from viaspline.kernels.source_keys import PACKAGE, SourceKeys
+
+SOURCES = SourceKeys.read(Path(__file__).parent)
+
+
+def _fingerprint() -> str:
+    parts = (numba.__version__, numpy.__version__, sys.version, binding.get_host_cpu_name())
+    return hashlib.sha256("|".join(parts).encode()).hexdigest()[:16]
+
+
+def _is_ours(folder: Path) -> bool:
+    """Whether the folder can be written, and by nobody else: what lies in it will be executed."""
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if hasattr(os, "getuid") and folder.stat().st_uid != os.getuid():
+            return False
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
+
+
+def _candidates() -> Iterator[Path]:
+    if chosen := os.environ.get("VIASPLINE_CACHE_DIR"):
+        yield Path(chosen)
+    if xdg := os.environ.get("XDG_CACHE_HOME"):
+        yield Path(xdg) / "viaspline"
+    with suppress(RuntimeError):  # no home folder
+        yield Path.home() / ".cache" / "viaspline"
+    user = os.getuid() if hasattr(os, "getuid") else "user"
+    yield Path(tempfile.gettempdir()) / f"viaspline-{user}"
+
+
+def cache_folder() -> Path | None:
+    """The folder of the compiled kernels, or None where nothing can be written.
+
+    ``VIASPLINE_CACHE_DIR`` is tried first, then the user's cache folder, then the temporary one.
+    """
+    name = _fingerprint()
+    for root in _candidates():
+        if _is_ours(root) and _is_ours(root / name):
+            return root / name
+    return None
+
+
+CACHE_FOLDER = cache_folder()
+
+
+class _KernelFolder:
+    """Where numba keeps the kernels of a module: nothing of it names the sources' own folder."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self._py_file = function.__code__.co_filename  # numba's warnings name it
+        self._line = function.__code__.co_firstlineno
+        self._key = SOURCES.of[function.__module__]
+        self._name = f"{function.__module__.removeprefix(f'{PACKAGE}.')}-{self._key}"
+
+    def get_cache_path(self) -> str:
+        assert CACHE_FOLDER is not None
+        return str(CACHE_FOLDER / self._name)
+
+    def ensure_cache_path(self) -> None:
+        Path(self.get_cache_path()).mkdir(exist_ok=True)
+
+    def get_source_stamp(self) -> str:
+        return self._key
+
+    def get_disambiguator(self) -> str:
+        return str(self._line)
+
+    @classmethod
+    def from_function(cls, function: Callable[..., Any], _: str) -> _KernelFolder:
+        return cls(function)
+
+
+class _KernelFiles(CompileResultCacheImpl):
+    _locator_classes: Any = [_KernelFolder]  # noqa: RUF012 (numba's own way to say it)
+
+
+class KernelCache(FunctionCache):
+    """What is kept of a kernel.
+
+    What was compiled for somebody's own packed world isn't: its class may stand in a script that
+    another program can't import, and then numba can't read the kernel's index any more. A class of
+    ours counts by the sources of its module.
+    """
+
+    _impl_class = _KernelFiles
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """What is kept for a signature, or None."""
+        base: Any = super()
+        return base.load_overload(sig, target_context) if _is_of_ours(sig) else None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep what was compiled for a signature, if that can be."""
+        base: Any = super()
+        if _is_of_ours(sig):
+            with suppress(OSError):  # the folder can't be written any more: compiled, not kept
+                base.save_overload(sig, data)
+
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        base: Any = super()
+        modules = sorted({one.__module__ for one in _classes(sig)})
+        keys = tuple(SOURCES.of.get(module, "") for module in modules)
+        return (*base._index_key(sig, codegen), keys)
+
+
+def _classes(signature: Any) -> set[type]:
+    """The classes of the named tuples among a kernel's arguments, and of those inside of them."""
+    todo, found = list(getattr(signature, "args", signature)), set()
+    while todo:
+        kind = todo.pop()
+        found |= {kind.instance_class} if hasattr(kind, "instance_class") else set()
+        todo += kind.types if isinstance(kind, types.BaseTuple) and hasattr(kind, "types") else ()
+    return found
+
+
+def _is_of_ours(signature: Any) -> bool:
+    return all(one.__module__.startswith("viaspline.") for one in _classes(signature))
+
+
+def is_kept(function: Callable[..., Any]) -> bool:
+    """Whether a function's compiled form is kept: a kernel's is, if a folder can be written."""
+    return CACHE_FOLDER is not None and function.__module__ in SOURCES.of
