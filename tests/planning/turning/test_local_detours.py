@@ -149,6 +149,29 @@ def test_a_lane_is_kept_unless_it_is_short_beside_what_stands_in_it(length: floa
     assert given == (local if length > 10 * 40 else short)
 
 
+def test_a_path_that_stays_within_the_required_distance_of_its_line_does_not_swerve_for_it() -> (
+    None
+):
+    post = [{"circle": {"center": [60, -1.8], "radius": 0.1}}]
+    ends = ((0, 0), (120, 0))
+    given, short = (vs.plan(mission(ends, post, **route)) for route in ({}, {"detours": "short"}))
+    assert given.path.spans.tolist() == short.path.spans.tolist()
+    at = given.path.evaluate(np.linspace(*given.path.domain, 4000))
+    assert np.abs(at[:, 1]).max() < 2.0
+
+
+def test_a_line_that_costs_much_time_is_left_unless_it_is_asked_for() -> None:
+    """At full speed this robot turns with 100 m: the way back to the line has to be much slower."""
+    disc = [{"circle": {"center": [60, 1], "radius": 5}}]
+    ends = ((0, 0), (120, 0))
+    quick = {"max_speed_mps": 10.0, "max_accel_mps2": 1.0, "max_lateral_accel_mps2": 1.0}
+    given, local, short = (
+        vs.plan(mission(ends, disc, quick, **route)).trajectory.duration
+        for route in ({}, {"detours": "local"}, {"detours": "short"})
+    )
+    assert given == short < 0.95 * local
+
+
 def test_the_shortest_way_is_taken_where_length_is_what_counts() -> None:
     disc = [{"circle": {"center": [300, 1], "radius": 5}}]
     ends = ((0, 0), (600, 0))

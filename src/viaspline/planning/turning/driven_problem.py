@@ -22,6 +22,7 @@ from viaspline.planning.checking.conflicts import is_clear
 from viaspline.planning.checking.driving_time import driving_time, leg_time
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
+from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.routing.asked_sides import AskedSides
 from viaspline.planning.routing.path_problem import PathProblem
 from viaspline.planning.routing.route_problem import on_the_line
@@ -43,6 +44,7 @@ LEAST_FREE_TURN_RADIUS = 0.5
 ROOMY_TURN_RADIUS = 2.0  # of turns where there is room, even if sharper ones are as fast
 MUCH_LOST = 1.07  # time of a leg, over that of a straight line
 LEAST_REQUIRED_M = 1e-3  # that these are of
+DEAR_LANE = 1.05  # driven time of a leg on its line over the shortest way's; nobody asked for that
 
 RowBends = tuple[LegBends, ...]
 LayTurns = Callable[[Bends, World, Requirements], TurnPath | None]
@@ -252,15 +254,19 @@ class DrivenProblem(PathProblem):
 
     def _first_that_fits(self, leg: int, choices: Sequence[LegBends | None]) -> LegBends:
         """The first of some bends of a leg round which it can be laid by itself, else the last."""
-        ends = self.sequence.ends(leg)
-        alone = replace(self.sequence, vias=ends, legs=(self.sequence.legs[leg],), closed=False,
-                        start_tangent=None, end_tangent=None, parts_of=())  # fmt: skip
+        alone = self._alone(leg)
         *local, short = [bends for bends in choices if bends is not None]
         for bends in local:
             row = bends_of_legs(alone, [bends])
             if self._turns_round(row, self.sharpest) is not None:
                 return bends
         return short
+
+    def _alone(self, leg: int) -> ViaSequence:
+        """A leg by itself, from rest to rest."""
+        ends = self.sequence.ends(leg)
+        return replace(self.sequence, vias=ends, legs=(self.sequence.legs[leg],), closed=False,
+                       start_tangent=None, end_tangent=None, parts_of=())  # fmt: skip
 
     def _local_legs(
         self, taut_paths: Sequence[TautPath], reach: float
@@ -291,7 +297,19 @@ class DrivenProblem(PathProblem):
     ) -> tuple[LegBends | None, ...]:
         turns = self._lane_turns(reach)
         pairs = zip(self.lanes, taut_paths, strict=True)
-        return tuple(local_bends(lane, taut_path, turns) for lane, taut_path in pairs)
+        kept = [local_bends(lane, taut_path, turns) for lane, taut_path in pairs]
+        if self.requirements.detours == "local" or not self.requirements.objective.is_time:
+            return tuple(kept)
+        return tuple(
+            None if bends is None or self._is_dear(leg, bends, LegBends.along(taut_path)) else bends
+            for leg, (bends, taut_path) in enumerate(zip(kept, taut_paths, strict=True))
+        )
+
+    def _is_dear(self, leg: int, kept: LegBends, short: LegBends) -> bool:
+        """Whether it takes much longer to keep to a leg's line than to take the shortest way."""
+        alone = self._alone(leg)
+        times = [self._ideal_time(alone, bends_of_legs(alone, [one])) for one in (kept, short)]
+        return times[0] > DEAR_LANE * times[1] > 0.0
 
     def _lane_turns(self, reach: float) -> LaneTurns:
         widest = max(self.requirements.objective.pace.widest_radius, self._roomy)
@@ -311,16 +329,18 @@ class DrivenProblem(PathProblem):
             return True
         bends, stands = bends_of_legs(self.sequence, legs), tuple(leg.stands for leg in self.legs)
         asked = ("ideal time", self.sharpest, bends.key, stands)
-        return self.requirements.once(asked, partial(self._ideal_time, bends)) < bound
+        return (
+            self.requirements.once(asked, partial(self._ideal_time, self.sequence, bends)) < bound
+        )
 
-    def _ideal_time(self, bends: Bends) -> float:
+    def _ideal_time(self, sequence: ViaSequence, bends: Bends) -> float:
         """The driven time of turns with nothing else beside them; 0 where there are none [s]."""
         ideal = self._wide_turns(self.sharpest).ideal(bends, self.requirements)
         if ideal is None:
             return 0.0
         at_vias = ideal.bends.vias != DETOUR
         joints = ideal.begins[: len(at_vias)][at_vias]
-        rests = self.sequence.rests(joints, len(ideal.spans))
+        rests = sequence.rests(joints, len(ideal.spans))
         return driving_time(ideal.spans, self.requirements.objective.pace, rests)
 
     def _wide_turns(self, rho: float) -> WideTurns:

@@ -74,8 +74,14 @@ class LegLane:
         return first, last
 
     def is_long_beside(self, stays: Sequence[Stay]) -> bool:
-        """Whether it is long beside what stands in it: all along it, and to the side ahead."""
-        grown = 2.0 * self.leg.requirements.required
+        """Whether it is long beside what stands in it: all along it, and to the side ahead.
+
+        And whether the path has to leave it at all: within the required distance it is on it.
+        """
+        required = self.leg.requirements.required
+        if max((stay.aside for stay in stays), default=0.0) <= required:
+            return False
+        grown = 2.0 * required
         along = np.maximum(np.diff(self.runs, axis=1) - grown, 0.0).sum()
         sizes = [max(stay.end - stay.begin, stay.aside) - grown for stay in stays]
         ahead = np.maximum(sizes, 0.0).sum()
