@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from pathlib import Path
 from typing import Any
@@ -89,7 +90,7 @@ def test_a_mistyped_fleet_is_still_told_from_a_mission(tmp_path: Path) -> None:
 @pytest.mark.parametrize("page", ["README.md", "docs/fleets.md"])
 def test_the_fleet_of_the_documentation_is_sound(page: str, tmp_path: Path) -> None:
     text = (Path(__file__).parents[2] / page).read_text()
-    blocks = [block.partition("```")[0] for block in text.split("```yaml\n")[1:]]
+    blocks = re.findall(r"```yaml[^\n]*\n(.*?)```", text, re.DOTALL)
     (found,) = [block for block in blocks if "\nfleet:" in block]
     (tmp_path / "fleet.yaml").write_text(found)
     fleet = vs.load(tmp_path / "fleet.yaml")
