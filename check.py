@@ -5,6 +5,7 @@
     python3 check.py --fix      let ruff mend what it can first
     python3 check.py --quick    for the edit loop, less than a minute: of the tests those of the
                                 files that differ from the last commit, and the house's own
+    python3 check.py --docs     run the pages of the documentation and make the site in build/site
 
 Run from a checkout; the environment it makes is a developer's environment as well.
 """
@@ -21,7 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent
 HOME = ROOT / ".venv"
 BIN = HOME / ("Scripts" if os.name == "nt" else "bin")
-CODE = ("src", "tests", "benchmarks", "check.py")
+CODE = ("src", "tests", "benchmarks", "docsite", "check.py")
 
 
 def run(*command: str | Path) -> None:
@@ -77,6 +78,10 @@ def main() -> None:
         sys.exit(f"viaspline needs Python 3.11 or newer; this is {sys.version.split()[0]}")
     if "--quick" not in sys.argv or not BIN.exists():
         set_up()
+    if "--docs" in sys.argv:
+        run(BIN / "python", "-m", "pip", "install", "--quiet", "-e", ".[docs]")
+        run(BIN / "python", "docsite/build.py")
+        return
     if "--fix" in sys.argv:
         run(BIN / "ruff", "check", "--fix", *CODE)
         run(BIN / "ruff", "format", *CODE)

@@ -42,8 +42,7 @@ def _of(file: Path, pages: dict[Path, _Page]) -> Iterator[str]:
         target = (file.parent / unquote(parts.path)).resolve() if parts.path else file
         if target.is_dir():
             target /= "index.html"
-        if not target.exists():
+        if not target.exists() or (
+            target in pages and unquote(parts.fragment) not in {"", *pages[target].places}
+        ):
             yield link
-        elif parts.fragment and target in pages:
-            if unquote(parts.fragment) not in pages[target].places:
-                yield link

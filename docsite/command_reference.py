@@ -17,7 +17,7 @@ Made from the commands themselves. `python -m viaspline` is the same as `viaspli
 |---|---|
 | 0 | done |
 | 2 | the mission or the arguments are wrong: every fault, with its line |
-| 3 | there is no such path, and that is proven: why, where, and the least change that would allow one |
+| 3 | there is no such path, and that is proven: why, where, and what would allow one |
 | 4 | the robot did not reach its goal: where, and why |
 | 5 | gave up: a budget ran out before it was known |
 | 130 | interrupted; 143 terminated |
@@ -25,8 +25,8 @@ Made from the commands themselves. `python -m viaspline` is the same as `viaspli
 """
 ERRORS_INTRODUCTION = """# Every error
 
-All of them are `vs.ViasplineError`. Each carries its data as attributes; its message names the thing
-and the remedy. [How to read a refusal](../how-to/read-a-refusal.md).
+All of them are `vs.ViasplineError`. Each carries its data as attributes; its message names the
+thing and the remedy. [How to read a refusal](../how-to/read-a-refusal.md).
 """
 
 
@@ -35,7 +35,7 @@ def command_reference() -> str:
     parts = [COMMANDS_INTRODUCTION]
     for name in sorted(cli.commands):
         command = cli.commands[name]
-        context = click.Context(command, info_name=f"viaspline {name}", max_content_width=90)
+        context = click.Context(command, info_name=f"viaspline {name}", terminal_width=90)
         parts.append(f"## viaspline {name}\n\n```text\n{command.get_help(context)}\n```\n")
     return "\n".join(parts)
 

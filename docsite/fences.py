@@ -30,10 +30,10 @@ class Fence:
 
 
 def fences(page: str) -> list[Fence]:
-    """All blocks of a page in their order.
+    r"""All blocks of a page in their order.
 
-    >>> fences('Hi:\\n```yaml title="a.yaml"\\nx: 1\\n```\\n')
-    [Fence(language='yaml', body='x: 1\\n', title='a.yaml', line=3)]
+    >>> fences('Hi:\n```yaml title="a.yaml"\nx: 1\n```\n')
+    [Fence(language='yaml', body='x: 1\n', title='a.yaml', line=3)]
     """
     found = []
     for match in _FENCE.finditer(page):

@@ -29,9 +29,9 @@ def mission_reference() -> str:
     examples = dict(_examples(Value))
     parts = [INTRODUCTION, "## A file\n", _table(schema["properties"], schema.get("required", ()))]
     seen: set[str] = set()
-    todo = [("", name) for key in ROOTS for name in _named(schema["properties"][key])]
+    todo = [name for key in ROOTS for name in _named(schema["properties"][key])]
     while todo:
-        home, name = todo.pop(0)
+        name = todo.pop(0)
         if name in seen:
             continue
         seen.add(name)
@@ -40,7 +40,7 @@ def mission_reference() -> str:
         if name in examples:
             parts += [f"Expected: {examples[name]}.\n"]
         parts += [_table(part.get("properties", {}), part.get("required", ()))]
-        todo += [(name, one) for key in part.get("properties", {}).values() for one in _named(key)]
+        todo += [one for key in part.get("properties", {}).values() for one in _named(key)]
     return "\n".join(parts).rstrip() + "\n"
 
 
@@ -70,9 +70,10 @@ def _table(properties: dict[str, Any], required: Any) -> str:
     for key, schema in properties.items():
         text = " ".join(schema.get("description", "").split()).replace("|", "\\|")
         unit = _UNIT.search(text)
+        words = _UNIT.sub("", text, count=1).replace("[", "&#91;")  # no link of Markdown
         rows.append(
             f"| `{key}` | {_takes(schema)} | {unit[1] if unit else ''} "
-            f"| {_default(key, schema, required)} | {_UNIT.sub('', text, count=1).replace('[', '&#91;')} |"
+            f"| {_default(key, schema, required)} | {words} |"
         )
     return "\n".join(rows) + "\n"
 
