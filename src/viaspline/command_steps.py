@@ -89,7 +89,7 @@ def progress_bar(
 
     watch = ProgressBar(quiet=quiet)
     with watch.stage("start", "starting"):
-        from viaspline.kernels.jit import compile_progress
+        from viaspline.kernels.compile_events import compile_progress
         from viaspline.precompile import first_run_words, jobs_of, second_compiler
     jobs = ("curves",) if asked is None else jobs_of(asked, drives=drives)
     tell = partial(watch.compiling, *first_run_words(jobs))

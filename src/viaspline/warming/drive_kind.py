@@ -1,0 +1,35 @@
+"""Missions of a kind planned and driven, for what that compiles, loads and imports."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+from viaspline.errors import ViasplineError
+from viaspline.warming.mission_kind import MissionKind
+
+
+def drive_kind(kind: MissionKind) -> None:
+    """Plan and drive the small missions of a kind.
+
+    What came of them doesn't count: a way that is closed is one of them.
+    """
+    if kind.is_fleet:
+        from viaspline.warming.small_fleets import drive_fleets
+
+        drive_fleets(kind)
+    elif "space" in kind.parts:
+        from viaspline.warming.small_flights import fly_small
+
+        fly_small()
+    else:
+        _drive_missions(kind)
+
+
+def _drive_missions(kind: MissionKind) -> None:
+    from viaspline.planner import plan
+    from viaspline.robot.simulator import simulate
+    from viaspline.warming.small_missions import missions_of
+
+    for _, mission in missions_of(kind):
+        with suppress(ViasplineError):
+            simulate(mission, plan=plan(mission))

@@ -1,0 +1,55 @@
+"""A process that drives a kind of mission, compiles what that needs, and lists it.
+
+``python -m viaspline.warming.record_kind lidar+footprint``: every kernel that it compiles is a line
+of its output.
+
+Tested through ``warming/test_warm_up``.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+
+from viaspline.kernels.compile_events import compile_progress
+from viaspline.precompile import Job, second_compiler
+from viaspline.warming.drive_kind import drive_kind
+from viaspline.warming.kernel_list import KernelList, package_key
+from viaspline.warming.mission_kind import MissionKind, kind_named
+
+
+def jobs_of_kind(kind: MissionKind) -> tuple[Job, ...]:
+    """What a second process compiles meanwhile.
+
+    >>> jobs_of_kind(MissionKind(("turning",)))
+    ('curves', 'driving')
+    """
+    if "space" in kind.parts:
+        return ("curves",)
+    fleets: tuple[Job, ...] = ("fleets", "fleet_drives") if kind.is_fleet else ()
+    drives = {"moving", "passive", "laps", "corridor", "map", "lidar", "jerk", "yaw"}
+    return ("curves", *fleets, *(("driving",) if set(kind.parts) - drives else ()))
+
+
+def record(kind: MissionKind, tell: Callable[[str], None]) -> KernelList:
+    """Drive a kind of mission, with another process that compiles as well, and list its kernels.
+
+    Args:
+        kind: Of mission.
+        tell: Hears the name of every kernel that is compiled here.
+    """
+    key = package_key()
+    with compile_progress(tell), second_compiler(jobs_of_kind(kind)):
+        drive_kind(kind)
+    listed = KernelList.of_this_process()
+    listed.write(kind, key)
+    return listed
+
+
+def _say(kernel: str) -> None:
+    sys.stdout.write(f"{kernel}\n")
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    record(kind_named(sys.argv[1]), _say)
