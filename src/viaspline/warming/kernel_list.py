@@ -28,6 +28,7 @@ from viaspline.warming.mission_kind import MissionKind
 LISTS: Final = "lists"
 _KEY_LENGTH: Final = 16
 _OWN: Final = "viaspline.warming"
+_PACKAGES: Final = ("viaspline", "numba", "numpy", "scipy", "shapely")
 
 
 def package_key() -> str:
@@ -107,11 +108,9 @@ def _name(kind: MissionKind, key: str) -> str:
 
 
 def _imported() -> Iterator[str]:
-    """What was imported that isn't Python's own, nor what finds this out."""
+    """What was imported of the packages that take their time, but for what finds this out."""
     for name, module in list(sys.modules.items()):
         spec = getattr(module, "__spec__", None)
-        is_own = name.startswith(_OWN) or name == "__main__"
-        if spec is None or spec.name != name or is_own:
-            continue
-        if name.partition(".")[0] not in sys.stdlib_module_names:
+        is_one = spec is not None and spec.name == name and not name.startswith(_OWN)
+        if is_one and name.partition(".")[0] in _PACKAGES:
             yield name

@@ -7,21 +7,15 @@ lists what they need. What is on that list is then loaded here.
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from viaspline.kernels.kernel_cache import CACHE_FOLDER
-from viaspline.report.interrupts import undone_at_the_end
+from viaspline.warming.compile_apart import Tell, compile_apart
 from viaspline.warming.kernel_list import KernelList, package_key
 from viaspline.warming.mission_kind import MissionKind, kinds_of
 
 if TYPE_CHECKING:
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.model import Mission
-
-Tell = Callable[[str], None]
 
 
 def warm_up(asked: Mission | Fleet, tell: Tell | None = None) -> None:
@@ -49,40 +43,12 @@ def warm_kind(kind: MissionKind, key: str, tell: Tell) -> None:
     listed = KernelList.read(kind, key)
     if listed is not None and not listed.load():
         return
-    apart = CACHE_FOLDER is not None and _compiled_apart(kind, tell)
-    listed = KernelList.read(kind, key) if apart else None
-    if listed is None or listed.load():
+    compile_apart(kind, tell)
+    listed = KernelList.read(kind, key)
+    if listed is None or listed.load():  # there is no cache, or no other process
         from viaspline.warming.record_kind import record
 
-        record(kind, tell)
-
-
-def _compiled_apart(kind: MissionKind, tell: Tell) -> bool:
-    """Have another process compile and list what a kind needs; whether it could."""
-    try:
-        process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "viaspline.warming.record_kind", kind.name],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            text=True,
-            encoding="utf-8",
-        )
-    except OSError:  # no interpreter of its own, as in a frozen program
-        return False
-
-    def end() -> None:
-        process.kill()
-        process.wait()
-
-    try:
-        with undone_at_the_end(end):
-            assert process.stdout is not None
-            for line in process.stdout:
-                tell(line.strip())
-            return process.wait() == 0
-    finally:
-        end()
+        record(kind, tell, ())
 
 
 def _silent(kernel: str) -> None:
