@@ -57,6 +57,7 @@ def robot_of(kind: MissionKind) -> Parts:
 def _scenes(kind: MissionKind) -> Iterator[tuple[str, Parts, Parts]]:
     yield "round", _round(kind), _round_route(kind)
     yield "pocket", _pocket(), {"start": {"at": [0, 0], "heading_deg": 0}, "goal": [6, 0]}
+    yield "crossing", _crossing(kind), {"start": [0, 0], "goal": [12, 0]}
     yield "posts", _posts(), {"start": [0, 0], "goal": [12, 0]}
     if "map" in kind.parts:
         yield "map", {"known": [Obstacle(grid=_map())]}, {"start": [1.5, 1.5], "goal": [18, 13]}
@@ -71,7 +72,6 @@ def _round(kind: MissionKind) -> Parts:
     unseen: list[Parts] = [
         {"polygon": [[8, -0.5], [8.6, -0.5], [8.6, 0.7], [8, 0.7]]},
         {"circle": {"center": [15.5, -0.3], "radius": 0.4}},
-        _mover([18, -4], [18, 4], 8.0),
     ]
     if "moving" in kind.parts:
         known.append(_mover([3, 3], [3, -3], 3.0))
@@ -79,11 +79,23 @@ def _round(kind: MissionKind) -> Parts:
 
 
 def _mover(first: list[float], last: list[float], start: float) -> Parts:
-    frames = [[start, *first], [start + 6.0, *last]]
+    frames = [[start, *first], [start + 4.0, *last]]
     return {
         "circle": {"center": [0, 0], "radius": 0.3},
         "motion": {"keyframes": frames, "after": "bounce"},
     }
+
+
+def _crossing(kind: MissionKind) -> Parts:
+    """Somebody who walks to and fro across the way, and a cart that comes along it."""
+    walker = _mover([5, 2], [5, -2], 0.0)
+    cart: Parts = {
+        "polygon": [[-0.4, -0.3], [0.4, -0.3], [0.4, 0.3], [-0.4, 0.3]],
+        "motion": {"from": [13, 0.1], "velocity_mps": [-0.4, 0]},
+    }
+    moving = [walker, cart]
+    is_known = "moving" in kind.parts
+    return {"bounds": [-3, -5, 15, 5], "known" if is_known else "unseen": moving}
 
 
 def _round_route(kind: MissionKind) -> Parts:
