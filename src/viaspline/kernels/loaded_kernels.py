@@ -39,10 +39,11 @@ def kernel_functions() -> Iterator[tuple[str, str, Any]]:
 
 
 def loaded_kernels() -> frozenset[LoadedKernel]:
-    """All kernels that this process has loaded or compiled."""
+    """All kernels that Python can call and that this process has loaded or compiled."""
     return frozenset(
         LoadedKernel(module, name, str(types))
         for module, name, compiler in kernel_functions()
+        if not compiler.targetoptions.get("no_cpython_wrapper")
         for types in compiler.overloads
     )
 
