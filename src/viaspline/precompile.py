@@ -146,17 +146,6 @@ def jobs_of(asked: Mission | Fleet, *, drives: bool = False) -> tuple[Job, ...]:
     return tuple(job for job in JOBS if job in needed)
 
 
-def first_run_words(jobs: Sequence[Job]) -> tuple[str, str]:
-    """What is compiled on a first run, and how long that takes.
-
-    >>> first_run_words(["curves"])
-    ('the kernels', 'some seconds')
-    """
-    if "fleets" in jobs:
-        return "the kernels of paths and fleets", "up to a minute"
-    return "the kernels", "some seconds"
-
-
 def compile_all(jobs: Sequence[Job]) -> None:
     """Do the jobs, each with a mark when it is done."""
     for job in jobs:

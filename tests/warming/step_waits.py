@@ -19,7 +19,7 @@ import viaspline as vs
 from viaspline.kernels.compile_events import compile_progress
 from viaspline.kernels.kernel_cache import KernelCache
 from viaspline.robot.navigator import Navigator
-from viaspline.warming.mission_kind import MissionKind, kind_of, kind_named
+from viaspline.warming.mission_kind import MissionKind, kind_named, kind_of
 from viaspline.warming.small_missions import robot_of
 
 SENSORS = ("untold", "plain", "lidar")

@@ -78,6 +78,17 @@ NOWHERE = Path(os.devnull)
 """Where nothing can be kept, and nothing is found."""
 
 
+def folder_name(module: str) -> str:
+    """The name of the folder of a module's kernels, of its sources as they are."""
+    return f"{module.removeprefix(f'{PACKAGE}.')}-{SOURCES.of[module]}"
+
+
+def kernel_folders() -> tuple[Path, ...]:
+    """Where compiled kernels are looked for, in this order."""
+    shipped = () if SHIPPED is None else (SHIPPED.folder,)
+    return shipped if CACHE_FOLDER is None else (*shipped, CACHE_FOLDER)
+
+
 class _KernelFolder:
     """Where numba keeps the kernels of a module: nothing of it names the sources' own folder."""
 
@@ -85,7 +96,7 @@ class _KernelFolder:
         self._py_file = function.__code__.co_filename  # numba's warnings name it
         self._line = function.__code__.co_firstlineno
         self._key = SOURCES.of[function.__module__]
-        self._name = f"{function.__module__.removeprefix(f'{PACKAGE}.')}-{self._key}"
+        self._name = folder_name(function.__module__)
 
     def get_cache_path(self) -> str:
         return str((CACHE_FOLDER or NOWHERE) / self._name)

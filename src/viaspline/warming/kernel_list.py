@@ -22,7 +22,6 @@ from typing import Final
 import viaspline
 from viaspline.kernels import kernel_cache
 from viaspline.kernels.loaded_kernels import LoadedKernel, load_kernels, loaded_kernels
-from viaspline.kernels.shipped_kernels import SHIPPED
 from viaspline.warming.mission_kind import MissionKind
 
 LISTS: Final = "lists"
@@ -66,7 +65,7 @@ class KernelList:
             kind: Of mission.
             key: That of the sources, by ``package_key``.
         """
-        for folder in _folders():
+        for folder in kernel_cache.kernel_folders():
             with suppress(OSError, ValueError, KeyError, TypeError):
                 text = (folder / LISTS / _name(kind, key)).read_text(encoding="utf-8")
                 read = json.loads(text)
@@ -94,13 +93,6 @@ class KernelList:
                 with suppress(ImportError):  # of another version of a library
                     import_module(module)
         return load_kernels(self.kernels)
-
-
-def _folders() -> Iterator[Path]:
-    if SHIPPED is not None:
-        yield SHIPPED.folder
-    if kernel_cache.CACHE_FOLDER is not None:
-        yield kernel_cache.CACHE_FOLDER
 
 
 def _name(kind: MissionKind, key: str) -> str:
