@@ -58,3 +58,5 @@ def _ended(process: subprocess.Popen[str]) -> Iterator[None]:
             yield
     finally:
         end()
+        if process.stdout is not None:
+            process.stdout.close()

@@ -3,9 +3,30 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from importlib import import_module
+from typing import Final
 
 from viaspline.errors import ViasplineError
-from viaspline.warming.mission_kind import MissionKind
+from viaspline.warming.mission_kind import PARTS, MissionKind
+
+IMPORTED_LATE: Final = (
+    "scipy.interpolate",
+    "scipy.ndimage",
+    "scipy.sparse",
+    "scipy.sparse.csgraph",
+    "scipy.sparse.linalg",
+    "scipy.spatial",
+    "shapely",
+    "shapely.affinity",
+    "viaspline.kernels.clearance.footprint_pose",
+    "viaspline.kernels.clearance.footprint_walk",
+    "viaspline.mission.footprint_check",
+    "viaspline.planning.corridor.corridor_planner",
+)
+"""What planning and driving import only where they need it."""
+
+TURNING: Final = (*PARTS[1:5], "localization", "footprint", "turning")
+"""With these a mission needs the search among poses."""
 
 
 def drive_kind(kind: MissionKind) -> None:
@@ -27,9 +48,14 @@ def drive_kind(kind: MissionKind) -> None:
 
 def _drive_missions(kind: MissionKind) -> None:
     from viaspline.planner import plan
+    from viaspline.precompile import compile_driving
     from viaspline.robot.simulator import simulate
     from viaspline.warming.small_missions import missions_of
 
+    for name in IMPORTED_LATE:
+        import_module(name)
+    if set(TURNING) & set(kind.parts):
+        compile_driving()
     for _, mission in missions_of(kind):
         with suppress(ViasplineError):
             simulate(mission, plan=plan(mission))

@@ -26,7 +26,12 @@ OF_PART: Final[Mapping[str, Parts]] = {
     "differential": {"drive": {"differential": {"track_m": 0.5}, "delay_s": 0.1, "lag_s": 0.1}},
     "ackermann": {"drive": {"ackermann": {"wheelbase_m": 0.6, "max_steer_deg": 35}}},
     "skid_steer": {"drive": {"skid_steer": {"track_m": 0.5}, "delay_s": 0.1}},
-    "omnidirectional": {"drive": {"omnidirectional": {}, "delay_s": 0.1}},
+    "omnidirectional": {
+        "drive": {
+            "omnidirectional": {"max_speed_along_mps": 1.2, "max_speed_across_mps": 0.8},
+            "delay_s": 0.1,
+        }
+    },
     "localization": {"localization": {"position_noise_m": 0.01}},
     "footprint": {"footprint": [[-0.3, -0.25], [0.5, -0.25], [0.5, 0.25], [-0.3, 0.25]]},
     "turning": {"min_turn_radius_m": 0.9},
