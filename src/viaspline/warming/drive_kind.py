@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import Final
 
 from viaspline.errors import ViasplineError
+from viaspline.precompile import Job, compile_all
 from viaspline.warming.mission_kind import PARTS, MissionKind
 
 IMPORTED_LATE: Final = (
@@ -29,6 +30,16 @@ TURNING: Final = (*PARTS[1:5], "localization", "footprint", "turning")
 """With these a mission needs the search among poses."""
 
 
+def jobs_of_kind(kind: MissionKind) -> tuple[Job, ...]:
+    """What of a kind of mission is compiled by itself, and so by another process if there is one.
+
+    >>> jobs_of_kind(MissionKind(("turning",)))
+    ('curves', 'driving')
+    """
+    fleets: tuple[Job, ...] = ("fleets", "fleet_drives") if kind.is_fleet else ()
+    return ("curves", *fleets, *(("driving",) if set(kind.parts) & set(TURNING) else ()))
+
+
 def drive_kind(kind: MissionKind) -> None:
     """Plan and drive the small missions of a kind.
 
@@ -44,18 +55,16 @@ def drive_kind(kind: MissionKind) -> None:
         fly_small()
     else:
         _drive_missions(kind)
+    compile_all(jobs_of_kind(kind))
 
 
 def _drive_missions(kind: MissionKind) -> None:
     from viaspline.planner import plan
-    from viaspline.precompile import compile_driving
     from viaspline.robot.simulator import simulate
     from viaspline.warming.small_missions import missions_of
 
     for name in IMPORTED_LATE:
         import_module(name)
-    if set(TURNING) & set(kind.parts):
-        compile_driving()
     for _, mission in missions_of(kind):
         with suppress(ViasplineError):
             simulate(mission, plan=plan(mission))

@@ -20,6 +20,7 @@ from typing import Any
 from viaspline.kernels.kernel_cache import CACHE_FOLDER
 from viaspline.kernels.loaded_kernels import LoadedKernel
 from viaspline.kernels.shipped_kernels import write_note
+from viaspline.precompile import JOBS, mark_name
 from viaspline.warming.kernel_list import LISTS, package_key
 
 
@@ -74,6 +75,9 @@ def pack_all(folder: Path) -> int:
     (folder / LISTS).mkdir(exist_ok=True)
     for file in lists:
         shutil.copyfile(file, folder / LISTS / file.name)
+    for job in JOBS:
+        if (CACHE_FOLDER / mark_name(job)).exists():
+            (folder / mark_name(job)).touch()
     return count
 
 

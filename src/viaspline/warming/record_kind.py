@@ -13,21 +13,9 @@ from collections.abc import Callable, Sequence
 
 from viaspline.kernels.compile_events import compile_progress
 from viaspline.precompile import Job, second_compiler
-from viaspline.warming.drive_kind import TURNING, drive_kind
+from viaspline.warming.drive_kind import drive_kind, jobs_of_kind
 from viaspline.warming.kernel_list import KernelList, package_key
 from viaspline.warming.mission_kind import MissionKind, kind_named
-
-
-def jobs_of_kind(kind: MissionKind) -> tuple[Job, ...]:
-    """What a second process compiles meanwhile.
-
-    >>> jobs_of_kind(MissionKind(("turning",)))
-    ('curves', 'driving')
-    """
-    if "space" in kind.parts:
-        return ("curves",)
-    fleets: tuple[Job, ...] = ("fleets", "fleet_drives") if kind.is_fleet else ()
-    return ("curves", *fleets, *(("driving",) if set(kind.parts) & set(TURNING) else ()))
 
 
 def record(kind: MissionKind, tell: Callable[[str], None], jobs: Sequence[Job]) -> KernelList:

@@ -42,11 +42,20 @@ OF_PART: Final[Mapping[str, Parts]] = {
 """What a robot is that has a part."""
 
 
+SPLINES: Final[Mapping[str, Parts]] = {
+    "curve": {"tension": 0.2, "knots": "uniform", "tangents": "cardinal"},
+    "loose": {"tension": -0.5, "tangents": "cardinal"},
+}
+"""The splines of missions by their names; the others take what a mission has of itself."""
+
+
 def missions_of(kind: MissionKind) -> Iterator[tuple[str, Mission]]:
     """The missions of one robot of a kind that isn't one in space, each with its name."""
     robot = robot_of(kind)
     for name, world, route in _scenes(kind):
-        yield name, Mission.model_validate({"world": world, "robot": robot, "route": route})
+        parts = {"world": world, "robot": robot, "route": route, "spline": SPLINES.get(name)}
+        given = {key: value for key, value in parts.items() if value is not None}
+        yield name, Mission.model_validate(given)
 
 
 def robot_of(kind: MissionKind) -> Parts:
@@ -61,6 +70,9 @@ def robot_of(kind: MissionKind) -> Parts:
 
 def _scenes(kind: MissionKind) -> Iterator[tuple[str, Parts, Parts]]:
     yield "round", _round(kind), _round_route(kind)
+    points: Parts = {"start": [0, 0], "via": [[4, 3], [9, -2], [9.5, -2.2]], "goal": [14, 1]}
+    for name in SPLINES:
+        yield name, {"known": [{"circle": {"center": [7, 4], "radius": 0.5}}]}, points
     yield "pocket", _pocket(), {"start": {"at": [0, 0], "heading_deg": 0}, "goal": [6, 0]}
     yield "crossing", _crossing(kind), {"start": [0, 0], "goal": [12, 0]}
     yield "posts", _posts(), {"start": [0, 0], "goal": [12, 0]}
