@@ -22,7 +22,16 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent
 HOME = ROOT / ".venv"
 BIN = HOME / ("Scripts" if os.name == "nt" else "bin")
-CODE = ("src", "tests", "benchmarks", "docsite", "check.py")
+CODE = (
+    "src",
+    "tests",
+    "benchmarks",
+    "docsite",
+    "check.py",
+    "conftest.py",
+    "compiled_wheel.py",
+    "hatch_build.py",
+)
 
 
 def run(*command: str | Path) -> None:

@@ -21,13 +21,13 @@ CART = vs.Obstacle(
     circle={"center": (0, 0), "radius": 1}, motion={"from": (0, 5), "velocity_mps": (1, 0)}
 )
 MOVING = vs.MovingObstacles([CART])
-NAV = vs.Navigator(MISSION)
+NAV = vs.Navigator(MISSION, warm=False)
 STATE = vs.RobotState((0.0, 0.0), 0.0, 0.0)
 FLEET = vs.Fleet.model_validate(
     {"fleet": [{"name": "a", "route": {"start": [0, 0], "goal": [9, 0]}}]}
 )
 FLEET_PLAN = vs.plan_fleet(FLEET)
-FLEET_NAV = vs.FleetNavigator(FLEET_PLAN)
+FLEET_NAV = vs.FleetNavigator(FLEET_PLAN, warm=False)
 
 JUNK: list[Any] = [
     None, "x", b"x", float("nan"), 10**400, -1, [], {}, [[1]], [["a", "b"]], [None], object(),
@@ -82,6 +82,9 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "Navigator plan": lambda junk: vs.Navigator(MISSION, junk),
     "Navigator reaction": lambda junk: vs.Navigator(MISSION, reaction=junk),
     "Navigator period": lambda junk: vs.Navigator(MISSION, period=junk),
+    "Navigator warm": lambda junk: vs.Navigator(MISSION, warm=junk),
+    "Navigator progress": lambda junk: vs.Navigator(MISSION, progress=uncallable(junk)),
+    "warm": lambda junk: NAV.warm(uncallable(junk)),
     "Navigator step": lambda junk: NAV.step(junk, [], 0.0),
     "Navigator sensed": lambda junk: NAV.step(STATE, junk, 0.0),
     "Navigator time": lambda junk: NAV.step(STATE, [], junk),

@@ -109,9 +109,6 @@ def test_a_fleet_asks_for_what_its_robots_need_and_for_what_times_them() -> None
     turning = crossing_fleet(min_turn_radius_m=1.0)
     assert precompile.jobs_of(turning) == ("curves", "fleets", "driving")
     assert precompile.jobs_of(fleet.members[0].mission, drives=True) == ("curves",)
-    what, lasts = precompile.first_run_words(precompile.jobs_of(fleet))
-    assert "fleets" in what
-    assert "minute" in lasts
 
 
 def crossing_fleet(**robot: float) -> Fleet:

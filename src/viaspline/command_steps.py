@@ -89,11 +89,15 @@ def progress_bar(
 
     watch = ProgressBar(quiet=quiet)
     with watch.stage("start", "starting"):
-        from viaspline.kernels.jit import compile_progress
-        from viaspline.precompile import first_run_words, jobs_of, second_compiler
-    jobs = ("curves",) if asked is None else jobs_of(asked, drives=drives)
-    tell = partial(watch.compiling, *first_run_words(jobs))
-    with compile_progress(tell), second_compiler(jobs):
+        from viaspline.kernels.compile_events import compile_progress
+        from viaspline.precompile import Job, jobs_of, second_compiler
+        from viaspline.warming.first_run import first_run
+    jobs: tuple[Job, ...] = ("curves",) if asked is None else jobs_of(asked, drives=drives)
+    with (
+        first_run(jobs) as notice,
+        compile_progress(partial(watch.compiling, notice)),
+        second_compiler(jobs),
+    ):
         yield watch
 
 

@@ -20,7 +20,19 @@ INTERRUPTED, TERMINATED = 130, 143
 
 
 class Commands(click.Group):
-    """The commands; every error that they raise becomes a message and an exit code."""
+    """The commands; every error that they raise becomes a message and an exit code.
+
+    In their help a line of nothing but a backslash and a b begins a part that isn't wrapped.
+    """
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.help = unwrapped(self.help)
+
+    def add_command(self, cmd: click.Command, name: str | None = None) -> None:
+        """Take a command in."""
+        cmd.help = unwrapped(cmd.help)
+        super().add_command(cmd, name)
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run a command."""
@@ -31,6 +43,17 @@ class Commands(click.Group):
             raise
         except (Exception, KeyboardInterrupt, Terminated) as error:
             ctx.exit(told(error))
+
+
+def unwrapped(text: str | None) -> str | None:
+    r"""The help of a command with click's mark of what isn't wrapped, which is a character.
+
+    Docstrings with a backslash are raw ones, in which it is two.
+
+    >>> unwrapped("\\b\nExample:")
+    '\x08\nExample:'
+    """
+    return None if text is None else text.replace("\\b\n", "\b\n")
 
 
 def told(error: BaseException) -> int:

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal
 
 from viaspline.kernels.kernel_cache import CACHE_FOLDER, SOURCES
+from viaspline.kernels.shipped_kernels import SHIPPED
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.report.interrupts import undone_at_the_end
 
@@ -146,17 +147,6 @@ def jobs_of(asked: Mission | Fleet, *, drives: bool = False) -> tuple[Job, ...]:
     return tuple(job for job in JOBS if job in needed)
 
 
-def first_run_words(jobs: Sequence[Job]) -> tuple[str, str]:
-    """What is compiled on a first run, and how long that takes.
-
-    >>> first_run_words(["curves"])
-    ('the kernels', 'some seconds')
-    """
-    if "fleets" in jobs:
-        return "the kernels of paths and fleets", "up to a minute"
-    return "the kernels", "some seconds"
-
-
 def compile_all(jobs: Sequence[Job]) -> None:
     """Do the jobs, each with a mark when it is done."""
     for job in jobs:
@@ -165,9 +155,20 @@ def compile_all(jobs: Sequence[Job]) -> None:
             _mark(job).touch()
 
 
+def mark_name(job: Job) -> str:
+    """The name of the file that says that a job was done, with the kernels as they are."""
+    return f"{job}-{SOURCES.whole}-compiled"
+
+
 def _mark(job: Job) -> Path:
     assert CACHE_FOLDER is not None
-    return CACHE_FOLDER / f"{job}-{SOURCES.whole}-compiled"
+    return CACHE_FOLDER / mark_name(job)
+
+
+def _is_done(job: Job) -> bool:
+    """Whether a job was done here, or by who made the wheel."""
+    is_shipped = SHIPPED is not None and (SHIPPED.folder / mark_name(job)).exists()
+    return is_shipped or _mark(job).exists()
 
 
 def _taken() -> bool:
@@ -198,7 +199,7 @@ def second_compiler(jobs: Sequence[Job] = ("curves",)) -> Iterator[None]:
         jobs: What this run will need.
     """
     cores = os.cpu_count() or 1
-    left = [] if CACHE_FOLDER is None else [job for job in jobs if not _mark(job).exists()]
+    left = [] if CACHE_FOLDER is None else [job for job in jobs if not _is_done(job)]
     if CACHE_FOLDER is None or not left or cores < 2 or not _taken():
         yield
         return

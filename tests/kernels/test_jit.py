@@ -8,6 +8,7 @@ import numba
 import pytest
 
 from viaspline.kernels import jit, kernel_cache
+from viaspline.kernels.compile_events import compile_progress
 
 compiled = pytest.mark.skipif(
     os.environ.get("NUMBA_DISABLE_JIT") == "1", reason="nothing is compiled with the JIT off"
@@ -76,7 +77,7 @@ def test_what_is_compiled_of_ours_is_told_and_nothing_else(
 
     ours.__module__ = "viaspline.kernels.example"
     heard: list[str] = []
-    with jit.compile_progress(heard.append):
+    with compile_progress(heard.append):
         numba.njit(ours)(1.0)
         numba.njit(theirs)(1.0)
     assert heard == ["example.ours"]

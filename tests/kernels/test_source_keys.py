@@ -19,6 +19,8 @@ SOURCES = {
     "asker.py": "from viaspline.kernels.asked_protocol import answers\n",
     "answer.py": "from viaspline.kernels.asked_protocol import answers\n@answers(1)\ndef f(): ...",
     "alone.py": "y = 2",
+    "kernel_cache.py": "z = 3",
+    "kept.py": "import viaspline.kernels.kernel_cache\n",
 }
 
 
@@ -58,6 +60,11 @@ def test_who_asks_a_protocol_depends_on_who_answers_it(moved: Callable[..., set[
     assert moved(answer=edit) == {"answer", "asker", "asked_protocol"}
 
 
+def test_who_keeps_compiled_kernels_is_in_no_key(moved: Callable[..., set[str]]) -> None:
+    assert moved(kernel_cache="z = 4") == set()
+    assert moved(kept="import viaspline.kernels.kernel_cache  # edited") == {"kept"}
+
+
 def test_modules_that_import_each_other_move_together(moved: Callable[..., set[str]]) -> None:
     edit = SOURCES["deep/loop.py"] + "# edited"
     assert moved(**{"deep/loop": edit}) == {"deep.loop", "deep.loop_b"}
@@ -69,7 +76,8 @@ def test_any_edit_moves_the_key_of_the_whole(tmp_path: Path) -> None:
 
 def test_of_our_own_kernels_no_import_is_overlooked() -> None:
     root = Path(kernels.__path__[0])
-    sources = {source_keys._name(root, file): file.read_bytes() for file in root.rglob("*.py")}
+    files = {source_keys._name(root, file): file for file in root.rglob("*.py")}
+    sources = {name: files[name].read_bytes() for name in files.keys() - source_keys.KEEPERS}
     near = source_keys._neighbours(sources)
     graph = grimp.build_graph("viaspline", cache_dir=None)
     for module in sources:

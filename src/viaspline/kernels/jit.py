@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any, TypeVar
 
 import numba
-from numba.core import event, types
+from numba.core import types
 
 from viaspline.kernels.kernel_cache import KernelCache, is_kept
 
@@ -77,24 +76,3 @@ def fused(function: _Function) -> _Function:
     numba's types take longer than that.
     """
     return _compile(function, no_cpython_wrapper=True, inline="always")
-
-
-class _CompileListener(event.Listener):
-    def __init__(self, tell: Callable[[str], None]) -> None:
-        self._tell = tell
-
-    def on_start(self, event: Any) -> None:
-        function = event.data["dispatcher"].py_func
-        if function.__module__.startswith("viaspline."):
-            self._tell(f"{function.__module__.rsplit('.', 1)[-1]}.{function.__name__}")
-
-    def on_end(self, event: Any) -> None:
-        pass
-
-
-@contextmanager
-def compile_progress(tell: Callable[[str], None]) -> Iterator[None]:
-    """Within the block, ``tell`` hears the name of every kernel that has to be compiled."""
-    listener = _CompileListener(tell)
-    with event.install_listener("numba:compile", listener):
-        yield

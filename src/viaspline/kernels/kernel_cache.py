@@ -5,7 +5,7 @@ the sources, and refuses to import a cached kernel when its own folder can't be 
 kernel's folder is named after its module and a hash of all the sources that it reaches
 (``source_keys``), below one that is named after the versions of Python, of numba and of numpy
 (whose constants are compiled in) and the processor; and without a writable folder there is no
-cache.
+cache. What a wheel brings along (``shipped_kernels``) is taken before what lies there.
 
 Tested through ``kernels/test_jit``.
 """
@@ -25,8 +25,9 @@ import numba
 import numpy
 from llvmlite import binding
 from numba.core import types
-from numba.core.caching import CompileResultCacheImpl, FunctionCache
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 
+from viaspline.kernels.shipped_kernels import SHIPPED
 from viaspline.kernels.source_keys import PACKAGE, SourceKeys
 
 SOURCES = SourceKeys.read(Path(__file__).parent)
@@ -73,6 +74,19 @@ def cache_folder() -> Path | None:
 
 
 CACHE_FOLDER = cache_folder()
+NOWHERE = Path(os.devnull)
+"""Where nothing can be kept, and nothing is found."""
+
+
+def folder_name(module: str) -> str:
+    """The name of the folder of a module's kernels, of its sources as they are."""
+    return f"{module.removeprefix(f'{PACKAGE}.')}-{SOURCES.of[module]}"
+
+
+def kernel_folders() -> tuple[Path, ...]:
+    """Where compiled kernels are looked for, in this order."""
+    shipped = () if SHIPPED is None else (SHIPPED.folder,)
+    return shipped if CACHE_FOLDER is None else (*shipped, CACHE_FOLDER)
 
 
 class _KernelFolder:
@@ -82,11 +96,10 @@ class _KernelFolder:
         self._py_file = function.__code__.co_filename  # numba's warnings name it
         self._line = function.__code__.co_firstlineno
         self._key = SOURCES.of[function.__module__]
-        self._name = f"{function.__module__.removeprefix(f'{PACKAGE}.')}-{self._key}"
+        self._name = folder_name(function.__module__)
 
     def get_cache_path(self) -> str:
-        assert CACHE_FOLDER is not None
-        return str(CACHE_FOLDER / self._name)
+        return str((CACHE_FOLDER or NOWHERE) / self._name)
 
     def ensure_cache_path(self) -> None:
         Path(self.get_cache_path()).mkdir(exist_ok=True)
@@ -116,10 +129,33 @@ class KernelCache(FunctionCache):
 
     _impl_class = _KernelFiles
 
+    def __init__(self, function: Callable[..., Any]) -> None:
+        base: Any = super()
+        base.__init__(function)
+        impl: Any = self._impl
+        self._shipped: Any = None
+        if SHIPPED is not None:
+            folder = SHIPPED.folder / Path(self.cache_path).name
+            stamp = impl.locator.get_source_stamp()
+            files: Any = IndexDataCacheFile
+            self._shipped = files(str(folder), impl.filename_base, stamp)
+
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """What is kept for a signature, or None."""
+        if not _is_of_ours(sig):
+            return None
         base: Any = super()
-        return base.load_overload(sig, target_context) if _is_of_ours(sig) else None
+        shipped = self._load_shipped(sig, target_context)
+        return base.load_overload(sig, target_context) if shipped is None else shipped
+
+    def _load_shipped(self, sig: Any, context: Any) -> Any:
+        if self._shipped is None or SHIPPED is None:
+            return None
+        context.refresh()
+        signature, _, *rest = self._index_key(sig, context.codegen())
+        data = self._shipped.load((signature, SHIPPED.target, *rest))
+        impl: Any = self._impl
+        return None if data is None else impl.rebuild(context, data)
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep what was compiled for a signature, if that can be."""
@@ -127,6 +163,11 @@ class KernelCache(FunctionCache):
         if _is_of_ours(sig):
             with suppress(OSError):  # the folder can't be written any more: compiled, not kept
                 base.save_overload(sig, data)
+
+    def kept(self) -> set[Any]:
+        """The signatures for which something is kept."""
+        files: list[Any] = [self._cache_file, self._shipped]
+        return {key[0] for one in files if one is not None for key in one._load_index()}
 
     def _index_key(self, sig: Any, codegen: Any) -> Any:
         base: Any = super()
@@ -151,4 +192,4 @@ def _is_of_ours(signature: Any) -> bool:
 
 def is_kept(function: Callable[..., Any]) -> bool:
     """Whether a function's compiled form is kept: a kernel's is, if a folder can be written."""
-    return CACHE_FOLDER is not None and function.__module__ in SOURCES.of
+    return (CACHE_FOLDER or SHIPPED) is not None and function.__module__ in SOURCES.of

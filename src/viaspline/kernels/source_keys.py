@@ -4,7 +4,8 @@ numba's cache sees the file of a kernel alone. Here a module's key is a hash of 
 the sources of every kernel module that it imports, directly or not. A module that answers a
 question of ``clearance/world_protocol`` belongs to all who ask it, though none of them names it.
 So an edit compiles again what it may have changed, and nothing else; and no path is in a key: one
-checkout's kernels serve another's, and a wheel's everybody.
+checkout's kernels serve another's, and a wheel's everybody. Who keeps compiled kernels changes
+none, and is in no key.
 """
 
 from __future__ import annotations
@@ -19,6 +20,13 @@ PACKAGE = "viaspline.kernels"
 _IMPORT = re.compile(rb"^\s*(?:from|import) (viaspline\.kernels[\w.]*)(?: import ([^\n]*))?", re.M)
 _ANSWERS = re.compile(rb"^@answers\(", re.M)
 _KEY_LENGTH = 16
+KEEPERS = frozenset(
+    f"{PACKAGE}.{name}"
+    for name in (
+        "compile_events", "kernel_cache", "loaded_kernels", "shipped_kernels", "source_keys",
+    )
+)  # fmt: skip
+"""The modules that keep compiled kernels."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +48,8 @@ class SourceKeys:
         Raises:
             OSError: If a source can't be read.
         """
-        sources = {_name(root, file): file.read_bytes() for file in sorted(root.rglob("*.py"))}
+        files = {_name(root, file): file for file in sorted(root.rglob("*.py"))}
+        sources = {name: files[name].read_bytes() for name in files if name not in KEEPERS}
         near = _neighbours(sources)
         digests = {name: hashlib.sha256(source).hexdigest() for name, source in sources.items()}
         keys = {name: _joined(digests, _reached(name, near)) for name in sources}

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import RLock, Timer
 
@@ -58,20 +58,19 @@ class ProgressBar:
             self._disappear()
             self.times[name] = self.times.get(name, 0.0) + time.perf_counter() - start
 
-    def compiling(self, words: str, lasts: str, kernel: str) -> None:
-        """Hear that a kernel is being compiled, which happens once on a machine.
+    def compiling(self, notice: Callable[[], str], kernel: str) -> None:
+        """Hear that a kernel is being compiled.
 
         Args:
-            words: What is compiled.
-            lasts: How long all of that takes.
+            notice: Gives what is said when the first one is: what is compiled, and how long all of
+                that takes.
             kernel: The one that is begun.
         """
         come_through()
         self._compiled += 1
-        if self._bar is None and not self._console.is_terminal and "compile" not in self._told:
-            self._told.add("compile")
-            self._say(f"compiling {words}, once per machine: this takes {lasts} …")
-        self.update(f"compiling {words}, once per machine: {self._compiled}, {kernel}")
+        if self._compiled == 1:
+            self._say(notice())
+        self.update(f"compiling: {self._compiled}, {kernel}")
 
     def fraction(self, done: float) -> None:
         """Hear how much of the stage is done, from 0 to 1."""

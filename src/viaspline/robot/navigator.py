@@ -37,6 +37,7 @@ from viaspline.robot.perception.perceive import perceive, told_apart
 from viaspline.robot.replanning.decide import decide, look_again
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
+from viaspline.robot.warmed import KernelCallback, warm_up
 from viaspline.robot.yielding.broken_premises import broken_premises
 from viaspline.robot.yielding.foreseen import foreseen
 from viaspline.robot.yielding.give_way import give_way
@@ -96,6 +97,9 @@ class Navigator:
         plan: Its plan, if there is one already.
         reaction: Longest time between two steps [s].
         period: Usual time between two steps; only the control of a robot with a drive asks [s].
+        warm: Load, and on a machine's first run compile, all that any step can need, before the
+            plan: see ``warm``. Without it a step that is the first to need a kernel waits for it.
+        progress: Hears the name of every kernel that has to be compiled for that.
 
     Raises:
         PlanningError: When there is no path at all, or none was found.
@@ -126,11 +130,14 @@ class Navigator:
         *,
         reaction: float = REACTION_S,
         period: float = PERIOD_S,
+        warm: bool = True,
+        progress: KernelCallback | None = None,
     ) -> None:
         check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
         reaction, period = time_from("reaction", reaction), time_from("period", period)
         if plan is not None:
             check_kind("plan", plan, Plan, "give plan(mission)")
+        warm_up(mission, progress, warm)
         limits = limits_of(mission.robot, reaction)
         plan = plan_mission(mission) if plan is None else plan
         # with the tension that was advised
@@ -218,6 +225,19 @@ class Navigator:
         progress, schedule = with_command(controller, progress, schedule, measured, time, work)
         command = command_for(task.mission.robot, progress, schedule, measured)
         return command, self._with(NavigationState(progress, knowledge, schedule, log, work))
+
+    def warm(self, progress: KernelCallback | None = None) -> None:
+        """Load all that any step can need, so that none has to wait for it.
+
+        The constructor does that unless it is refused there. On a machine that never did it the
+        kernels are compiled, in a process of their own, by driving small missions of the kind; that
+        takes a minute or two. From then on it takes a second in each process, and nothing when it
+        was done before.
+
+        Args:
+            progress: Hears the name of every kernel that has to be compiled.
+        """
+        warm_up(self.mission, progress)
 
     def _with(self, state: NavigationState) -> Navigator:
         navigator = object.__new__(Navigator)

@@ -81,7 +81,7 @@ def simulate(
     if progress is not None:
         check_callable("progress", progress, "give a function of a time and two lengths")
     world = World.everything(mission)
-    nav = Navigator(mission, plan, reaction=max(step, REACTION_S), period=step)
+    nav = Navigator(mission, plan, reaction=max(step, REACTION_S), period=step, warm=False)
     limit = MAX_DURATION_RATIO * nav.plan.trajectory.duration + MAX_DELAY_S
 
     def tell(time: float, nav: Navigator) -> None:

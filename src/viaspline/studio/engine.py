@@ -98,7 +98,7 @@ class Engine:
             tell("", self._compiled)
 
     def _load(self) -> None:
-        from viaspline.kernels.jit import compile_progress
+        from viaspline.kernels.compile_events import compile_progress
         from viaspline.precompile import Job, second_compiler
         from viaspline.studio import plan_messages
 

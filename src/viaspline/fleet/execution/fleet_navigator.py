@@ -29,6 +29,7 @@ from viaspline.kernels.fleet.order_flow import expected_shifts
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.mission.route_spec import Route
 from viaspline.planner import Plan
+from viaspline.robot.warmed import KernelCallback, warm_up
 
 PERIOD_S = 0.1
 """Usual time between two steps."""
@@ -72,6 +73,9 @@ class FleetNavigator:
         stops_within_m: How far before the end of what it is granted, or before a station, a robot
             may come to rest [m]; at its goal it says that it has arrived.
         period: Usual time between two steps [s].
+        warm: Load, and on a machine's first run compile, all that any step can need: see
+            ``Navigator.warm``.
+        progress: Hears the name of every kernel that has to be compiled for that.
 
     Raises:
         GeometryError: The laws of the plan keep no order, or with the margin and what robots stop
@@ -92,10 +96,11 @@ class FleetNavigator:
 
     def __init__(
         self, plan: FleetPlan, *, margin_m: float = 0.0, stops_within_m: float = STOPS_WITHIN_M,
-        period: float = PERIOD_S,
+        period: float = PERIOD_S, warm: bool = True, progress: KernelCallback | None = None,
     ) -> None:  # fmt: skip
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
         check_still(plan.fleet)
+        warm_up(plan.fleet, progress, warm)
         self._begin(driven_fleet_of(plan), margin_m, stops_within_m, period)
         self._missions: FleetMissions | None = FleetMissions.of(plan)
 

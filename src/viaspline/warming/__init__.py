@@ -1,0 +1,1 @@
+"""What compiles and loads all that a mission, or viaspline, can need."""

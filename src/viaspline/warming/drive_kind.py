@@ -1,0 +1,70 @@
+"""Missions of a kind planned and driven, for what that compiles, loads and imports."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from importlib import import_module
+from typing import Final
+
+from viaspline.errors import ViasplineError
+from viaspline.precompile import Job, compile_all
+from viaspline.warming.mission_kind import PARTS, MissionKind
+
+IMPORTED_LATE: Final = (
+    "scipy.interpolate",
+    "scipy.ndimage",
+    "scipy.sparse",
+    "scipy.sparse.csgraph",
+    "scipy.sparse.linalg",
+    "scipy.spatial",
+    "shapely",
+    "shapely.affinity",
+    "viaspline.kernels.clearance.footprint_pose",
+    "viaspline.kernels.clearance.footprint_walk",
+    "viaspline.mission.footprint_check",
+    "viaspline.planning.corridor.corridor_planner",
+)
+"""What planning and driving import only where they need it."""
+
+TURNING: Final = (*PARTS[1:5], "localization", "footprint", "turning")
+"""With these a mission needs the search among poses."""
+
+
+def jobs_of_kind(kind: MissionKind) -> tuple[Job, ...]:
+    """What of a kind of mission is compiled by itself, and so by another process if there is one.
+
+    >>> jobs_of_kind(MissionKind(("turning",)))
+    ('curves', 'driving')
+    """
+    fleets: tuple[Job, ...] = ("fleets", "fleet_drives") if kind.is_fleet else ()
+    return ("curves", *fleets, *(("driving",) if set(kind.parts) & set(TURNING) else ()))
+
+
+def drive_kind(kind: MissionKind) -> None:
+    """Plan and drive the small missions of a kind.
+
+    What came of them doesn't count: a way that is closed is one of them.
+    """
+    if kind.is_fleet:
+        from viaspline.warming.small_fleets import drive_fleets
+
+        drive_fleets(kind)
+    elif "space" in kind.parts:
+        from viaspline.warming.small_flights import fly_small
+
+        fly_small()
+    else:
+        _drive_missions(kind)
+    compile_all(jobs_of_kind(kind))
+
+
+def _drive_missions(kind: MissionKind) -> None:
+    from viaspline.planner import plan
+    from viaspline.robot.simulator import simulate
+    from viaspline.warming.small_missions import missions_of
+
+    for name in IMPORTED_LATE:
+        import_module(name)
+    for _, mission in missions_of(kind):
+        with suppress(ViasplineError):
+            simulate(mission, plan=plan(mission))
