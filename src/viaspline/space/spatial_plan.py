@@ -13,14 +13,17 @@ from viaspline.curve.height_certificate import HeightCertificate
 from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.named_columns import Table
 from viaspline.space.timing.spatial_limits import SpatialLimits
 from viaspline.space.timing.yaw_profile import YawProfile
+from viaspline.trajectory.path_samples import USUAL_STEP_M, flight_samples
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.space.spatial_world import SpatialWorld
 
 
 @dataclass(frozen=True, eq=False)
-class SpatialPlan:
+class SpatialPlan(ComparedByValue):
     """A proven path in space, where the robot looks on it, and its time law.
 
     Attributes:
@@ -54,6 +57,22 @@ class SpatialPlan:
             f"<SpatialPlan: {self.path.length:.1f} m in {self.trajectory.duration:.1f} s, {kept}, "
             f"{len(self.ledger)} detours>"
         )
+
+    def samples(self, step: float = USUAL_STEP_M) -> Table:
+        """The path as a table, which pandas and polars take as it is.
+
+        Args:
+            step: From point to point along the path, at most [m]; both ends are among them.
+
+        Returns:
+            A structured array, (n,), of ``distance_m``, ``x_m``, ``y_m``, ``z_m``, ``agl_m`` (the
+            height above ground where that is known), ``heading_rad`` of the body,
+            ``curvature_1pm``, ``speed_mps``, ``climb_mps`` and ``time_s``.
+
+        Raises:
+            GeometryError: When the step is no number above 0, or the table has too many rows.
+        """
+        return flight_samples(self.path, self.trajectory, self.yaw.at, self.world.ground_at, step)
 
     @cached_property
     def sharpest_radius(self) -> float:
