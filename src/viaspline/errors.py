@@ -6,6 +6,7 @@
     ├── MissionError        the mission is wrong: every fault at once          (exit code 2)
     ├── GeometryError       a curve, a world or an argument makes no sense     (exit code 2)
     ├── OutputError         a result can't be written                          (exit code 2)
+    ├── SavedPlanError      a saved plan can't be read, or isn't what it says  (exit code 2)
     ├── StudioError         the studio can't be served                         (exit code 2)
     ├── WorkersError        those who were to do the work can't, or are gone   (exit code 2)
     └── PlanningError       no path was laid: where, why, what would help
@@ -93,6 +94,18 @@ class OutputError(ViasplineError):
 
     Attributes:
         path: The file or folder.
+    """
+
+    def __init__(self, path: object, problem: str) -> None:
+        self.path = str(path)
+        super().__init__(f"{self.path}: {problem}")
+
+
+class SavedPlanError(ViasplineError):
+    """A plan that was saved can't be read again, or doesn't prove what it says.
+
+    Attributes:
+        path: Its file.
     """
 
     def __init__(self, path: object, problem: str) -> None:

@@ -29,6 +29,8 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.visit_order import ordered
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.named_columns import Table
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.spacetime.plan_among import plan_among
 from viaspline.spacetime.timed_drive import TimedDrive
 from viaspline.spacetime.timed_problem import TimedProblem
@@ -51,7 +53,7 @@ TURN_RESERVE = 1.2
 
 
 @dataclass(frozen=True, eq=False)
-class Plan(ComparedByValue):
+class Plan(ShownValue, SavedValue, ComparedByValue):
     """A proven path and its time law.
 
     Two plans are equal if they are of one mission, with one path, one law and the same proofs; what

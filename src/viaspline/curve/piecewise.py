@@ -15,9 +15,10 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve import cubic as kernels
 from viaspline.kernels.curve import frenet
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.shown_value import ShownValue
 
 
-class PiecewiseCubic(Measured, ComparedByValue):
+class PiecewiseCubic(Measured, ShownValue, ComparedByValue):
     """A curve of cubic spans, given by their Bézier control polygons. Immutable.
 
     The parameter u runs from 0 to the number of spans m: ``u = k + w`` is span k at its local

@@ -21,11 +21,13 @@ from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.named_columns import Table, stacked_tables
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.trajectory.path_samples import USUAL_STEP_M
 
 
 @dataclass(frozen=True, eq=False)
-class FleetPlan(ComparedByValue):
+class FleetPlan(ShownValue, SavedValue, ComparedByValue):
     """Paths and time laws of a fleet, proven apart over continuous time.
 
     Attributes:

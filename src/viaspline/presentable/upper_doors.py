@@ -17,50 +17,49 @@ from viaspline.errors import GeometryError
 
 DOORS: Final = MappingProxyType(
     {
-        # In words: a value's name and its facts, as rows.
-        "facts of Mission": "report.notebook.mission_facts:mission_facts",
-        "facts of Fleet": "report.notebook.mission_facts:fleet_facts",
-        "facts of Plan": "report.notebook.plan_facts:plan_facts",
-        "facts of SpatialPlan": "report.notebook.plan_facts:spatial_plan_facts",
-        "facts of Run": "report.notebook.run_facts:run_facts",
-        "facts of SpatialRun": "report.notebook.run_facts:spatial_run_facts",
-        "facts of FleetPlan": "report.notebook.fleet_facts:fleet_plan_facts",
-        "facts of FleetRun": "report.notebook.fleet_facts:fleet_run_facts",
+        # In words: a value's facts, as rows of a name and what it is.
+        "facts of Mission": "report.summary:summary",
+        "facts of Fleet": "report.fleet_summary:fleet_summary",
+        "facts of Plan": "report.terminal_tables:plan_rows",
+        "facts of SpatialPlan": "report.space.spatial_tables:spatial_plan_rows",
+        "facts of Run": "report.terminal_tables:run_rows",
+        "facts of SpatialRun": "report.space.spatial_tables:spatial_run_rows",
+        "facts of FleetPlan": "report.fleet_tables:fleet_rows",
+        "facts of FleetRun": "report.fleet_tables:fleet_run_rows",
         "facts of PiecewiseCubic": "report.notebook.part_facts:curve_facts",
         "facts of Trajectory": "report.notebook.part_facts:trajectory_facts",
         "facts of World": "report.notebook.part_facts:world_facts",
         "facts of SpatialWorld": "report.notebook.part_facts:spatial_world_facts",
         "facts of Grid": "report.notebook.part_facts:grid_facts",
-        # On axes: what is drawn, and the artists that belong in a legend.
+        # On axes: what draws it, and gives the artists that belong in a legend.
         "marks of Mission": "report.notebook.mission_axes:draw_mission",
         "marks of Fleet": "report.notebook.fleet_axes:draw_fleet",
-        "marks of Plan": "report.notebook.plan_axes:draw_plan",
+        "marks of Plan": "report.notebook.result_axes:draw_plan",
         "marks of SpatialPlan": "report.notebook.spatial_axes:draw_spatial_plan",
-        "marks of Run": "report.notebook.run_axes:draw_run",
+        "marks of Run": "report.notebook.result_axes:draw_run",
         "marks of SpatialRun": "report.notebook.spatial_axes:draw_spatial_run",
         "marks of FleetPlan": "report.notebook.fleet_axes:draw_fleet_plan",
         "marks of FleetRun": "report.notebook.fleet_axes:draw_fleet_run",
         "marks of PiecewiseCubic": "report.notebook.part_axes:draw_curve",
         "marks of Trajectory": "report.notebook.part_axes:draw_trajectory",
         "marks of World": "report.notebook.part_axes:draw_world",
-        "marks of SpatialWorld": "report.notebook.spatial_axes:draw_spatial_world",
         "marks of Grid": "report.notebook.part_axes:draw_grid",
-        # What moves on axes.
+        # As it moves.
         "film of Run": "report.notebook.moving_axes:animate_run",
         "film of SpatialRun": "report.notebook.moving_axes:animate_flight",
-        # What all of them share.
-        "summary": "report.notebook.notebook_page:summary_text",
-        "page": "report.notebook.notebook_page:html_page",
-        "picture": "report.notebook.notebook_picture:picture",
-        "plot": "report.notebook.plain_axes:plot",
         # Into files.
         "files of Plan": "report.notebook.saved_results:plan_files",
         "files of SpatialPlan": "report.notebook.saved_results:spatial_plan_files",
         "files of FleetPlan": "report.notebook.saved_results:fleet_plan_files",
         "files of Run": "report.notebook.saved_results:run_files",
         "files of SpatialRun": "report.notebook.saved_results:spatial_run_files",
+        "files of FleetRun": "report.notebook.saved_results:fleet_run_files",
+        # What all of them share.
+        "summary": "report.notebook.notebook_page:summary_text",
+        "page": "report.notebook.notebook_page:html_page",
+        "picture": "report.notebook.notebook_picture:picture",
+        "plot": "report.notebook.plain_axes:plot",
         "save": "report.notebook.saved_results:save",
-        "export": "exports.export_plan:export_plan",
     }
 )
 """What is behind each door: ``module:function``, the module named from ``viaspline`` on."""

@@ -19,7 +19,10 @@ from viaspline.machine.excess import Excess, excesses
 from viaspline.machine.tracking import Tracking
 from viaspline.planner import Plan
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.moving_value import MovingValue
 from viaspline.presentable.named_columns import Table, coordinates, named_columns
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
@@ -208,7 +211,7 @@ class Shortfall:
 
 
 @dataclass(frozen=True, eq=False)
-class Run(ComparedByValue):
+class Run(ShownValue, MovingValue, SavedValue, ComparedByValue):
     """A driven mission.
 
     What was spent on it by the wall clock (``compute_times``) doesn't count when two are compared.

@@ -5,7 +5,7 @@ Tested through ``space/test_plan_spatial``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 from viaspline.curve.certificate import Certificate
@@ -15,6 +15,8 @@ from viaspline.mission.model import Mission
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.named_columns import Table
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.space.timing.spatial_limits import SpatialLimits
 from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.path_samples import USUAL_STEP_M, flight_samples
@@ -23,8 +25,11 @@ from viaspline.world.space.spatial_world import SpatialWorld
 
 
 @dataclass(frozen=True, eq=False)
-class SpatialPlan(ComparedByValue):
+class SpatialPlan(ShownValue, SavedValue, ComparedByValue):
     """A proven path in space, where the robot looks on it, and its time law.
+
+    Two plans are equal if they are of one mission, with one path, one law and the same proofs; what
+    the search did to find them doesn't count.
 
     Attributes:
         mission: What was asked for.
@@ -50,6 +55,10 @@ class SpatialPlan(ComparedByValue):
     limits: SpatialLimits
     yaw: YawProfile
     trajectory: Trajectory
+
+    def _said(self) -> tuple[object, ...]:
+        left_out = ("ledger",)
+        return tuple(getattr(self, one.name) for one in fields(self) if one.name not in left_out)
 
     def __repr__(self) -> str:
         kept = f"{self.certificate.clearance:.2f} m clear"

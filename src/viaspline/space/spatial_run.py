@@ -10,7 +10,10 @@ from dataclasses import dataclass
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.moving_value import MovingValue
 from viaspline.presentable.named_columns import Table, coordinates, named_columns
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.space.spatial_plan import SpatialPlan
 
 
@@ -34,7 +37,7 @@ class SpatialReplan(ComparedByValue):
 
 
 @dataclass(frozen=True, eq=False)
-class SpatialRun(ComparedByValue):
+class SpatialRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
     """What was flown: exactly along the path, by a point that follows its time law.
 
     Attributes:

@@ -16,12 +16,13 @@ from viaspline.handed_in import numbers_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.integrate import ride
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.motion_pieces import after, speed_into, time_into
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory(ComparedByValue):
+class Trajectory(ShownValue, ComparedByValue):
     """Speed and time along a path, exact between its points.
 
     Without a limit of the jerk the acceleration is constant from point to point. With one it

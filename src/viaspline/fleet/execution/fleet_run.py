@@ -20,6 +20,8 @@ from viaspline.handed_in import time_from
 from viaspline.kernels.arrays import Floats
 from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.presentable.named_columns import Table, named_columns, stacked_tables
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
 
 USUAL_STEP_S = 0.1
 
@@ -56,7 +58,7 @@ def swapped_event(first: str, second: str, time: float) -> FleetEvent:
 
 
 @dataclass(frozen=True, eq=False)
-class FleetRun(ComparedByValue):
+class FleetRun(ShownValue, SavedValue, ComparedByValue):
     """A drive of a fleet that was simulated.
 
     Attributes:

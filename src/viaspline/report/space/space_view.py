@@ -44,6 +44,19 @@ def draw_space(figure: Figure, box: tuple[float, float, float, float], path: Pat
     """
     axes = figure.add_axes(box, projection="3d")
     assert isinstance(axes, Axes3D)
+    draw_in_perspective(axes, path, scene)
+    axes.tick_params(labelsize=style.SMALL_PT - 2, pad=-3)
+    return axes
+
+
+def draw_in_perspective(axes: Axes3D, path: Path, scene: SpatialScene) -> None:
+    """Draw the path among what stands near it.
+
+    Args:
+        axes: In three dimensions.
+        path: In space.
+        scene: What stands in the world.
+    """
     places = path.at_distance(np.linspace(0.0, path.length, 400))
     low, high = places.min(axis=0), places.max(axis=0)
     _draw_ground(axes, scene, low, high)
@@ -57,9 +70,7 @@ def draw_space(figure: Figure, box: tuple[float, float, float, float], path: Pat
     axes.set_ylim(low[1], high[1])
     floor = _floor(scene, places)
     axes.set_zlim(min(floor, low[2]), max(high[2], floor + 0.1))
-    axes.tick_params(labelsize=style.SMALL_PT - 2, pad=-3)
     axes.view_init(elev=32, azim=-60)
-    return axes
 
 
 def _floor(scene: SpatialScene, places: Floats) -> float:
