@@ -8,19 +8,21 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path as File
 from typing import Any, Final
 
 import numpy as np
 
 from viaspline.bounded_file import FileKind, read_text
+from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path, PathVia, ViaKind
 from viaspline.errors import GeometryError, SavedPlanError
 from viaspline.kernels.arrays import Floats
 
 PLAN_FILE: Final = FileKind("plan.json", 400_000_000, "plan the mission again")
 REMEDY: Final = "plan the mission again, or take the file as it was written"
+MAP: Final = "map '"  # with that begins what a map is called that has no name
 ON_PATH_M: Final = 1e-6  # that a via point may lie beside the path that it is on [m]
 
 
@@ -122,6 +124,21 @@ class PlanFile:
         """
         if said != found and not abs(said - found) <= off:
             raise self.wrong(f"says {said:.6g} of {what}, and {found:.6g} is found again")
+
+    def named(self, certificate: Certificate) -> Certificate:
+        """A proof that was made again, which calls a map without a name as the file does.
+
+        Such a map is called by its file, as the mission has it, which stands elsewhere now.
+
+        Raises:
+            SavedPlanError: Something else is nearest than the file says.
+        """
+        said, found = self.part("certificate", "nearest"), certificate.obstacle
+        if said != found:
+            if not (str(said).startswith(MAP) and str(found).startswith(MAP)):
+                raise self.wrong(f"says that {said!r:.80} is nearest, and it is {found!r:.80}")
+            return replace(certificate, obstacle=str(said))
+        return certificate
 
 
 def _via(one: Mapping[str, Any]) -> PathVia:

@@ -50,6 +50,7 @@ def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
         raise plan.wrong(f"the path can't be proven: {error}") from None
     said = plan.number("certificate", "clearance_m")
     plan.check("clearance [m]", said, certificate.clearance, PROVEN_OFF_M)
+    certificate = plan.named(certificate)
     if not (certificate.holds and heights.holds):
         raise plan.wrong("the path doesn't keep the clearance or the heights of its mission")
     yaw = headings_of(problem, path)

@@ -59,6 +59,7 @@ def planar_plan(plan: PlanFile, mission: Mission) -> Plan:
         "clearance [m]", plan.number("certificate", "clearance_m"), certificate.clearance,
         PROVEN_OFF_M,
     )  # fmt: skip
+    certificate = plan.named(certificate)
     if not certificate.holds:
         raise plan.wrong("the path doesn't keep the clearance that its mission asks for")
     _check_curvature(plan, path, mission)

@@ -5,19 +5,19 @@ Tested through ``report/notebook/test_plain_axes``.
 
 from __future__ import annotations
 
+import io
 from typing import Final
 
-from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-
+from viaspline.presentable.upper_doors import opened_for
 from viaspline.report import style
-from viaspline.report.canvas import any_name, new_figure, png, tidy
-from viaspline.report.notebook.plain_axes import plot
+from viaspline.report.canvas import any_name, new_figure, tidy
 
 WIDE, TALL = 6.4, 4.8  # of the axes, at most [inch]
 MARGIN: Final = 0.75  # [inch]
 COLUMN: Final = 2.7  # for the legend [inch]
+AROUND: Final = 0.12  # what is left of the figure [inch]
 PICTURE_DPI: Final = 110
+LONGEST_TITLE: Final = 110  # letters
 
 
 @any_name()
@@ -31,26 +31,22 @@ def picture(value: object) -> bytes:
     across, up = (float(size) for size in figure.get_size_inches())
     axes = figure.add_axes((MARGIN / across, 0.6 / up, WIDE / across, TALL / up))
     tidy(axes)
-    plot(value, axes)
-    _draw_legend(axes)
-    axes.set_title(
-        style.short(repr(value).strip("<>"), 100), size=style.TEXT_PT, color=style.INK, loc="left",
-        parse_math=False,
+    handles = opened_for("marks", value)(value, axes)
+    if handles:
+        legend = axes.legend(
+            handles=handles, loc="upper left", bbox_to_anchor=(1.02, 1.0), borderaxespad=0.0,
+            frameon=False, fontsize=style.SMALL_PT, markerscale=0.75, labelspacing=0.55,
+        )  # fmt: skip
+        for text in legend.get_texts():
+            text.set_parse_math(False)
+            text.set_color(style.INK)
+    title = repr(value).strip("<>")
+    if len(title) > LONGEST_TITLE:
+        title = type(value).__name__
+    axes.set_title(title, size=style.TEXT_PT, color=style.INK, loc="left", parse_math=False)
+    buffer = io.BytesIO()
+    figure.savefig(
+        buffer, format="png", dpi="figure", bbox_inches="tight", pad_inches=AROUND,
+        metadata={"Software": None},
     )  # fmt: skip
-    return png(figure)
-
-
-def _draw_legend(axes: Axes) -> None:
-    """The legend at the right of axes, where it hides nothing."""
-    handles, _ = axes.get_legend_handles_labels()
-    if not handles:
-        return
-    canvas = axes.figure.canvas
-    assert isinstance(canvas, FigureCanvasAgg)
-    legend = axes.legend(
-        handles=handles, loc="upper left", bbox_to_anchor=(1.02, 1.0), borderaxespad=0.0,
-        frameon=False, fontsize=style.SMALL_PT, markerscale=0.75, labelspacing=0.55,
-    )  # fmt: skip
-    for text in legend.get_texts():
-        text.set_parse_math(False)
-        text.set_color(style.INK)
+    return buffer.getvalue()

@@ -35,6 +35,11 @@ def draw_curve(curve: PiecewiseCubic, axes: Axes) -> list[Artist]:
     places, words = _marked(curve)
     if axes.name == "3d" and curve.dimension == 3:
         line = np.asarray(curve.evaluate(np.linspace(*curve.domain, FINE)))
+        low, high = line.min(axis=0), line.max(axis=0)
+        half = 0.5 * np.maximum(high - low, 0.1 * float((high - low).max()) + 1e-9)
+        middle = 0.5 * (low + high)
+        axes.set(**{f"{name}lim": (middle[k] - half[k], middle[k] + half[k])
+                    for k, name in enumerate("xyz")})  # fmt: skip
         drawn: list[Artist] = [*axes.plot(*line.T, color=style.PATH, label="curve")]
         drawn += axes.plot(*places.T, "o", color=style.INK, markersize=4, label=words)
         return drawn

@@ -29,6 +29,9 @@ MAX_SOLIDS: Final = 150
 MAX_CUBES: Final = 4000
 MAX_NODES: Final = 40
 
+LEAST_SHARE: Final = 0.25
+"""Of the longest side of what is shown, to which a shorter one is widened."""
+
 Face = list[tuple[float, float, float]]
 
 
@@ -61,15 +64,17 @@ def draw_in_perspective(axes: Axes3D, path: Path, scene: SpatialScene) -> None:
     low, high = places.min(axis=0), places.max(axis=0)
     _draw_ground(axes, scene, low, high)
     _draw_solids(axes, scene, places)
-    axes.plot(places[:, 0], places[:, 1], places[:, 2], color=style.PATH, linewidth=1.6, zorder=9)
+    axes.plot(places[:, 0], places[:, 1], places[:, 2], color=style.PATH, linewidth=1.6, zorder=9,
+              label="path")  # fmt: skip
     ends = places[[0, -1]]
     axes.scatter(ends[:, 0], ends[:, 1], ends[:, 2], color=[style.START, style.GOAL], s=12)
-    size = np.maximum(high - low, 0.05 * float((high - low).max()) + 1e-6)
-    axes.set_box_aspect((float(size[0]), float(size[1]), float(max(size[2], 0.25 * size.max()))))
-    axes.set_xlim(low[0], high[0])
-    axes.set_ylim(low[1], high[1])
-    floor = _floor(scene, places)
-    axes.set_zlim(min(floor, low[2]), max(high[2], floor + 0.1))
+    low[2] = min(low[2], _floor(scene, places))
+    wide = np.maximum(high - low, LEAST_SHARE * float((high - low).max()) + 1e-6)
+    sides, floor = 0.5 * (wide - (high - low))[:2], float(low[2])
+    axes.set_xlim(low[0] - sides[0], high[0] + sides[0])
+    axes.set_ylim(low[1] - sides[1], high[1] + sides[1])
+    axes.set_zlim(floor, floor + wide[2])
+    axes.set_box_aspect(wide.tolist())
     axes.view_init(elev=32, azim=-60)
 
 
