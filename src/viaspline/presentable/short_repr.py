@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from typing import Final
 
 import numpy as np
@@ -28,16 +27,6 @@ def short(value: object) -> ShortText:
     ((1.0, 2.0), (0, 1, … 900 in all), array of shape (3, 2))
     """
     return ShortText(_cut(_text(value)))
-
-
-def fields_in_short(value: object, *, without: tuple[str, ...] = ()) -> str:
-    """The ``repr`` of a dataclass, each field in short; fields that are None are left out."""
-    parts = [
-        f"{one.name}={short(getattr(value, one.name))}"
-        for one in fields(value)  # type: ignore[arg-type]
-        if one.name not in without and getattr(value, one.name) is not None
-    ]
-    return f"{type(value).__name__}({', '.join(parts)})"
 
 
 def _text(value: object) -> str:

@@ -113,15 +113,13 @@ def _draw_solids(axes: Axes3D, scene: SpatialScene, places: Floats) -> None:
         else:
             _draw_cubes(axes, solid, places)
             continue
-        axes.add_collection3d(
-            Poly3DCollection(
-                faces,
-                facecolor=style.OBSTACLE,
-                edgecolor=style.OBSTACLE_EDGE,
-                linewidth=0.3,
-                alpha=alpha,
-            )
-        )
+        for corners in sorted({len(face) for face in faces}):  # matplotlib pads others with noise
+            axes.add_collection3d(
+                Poly3DCollection(
+                    [face for face in faces if len(face) == corners], facecolor=style.OBSTACLE,
+                    edgecolor=style.OBSTACLE_EDGE, linewidth=0.3, alpha=alpha,
+                )
+            )  # fmt: skip
 
 
 def _prism_faces(shadow: shapely.Geometry, low: float, high: float) -> list[Face]:
