@@ -23,7 +23,9 @@ ASKED: dict[str, dict[str, Any]] = {
     "plain": {"world": {"bounds": [0, 0, 100, 100], "known": [TANK]}, "route": ROUTE},
     "stiff": {
         "world": {"known": [TANK]},
-        "robot": {"min_turn_radius_m": 3, "footprint": [[-1, -0.5], [2, -0.5], [2, 0.5], [-1, 0.5]]},
+        "robot": {
+            "min_turn_radius_m": 3, "footprint": [[-1, -0.5], [2, -0.5], [2, 0.5], [-1, 0.5]],
+        },
         "route": ROUTE,
     },
     "driven": {

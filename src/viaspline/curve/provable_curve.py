@@ -151,7 +151,7 @@ def _bows(curve: StatedCurve, joints: Floats) -> Floats:
 
 
 def _renewed(curve: StatedCurve, joints: Floats, bows: Floats, refined: Floats) -> Floats:
-    """The same for more parameters, asked only where there are new ones."""
+    """As ``_bows``, for more parameters: asked only where there are new ones."""
     index = np.searchsorted(joints, refined[:-1], side="right") - 1
     is_old = (joints[index] == refined[:-1]) & (joints[index + 1] == refined[1:])
     found = bows[index]
