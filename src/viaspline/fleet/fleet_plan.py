@@ -20,6 +20,7 @@ from viaspline.fleet.timing.rides import FleetRides
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.moving_value import MovingValue
 from viaspline.presentable.named_columns import Table, stacked_tables
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
@@ -27,7 +28,7 @@ from viaspline.trajectory.path_samples import USUAL_STEP_M
 
 
 @dataclass(frozen=True, eq=False)
-class FleetPlan(ShownValue, SavedValue, ComparedByValue):
+class FleetPlan(ShownValue, MovingValue, SavedValue, ComparedByValue):
     """Paths and time laws of a fleet, proven apart over continuous time.
 
     Attributes:

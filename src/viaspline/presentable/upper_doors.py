@@ -47,6 +47,8 @@ DOORS: Final = MappingProxyType(
         # As it moves.
         "film of Run": "report.notebook.moving_axes:animate_run",
         "film of SpatialRun": "report.notebook.moving_axes:animate_flight",
+        "film of FleetPlan": "report.notebook.moving_fleet:animate_fleet_plan",
+        "film of FleetRun": "report.notebook.moving_fleet:animate_fleet_run",
         # Into files.
         "files of Plan": "report.notebook.saved_results:plan_files",
         "files of SpatialPlan": "report.notebook.saved_results:spatial_plan_files",

@@ -19,6 +19,7 @@ from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.handed_in import time_from
 from viaspline.kernels.arrays import Floats
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.moving_value import MovingValue
 from viaspline.presentable.named_columns import Table, named_columns, stacked_tables
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
@@ -58,7 +59,7 @@ def swapped_event(first: str, second: str, time: float) -> FleetEvent:
 
 
 @dataclass(frozen=True, eq=False)
-class FleetRun(ShownValue, SavedValue, ComparedByValue):
+class FleetRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
     """A drive of a fleet that was simulated.
 
     Attributes:

@@ -44,7 +44,7 @@ def animate_run(run: Run, ax: Axes | None, pace: float, fps: float) -> FuncAnima
         axes.set_title(filmed.clock_at(time), loc="right")
         return shown
 
-    return _animation(axes, at, times, fps)
+    return animation(axes, at, times, fps)
 
 
 @any_name()
@@ -80,7 +80,7 @@ def animate_flight(run: SpatialRun, ax: Axes | None, pace: float, fps: float) ->
         axes.set_title(f"{time:.1f} s   {speed:.2f} m/s   {z:.1f} m high", loc="right")
         return [trail, dot, nose]
 
-    return _animation(axes, at, times, fps)
+    return animation(axes, at, times, fps)
 
 
 def moments(times: Floats, pace: float, fps: float) -> Floats:
@@ -107,9 +107,17 @@ def moments(times: Floats, pace: float, fps: float) -> Floats:
     return np.linspace(float(times[0]), float(times[-1]), max(count, 2))
 
 
-def _animation(
+def animation(
     axes: Axes, at: Callable[[float], Iterable[Artist]], times: Floats, fps: float
 ) -> FuncAnimation:
+    """What shows these times on axes, one picture after the other.
+
+    Args:
+        axes: Where.
+        at: Places what moves at a time [s].
+        times: [s].
+        fps: Pictures a second.
+    """
     figure = axes.get_figure(root=True)
     assert isinstance(figure, Figure)
     return FuncAnimation(
