@@ -22,10 +22,27 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 
 class ViasplineError(Exception):
-    """Base of every error that viaspline raises on purpose."""
+    """Base of every error that viaspline raises on purpose.
+
+    A copy, deep or pickled, says the same and carries the same data.
+    """
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # An error is made of its data, not of the message that Python would hand to its class.
+        return _as_it_was, (type(self), self.args, dict(self.__dict__))
+
+
+def _as_it_was(
+    kind: type[ViasplineError], args: tuple[Any, ...], data: dict[str, Any]
+) -> ViasplineError:
+    error = kind.__new__(kind)
+    error.args = args
+    error.__dict__.update(data)
+    return error
 
 
 class MissionWarning(UserWarning):

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 import viaspline as vs
+from viaspline.errors import Fault
 from viaspline.presentable.compared_by_value import hashed, is_same
 
 MISSION = vs.Mission.model_validate(
@@ -125,6 +126,25 @@ def test_a_copy_equals_its_original_and_has_its_hash(name: str, kind: str) -> No
     assert len({value, again}) == 1
     assert value != object()
     assert value != "a text"
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        vs.NoPathError("a wall", where=(1, 2), remedy="move it", obstacles=["wall"]),
+        vs.GaveUpError("too long", where=(1, 2), remedy="wait", tried=["all"], via="pump"),
+        vs.OutputError("plan.json", "can't be written"),
+        vs.SavedPlanError("plan.json", "is no plan"),
+        vs.MissionError([Fault("route", "is empty", "give a goal")]),
+        vs.GeometryError("NaN"),
+    ],
+    ids=lambda error: type(error).__name__,
+)
+def test_a_copy_of_an_error_says_the_same_with_the_same_data(error: vs.ViasplineError) -> None:
+    for again in (copy.deepcopy(error), pickle.loads(pickle.dumps(error))):
+        assert type(again) is type(error)
+        assert str(again) == str(error)
+        assert vars(again) == vars(error)
 
 
 @pytest.mark.parametrize("name", MADE)
