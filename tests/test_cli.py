@@ -18,7 +18,7 @@ from viaspline.errors import MissionWarning
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 MISSIONS = ("fig6-survey.yaml", "fig7-obstacles.yaml", "fig8-patrol.yaml", "fence-survey.plan")
-PLAN_FILES = {"plan.json", "path.csv", "plan.png", "timing.json"}
+PLAN_FILES = {"plan.json", "path.csv", "plan.png", "planned-mission.yaml", "timing.json"}
 RUN_FILES = PLAN_FILES | {"run.json", "run.csv", "run.png"}
 
 CLEAR = "route: {start: [0, 0], goal: [20, 5]}\n"

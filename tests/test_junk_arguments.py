@@ -3,10 +3,12 @@
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from tempfile import mkdtemp
 from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 import viaspline as vs
 
@@ -23,6 +25,10 @@ CART = vs.Obstacle(
 MOVING = vs.MovingObstacles([CART])
 NAV = vs.Navigator(MISSION, warm=False)
 STATE = vs.RobotState((0.0, 0.0), 0.0, 0.0)
+MADE = vs.plan(MISSION)
+SAVED = Path(mkdtemp())
+MADE.save(SAVED)
+AXES = Figure().add_subplot()
 FLEET = vs.Fleet.model_validate(
     {"fleet": [{"name": "a", "route": {"start": [0, 0], "goal": [9, 0]}}]}
 )
@@ -40,6 +46,11 @@ def uncallable(junk: Any) -> Any:
     return None if callable(junk) else junk
 
 
+def unsaid(junk: Any) -> Any:
+    """Junk that isn't the name of a file or a folder, which would be written."""
+    return None if isinstance(junk, str) else junk
+
+
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 VERBS: dict[str, Callable[[Any], Any]] = {
     "plan": vs.plan,
@@ -50,6 +61,12 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "load": vs.load,
     "load ground": lambda junk: vs.load(PLAN, ground=junk),
     "load_map": vs.load_map,
+    "load_plan": vs.load_plan,
+    "load_plan mission": lambda junk: vs.load_plan(SAVED, junk),
+    "Plan save": lambda junk: MADE.save(unsaid(junk)),
+    "Plan samples": MADE.samples,
+    "Plan plot": lambda junk: MADE.plot(junk if junk is not None else 5),
+    "Run animate": lambda junk: vs.simulate(MISSION, plan=MADE).animate(AXES, pace=junk),
     "CardinalSpline": vs.CardinalSpline,
     "CardinalSpline tension": lambda junk: vs.CardinalSpline([[0, 0], [1, 0]], tension=junk),
     "CardinalSpline knots": lambda junk: vs.CardinalSpline([[0, 0], [1, 0]], knots=junk),

@@ -34,7 +34,8 @@ def test_a_mission_in_space_is_checked_planned_and_flown(tower: Path, tmp_path: 
     done = call.invoke(cli, ["run", str(tower), "--out", str(out)])
     assert done.exit_code == 0, done.output
     assert {file.name for file in out.iterdir()} == {
-        "plan.json", "path.csv", "plan.png", "run.json", "run.csv", "timing.json"
+        "plan.json", "path.csv", "plan.png", "planned-mission.yaml", "run.json", "run.csv",
+        "timing.json",
     }  # fmt: skip
     assert json.loads((out / "run.json").read_text())["reached"]
     assert "hall" in done.output

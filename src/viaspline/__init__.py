@@ -34,6 +34,7 @@ if TYPE_CHECKING:
         NoPathError,
         OutputError,
         PlanningError,
+        SavedPlanError,
         ViasplineError,
     )
     from viaspline.fleet.execution.changed_plans import add_robot, remove_robot, reroute_robot
@@ -61,6 +62,7 @@ if TYPE_CHECKING:
     from viaspline.robot.run import Run
     from viaspline.robot.simulator import simulate
     from viaspline.robot.state import Command, RobotState
+    from viaspline.saved_plans.load_plan import load_plan
     from viaspline.space.online.fly import fly
     from viaspline.space.spatial_plan import SpatialPlan
     from viaspline.space.spatial_run import SpatialRun
@@ -106,6 +108,7 @@ _HOMES = {
     "PlanningError": "errors",
     "RobotState": "robot.state",
     "Run": "robot.run",
+    "SavedPlanError": "errors",
     "Scan": "robot.perception.lidar",
     "SpatialPlan": "space.spatial_plan",
     "SpatialRun": "space.spatial_run",
@@ -125,6 +128,7 @@ _HOMES = {
     "fly": "space.online.fly",
     "load": "formats.load",
     "load_map": "mission.load_map",
+    "load_plan": "saved_plans.load_plan",
     "plan": "plan_mission",
     "plan_fleet": "fleet.plan_fleet",
     "remove_robot": "fleet.execution.changed_plans",

@@ -19,6 +19,7 @@ from viaspline.mission.spline_spec import LOOSEST_TENSION, POLYLINE_TENSION, Spl
 from viaspline.mission.strip import has_line
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import via_sequence_of
+from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.span_tensions import SpanTensions
 from viaspline.whole_plan import Plan, in_order, whole_plan
 from viaspline.world.world import World
@@ -36,7 +37,7 @@ Tension = float | tuple[float, ...] | None
 
 
 @dataclass(frozen=True, eq=False)
-class TensionTrial:
+class TensionTrial(ComparedByValue):
     """A tension, and the whole plan with it.
 
     Attributes:
@@ -48,6 +49,12 @@ class TensionTrial:
     tension: Tension
     plan: Plan | None
     error: PlanningError | GeometryError | None = None
+
+    def _said(self) -> tuple[object, ...]:
+        return self.tension, self.plan, str(self.error)
+
+    def __repr__(self) -> str:
+        return f"<TensionTrial: {self.tension}, {self.plan or self.error}>"
 
     @property
     def level(self) -> float:
@@ -74,7 +81,7 @@ class TensionTrial:
 
 
 @dataclass(frozen=True, eq=False)
-class TensionAdvice:
+class TensionAdvice(ComparedByValue):
     """Which tension is suggested, and what it is compared with.
 
     Compared are whole plans, as ``plan`` makes them: round what stands in the way, proven, timed.
@@ -101,6 +108,9 @@ class TensionAdvice:
     spans: tuple[tuple[str, str], ...]
     tensions: Floats
     effects: SpanTensions | None
+
+    def __repr__(self) -> str:
+        return f"<TensionAdvice: {self.chosen.tension} of {len(self.trials)} tried, {self.plan}>"
 
     @property
     def plan(self) -> Plan:

@@ -81,9 +81,9 @@ def run(
 ) -> None:  # fmt: skip
     r"""Plan a mission, drive it and report: the main job.
 
-    Writes plan.json, path.csv, plan.png, run.json, run.csv, run.png and timing.json; of a fleet
-    fleet.json, fleet.png, run.json, run.png and timing.json, and for each robot a folder with its
-    plan.json and path.csv.
+    Writes plan.json, path.csv, plan.png, planned-mission.yaml, run.json, run.csv, run.png and
+    timing.json; of a fleet fleet.json, fleet.png, run.json, run.png and timing.json, and for each
+    robot a folder with its plan.json and path.csv.
 
     \b
     Example:
@@ -130,8 +130,9 @@ def plan(
 ) -> None:  # fmt: skip
     r"""Plan a mission: the path, its proof and what it was chosen from.
 
-    Writes plan.json, path.csv, plan.png and timing.json; of a fleet fleet.json, fleet.png and
-    timing.json, and for each robot a folder with its plan.json and path.csv.
+    Writes plan.json, path.csv, plan.png, planned-mission.yaml (with which load_plan in Python reads
+    the plan again) and timing.json; of a fleet fleet.json, fleet.png and timing.json, and for each
+    robot a folder with its plan.json and path.csv.
 
     \b
     Example:

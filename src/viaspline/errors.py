@@ -6,6 +6,7 @@
     ├── MissionError        the mission is wrong: every fault at once          (exit code 2)
     ├── GeometryError       a curve, a world or an argument makes no sense     (exit code 2)
     ├── OutputError         a result can't be written                          (exit code 2)
+    ├── SavedPlanError      a saved plan can't be read, or isn't what it says  (exit code 2)
     ├── StudioError         the studio can't be served                         (exit code 2)
     ├── WorkersError        those who were to do the work can't, or are gone   (exit code 2)
     └── PlanningError       no path was laid: where, why, what would help
@@ -21,10 +22,27 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 
 class ViasplineError(Exception):
-    """Base of every error that viaspline raises on purpose."""
+    """Base of every error that viaspline raises on purpose.
+
+    A copy, deep or pickled, says the same and carries the same data.
+    """
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # An error is made of its data, not of the message that Python would hand to its class.
+        return _as_it_was, (type(self), self.args, dict(self.__dict__))
+
+
+def _as_it_was(
+    kind: type[ViasplineError], args: tuple[Any, ...], data: dict[str, Any]
+) -> ViasplineError:
+    error = kind.__new__(kind)
+    error.args = args
+    error.__dict__.update(data)
+    return error
 
 
 class MissionWarning(UserWarning):
@@ -93,6 +111,18 @@ class OutputError(ViasplineError):
 
     Attributes:
         path: The file or folder.
+    """
+
+    def __init__(self, path: object, problem: str) -> None:
+        self.path = str(path)
+        super().__init__(f"{self.path}: {problem}")
+
+
+class SavedPlanError(ViasplineError):
+    """A plan that was saved can't be read again, or doesn't prove what it says.
+
+    Attributes:
+        path: Its file.
     """
 
     def __init__(self, path: object, problem: str) -> None:

@@ -25,7 +25,9 @@ from viaspline.report.terminal_lines import say_error
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
 
-PLAN_NAMES: Final = ("plan.json", "path.csv", "plan.png", "timing.json")
+PLAN_NAMES: Final = (
+    "plan.json", "path.csv", "plan.png", "planned-mission.yaml", "timing.json"
+)  # fmt: skip
 RUN_NAMES: Final = (*PLAN_NAMES, "run.json", "run.csv", "run.png")
 
 
@@ -55,6 +57,7 @@ def plan_mission(asked: Mission, file: Path, out: Path | None, *, quiet: bool) -
             from viaspline.report import results
 
             contents = results.plan_contents(planned, file.stem)
+            contents |= results.mission_contents(planned.mission, folder.path)
         files = results.write_all(folder, contents, watch.times)
     if not quiet:
         from viaspline.report.terminal_tables import plan_tables, show
@@ -95,6 +98,7 @@ def run_mission(
             from viaspline.report import results
 
             contents = results.plan_contents(plan, file.stem)
+            contents |= results.mission_contents(plan.mission, folder.path)
             contents |= results.run_contents(done, file.stem, seed=seed)
             if film is not None:
                 from viaspline.report.animation import film_run

@@ -19,7 +19,9 @@ from viaspline.command_steps import (
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
 
-SPATIAL_PLAN_NAMES: Final = ("plan.json", "path.csv", "plan.png", "timing.json")
+SPATIAL_PLAN_NAMES: Final = (
+    "plan.json", "path.csv", "plan.png", "planned-mission.yaml", "timing.json"
+)  # fmt: skip
 SPATIAL_RUN_NAMES: Final = (*SPATIAL_PLAN_NAMES, "run.json", "run.csv")
 
 
@@ -45,6 +47,7 @@ def plan_spatial_mission(asked: Mission, file: Path, out: Path | None, *, quiet:
             from viaspline.report.space.spatial_results import spatial_plan_contents
 
             contents = spatial_plan_contents(planned, file.stem)
+            contents |= results.mission_contents(planned.mission, folder.path)
         files = results.write_all(folder, contents, watch.times)
     if not quiet:
         from viaspline.report.space.spatial_tables import spatial_plan_tables
@@ -87,6 +90,7 @@ def run_spatial_mission(
             )
 
             contents = spatial_plan_contents(planned, file.stem)
+            contents |= results.mission_contents(planned.mission, folder.path)
             contents |= spatial_run_contents(flown, file.stem)
             if film is not None:
                 from viaspline.report.space.spatial_film import film_flight

@@ -16,6 +16,7 @@ from viaspline.kernels.curve.measure import length_and_curvature
 from viaspline.planning.checking.driving_time import driving_time
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import Leg, ViaSequence, lay
+from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.world.world import World
 
 CLEARANCE_TOLERANCE_M = 1e-3  # of a clearance [m]
@@ -24,7 +25,7 @@ SWEEPS = 2  # along the spans, each beside its neighbours as they are by then
 
 
 @dataclass(frozen=True, eq=False)
-class SpanTensions:
+class SpanTensions(ComparedByValue):
     """The spline with every span at every tension.
 
     A span's tension changes that span alone: the curve and its tangents' directions elsewhere

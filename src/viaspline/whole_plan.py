@@ -27,11 +27,16 @@ from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.planning.problem.preferred_clearance import PreferredClearance
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.routing.visit_order import ordered
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.named_columns import Table
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.spacetime.plan_among import plan_among
 from viaspline.spacetime.timed_drive import TimedDrive
 from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.moving_certificate import MovingCertificate
+from viaspline.trajectory.path_samples import USUAL_STEP_M, path_samples
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -47,9 +52,12 @@ TURN_RESERVE = 1.2
 """Of a turning circle, where steering at its stop leaves too little to correct with."""
 
 
-@dataclass(frozen=True)
-class Plan:
+@dataclass(frozen=True, eq=False)
+class Plan(ShownValue, SavedValue, ComparedByValue):
     """A proven path and its time law.
+
+    Two plans are equal if they are of one mission, with one path, one law and the same proofs; what
+    the search did to find them doesn't count.
 
     Attributes:
         mission: What was asked for, its via points in the order in which they are served.
@@ -73,6 +81,12 @@ class Plan:
     tracking_error: float = 0.0
     timed: TimedDrive | None = None
 
+    def _said(self) -> tuple[object, ...]:
+        return (
+            self.mission, self.world, self.path, self.certificate, self.trajectory,
+            self.tracking_error, self.moving_certificate,
+        )  # fmt: skip
+
     def __repr__(self) -> str:
         return (
             f"<Plan: {self.path.length:.1f} m in {self.trajectory.duration:.1f} s, "
@@ -93,6 +107,21 @@ class Plan:
     def preferred_clearance(self) -> PreferredClearance | None:
         """What more clearance than required was weighed; None where none is asked for."""
         return None if self.account is None else self.account.preferred
+
+    def samples(self, step: float = USUAL_STEP_M) -> Table:
+        """The path as a table, which pandas and polars take as it is.
+
+        Args:
+            step: From point to point along the path, at most [m]; both ends are among them.
+
+        Returns:
+            A structured array, (n,), of ``distance_m``, ``x_m``, ``y_m`` (``z_m`` with heights),
+            ``heading_rad``, ``curvature_1pm``, ``speed_mps`` and ``time_s``.
+
+        Raises:
+            GeometryError: When the step is no number above 0, or the table has too many rows.
+        """
+        return path_samples(self.path, self.trajectory, step)
 
     @cached_property
     def drivability(self) -> Drivability:

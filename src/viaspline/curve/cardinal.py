@@ -93,6 +93,9 @@ class CardinalSpline(PiecewiseCubic):
         )  # fmt: skip
         self._adopt(spans, None, closed)
 
+    def _said(self) -> tuple[object, ...]:
+        return *super()._said(), self._points, self._slack, self._alpha, self._pieces
+
     @property
     def points(self) -> Floats:
         """The via points [m], shape (n, d), read-only; see ``via_parameters``."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.curve.provable_curve import StatedCurve, provable_curve
 from viaspline.errors import GeometryError
 from viaspline.handed_in import check_answers, number_from
 from viaspline.kernels.clearance.disc import STILL, tightest
@@ -82,7 +83,7 @@ class _Bounds(NamedTuple):
 
 
 def certify(
-    curve: PiecewiseCubic,
+    curve: PiecewiseCubic | StatedCurve | Any,
     world: Surroundings,
     clearance: float,
     *,
@@ -101,7 +102,14 @@ def certify(
     negative: how deep its outline gets, to a quarter.
 
     Args:
-        curve: Any piecewise cubic; of a curve in space, its ground track counts in a planar world.
+        curve: Any piecewise cubic, or what has its ``spans``; a ``PPoly`` (``CubicSpline`` is one),
+            ``BPoly`` or ``BSpline`` of scipy with values of d coordinates, of any degree; or any
+            other curve with ``domain`` and ``evaluate``, as ``retime`` takes it, that states how
+            much it bends by ``second_derivative_bound(u0, u1)``: see
+            ``viaspline.curve.provable_curve``. What a curve may be off the cubics that it is
+            proven by is taken off its clearance: 0.1 µm for polynomials above the third degree,
+            0.1 mm for curves that state a bound, as far as 200,000 chords go. Of a curve in space,
+            its ground track counts in a planar world.
         world: The obstacles and bounds: a ``World``, a ``SpatialWorld``, or another kind with a
             packed form.
         clearance: What is to be kept free between the body and everything [m].
@@ -113,9 +121,11 @@ def certify(
         A certificate, whether it holds or not: see ``Certificate.holds``.
 
     Raises:
-        GeometryError: When the curve is not in the plane or in space, or the world is in space
-            and the curve isn't, clearance or radius is not a finite number, or the footprint is no
-            polygon about the reference point, or the world isn't in the plane.
+        GeometryError: When only values of the curve are known, or it bends more than it says; when
+            it is not in the plane or in space, or the world is in space and the curve isn't; when
+            there is a footprint, and the curve's tangents aren't those of the cubics it is proven
+            by; when clearance or radius is not a finite number, or the footprint is no polygon
+            about the reference point, or the world isn't in the plane.
 
     Example:
         >>> from viaspline.curve.cardinal import CardinalSpline
@@ -130,8 +140,14 @@ def certify(
         >>> round(certify(curve, world, 1.0, footprint=body).clearance, 2)
         1.5
     """
-    check_answers("curve", curve, "dimension", "give a CardinalSpline, or the path of a plan")
     check_answers("world", world, "packed", "give a World")
+    whole = provable_curve(curve)
+    if footprint is not None and not whole.has_its_tangents:
+        raise GeometryError(
+            f"a {type(curve).__name__} is proven by cubics beside it, whose tangents differ from "
+            "its own; give a piecewise cubic for a footprint, or a radius that holds the body"
+        )
+    given, curve = curve, whole.cubics
     if curve.dimension not in (2, 3):
         raise GeometryError(
             f"a curve of dimension {curve.dimension} can't be certified; 2 or 3 can"
@@ -145,15 +161,15 @@ def certify(
     required = clearance + radius
     if not math.isfinite(required):
         raise GeometryError(f"clearance {clearance} and radius {radius} have to be finite")
-    found = _proven(_bounder(curve, world, footprint), required)
+    found = _proven(_bounder(curve, world, footprint), required + whole.off)
     contact = None if found.nearest == -1 else found.contact
     u = float(found.span + found.w)
     at = np.asarray(curve.evaluate(u))
     return Certificate(
-        clearance=float(found.lower) - float(radius),
+        clearance=float(found.lower) - float(radius) - whole.off,
         required=float(clearance),
         tightest_at=tuple(at.tolist()),
-        tightest_u=u,
+        tightest_u=u if given is curve else whole.parameter(u),
         tightest_distance=float(curve.distance(u)),
         obstacle=None if found.nearest == -1 else world.name(int(found.nearest)),
         contact=None if contact is None else (float(contact[0]), float(contact[1])),

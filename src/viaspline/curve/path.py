@@ -57,6 +57,9 @@ class Path(PiecewiseCubic):
         super().__init__(spans)
         self.vias = all_of("vias", vias, PathVia, "give PathVia(name, at, kind, u)")
 
+    def _said(self) -> tuple[object, ...]:
+        return *super()._said(), self.vias
+
     @cached_property
     def via_distances(self) -> NDArray[np.float64]:
         """Distance along the path of every via point [m], shape (k,)."""

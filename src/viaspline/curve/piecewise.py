@@ -14,9 +14,11 @@ from viaspline.handed_in import number_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.curve import cubic as kernels
 from viaspline.kernels.curve import frenet
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.shown_value import ShownValue
 
 
-class PiecewiseCubic(Measured):
+class PiecewiseCubic(Measured, ShownValue, ComparedByValue):
     """A curve of cubic spans, given by their Bézier control polygons. Immutable.
 
     The parameter u runs from 0 to the number of spans m: ``u = k + w`` is span k at its local
@@ -65,6 +67,9 @@ class PiecewiseCubic(Measured):
         curve = PiecewiseCubic.__new__(PiecewiseCubic)
         curve._adopt(spans, knots, closed)
         return curve
+
+    def _said(self) -> tuple[object, ...]:
+        return self._spans, self._closed, self._knots
 
     def __repr__(self) -> str:
         kind = "closed, " if self._closed else ""

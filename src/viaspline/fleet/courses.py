@@ -17,6 +17,7 @@ from viaspline.kernels.fleet.cut_courses import cut_courses
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_paths import PackedPaths
 from viaspline.planner import Plan
+from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.trajectory.trajectory import Trajectory
 
 END_CELL_M = 0.01
@@ -28,7 +29,7 @@ OFF_PATH_SHARE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class FleetCourses:
+class FleetCourses(ComparedByValue):
     """Paths of robots, cut into cells.
 
     Attributes:
@@ -41,7 +42,7 @@ class FleetCourses:
 
 
 @dataclass(frozen=True, eq=False)
-class FleetPath:
+class FleetPath(ComparedByValue):
     """What becomes a course: a path, and how far its robot keeps others away.
 
     Attributes:

@@ -16,6 +16,7 @@ from viaspline.kernels.fleet.near_pieces import grid_of, near_pieces
 from viaspline.kernels.fleet.neighbouring import mark_neighbours
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_pieces import PackedPieces, pieces_of
+from viaspline.presentable.compared_by_value import ComparedByValue
 
 MAX_BOXES = 50_000_000
 """How many boxes the crossings of a fleet may have: 2 GB."""
@@ -25,7 +26,7 @@ BOXES_A_PAIR = 4
 
 
 @dataclass(frozen=True, eq=False)
-class FleetCrossings:
+class FleetCrossings(ComparedByValue):
     """Pairs of places on two paths at which two robots would be too near each other.
 
     Attributes:

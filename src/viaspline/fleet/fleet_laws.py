@@ -10,11 +10,12 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.trajectory.trajectory import Trajectory
 
 
 @dataclass(frozen=True, eq=False)
-class FleetLaws:
+class FleetLaws(ComparedByValue):
     """When every robot of a fleet is where.
 
     Attributes:

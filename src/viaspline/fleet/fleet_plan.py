@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import floor
 
+from viaspline.errors import GeometryError
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.crossings import FleetCrossings
 from viaspline.fleet.fleet_certificate import FleetCertificate
@@ -18,10 +19,16 @@ from viaspline.fleet.precedences import Precedence
 from viaspline.fleet.timing.rides import FleetRides
 from viaspline.mission.fleet.fleet import Fleet
 from viaspline.planner import Plan
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.moving_value import MovingValue
+from viaspline.presentable.named_columns import Table, stacked_tables
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
+from viaspline.trajectory.path_samples import USUAL_STEP_M
 
 
 @dataclass(frozen=True, eq=False)
-class FleetPlan:
+class FleetPlan(ShownValue, MovingValue, SavedValue, ComparedByValue):
     """Paths and time laws of a fleet, proven apart over continuous time.
 
     Attributes:
@@ -65,6 +72,25 @@ class FleetPlan:
                 f"'{proof.pair[0]}' and '{proof.pair[1]}' at {proof.at_s:.1f} s"
             )
         return f"FleetPlan({len(self.plans)} of {asked} robots served in {end:.1f} s{apart})"
+
+    def samples(self, step: float = USUAL_STEP_M) -> Table:
+        """The paths of all robots that are served as one table, by the clock of the fleet.
+
+        Args:
+            step: From point to point along each path, at most [m].
+
+        Returns:
+            A structured array, (n,), of ``robot`` and the columns of ``Plan.samples``.
+
+        Raises:
+            GeometryError: When no robot is served, the step is no number above 0, or the table
+                has too many rows.
+        """
+        if not self.plans:
+            raise GeometryError("no robot of the fleet is served; not_served says why")
+        return stacked_tables(
+            "robot", {name: one.samples(step) for name, one in self.plans.items()}
+        )
 
     @property
     def served(self) -> bool:

@@ -23,7 +23,8 @@ from viaspline.fleet.served_fleet import WHOLE_EFFORT, served_fleet
 from viaspline.fleet.still_world import without_motion
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.fleet.unserved.explain_unserved import explain_unserved
-from viaspline.handed_in import check_callable, check_kind, number_from
+from viaspline.formats.asked_for import AskedFleet, asked_fleet
+from viaspline.handed_in import check_callable, number_from
 from viaspline.mission.fleet.fleet import Fleet
 
 FleetProgress = Callable[[str, float], None]
@@ -40,7 +41,7 @@ POLISH_SHARE = 0.02
 
 
 def plan_fleet(
-    fleet: Fleet,
+    fleet: AskedFleet,
     improve: float = 0.0,
     progress: FleetProgress | None = None,
     paths: CrossingPaths | None = None,
@@ -55,7 +56,7 @@ def plan_fleet(
     slowed down for it. No path passes another's resting place? Then all are served.
 
     Args:
-        fleet: What is asked for.
+        fleet: What is asked for, or the file that it stands in.
         improve: For so long sooner orders are sought [s, on the reference machine].
         progress: See ``FleetProgress``.
         paths: Of the very fleet, if they are laid already.
@@ -84,7 +85,7 @@ def plan_fleet(
         >>> [(one.first, one.second) for one in plan.precedences]
         [('a', 'b')]
     """
-    check_kind("fleet", fleet, Fleet, "give Fleet.model_validate({...}) or load(file)")
+    fleet = asked_fleet(fleet)
     improve = number_from("improve", improve)
     if not 0.0 <= improve < math.inf:
         raise GeometryError(f"improve is {improve}; give a finite number of seconds, 0 or more")

@@ -12,6 +12,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.kernels.tracking.closed_loop import deviations
 from viaspline.kernels.tracking.drive_model import DriveModel
 from viaspline.kernels.tracking.reference_path import ReferencePath
+from viaspline.presentable.compared_by_value import ComparedByValue
 
 
 class Percentiles(NamedTuple):
@@ -23,7 +24,7 @@ class Percentiles(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Tracking:
+class Tracking(ComparedByValue):
     """What a robot's true state was off from what its path and its time law asked.
 
     Attributes:

@@ -14,6 +14,7 @@ from viaspline.errors import GeometryError
 from viaspline.handed_in import number_from, numbers_from
 from viaspline.maps.blocked_cells import blocked_cells
 from viaspline.maps.reading import Reading
+from viaspline.presentable.shown_value import ShownValue
 
 MOST_CELLS_ASIDE = 32_000  # kernels count columns in 16 bits
 LARGEST_CELL_M = (
@@ -23,7 +24,7 @@ Origin = tuple[float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class Grid(ShownValue):
     """Equal squares in rows; row 0 is the lowest, column 0 the leftmost, as in ROS.
 
     Two grids are equal when they block the same squares of the same plane, whatever file they

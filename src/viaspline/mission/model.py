@@ -11,9 +11,10 @@ from pydantic import ModelWrapValidatorHandler, ValidationInfo, model_validator
 
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.validation import sound_mission
+from viaspline.presentable.shown_value import ShownValue
 
 
-class Mission(MissionParts):
+class Mission(ShownValue, MissionParts):
     """A world, a robot, a route and how smooth its curve is.
 
     Every way to make one raises `viaspline.errors.MissionError` with every fault at once.

@@ -14,8 +14,11 @@ from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
 from viaspline.mission.key_rules import KeyRules, describe_keys
+from viaspline.presentable.compared_by_value import hashed
+from viaspline.presentable.short_repr import ShortText, short
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from typing import Self
 
     from pydantic import GetJsonSchemaHandler
@@ -40,6 +43,17 @@ class Value(BaseModel):
         """Take the class's `KeyRules`; those that it doesn't give are those of its base."""
         super().__init_subclass__()
         cls.key_rules = {**getattr(cls, "key_rules", KeyRules()), **rules}
+
+    def __hash__(self) -> int:
+        said = [getattr(self, name) for name in type(self).model_fields]
+        return hash((type(self).__name__, hashed(said)))
+
+    def __repr_args__(self) -> Iterator[tuple[str, ShortText]]:
+        """What isn't as it would be if nobody had said it; long lists are counted."""
+        for name, field in type(self).model_fields.items():
+            value = getattr(self, name)
+            if field.is_required() or value != field.default:
+                yield name, short(value)
 
     @classmethod
     def __get_pydantic_json_schema__(

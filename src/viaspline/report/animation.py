@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -12,16 +12,15 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 from matplotlib.text import Text
 
-from viaspline.planning.problem.requirements import Requirements
 from viaspline.report import style
 from viaspline.report.canvas import any_name, polyline
 from viaspline.report.labels import Labels
 from viaspline.report.moving_film import MovingLayer
 from viaspline.report.path_marks import draw_vias
-from viaspline.report.run_picture import has_lidar, thinned
+from viaspline.report.run_picture import has_lidar, run_scene, thinned
 from viaspline.report.scene import Scene
 from viaspline.report.sensor_view import sight_of
-from viaspline.report.sheet import Sheet, new_sheet, view_of
+from viaspline.report.sheet import Sheet, new_sheet
 from viaspline.report.side_column import SideColumn
 from viaspline.report.video_file import VideoFile
 from viaspline.report.video_writer import Frame, write_film
@@ -52,48 +51,41 @@ def frames(run: Run, name: str, count: int) -> Iterator[Frame]:
         yield stage.frame(float(time))
 
 
-class _Stage:
-    """What stands still is drawn once; what moves is drawn onto it for every frame."""
+class FilmedRun:
+    """A run on the map of a sheet: what stands still is drawn, what moves is placed at a time.
 
-    def __init__(self, run: Run, name: str) -> None:
+    Args:
+        run: What was driven.
+        scene: Its world.
+        sheet: Its map shows the part of the world that is to be seen.
+    """
+
+    def __init__(self, run: Run, scene: Scene, sheet: Sheet) -> None:
         self._run = run
-        mission = run.plan.mission
-        scene = Scene.of(
-            run.plan.world,
-            Requirements.of(mission, run.plan.tracking_error).required,
-            mission.world.unseen_standing,
-        )
         planned = polyline(run.plan.path.spans)
-        seen = np.vstack([planned, run.positions[:, :2]])
-        view = view_of(seen, scene.corners, scene.box, scene.required)
-        self._sheet = sheet = new_sheet(view, (), style.short(name, 48), (), dpi=FILM_DPI)
         labels = Labels(sheet.map)
         scans = has_lidar(run)
         handles = scene.draw(sheet.map, sheet.pixels_per_metre, reveal=scans, faint=scans)
-        vias, places = draw_vias(sheet.map, labels, run.plan.path.vias, mission)
+        vias, places = draw_vias(sheet.map, labels, run.plan.path.vias, run.plan.mission)
         labels.place(planned, places)
         self._moving = _moving(sheet.map, sheet.pixels_per_metre, run)
         self._sight = sight_of(run, sheet)
         self._others = MovingLayer(sheet.map, run.moving, sheet.pixels_per_metre)
         shown = (*_legend(self._moving, run), *self._sight.handles, *self._others.handles)
-        SideColumn(sheet).legend([*handles, *vias, *shown])
-        # the few markers of the route are drawn over the trail again
-        self._over = [a for a in (*sheet.map.lines, *sheet.map.texts) if a.get_zorder() >= 11][:120]
-        self._clock = _clock(sheet)
+        self.handles: tuple[Artist, ...] = (*handles, *vias, *shown)
+        self.artists: tuple[Artist, ...] = (
+            *self._moving, *self._sight.artists, *self._others.artists,
+        )  # fmt: skip
         self._paths = [(-np.inf, planned)]
         self._paths += [(replan.time, polyline(replan.path.spans)) for replan in run.replans]
-        canvas = sheet.figure.canvas
-        assert isinstance(canvas, FigureCanvasAgg)
-        self._canvas = canvas
-        for artist in (
-            *self._moving, *self._sight.artists, *self._others.artists, self._clock,
-        ):  # fmt: skip
-            artist.set_animated(True)
-        canvas.draw()  # type: ignore[no-untyped-call]
-        self._still = canvas.copy_from_bbox(sheet.figure.bbox)  # type: ignore[no-untyped-call]
 
-    def frame(self, time: float) -> Frame:
-        """The picture at a time [s]."""
+    def at(self, time: float, over: Sequence[Artist] = ()) -> list[Artist]:
+        """What is to be seen of all that moves at a time [s], in the order in which it is drawn.
+
+        Args:
+            time: Times don't go back.
+            over: What stands still and is drawn over the trail.
+        """
         run, (old, path, trail, robot) = self._run, self._moving
         x, y = (float(np.interp(time, run.times, run.positions[:, axis])) for axis in (0, 1))
         now = max(i for i, (start, _) in enumerate(self._paths) if start <= time)
@@ -104,11 +96,39 @@ class _Stage:
         robot.set_center((x, y))
         heading = float(np.interp(time, run.times, np.unwrap(run.headings)))
         sight = self._sight.at(time, (x, y), heading)
-        speed = float(np.interp(time, run.times, run.speeds))
-        self._clock.set_text(f"{time:.1f} s   {speed:.2f} m/s")
-        self._canvas.restore_region(self._still)  # type: ignore[no-untyped-call]
         others = self._others.at(time)
-        for artist in (*sight, old, path, trail, *self._over, *others, robot):
+        return [*sight, old, path, trail, *over, *others, robot]
+
+    def clock_at(self, time: float) -> str:
+        """The time and the speed then, in words."""
+        speed = float(np.interp(time, self._run.times, self._run.speeds))
+        return f"{time:.1f} s   {speed:.2f} m/s"
+
+
+class _Stage:
+    """What stands still is drawn once; what moves is drawn onto it for every frame."""
+
+    def __init__(self, run: Run, name: str) -> None:
+        scene, view = run_scene(run)
+        self._sheet = sheet = new_sheet(view, (), style.short(name, 48), (), dpi=FILM_DPI)
+        self._filmed = FilmedRun(run, scene, sheet)
+        SideColumn(sheet).legend(self._filmed.handles)
+        # the few markers of the route are drawn over the trail again
+        self._over = [a for a in (*sheet.map.lines, *sheet.map.texts) if a.get_zorder() >= 11][:120]
+        self._clock = _clock(sheet)
+        canvas = sheet.figure.canvas
+        assert isinstance(canvas, FigureCanvasAgg)
+        self._canvas = canvas
+        for artist in (*self._filmed.artists, self._clock):
+            artist.set_animated(True)
+        canvas.draw()  # type: ignore[no-untyped-call]
+        self._still = canvas.copy_from_bbox(sheet.figure.bbox)  # type: ignore[no-untyped-call]
+
+    def frame(self, time: float) -> Frame:
+        """The picture at a time [s]."""
+        self._clock.set_text(self._filmed.clock_at(time))
+        self._canvas.restore_region(self._still)  # type: ignore[no-untyped-call]
+        for artist in self._filmed.at(time, self._over):
             self._sheet.map.draw_artist(artist)
         self._sheet.figure.draw_artist(self._clock)
         pixels = np.asarray(self._canvas.buffer_rgba())[..., :3]  # type: ignore[no-untyped-call]

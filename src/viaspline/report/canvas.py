@@ -13,8 +13,8 @@ from contextlib import contextmanager
 import numpy as np
 import shapely
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
+from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.path import Path as Outline
 from matplotlib.text import Text
 from numpy.typing import NDArray
@@ -47,6 +47,14 @@ def png(figure: Figure) -> bytes:
         pil_kwargs={"compress_level": 4},
     )  # fmt: skip
     return buffer.getvalue()
+
+
+def renderer_of(figure: Figure | SubFigure) -> RendererAgg:
+    """What texts of a figure are measured with, whatever canvas it has."""
+    if isinstance(figure.canvas, FigureCanvasAgg):
+        renderer: RendererAgg = figure.canvas.get_renderer()  # type: ignore[no-untyped-call]
+        return renderer
+    return RendererAgg(1, 1, figure.dpi)  # type: ignore[no-untyped-call]
 
 
 def text_width(text: Text) -> float:

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
+
 import numpy as np
 from numpy.typing import NDArray
 
 from viaspline.planner import Plan
+from viaspline.presentable.named_columns import Table
 from viaspline.report.units import nice
 from viaspline.robot.run import Run
 
+LENGTH_DECIMALS = 6
+DECIMALS = MappingProxyType({"heading_rad": 9, "curvature_1pm": 9, "agl_m": 3})
 CsvColumn = tuple[str, NDArray[np.float64], int]  # header, values, decimals
 
 
@@ -32,39 +37,19 @@ def spacing(length: float) -> float:
 
 def path_csv(plan: Plan) -> str:
     """Points of the planned path, equally far apart; the last one is the path's end."""
-    path = plan.path
-    u, distance, points = path.sample(spacing(path.length))
-    columns: list[CsvColumn] = [
-        ("distance_m", distance, 6),
-        *_places(points),
-        ("heading_rad", np.asarray(path.heading(u)), 9),
-        ("curvature_1pm", np.asarray(path.curvature(u)), 9),
-        ("speed_mps", np.asarray(plan.trajectory.speed_at(distance)), 6),
-        ("time_s", np.asarray(plan.trajectory.time_at(distance)), 6),
-    ]
-    return csv_text(columns)
+    return table_csv(plan.samples(spacing(plan.path.length)))
 
 
 def run_csv(run: Run) -> str:
     """What was driven, over time."""
-    columns: list[CsvColumn] = [
-        ("time_s", run.times, 6),
-        *_places(run.positions),
-        ("heading_rad", run.headings, 9),
-        ("speed_mps", run.speeds, 6),
-        ("curvature_1pm", run.curvatures, 9),
-    ]
-    if run.tracking is not None:
-        track = run.tracking
-        columns += [
-            ("cross_track_m", np.interp(run.times, track.times, track.cross_track), 6),
-            ("along_track_m", np.interp(run.times, track.times, track.along_track), 6),
-        ]
-    return csv_text(columns)
+    return table_csv(run.samples())
 
 
-def _places(points: NDArray[np.float64]) -> list[CsvColumn]:
-    return [(f"{axis}_m", points[:, i], 6) for i, axis in enumerate("xyz"[: points.shape[1]])]
+def table_csv(table: Table) -> str:
+    """A table as comma-separated text, each column with the decimals that suit its unit."""
+    assert table.dtype.names is not None
+    names = table.dtype.names
+    return csv_text([(name, table[name], DECIMALS.get(name, LENGTH_DECIMALS)) for name in names])
 
 
 def csv_text(columns: list[CsvColumn]) -> str:

@@ -15,7 +15,7 @@ from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.not_served import NotServed
-from viaspline.report.terminal_tables import facts_table
+from viaspline.report.terminal_tables import Rows, facts_table
 from viaspline.report.units import asked_words, down, metres, place, seconds
 
 MAX_WAITS_TOLD: Final = 8
@@ -26,32 +26,36 @@ MAX_UNSERVED_TOLD: Final = 20
 
 def fleet_tables(plan: FleetPlan, name: str) -> RenderableType:
     """Who is served and when all are home, what is proven, and who waits for whom."""
+    return facts_table(f"Fleet · {name}", fleet_rows(plan))
+
+
+def fleet_rows(plan: FleetPlan) -> Rows:
+    """Who is served and when all are home, what is proven, and who waits for whom."""
     members = plan.fleet.members
-    facts = facts_table(f"Fleet · {name}")
-    facts.add_row("served", f"{len(plan.plans)} of {len(members)}")
+    rows: Rows = []
+    rows.append(("served", f"{len(plan.plans)} of {len(members)}"))
     if plan.plans:
         lengths = [one.path.length for one in plan.plans.values()]
         patrols = {} if plan.patrols is None else plan.patrols.begins
         ends = [one.trajectory.end_time for n, one in plan.plans.items() if n not in patrols]
-        facts.add_row("driven", f"{metres(sum(lengths), 1)} in all")
+        rows.append(("driven", f"{metres(sum(lengths), 1)} in all"))
         if ends:
-            facts.add_row("all are home", f"after {seconds(max(ends))}")
+            rows.append(("all are home", f"after {seconds(max(ends))}"))
         if plan.patrols is not None:
             words = f"{len(patrols)} that never end, again every {seconds(plan.patrols.period)}"
-            facts.add_row("patrols", f"{words}, proven for all time")
-        facts.add_row("later than alone", _late_words(plan))
-    for title, words in _apart(plan.certificate):
-        facts.add_row(title, words)
-    facts.add_row("crossings in order", str(len(plan.precedences)))
+            rows.append(("patrols", f"{words}, proven for all time"))
+        rows.append(("later than alone", _late_words(plan)))
+    rows += _apart(plan.certificate)
+    rows.append(("crossings in order", str(len(plan.precedences))))
     waits = sorted(
         (one for one in plan.precedences if one.waits_s > 0.0), key=lambda one: -one.waits_s
     )
     for i, one in enumerate(waits[:MAX_WAITS_TOLD]):
         words = f"'{one.second}' for '{one.first}', {seconds(one.waits_s)}"
-        facts.add_row("longest waits" if i == 0 else "", words)
+        rows.append(("longest waits" if i == 0 else "", words))
     if len(waits) > MAX_WAITS_TOLD:
-        facts.add_row("", f"… and {len(waits) - MAX_WAITS_TOLD} more in fleet.json")
-    return facts
+        rows.append(("", f"… and {len(waits) - MAX_WAITS_TOLD} more in fleet.json"))
+    return rows
 
 
 def _apart(certificate: FleetCertificate) -> Iterator[tuple[str, str]]:
@@ -71,16 +75,20 @@ def fleet_run_table(run: FleetRun, name: str) -> RenderableType:
         run: What was driven.
         name: The fleet's name.
     """
-    facts = facts_table(f"Run · {name}")
-    facts.add_row("arrived", f"{len(run.arrivals)} of {len(run.names)}")
-    facts.add_row("ended", f"after {seconds(run.end_s)}")
-    facts.add_row("later than planned", f"{seconds(run.mean_delay)} in the mean")
-    for title, words in _apart(run.certificate):
-        facts.add_row(title, words)
+    return facts_table(f"Run · {name}", fleet_run_rows(run))
+
+
+def fleet_run_rows(run: FleetRun) -> Rows:
+    """Who arrived and how late, and how near any two robots came."""
+    rows: Rows = []
+    rows.append(("arrived", f"{len(run.arrivals)} of {len(run.names)}"))
+    rows.append(("ended", f"after {seconds(run.end_s)}"))
+    rows.append(("later than planned", f"{seconds(run.mean_delay)} in the mean"))
+    rows += _apart(run.certificate)
     kinds = Counter(event.kind for event in run.events if event.kind != "arrived")
     for kind, many in kinds.items():
-        facts.add_row(kind, f"{many} {'time' if many == 1 else 'times'}")
-    return facts
+        rows.append((kind, f"{many} {'time' if many == 1 else 'times'}"))
+    return rows
 
 
 def _late_words(plan: FleetPlan) -> str:

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
 from viaspline.kernels.arrays import Floats
+from viaspline.report.canvas import renderer_of
 from viaspline.report.style import INK, SMALL_PT
 
 _ANGLES_RAD = np.radians([35, -35, 145, -145, 0, 180, 90, -90])
@@ -91,9 +91,7 @@ class Labels:
 
     def _measure(self, label: _Label) -> Floats:
         text = Text(0, 0, label.text, size=label.size, parse_math=False, figure=self._axes.figure)
-        canvas = self._axes.figure.canvas
-        assert isinstance(canvas, FigureCanvasAgg)
-        extent = text.get_window_extent(canvas.get_renderer())  # type: ignore[no-untyped-call]
+        extent = text.get_window_extent(renderer_of(self._axes.figure))
         return np.array([extent.width + 2, extent.height + 2])
 
     def _draw(self, label: _Label, anchor: Floats, middle: Floats, size: Floats) -> None:

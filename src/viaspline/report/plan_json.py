@@ -16,6 +16,7 @@ from viaspline.report.json_text import dumps
 from viaspline.report.moving_json import moving_certificate_data, timing_choices, waits_data
 from viaspline.report.remarks import FOLLOWED_EXACTLY, keeps_nothing
 from viaspline.report.summary import tension
+from viaspline.trajectory.trajectory import Trajectory
 
 
 def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
@@ -45,6 +46,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
                     for s in plan.trajectory.stations
                 ],
                 **waits_data(plan),
+                **({} if plan.timed is None else {"law": law_data(plan.trajectory)}),
             },
         }
     )
@@ -90,12 +92,29 @@ def path_data(path: Path) -> dict[str, Any]:
                 "distance_m": distance,
                 "kind": via.kind,
                 "dwell_s": via.dwell,
+                "u": via.u,
+                "route_index": via.index,
             }
             for via, distance in zip(path.vias, path.via_distances, strict=True)
         ],
         "length_m": path.length,
         "max_curvature_1pm": path.max_curvature()[0],
     }
+
+
+def law_data(law: Trajectory) -> dict[str, Any]:
+    """A time law, exactly; without what it doesn't have."""
+    columns = {
+        "distances_m": law.distances,
+        "speeds_mps": law.speeds,
+        "times_s": law.times,
+        "accelerations_mps2": law.accelerations,
+        "changes_1ps2": law.changes,
+        "jerks_mps3": law.jerks,
+        "over_limit_until_m": law.over_limit_until,
+        "over_jerk_until_m": law.over_jerk_until,
+    }
+    return {name: values for name, values in columns.items() if values is not None}
 
 
 def certificate_data(certificate: Certificate) -> dict[str, Any]:

@@ -32,7 +32,7 @@ from viaspline.report.path_marks import (
 )
 from viaspline.report.profile_strips import draw_curvature_limit, fill_strips, strip_names
 from viaspline.report.scene import Scene
-from viaspline.report.sheet import Sheet, new_sheet, view_of
+from viaspline.report.sheet import Box, Sheet, new_sheet, view_of
 from viaspline.report.side_column import SideColumn
 from viaspline.report.space_time_column import plan_space_time
 from viaspline.report.summary import body_words, spline_words
@@ -52,12 +52,7 @@ def plan_picture(plan: Plan, name: str) -> bytes:
         plan: What was planned.
         name: The mission's name.
     """
-    required = Requirements.of(plan.mission, plan.tracking_error).required
-    scene = Scene.of(plan.world, required)
-    points = polyline(plan.path.spans)
-    losers = losing(plan)
-    seen = np.vstack([points, *losers])
-    view = view_of(seen, scene.corners, scene.box, required)
+    scene, view = plan_scene(plan)
     trajectory = plan.trajectory
     title = (
         f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in {seconds(trajectory.duration)}"
@@ -67,6 +62,36 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     proven = proof(plan.certificate, plan.tracking_error, moving)
     lines = (proven, subtitle(plan.mission))
     sheet = new_sheet(view, strip_names(plan.path.spans[:, 0]), title, lines)
+    handles = draw_plan_map(sheet, scene, plan)
+    _fill_strips(sheet, plan)
+    column = SideColumn(sheet)
+    column.legend(handles)
+    plan_space_time(column, plan)
+    column.notes(*drive_notes(plan.drivability))
+    close_up(column, scene, plan.path, plan.certificate, plan.mission.robot)
+    return png(sheet.figure)
+
+
+def plan_scene(plan: Plan) -> tuple[Scene, Box]:
+    """The world of a plan, and the part of it that pictures show."""
+    required = Requirements.of(plan.mission, plan.tracking_error).required
+    scene = Scene.of(plan.world, required)
+    seen = np.vstack([polyline(plan.path.spans), *losing(plan)])
+    return scene, view_of(seen, scene.corners, scene.box, required)
+
+
+def draw_plan_map(sheet: Sheet, scene: Scene, plan: Plan) -> list[Artist]:
+    """Draw a plan on the map of a sheet.
+
+    Args:
+        sheet: Its map shows the part of the world that is to be seen.
+        scene: The world.
+        plan: What was planned.
+
+    Returns:
+        What belongs in a legend.
+    """
+    points = polyline(plan.path.spans)
     labels = Labels(sheet.map)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre)
     scene.name(labels)
@@ -79,14 +104,8 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     handles += vias + draw_tightest(sheet.map, labels, plan.certificate)
     handles += draw_sharpest(sheet.map, labels, plan.drivability)
     handles += draw_moving(sheet.map, labels, moment_of(plan))
-    labels.place(np.vstack([points, *losers]), places)
-    _fill_strips(sheet, plan)
-    column = SideColumn(sheet)
-    column.legend(handles)
-    plan_space_time(column, plan)
-    column.notes(*drive_notes(plan.drivability))
-    close_up(column, scene, plan.path, plan.certificate, plan.mission.robot)
-    return png(sheet.figure)
+    labels.place(np.vstack([points, *losing(plan)]), places)
+    return handles
 
 
 def moment_of(plan: Plan) -> Moment:

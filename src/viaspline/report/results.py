@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from viaspline.formats.mission_yaml import yaml_text
+from viaspline.mission.model import Mission
 from viaspline.planner import Plan
 from viaspline.report.csv_tables import path_csv, run_csv, spacing
 from viaspline.report.plan_json import plan_json
@@ -18,6 +20,7 @@ from viaspline.report.run_picture import run_picture
 from viaspline.robot.run import Run
 
 TIMING_FILE = "timing.json"
+MISSION_FILE = "planned-mission.yaml"
 
 Contents = dict[str, bytes | str]
 
@@ -33,6 +36,21 @@ def path_contents(plan: Plan, name: str) -> Contents:
 def plan_contents(plan: Plan, name: str) -> Contents:
     """The files of a plan: the same bytes every time."""
     return {**path_contents(plan, name), "plan.png": plan_picture(plan, name)}
+
+
+def mission_contents(mission: Mission, folder: Path) -> Contents:
+    """The mission as it was planned, beside its plan, which is read again with it.
+
+    Its via points are in the order in which they are served, and its tension is a number.
+
+    Args:
+        mission: That of a plan.
+        folder: Where it is going to stand.
+
+    Raises:
+        OutputError: It has a map that was made in memory.
+    """
+    return {MISSION_FILE: yaml_text(mission, folder)}
 
 
 def run_contents(run: Run, name: str, *, seed: int = 0) -> Contents:

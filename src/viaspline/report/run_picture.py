@@ -24,7 +24,7 @@ from viaspline.report.path_marks import draw_arrows, draw_echoes, draw_tightest,
 from viaspline.report.plan_picture import proof, subtitle, via_ticks
 from viaspline.report.profile_strips import fill_strips, strip_names
 from viaspline.report.scene import Scene, nearest_on
-from viaspline.report.sheet import Sheet, new_sheet, view_of
+from viaspline.report.sheet import Box, Sheet, new_sheet, view_of
 from viaspline.report.side_column import SideColumn
 from viaspline.report.space_time_column import run_space_time
 from viaspline.report.units import metres, seconds
@@ -51,16 +51,54 @@ def run_picture(run: Run, name: str) -> bytes:
         name: The mission's name.
     """
     mission = run.plan.mission
-    required = Requirements.of(mission, run.plan.tracking_error).required
-    scene = Scene.of(run.plan.world, required, mission.world.unseen_standing)
-    planned = polyline(run.plan.path.spans)
-    driven = run.positions[:, :2]
-    seen = np.vstack([planned, driven])
-    view = view_of(seen, scene.corners, scene.box, required)
+    scene, view = run_scene(run)
     rows = strip_names(run.positions)
     if run.tracking is not None:
         rows.append(CROSS_TRACK_STRIP)
     sheet = new_sheet(view, rows, *_heading(run, name))
+    colours, limits = speed_colours(run.speeds)
+    handles = draw_run_map(sheet, scene, run)
+    _fill_strips(sheet, run)
+    column = SideColumn(sheet)
+    column.colour_bar(colours, limits, "speed of the driven path [m/s]")
+    column.legend(handles)
+    run_space_time(column, run)
+    column_notes = _notes(run)
+    if column.room > CLOSE_UP_ROOM_IN + 0.155 * min(len(column_notes), 6):
+        close_up(
+            column,
+            scene,
+            run.path,
+            run.certificate,
+            mission.robot,
+            echoes(run) if has_lidar(run) else None,
+        )
+    column.notes("Under way", column_notes)
+    return png(sheet.figure)
+
+
+def run_scene(run: Run) -> tuple[Scene, Box]:
+    """The world of a run, and the part of it that pictures show."""
+    mission = run.plan.mission
+    required = Requirements.of(mission, run.plan.tracking_error).required
+    scene = Scene.of(run.plan.world, required, mission.world.unseen_standing)
+    seen = np.vstack([polyline(run.plan.path.spans), run.positions[:, :2]])
+    return scene, view_of(seen, scene.corners, scene.box, required)
+
+
+def draw_run_map(sheet: Sheet, scene: Scene, run: Run) -> list[Artist]:
+    """Draw a run on the map of a sheet.
+
+    Args:
+        sheet: Its map shows the part of the world that is to be seen.
+        scene: The world.
+        run: What was driven.
+
+    Returns:
+        What belongs in a legend.
+    """
+    mission = run.plan.mission
+    planned, driven = polyline(run.plan.path.spans), run.positions[:, :2]
     labels = Labels(sheet.map)
     scans = has_lidar(run)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre, faint=scans)
@@ -85,23 +123,7 @@ def run_picture(run: Run, name: str) -> bytes:
     handles += draw_moving(sheet.map, labels, _moment(run))
     noted = [event.at[:2] for event in run.events if event.kind in _told(run)]
     labels.place(np.vstack([planned, thinned(driven)]), np.vstack([places, *noted]))
-    _fill_strips(sheet, run)
-    column = SideColumn(sheet)
-    column.colour_bar(colours, limits, "speed of the driven path [m/s]")
-    column.legend(handles)
-    run_space_time(column, run)
-    column_notes = _notes(run)
-    if column.room > CLOSE_UP_ROOM_IN + 0.155 * min(len(column_notes), 6):
-        close_up(
-            column,
-            scene,
-            run.path,
-            run.certificate,
-            mission.robot,
-            echoes(run) if scans else None,
-        )
-    column.notes("Under way", column_notes)
-    return png(sheet.figure)
+    return handles
 
 
 def _moment(run: Run) -> Moment:

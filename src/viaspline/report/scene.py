@@ -160,7 +160,8 @@ class Scene:
         areas += [too_near(ground.grid, view, dots, self.required) for ground in grids]
         if self.free is not None:
             inner = self.free.buffer(-self.required)
-            areas.append(shapely.box(*grown(view, 2 * self.required)).difference(inner))
+            far = max(2 * self.required, view[2] - view[0], view[3] - view[1])
+            areas.append(shapely.box(*grown(view, far)).difference(inner))
         return shapely.union_all(np.array(areas, object))
 
     def name(self, labels: Labels) -> None:

@@ -26,7 +26,8 @@ MAX_OBSTACLES_NAMED = 30  # on one picture; more are counted
 
 def draw_outside(axes: Axes, view: Box, free: BaseGeometry, name: str) -> list[Artist]:
     """Shade what lies outside of the free area, and draw its edge, which the legend names."""
-    outside = shapely.box(*grown(view, 0.05 * (view[2] - view[0]))).difference(free)
+    far = max(view[2] - view[0], view[3] - view[1])
+    outside = shapely.box(*grown(view, far)).difference(free)
     axes.add_artist(
         PathPatch(outline(outside), facecolor=style.OUTSIDE, edgecolor="none", zorder=0)
     )

@@ -17,6 +17,7 @@ from viaspline.report.terminal_lines import writing_output
 from viaspline.report.units import asked_words, curvature, down, metres, place, seconds
 from viaspline.robot.run import MODES, Run, Shortfall
 
+Rows = list[tuple[str, str]]  # names, and what they are
 MAX_REASONS = 4  # why a path drives roughly, before the rest is only counted
 MAX_LIST_LINES = 12  # of a long list, before the rest is only counted
 
@@ -38,37 +39,43 @@ def console() -> Console:
 
 def plan_tables(plan: Plan, name: str) -> RenderableType:
     """The path in figures, and its ledger."""
+    facts = facts_table(f"Plan · {name}", plan_rows(plan))
+    return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
+
+
+def plan_rows(plan: Plan) -> Rows:
+    """The path in figures: names, and what they are."""
     path, certificate = plan.path, plan.certificate
-    facts = facts_table(f"Plan · {name}")
+    rows: Rows = []
     users = [via for via in path.vias if via.kind == "user"]
     detours = sum(via.kind == "detour" and via.name != GUIDE for via in path.vias)
     for obstacle in plan.world.obstacles:
         if obstacle.grid is not None:
-            facts.add_row("map", map_words(obstacle.grid).removeprefix("map").lstrip(" :"))
-    facts.add_row("length", metres(path.length, 1))
-    facts.add_row("duration", seconds(plan.trajectory.duration))
-    facts.add_row("points of the route", f"{len(users)}, and {detours} of detours")
+            rows.append(("map", map_words(obstacle.grid).removeprefix("map").lstrip(" :")))
+    rows.append(("length", metres(path.length, 1)))
+    rows.append(("duration", seconds(plan.trajectory.duration)))
+    rows.append(("points of the route", f"{len(users)}, and {detours} of detours"))
     asked = asked_words(certificate.required, plan.tracking_error)
-    facts.add_row("clearance, proven", f"{down(certificate.clearance)} (asked {asked})")
+    rows.append(("clearance, proven", f"{down(certificate.clearance)} (asked {asked})"))
     if plan.preferred_clearance is not None:
-        facts.add_row("clearance, preferred", preferred_words(plan.preferred_clearance))
+        rows.append(("clearance, preferred", preferred_words(plan.preferred_clearance)))
     if certificate.obstacle is not None:
-        facts.add_row(
-            "tightest place",
-            f"{place(certificate.tightest_at)} at {metres(certificate.tightest_distance, 1)}, "
-            f"beside {certificate.obstacle}",
+        rows.append(
+            (
+                "tightest place",
+                f"{place(certificate.tightest_at)} at {metres(certificate.tightest_distance, 1)}, "
+                f"beside {certificate.obstacle}",
+            )
         )
-    facts.add_row("largest curvature", curvature(path.max_curvature()[0]))
-    for name, words in drivability_rows(plan.drivability):
-        facts.add_row(name, words)
-    for name, words in moving_rows(plan):
-        facts.add_row(name, words)
+    rows.append(("largest curvature", curvature(path.max_curvature()[0])))
+    rows += drivability_rows(plan.drivability)
+    rows += moving_rows(plan)
     stations = [s for s in plan.trajectory.stations if s.dwell > 0]
     if stations:
-        facts.add_row(
-            "stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:MAX_LIST_LINES])
+        rows.append(
+            ("stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:MAX_LIST_LINES]))
         )
-    return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
+    return rows
 
 
 def preferred_words(weighed: PreferredClearance) -> str:
@@ -155,47 +162,57 @@ def _candidate(candidate: Candidate) -> tuple[str, str, str, str, str]:
     return time, length, clearance, bend, verdict
 
 
-def run_tables(run: Run, name: str) -> RenderableType:
-    """What was driven in figures, the via points and the re-plans."""
-    facts = facts_table(f"Run · {name}")
-    facts.add_row("reached its goal", "yes" if run.reached else f"NO: {run.reason}")
-    facts.add_row("driven", f"{metres(run.path.length, 1)} in {seconds(run.duration)}")
+def run_rows(run: Run) -> Rows:
+    """What was driven in figures: names, and what they are."""
+    rows: Rows = []
+    rows.append(("reached its goal", "yes" if run.reached else f"NO: {run.reason}"))
+    rows.append(("driven", f"{metres(run.path.length, 1)} in {seconds(run.duration)}"))
     planned = f"{metres(run.plan.path.length, 1)} in {seconds(run.plan.trajectory.duration)}"
-    facts.add_row("planned before", planned)
+    rows.append(("planned before", planned))
     if run.plan.drivability.reasons:
-        facts.add_row("  drives", f"rough: {run.plan.drivability.reasons[0].text}")
+        rows.append(("  drives", f"rough: {run.plan.drivability.reasons[0].text}"))
     asked = asked_words(run.certificate.required)
-    facts.add_row("clearance, proven", f"{down(run.certificate.clearance)} (asked {asked})")
+    rows.append(("clearance, proven", f"{down(run.certificate.clearance)} (asked {asked})"))
     if run.certificate.obstacle is not None:
-        facts.add_row(
-            "tightest place",
-            f"{place(run.certificate.tightest_at)} beside {run.certificate.obstacle}",
+        rows.append(
+            (
+                "tightest place",
+                f"{place(run.certificate.tightest_at)} beside {run.certificate.obstacle}",
+            )
         )
     for shortfall in run.shortfalls[:MAX_LIST_LINES]:
-        facts.add_row("NEARER THAN ASKED", shortfall_words(shortfall))
+        rows.append(("NEARER THAN ASKED", shortfall_words(shortfall)))
     met = run.encounters
     if met is not None and met.time is not None:
         near = f"{down(met.clearance)}, to '{met.obstacle}' at {met.time:.1f} s"
-        facts.add_row("to what moves, proven", near)
+        rows.append(("to what moves, proven", near))
         for contact in met.contacts[:MAX_LIST_LINES]:
             how = "while it stood" if contact.robot_speed == 0.0 else "under way"
             if contact.appeared_within_braking_time:
                 how += ", too late to be seen in time"
-            facts.add_row("CONTACT", f"'{contact.obstacle}' at {contact.time:.1f} s, {how}")
+            rows.append(("CONTACT", f"'{contact.obstacle}' at {contact.time:.1f} s, {how}"))
     if run.tracking is not None:
         cross = run.tracking.cross
-        facts.add_row(
-            "beside its path",
-            f"{metres(cross.p99, 3)} in 99 % of the time, at most {metres(cross.max, 3)} "
-            f"(allowed {metres(run.plan.tracking_error, 3)})",
+        rows.append(
+            (
+                "beside its path",
+                f"{metres(cross.p99, 3)} in 99 % of the time, at most {metres(cross.max, 3)} "
+                f"(allowed {metres(run.plan.tracking_error, 3)})",
+            )
         )
         if run.excesses:
-            facts.add_row("BEYOND WHAT IS KEPT", _beyond(run))
+            rows.append(("BEYOND WHAT IS KEPT", _beyond(run)))
     served = sum(visit.status == "served" for visit in run.visits)
-    facts.add_row("points served", f"{served} of {len(run.visits)}")
+    rows.append(("points served", f"{served} of {len(run.visits)}"))
     missed = [visit for visit in run.visits if visit.status != "served"]
     for visit in missed[:MAX_LIST_LINES]:
-        facts.add_row(f"  {visit.name}", f"{visit.status}: {visit.reason or 'no reason given'}")
+        rows.append((f"  {visit.name}", f"{visit.status}: {visit.reason or 'no reason given'}"))
+    return rows
+
+
+def run_tables(run: Run, name: str) -> RenderableType:
+    """What was driven in figures, the via points and the re-plans."""
+    facts = facts_table(f"Run · {name}", run_rows(run))
     if not run.replans:
         return facts
     table = Table(title="Re-plans", title_justify="left", box=box.SIMPLE_HEAD)
@@ -243,11 +260,13 @@ def _beyond(run: Run) -> str:
     )
 
 
-def facts_table(title: str) -> Table:
+def facts_table(title: str, rows: Rows) -> Table:
     """A table of names and what they are, without lines between."""
     table = Table(title=title, title_justify="left", show_header=False, box=box.SIMPLE_HEAD)
     table.add_column(style="dim", no_wrap=True)
     table.add_column()
+    for row in rows:
+        table.add_row(*row)
     return table
 
 

@@ -150,6 +150,10 @@ class Navigator:
         self._task = DriveTask(mission, requirements, limits, reaction, model)
         self._state = at_start(self._task, plan, period)
 
+    def __repr__(self) -> str:
+        state = "finished" if self.finished else f"at {self.distance:.1f} m"
+        return f"<Navigator: {state} of {self.path.length:.1f} m>"
+
     def step(
         self, state: RobotState, sensed: Iterable[Obstacle | MovingSighting] | Scan, time: float
     ) -> tuple[Command, Navigator]:

@@ -6,7 +6,7 @@ Tested through ``robot/test_simulator``.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from types import MappingProxyType
 from typing import Literal
 
@@ -18,6 +18,11 @@ from viaspline.curve.path import Path
 from viaspline.machine.excess import Excess, excesses
 from viaspline.machine.tracking import Tracking
 from viaspline.planner import Plan
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.moving_value import MovingValue
+from viaspline.presentable.named_columns import Table, coordinates, named_columns
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
@@ -205,9 +210,11 @@ class Shortfall:
     seen_in_time: bool
 
 
-@dataclass(frozen=True)
-class Run:
+@dataclass(frozen=True, eq=False)
+class Run(ShownValue, MovingValue, SavedValue, ComparedByValue):
     """A driven mission.
+
+    What was spent on it by the wall clock (``compute_times``) doesn't count when two are compared.
 
     Attributes:
         plan: The plan before the robot set off.
@@ -258,6 +265,10 @@ class Run:
     encounters: Encounters | None = None
     shortfalls: tuple[Shortfall, ...] = ()
 
+    def _said(self) -> tuple[object, ...]:
+        left_out = ("compute_times",)  # by the wall clock
+        return tuple(getattr(self, one.name) for one in fields(self) if one.name not in left_out)
+
     def __repr__(self) -> str:
         end = "reached" if self.reached else self.reason
         return (
@@ -276,6 +287,32 @@ class Run:
         robot = self.plan.mission.robot
         reach = 0.0 if robot.footprint is None else robot.outer_radius
         return excesses(self.tracking, self.plan.tracking_error, reach)
+
+    def samples(self) -> Table:
+        """What was driven as a table over time, which pandas and polars take as it is.
+
+        Returns:
+            A structured array, (n,), of ``time_s``, ``x_m``, ``y_m`` (``z_m`` with heights),
+            ``heading_rad``, ``speed_mps`` and ``curvature_1pm``; of a robot with a drive
+            ``cross_track_m`` and ``along_track_m`` as well, what it was off from its path.
+        """
+        off = {}
+        if self.tracking is not None:
+            track = self.tracking
+            off = {
+                "cross_track_m": np.interp(self.times, track.times, track.cross_track),
+                "along_track_m": np.interp(self.times, track.times, track.along_track),
+            }
+        return named_columns(
+            {
+                "time_s": self.times,
+                **coordinates(self.positions),
+                "heading_rad": self.headings,
+                "speed_mps": self.speeds,
+                "curvature_1pm": self.curvatures,
+                **off,
+            }
+        )
 
     def place_at(self, time: float) -> tuple[float, ...]:
         """Where the robot was at a time [s], shape (d,)."""

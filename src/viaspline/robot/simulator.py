@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from viaspline.errors import GeometryError
-from viaspline.handed_in import check_callable, check_kind, seed_from, time_from
-from viaspline.mission.model import Mission
+from viaspline.formats.asked_for import AskedMission, asked_mission
+from viaspline.handed_in import check_callable, seed_from, time_from
 from viaspline.planner import Plan
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Run
@@ -28,7 +28,7 @@ MAX_DELAY_S = 600.0
 
 
 def simulate(
-    mission: Mission,
+    mission: AskedMission,
     *,
     seed: int = 0,
     step: float = 0.05,
@@ -47,7 +47,7 @@ def simulate(
     duration and ten minutes; then it is broken off, with that as its reason.
 
     Args:
-        mission: What to do.
+        mission: What to do, or the file in which that stands.
         seed: Of all that is random: the noise of a lidar, of the drive and of the localisation.
         step: Time between two looks of the sensor [s].
         progress: Called with the time [s], the distance driven and the length of the path [m].
@@ -59,12 +59,14 @@ def simulate(
         What was driven, whether the robot reached its goal or not: see ``Run.reached``.
 
     Raises:
+        MissionError: When a file can't be read, or has faults.
         PlanningError: When there is no path at all, or none was found.
         GaveUpError: When a budget ran out before that was known.
         GeometryError: When the step is not above 0, the sensor sees no farther than the robot's
             body, or a robot with a drive is sent on a route with heights.
 
     Example:
+        >>> from viaspline.mission.model import Mission
         >>> run = simulate(Mission.model_validate({
         ...     "world": {"unseen": [{"circle": {"center": [25, 1], "radius": 2}}]},
         ...     "robot": {"sensor": {"range_m": 10}},
@@ -73,7 +75,7 @@ def simulate(
         >>> run.reached, run.certificate.holds, len(run.replans)
         (True, True, 1)
     """
-    check_kind("mission", mission, Mission, "give Mission.model_validate({...}) or load(file)")
+    mission = asked_mission(mission)
     if mission.is_spatial:
         raise GeometryError("the mission is one in space; give fly(plan(mission))")
     step, seed = time_from("step", step), seed_from("seed", seed)

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from viaspline.presentable.compared_by_value import ComparedByValue
+
 
 @dataclass(frozen=True)
 class RobotState:
@@ -26,8 +28,8 @@ class RobotState:
     speed_across: float = 0.0
 
 
-@dataclass(frozen=True)
-class Command:
+@dataclass(frozen=True, eq=False)
+class Command(ComparedByValue):
     """What the robot is to do until the next step.
 
     For a robot with a drive, velocity and yaw rate are what the drive is to be given now: its

@@ -5,7 +5,7 @@ Tested through ``space/test_plan_spatial``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 from viaspline.curve.certificate import Certificate
@@ -13,15 +13,23 @@ from viaspline.curve.height_certificate import HeightCertificate
 from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.ledger import LedgerEntry
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.named_columns import Table
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.space.timing.spatial_limits import SpatialLimits
 from viaspline.space.timing.yaw_profile import YawProfile
+from viaspline.trajectory.path_samples import USUAL_STEP_M, flight_samples
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.space.spatial_world import SpatialWorld
 
 
 @dataclass(frozen=True, eq=False)
-class SpatialPlan:
+class SpatialPlan(ShownValue, SavedValue, ComparedByValue):
     """A proven path in space, where the robot looks on it, and its time law.
+
+    Two plans are equal if they are of one mission, with one path, one law and the same proofs; what
+    the search did to find them doesn't count.
 
     Attributes:
         mission: What was asked for.
@@ -48,12 +56,32 @@ class SpatialPlan:
     yaw: YawProfile
     trajectory: Trajectory
 
+    def _said(self) -> tuple[object, ...]:
+        left_out = ("ledger",)
+        return tuple(getattr(self, one.name) for one in fields(self) if one.name not in left_out)
+
     def __repr__(self) -> str:
         kept = f"{self.certificate.clearance:.2f} m clear"
         return (
             f"<SpatialPlan: {self.path.length:.1f} m in {self.trajectory.duration:.1f} s, {kept}, "
             f"{len(self.ledger)} detours>"
         )
+
+    def samples(self, step: float = USUAL_STEP_M) -> Table:
+        """The path as a table, which pandas and polars take as it is.
+
+        Args:
+            step: From point to point along the path, at most [m]; both ends are among them.
+
+        Returns:
+            A structured array, (n,), of ``distance_m``, ``x_m``, ``y_m``, ``z_m``, ``agl_m`` (the
+            height above ground where that is known), ``heading_rad`` of the body,
+            ``curvature_1pm``, ``speed_mps``, ``climb_mps`` and ``time_s``.
+
+        Raises:
+            GeometryError: When the step is no number above 0, or the table has too many rows.
+        """
+        return flight_samples(self.path, self.trajectory, self.yaw.at, self.world.ground_at, step)
 
     @cached_property
     def sharpest_radius(self) -> float:

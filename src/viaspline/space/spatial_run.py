@@ -9,11 +9,16 @@ from dataclasses import dataclass
 
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.moving_value import MovingValue
+from viaspline.presentable.named_columns import Table, coordinates, named_columns
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.space.spatial_plan import SpatialPlan
 
 
 @dataclass(frozen=True, eq=False)
-class SpatialReplan:
+class SpatialReplan(ComparedByValue):
     """Another path under way.
 
     Attributes:
@@ -32,7 +37,7 @@ class SpatialReplan:
 
 
 @dataclass(frozen=True, eq=False)
-class SpatialRun:
+class SpatialRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
     """What was flown: exactly along the path, by a point that follows its time law.
 
     Attributes:
@@ -65,6 +70,23 @@ class SpatialRun:
         return (
             f"<SpatialRun: {self.duration:.1f} s, {self.clearance:.2f} m clear, "
             f"{len(self.replans)} re-plans, {end}>"
+        )
+
+    def samples(self) -> Table:
+        """What was flown as a table over time, which pandas and polars take as it is.
+
+        Returns:
+            A structured array, (n,), of ``time_s``, ``x_m``, ``y_m``, ``z_m``, ``heading_rad`` of
+            the body, ``speed_mps`` and ``climb_mps``.
+        """
+        return named_columns(
+            {
+                "time_s": self.times,
+                **coordinates(self.positions),
+                "heading_rad": self.headings,
+                "speed_mps": self.speeds,
+                "climb_mps": self.climbs,
+            }
         )
 
     @property

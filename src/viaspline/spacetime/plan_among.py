@@ -169,7 +169,8 @@ def _law(problem: TimedProblem, taken: Alternative) -> Outcome[Trajectory]:
     )  # fmt: skip
 
 
-def _certificate(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCertificate:
+def moving_proof(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCertificate:
+    """What is proven of a path and a law on it: the distance to all that moves."""
     requirements = problem.requirements
     return certify_moving(
         path, law, problem.moving, requirements.kept, radius=requirements.radius,
@@ -186,7 +187,7 @@ def _better(
     cost = problem.cost(path, law)
     if best is not None and problem.cost(best.solution.path, best.trajectory) <= cost:
         return best
-    certificate = _certificate(problem, path, law)
+    certificate = moving_proof(problem, path, law)
     if not certificate.holds:
         return best
     return TimedDrive(taken.solution, law, certificate, taken.free)

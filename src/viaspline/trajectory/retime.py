@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from viaspline.curve.polynomial_curve import curve_from
 from viaspline.errors import GeometryError
 from viaspline.handed_in import all_of, check_answers, check_kind
 from viaspline.mission.world_spec import SpeedZone
@@ -62,7 +63,7 @@ def retime(
     Args:
         path: What is driven: a piecewise cubic such as ``Path`` or ``CardinalSpline``, or anything
             with ``domain`` and ``evaluate(u, derivative)``, for which distances are measured from
-            its start.
+            its start; or a ``PPoly``, ``BPoly`` or ``BSpline`` of scipy.
         limits: Of speed, acceleration, yaw, jerk and axes.
         stations: Stops, each with its dwell; those before ``start`` are left out.
         zones: Areas in which the reference point of the robot drives no faster than they say. A
@@ -100,6 +101,7 @@ def retime(
         >>> round(retime(line, Limits(max_speed=2, max_accel=1), zones=[slow]).duration, 3)
         20.0
     """
+    path = curve_from(path)
     check_answers("path", path, "domain", "give a CardinalSpline, or the path of a plan")
     stations = all_of("stations", stations, Station, "give Station(distance, dwell)")
     zones = all_of("zones", zones, SpeedZone, "give SpeedZone(polygon=..., max_speed_mps=...)")

@@ -15,12 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 from viaspline.handed_in import numbers_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.integrate import ride
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.motion_pieces import after, speed_into, time_into
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class Trajectory(ShownValue, ComparedByValue):
     """Speed and time along a path, exact between its points.
 
     Without a limit of the jerk the acceleration is constant from point to point. With one it
@@ -57,6 +59,14 @@ class Trajectory:
     def __post_init__(self) -> None:
         for values in (self.distances, self.speeds, self.times, self.accelerations):
             values.flags.writeable = False
+
+    def __repr__(self) -> str:
+        begin, end = float(self.distances[0]), float(self.distances[-1])
+        stops = f", {len(self.stations)} stations" if self.stations else ""
+        return (
+            f"<Trajectory: {begin:g} m to {end:.1f} m in {self.duration:.1f} s from "
+            f"{self.start_time:g} s on, at most {float(self.speeds.max()):.2f} m/s{stops}>"
+        )
 
     @classmethod
     def through(

@@ -16,10 +16,11 @@ from viaspline.kernels.motion.packed_motion import PackedMotion
 from viaspline.mission.model import Mission
 from viaspline.mission.motion_checks import faults_of_one
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.world.pack_motion import pack_motion
 
 
-class MovingObstacles:
+class MovingObstacles(ComparedByValue):
     """Obstacles with a motion each, by one clock.
 
     Two that look alike are two: an obstacle is known by its place among them.
@@ -84,6 +85,9 @@ class MovingObstacles:
     def alone(self, index: int) -> MovingObstacles:
         """One of them."""
         return MovingObstacles([self.obstacles[index]], since=self.since[index])
+
+    def _said(self) -> tuple[object, ...]:
+        return self.obstacles, self.since
 
     @cached_property
     def packed(self) -> PackedMotion:

@@ -18,6 +18,8 @@ from viaspline.kernels.world.packed import PackedWorld
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.obstacle import Obstacle, Side
 from viaspline.mission.strip import corridor_rings
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.shown_value import ShownValue
 from viaspline.world.outline import outline
 from viaspline.world.pack import Rings, join, pack, pack_discs
 from viaspline.world.tree_growth import leaf_boxes
@@ -27,7 +29,7 @@ NOTHING = -1  # the index of what is nearest in an empty world
 BOUNDS = -2  # what stands for the bounds where an index names what is nearest; fences follow
 
 
-class World:
+class World(ShownValue, ComparedByValue):
     """Circles, polygons, grids, and the bounds and fences that the robot stays inside of.
 
     The distance to the world is the smallest of the signed distances to all of them:
@@ -185,6 +187,9 @@ class World:
     def enclosures(self) -> tuple[tuple[tuple[float, float], ...], ...]:
         """The outer rings of the fences and of the corridor [m]."""
         return (*self.fences, *self.corridor[:1])
+
+    def _said(self) -> tuple[object, ...]:
+        return self.obstacles, self.bounds, self.fences, self.corridor, self._listed
 
     def __len__(self) -> int:
         return len(self.obstacles)

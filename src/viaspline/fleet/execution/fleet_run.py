@@ -5,6 +5,7 @@ Tested through ``fleet/execution/test_simulate_fleet``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -15,7 +16,15 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.execution.fleet_orders import index_of
 from viaspline.fleet.fleet_certificate import FleetCertificate, certify_fleet
 from viaspline.fleet.fleet_laws import FleetLaws
+from viaspline.handed_in import time_from
 from viaspline.kernels.arrays import Floats
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.moving_value import MovingValue
+from viaspline.presentable.named_columns import Table, named_columns, stacked_tables
+from viaspline.presentable.saved_value import SavedValue
+from viaspline.presentable.shown_value import ShownValue
+
+USUAL_STEP_S = 0.1
 
 FleetEventKind = Literal[
     "waits", "goes on", "swapped", "arrived", "refused", "ignored", "dead", "taken out", "silent",
@@ -50,7 +59,7 @@ def swapped_event(first: str, second: str, time: float) -> FleetEvent:
 
 
 @dataclass(frozen=True, eq=False)
-class FleetRun:
+class FleetRun(ShownValue, MovingValue, SavedValue, ComparedByValue):
     """A drive of a fleet that was simulated.
 
     Attributes:
@@ -100,6 +109,29 @@ class FleetRun:
     def mean_delay(self) -> float:
         """Of those that arrived [s]; 0 if none did."""
         return float(np.mean(list(self.delays.values()))) if self.delays else 0.0
+
+    def samples(self, step: float = USUAL_STEP_S) -> Table:
+        """How far each robot had come, as a table, which pandas and polars take as it is.
+
+        Args:
+            step: From one moment to the next, at most [s]; the beginning and the end are among
+                them.
+
+        Returns:
+            A structured array, (n,), of ``robot``, ``time_s`` and ``distance_m`` along its path.
+
+        Raises:
+            GeometryError: When the step is no time above 0.
+        """
+        count = math.ceil(self.end_s / time_from("step", step)) + 1
+        times = np.linspace(0.0, self.end_s, max(count, 2))
+        return stacked_tables(
+            "robot",
+            {
+                name: named_columns({"time_s": times, "distance_m": self.distance_at(name, times)})
+                for name in self.names
+            },
+        )
 
     def distance_at(self, name: str, times: Floats) -> Floats:
         """How far a robot had come at some times [m], exactly, (t,).

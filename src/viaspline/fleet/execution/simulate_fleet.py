@@ -15,10 +15,10 @@ from viaspline.fleet.execution.fleet_run import FleetEvent, FleetRun, swapped_ev
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.fleet.plan_fleet import PERIODS, FleetProgress, plan_fleet
 from viaspline.fleet.still_world import check_still
+from viaspline.formats.asked_for import AskedFleet, asked_fleet
 from viaspline.handed_in import check_kind, seed_from, time_from
 from viaspline.kernels.fleet.fleet_ticks import SWAPPED, WAITS, FleetTicks, fleet_ticks
 from viaspline.kernels.fleet.granted_drive import PackedTrouble
-from viaspline.mission.fleet.fleet import Fleet
 
 SWAPS_S = 1.0
 """Between two looks for orders to swap."""
@@ -29,7 +29,7 @@ LONGEST_S = 1e5
 
 
 def simulate_fleet(
-    fleet: Fleet,
+    fleet: AskedFleet,
     delays: Delays | None = None,
     plan: FleetPlan | None = None,
     *,
@@ -45,7 +45,7 @@ def simulate_fleet(
     out. Patrols, which never end, drive the laps that their plans hold, and stop at their starts.
 
     Args:
-        fleet: What was asked for.
+        fleet: What was asked for, or the file in which that stands.
         delays: What goes wrong; nothing if it isn't given.
         plan: Its plan, if there is one already.
         seed: Of all that is random: the same seed makes the same run.
@@ -61,6 +61,7 @@ def simulate_fleet(
             these wait for nobody.
 
     Example:
+        >>> from viaspline.mission.fleet.fleet import Fleet
         >>> fleet = Fleet.model_validate({"separation_m": 1, "fleet": [
         ...     {"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}},
         ...     {"name": "b", "route": {"start": [20, -20], "goal": [20, 20]}},
@@ -69,7 +70,7 @@ def simulate_fleet(
         >>> run.reached, run.certificate.separation >= 1.0
         (True, True)
     """
-    check_kind("fleet", fleet, Fleet, "give Fleet.model_validate({...}) or load(file)")
+    fleet = asked_fleet(fleet)
     delays = Delays() if delays is None else delays
     check_kind("delays", delays, Delays, "give Delays(slowed=0.3)")
     if plan is not None:

@@ -17,11 +17,12 @@ from viaspline.kernels.fleet.packed_rides import PackedRides
 from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.planner import Plan
+from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.trajectory.coupled import is_coupled
 
 
 @dataclass(frozen=True, eq=False)
-class FleetRides:
+class FleetRides(ComparedByValue):
     """The fastest law of every robot where it is alone.
 
     Attributes:

@@ -17,6 +17,7 @@ from viaspline.mission.fleet.fleet_validation import sound_fleet
 from viaspline.mission.fleet.member_parts import parts_of
 from viaspline.mission.fleet.member_spec import Rest
 from viaspline.mission.model import Mission
+from viaspline.presentable.shown_value import ShownValue
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ class FleetMember:
     rest: Rest = "stay"
 
 
-class Fleet(FleetParts):
+class Fleet(ShownValue, FleetParts):
     """Robots with their missions over one world.
 
     Every way to make one raises `viaspline.errors.MissionError` with every fault at once.

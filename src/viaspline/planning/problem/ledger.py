@@ -8,13 +8,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from viaspline.presentable.compared_by_value import ComparedByValue
+
 PassingSide = Literal["left", "right", "over", "under", "straight"]
 """On which side of a thing a way goes past it, seen along the leg; straight where it only keeps
 closer to the line than the spline does."""
 
 
-@dataclass(frozen=True)
-class Candidate:
+@dataclass(frozen=True, eq=False)
+class Candidate(ComparedByValue):
     """One way past a group.
 
     Attributes:

@@ -56,6 +56,22 @@ def draw_fleet_map(
         motion: Where the robots are meanwhile.
         colours: Of the robots.
     """
+    handles = draw_fleet_on(sheet, scene, plan, timelines, motion, colours)
+    column = SideColumn(sheet)
+    column.legend([*handles, *_chart_keys(timelines)])
+    why = [f"{one.name}: {one.reason}" for one in plan.not_served]
+    column.notes("Not served", [line for words in why for line in textwrap.wrap(words, NOTE_WIDTH)])
+
+
+def draw_fleet_on(
+    sheet: Sheet, scene: Scene, plan: FleetPlan, timelines: Sequence[Timeline],
+    motion: FleetMotion, colours: FleetColours,
+) -> list[Artist]:  # fmt: skip
+    """Draw a fleet's plan on the map of a sheet, of which nothing else is touched.
+
+    Returns:
+        What belongs in a legend.
+    """
     members = plan.fleet.members
     labels = Labels(sheet.map)
     handles = scene.draw(sheet.map, sheet.pixels_per_metre)
@@ -70,10 +86,7 @@ def draw_fleet_map(
     scene.name(labels)
     arrows = draw_wait_arrows(sheet.map, labels, motion.place_at, timelines, colours)
     labels.place(np.vstack([*paths, np.zeros((0, 2))]), places, marker_size=5.0)
-    column = SideColumn(sheet)
-    column.legend([*robot_keys(colours), *marks, *arrows, *handles, *_chart_keys(timelines)])
-    why = [f"{one.name}: {one.reason}" for one in plan.not_served]
-    column.notes("Not served", [line for words in why for line in textwrap.wrap(words, NOTE_WIDTH)])
+    return [*robot_keys(colours), *marks, *arrows, *handles]
 
 
 def scene_of(plan: FleetPlan) -> tuple[Scene, Box]:

@@ -29,6 +29,9 @@ MAX_SOLIDS: Final = 150
 MAX_CUBES: Final = 4000
 MAX_NODES: Final = 40
 
+LEAST_SHARE: Final = 0.25
+"""Of the longest side of what is shown, to which a shorter one is widened."""
+
 Face = list[tuple[float, float, float]]
 
 
@@ -44,22 +47,35 @@ def draw_space(figure: Figure, box: tuple[float, float, float, float], path: Pat
     """
     axes = figure.add_axes(box, projection="3d")
     assert isinstance(axes, Axes3D)
+    draw_in_perspective(axes, path, scene)
+    axes.tick_params(labelsize=style.SMALL_PT - 2, pad=-3)
+    return axes
+
+
+def draw_in_perspective(axes: Axes3D, path: Path, scene: SpatialScene) -> None:
+    """Draw the path among what stands near it.
+
+    Args:
+        axes: In three dimensions.
+        path: In space.
+        scene: What stands in the world.
+    """
     places = path.at_distance(np.linspace(0.0, path.length, 400))
     low, high = places.min(axis=0), places.max(axis=0)
     _draw_ground(axes, scene, low, high)
     _draw_solids(axes, scene, places)
-    axes.plot(places[:, 0], places[:, 1], places[:, 2], color=style.PATH, linewidth=1.6, zorder=9)
+    axes.plot(places[:, 0], places[:, 1], places[:, 2], color=style.PATH, linewidth=1.6, zorder=9,
+              label="path")  # fmt: skip
     ends = places[[0, -1]]
     axes.scatter(ends[:, 0], ends[:, 1], ends[:, 2], color=[style.START, style.GOAL], s=12)
-    size = np.maximum(high - low, 0.05 * float((high - low).max()) + 1e-6)
-    axes.set_box_aspect((float(size[0]), float(size[1]), float(max(size[2], 0.25 * size.max()))))
-    axes.set_xlim(low[0], high[0])
-    axes.set_ylim(low[1], high[1])
-    floor = _floor(scene, places)
-    axes.set_zlim(min(floor, low[2]), max(high[2], floor + 0.1))
-    axes.tick_params(labelsize=style.SMALL_PT - 2, pad=-3)
+    low[2] = min(low[2], _floor(scene, places))
+    wide = np.maximum(high - low, LEAST_SHARE * float((high - low).max()) + 1e-6)
+    sides, floor = 0.5 * (wide - (high - low))[:2], float(low[2])
+    axes.set_xlim(low[0] - sides[0], high[0] + sides[0])
+    axes.set_ylim(low[1] - sides[1], high[1] + sides[1])
+    axes.set_zlim(floor, floor + wide[2])
+    axes.set_box_aspect(wide.tolist())
     axes.view_init(elev=32, azim=-60)
-    return axes
 
 
 def _floor(scene: SpatialScene, places: Floats) -> float:
@@ -97,15 +113,13 @@ def _draw_solids(axes: Axes3D, scene: SpatialScene, places: Floats) -> None:
         else:
             _draw_cubes(axes, solid, places)
             continue
-        axes.add_collection3d(
-            Poly3DCollection(
-                faces,
-                facecolor=style.OBSTACLE,
-                edgecolor=style.OBSTACLE_EDGE,
-                linewidth=0.3,
-                alpha=alpha,
-            )
-        )
+        for corners in sorted({len(face) for face in faces}):  # matplotlib pads others with noise
+            axes.add_collection3d(
+                Poly3DCollection(
+                    [face for face in faces if len(face) == corners], facecolor=style.OBSTACLE,
+                    edgecolor=style.OBSTACLE_EDGE, linewidth=0.3, alpha=alpha,
+                )
+            )  # fmt: skip
 
 
 def _prism_faces(shadow: shapely.Geometry, low: float, high: float) -> list[Face]:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from viaspline.report.csv_tables import CsvColumn, csv_text, spacing
+from viaspline.report.csv_tables import spacing, table_csv
 from viaspline.report.json_text import dumps
 from viaspline.report.plan_json import (
     certificate_data,
@@ -71,22 +71,7 @@ def _yaw(yaw: YawProfile) -> dict[str, Any]:
 
 def spatial_path_csv(plan: SpatialPlan) -> str:
     """Points of the planned path, equally far apart; the last one is the path's end."""
-    path = plan.path
-    u, distance, points = path.sample(spacing(path.length))
-    ground = plan.world.ground_at(points)
-    known = np.where(np.isfinite(ground), points[:, 2] - ground, np.nan)
-    speed = np.asarray(plan.trajectory.speed_at(distance))
-    columns: list[CsvColumn] = [
-        ("distance_m", distance, 6),
-        *((f"{axis}_m", points[:, k], 6) for k, axis in enumerate("xyz")),
-        ("agl_m", known, 3),
-        ("heading_rad", plan.yaw.at(distance), 9),
-        ("curvature_1pm", np.asarray(path.curvature(u)), 9),
-        ("speed_mps", speed, 6),
-        ("climb_mps", speed * path.tangent(u)[:, 2], 6),
-        ("time_s", np.asarray(plan.trajectory.time_at(distance)), 6),
-    ]
-    return csv_text(columns)
+    return table_csv(plan.samples(spacing(plan.path.length)))
 
 
 def flight_json(run: SpatialRun, name: str) -> str:
@@ -123,11 +108,4 @@ def flight_json(run: SpatialRun, name: str) -> str:
 
 def flight_csv(run: SpatialRun) -> str:
     """What was flown, over time."""
-    columns: list[CsvColumn] = [
-        ("time_s", run.times, 6),
-        *((f"{axis}_m", run.positions[:, k], 6) for k, axis in enumerate("xyz")),
-        ("heading_rad", run.headings, 9),
-        ("speed_mps", run.speeds, 6),
-        ("climb_mps", run.climbs, 6),
-    ]
-    return csv_text(columns)
+    return table_csv(run.samples())

@@ -6,6 +6,8 @@ Tested through ``report/space/test_spatial_pictures``.
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.terrain import Terrain
@@ -14,7 +16,7 @@ from viaspline.report.canvas import any_name, png, polyline
 from viaspline.report.labels import Labels
 from viaspline.report.path_marks import draw_arrows, draw_path, draw_tightest, draw_vias
 from viaspline.report.profile_strips import Ticks
-from viaspline.report.sheet import view_of
+from viaspline.report.sheet import Box, view_of
 from viaspline.report.space.elevation_profile import SAMPLES, ProfileRange, draw_profile
 from viaspline.report.space.solid_marks import draw_solids
 from viaspline.report.space.space_view import draw_space
@@ -47,23 +49,14 @@ def drawn_page(plan: SpatialPlan, name: str, dpi: int = style.DPI) -> SpatialShe
         dpi: Pixels for each inch of it.
     """
     scene = scene_of(plan)
-    points = polyline(plan.path.spans)
     robot = plan.mission.robot
-    margin = robot.radius_m + robot.clearance_m
-    view = view_of(points, scene.corners(), plan.world.bounds, margin)
     title = (
         f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in "
         f"{seconds(plan.trajectory.duration)}"
     )
-    sheet = spatial_sheet(view, title, (proof_words(plan), _subtitle(plan)), dpi)
-    handles = draw_solids(sheet.map, scene, sheet.pixels_per_metre)
-    labels = Labels(sheet.map)
-    handles.append(draw_path(sheet.map, points))
-    route = [via for via in plan.path.vias if via.kind == "detour" or via.index is not None]
-    vias, places = draw_vias(sheet.map, labels, route, plan.mission)
-    draw_arrows(sheet.map, points, style.PATH, avoid=places)
-    handles += vias + draw_tightest(sheet.map, labels, plan.certificate)
-    labels.place(points, places)
+    words = (proof_words(plan), _subtitle(plan))
+    sheet = spatial_sheet(plan_view_of(plan, scene), title, words, dpi)
+    handles = draw_plan_view(sheet.map, sheet.pixels_per_metre, scene, plan)
     handles += draw_profile(sheet.elevation, plan.path, scene, robot.radius_m, band_of(plan))
     _fill_strips(sheet, plan)
     draw_space(sheet.figure, sheet.view, plan.path, scene)
@@ -75,6 +68,39 @@ def drawn_page(plan: SpatialPlan, name: str, dpi: int = style.DPI) -> SpatialShe
     for text in legend.get_texts():
         text.set_parse_math(False)
     return sheet
+
+
+def plan_view_of(plan: SpatialPlan, scene: SpatialScene) -> Box:
+    """The part of the world that is seen from above."""
+    robot = plan.mission.robot
+    margin = robot.radius_m + robot.clearance_m
+    return view_of(polyline(plan.path.spans), scene.corners(), plan.world.bounds, margin)
+
+
+def draw_plan_view(
+    axes: Axes, pixels_per_metre: float, scene: SpatialScene, plan: SpatialPlan
+) -> list[Artist]:
+    """Draw a plan in space as it is seen from above.
+
+    Args:
+        axes: They show the part of the world that is to be seen.
+        pixels_per_metre: Their scale.
+        scene: What stands in the world.
+        plan: What was planned.
+
+    Returns:
+        What belongs in a legend.
+    """
+    points = polyline(plan.path.spans)
+    handles = draw_solids(axes, scene, pixels_per_metre)
+    labels = Labels(axes)
+    handles.append(draw_path(axes, points))
+    route = [via for via in plan.path.vias if via.kind == "detour" or via.index is not None]
+    vias, places = draw_vias(axes, labels, route, plan.mission)
+    draw_arrows(axes, points, style.PATH, avoid=places)
+    handles += vias + draw_tightest(axes, labels, plan.certificate)
+    labels.place(points, places)
+    return handles
 
 
 def scene_of(plan: SpatialPlan) -> SpatialScene:

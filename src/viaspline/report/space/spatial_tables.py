@@ -10,35 +10,55 @@ import math
 from rich.console import Group, RenderableType
 
 from viaspline.report.space.heights_json import heights_rows
-from viaspline.report.terminal_tables import MAX_LIST_LINES, facts_table, ledger_table
+from viaspline.report.terminal_tables import MAX_LIST_LINES, Rows, facts_table, ledger_table
 from viaspline.report.units import asked_words, down, metres, place, seconds
 from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.space.spatial_run import SpatialRun
 
 
 def spatial_plan_tables(plan: SpatialPlan, name: str) -> RenderableType:
     """The path in figures, and its ledger."""
+    facts = facts_table(f"Plan · {name}", spatial_plan_rows(plan))
+    return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
+
+
+def spatial_plan_rows(plan: SpatialPlan) -> Rows:
+    """The path in figures: names, and what they are."""
     path, certificate = plan.path, plan.certificate
-    facts = facts_table(f"Plan · {name}")
+    rows: Rows = []
     users = sum(via.kind == "user" for via in path.vias)
     detours = len(path.vias) - users
-    facts.add_row("length", metres(path.length, 1))
-    facts.add_row("duration", seconds(plan.trajectory.duration))
-    facts.add_row("points of the route", f"{users}, and {detours} of detours")
+    rows.append(("length", metres(path.length, 1)))
+    rows.append(("duration", seconds(plan.trajectory.duration)))
+    rows.append(("points of the route", f"{users}, and {detours} of detours"))
     asked = asked_words(certificate.required)
-    facts.add_row("clearance, proven", f"{down(certificate.clearance)} (asked {asked})")
+    rows.append(("clearance, proven", f"{down(certificate.clearance)} (asked {asked})"))
     if certificate.obstacle is not None:
-        facts.add_row(
-            "tightest place",
-            f"{place(certificate.tightest_at)} at {metres(certificate.tightest_distance, 1)}, "
-            f"beside {certificate.obstacle}",
+        rows.append(
+            (
+                "tightest place",
+                f"{place(certificate.tightest_at)} at {metres(certificate.tightest_distance, 1)}, "
+                f"beside {certificate.obstacle}",
+            )
         )
-    for row in heights_rows(plan):
-        facts.add_row(*row)
+    rows += heights_rows(plan)
     radius = plan.sharpest_radius
-    facts.add_row("sharpest radius", "straight" if math.isinf(radius) else metres(radius))
+    rows.append(("sharpest radius", "straight" if math.isinf(radius) else metres(radius)))
     stations = [s for s in plan.trajectory.stations if s.dwell > 0]
     if stations:
-        facts.add_row(
-            "stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:MAX_LIST_LINES])
+        rows.append(
+            ("stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:MAX_LIST_LINES]))
         )
-    return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
+    return rows
+
+
+def spatial_run_rows(run: SpatialRun) -> Rows:
+    """What was flown in figures: names, and what they are."""
+    return [
+        ("reached its goal", "yes" if run.reached else f"NO: {run.reason}"),
+        ("flown", seconds(run.duration)),
+        ("clearance, proven", down(run.clearance)),
+        ("largest speed", f"{float(run.speeds.max()):.2f} m/s"),
+        ("heights", f"{metres(run.positions[:, 2].min(), 1)} to {run.positions[:, 2].max():.1f} m"),
+        ("other paths under way", str(len(run.replans))),
+    ]

@@ -16,6 +16,7 @@ from viaspline.kernels.sensing.raycast import cast
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.presentable.compared_by_value import ComparedByValue
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.shapes_at import shapes_at
 from viaspline.world.world import World
@@ -25,7 +26,7 @@ MAX_NOISE_SIGMAS = 3.0
 
 
 @dataclass(frozen=True, eq=False)
-class Scan:
+class Scan(ComparedByValue):
     """One look round, in the words of ROS's LaserScan, and from where it was taken.
 
     Attributes:

@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from viaspline.curve.certificate import certify
 from viaspline.errors import GeometryError
+from viaspline.formats.asked_for import AskedMission, asked_mission
 from viaspline.handed_in import check_kind, time_from
 from viaspline.mission.model import Mission
 from viaspline.mission.space.flight_places import flight_places
@@ -23,6 +25,7 @@ from viaspline.space.online.recorded_flight import recorded
 from viaspline.space.online.replan_in_space import NewLeg, replan_in_space
 from viaspline.space.online.sightings import UnseenSolid, first_sighting
 from viaspline.space.online.takeover import Takeover, braked_takeover, smooth_takeover
+from viaspline.space.plan_spatial import plan_spatial
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem, SpatialVia
 from viaspline.space.spatial_request import spatial_problem_of, spatial_world_of
@@ -60,17 +63,20 @@ class _Flight:
     reason: str = ""
 
 
-def fly(plan: SpatialPlan, step: float = STEP_S) -> SpatialRun:
+def fly(plan: SpatialPlan | AskedMission, step: float = STEP_S) -> SpatialRun:
     """Fly a plan.
 
     Args:
-        plan: It.
+        plan: It; or a mission in space, or the file of one, which is planned first.
         step: From one moment of the result to the next, and between two looks [s].
 
     Raises:
-        GeometryError: When there is something unseen and no sensor to see it.
+        MissionError: When a file can't be read, or has faults.
+        NoPathError, GaveUpError: When a mission has no path, or none is found.
+        GeometryError: When there is something unseen and no sensor to see it, or the mission isn't
+            one in space.
     """
-    check_kind("plan", plan, SpatialPlan, "give plan(mission) of a mission in space")
+    plan = _planned(plan)
     step = time_from("step", step)
     mission = plan.mission
     flight = _Flight(
@@ -91,6 +97,18 @@ def fly(plan: SpatialPlan, step: float = STEP_S) -> SpatialRun:
     everything = _with_seen(mission, _unseen(mission, plan.world))
     world = spatial_world_of(everything, flight_places(mission))
     return recorded(plan, flight.legs, flight.replans, flight.reason, world, step)
+
+
+def _planned(plan: object) -> SpatialPlan:
+    """A plan that was handed in, or that of a mission that was."""
+    if isinstance(plan, str | Path | Mission):
+        mission = asked_mission(plan)
+        if not mission.is_spatial:
+            raise GeometryError("the mission says nothing of heights; hand it to simulate")
+        return plan_spatial(mission)
+    check_kind("plan", plan, SpatialPlan, "give plan(mission) of a mission in space")
+    assert isinstance(plan, SpatialPlan)
+    return plan
 
 
 def _unrolled(problem: SpatialProblem) -> SpatialProblem:

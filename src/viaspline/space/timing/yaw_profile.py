@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
+from viaspline.presentable.compared_by_value import ComparedByValue
 
 NODES_PER_SPAN: Final = 24
 
@@ -29,7 +30,7 @@ UPRIGHT: Final = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class YawProfile:
+class YawProfile(ComparedByValue):
     """Headings along a path.
 
     Attributes:

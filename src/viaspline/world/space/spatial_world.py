@@ -20,6 +20,8 @@ from viaspline.kernels.space.space_distance import space_distances
 from viaspline.maps.terrain import Terrain
 from viaspline.maps.voxels import Voxels
 from viaspline.mission.shapes.solids import GridPrism, Prism, RoundedSegment, Solid
+from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.presentable.told_value import ToldValue
 from viaspline.world.pack import Rings
 from viaspline.world.space.height_band import HeightBand
 from viaspline.world.space.pack_space import pack_space
@@ -29,7 +31,7 @@ SOLIDS = (Prism, GridPrism, RoundedSegment, Voxels)
 
 
 @dataclass(frozen=True, eq=False)
-class SpatialWorld:
+class SpatialWorld(ToldValue, ComparedByValue):
     """Solids and ground, in bounds that reach over all heights.
 
     A place is that of the robot's reference point, and its distance that of an upright cylinder

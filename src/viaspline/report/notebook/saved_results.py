@@ -1,0 +1,136 @@
+"""What ``plan.save(folder)`` and its like write: the files that the command line writes."""
+
+from __future__ import annotations
+
+import warnings
+from contextlib import suppress
+from pathlib import Path
+from typing import Final
+
+from viaspline.errors import MissionWarning, OutputError
+from viaspline.fleet.execution.fleet_run import FleetRun
+from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.handed_in import check_kind
+from viaspline.mission.model import Mission
+from viaspline.planner import Plan
+from viaspline.presentable.upper_doors import opened, opened_for
+from viaspline.report.fleet_results import check_robot_folders, fleet_contents, write_robots
+from viaspline.report.fleet_run_json import fleet_run_json
+from viaspline.report.result_files import ResultFolder
+from viaspline.report.results import (
+    MISSION_FILE,
+    Contents,
+    mission_contents,
+    plan_contents,
+    run_contents,
+)
+from viaspline.report.space.spatial_results import spatial_plan_contents, spatial_run_contents
+from viaspline.robot.run import Run
+from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.space.spatial_run import SpatialRun
+
+SINGLE_FILES: Final = frozenset(
+    {".plan", ".waypoints", ".geojson", ".kml", ".gpx", ".csv", ".json", ".yaml", ".yml", ".mcap"}
+)
+"""Endings of files that are written alone: what an autopilot or a map takes."""
+
+
+def save(value: object, path: str | Path) -> list[Path]:
+    """Write a plan or a run.
+
+    Args:
+        value: It.
+        path: The folder, which is made if it isn't there; its name is that of the mission. With one
+            of the endings of ``SINGLE_FILES`` it is a file, which the exports write.
+
+    Returns:
+        What was written.
+
+    Raises:
+        OutputError: It can't be written, or there is nobody who writes such a file.
+        GeometryError: ``path`` is no path.
+
+    Warns:
+        MissionWarning: The mission has a map that was made in memory, so that it can't be a file.
+    """
+    check_kind("path", path, (str, Path), "give the path of a folder")
+    target = Path(path)
+    if target.suffix.lower() in SINGLE_FILES and not target.is_dir():
+        return _exported(value, target)
+    found: list[Path] = opened_for("files", value)(value, target)
+    return found
+
+
+def _exported(value: object, target: Path) -> list[Path]:
+    """What the exports write into a file of their own."""
+    if not isinstance(value, Plan | SpatialPlan):
+        kind = type(value).__name__
+        raise OutputError(target, f"a {kind} isn't written as such a file; give a folder")
+    try:
+        export = opened("export")
+    except ImportError:
+        problem = f"this installation has nothing that writes {target.suffix}"
+        raise OutputError(target, f"{problem}; give a folder") from None
+    export(value, target)
+    return [target]
+
+
+def plan_files(plan: Plan, folder: Path) -> list[Path]:
+    """Those of ``viaspline plan`` but for the wall clock's."""
+    name = _name_of(folder)
+    return _written(folder, plan_contents(plan, name) | _mission_in(folder, plan.mission))
+
+
+def spatial_plan_files(plan: SpatialPlan, folder: Path) -> list[Path]:
+    """Those of ``viaspline plan`` but for the wall clock's."""
+    contents = spatial_plan_contents(plan, _name_of(folder))
+    return _written(folder, contents | _mission_in(folder, plan.mission))
+
+
+def fleet_plan_files(plan: FleetPlan, folder: Path) -> list[Path]:
+    """Those of ``viaspline plan`` but for the wall clock's, with a folder for each robot."""
+    check_robot_folders(folder, (one.name for one in plan.fleet.members))
+    files = _written(folder, fleet_contents(plan, _name_of(folder)))
+    return files + write_robots(plan, folder, lambda share: None)
+
+
+def run_files(run: Run, folder: Path) -> list[Path]:
+    """Those of ``viaspline run`` but for the wall clock's: of the run and of its plan."""
+    name = _name_of(folder)
+    contents = plan_contents(run.plan, name) | _mission_in(folder, run.plan.mission)
+    return _written(folder, contents | run_contents(run, name))
+
+
+def spatial_run_files(run: SpatialRun, folder: Path) -> list[Path]:
+    """Those of ``viaspline run`` but for the wall clock's: of the flight and of its plan."""
+    name = _name_of(folder)
+    contents = spatial_plan_contents(run.plan, name) | _mission_in(folder, run.plan.mission)
+    return _written(folder, contents | spatial_run_contents(run, name))
+
+
+def fleet_run_files(run: FleetRun, folder: Path) -> list[Path]:
+    """``run.json``; its picture is one of the plan as well, which a run doesn't hold."""
+    return _written(folder, {"run.json": fleet_run_json(run, _name_of(folder))})
+
+
+def _mission_in(folder: Path, mission: Mission) -> Contents:
+    """The mission as it was planned; a map that was made in memory can't be in a file."""
+    try:
+        return mission_contents(mission, folder)
+    except OutputError as error:
+        stale = folder / MISSION_FILE
+        remedy = "keep the mission, and give it to load_plan"
+        warnings.warn(f"{stale} isn't written: {error}; {remedy}", MissionWarning, stacklevel=5)
+        with suppress(OSError):
+            stale.unlink(missing_ok=True)  # that of an earlier plan isn't this one's
+        return {}
+
+
+def _name_of(folder: Path) -> str:
+    return folder.resolve().name or "mission"
+
+
+def _written(folder: Path, contents: Contents) -> list[Path]:
+    """All files, when all of them are there."""
+    target = ResultFolder(folder, contents)
+    return [target.write(name, content) for name, content in contents.items()]

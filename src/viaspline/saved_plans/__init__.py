@@ -1,0 +1,1 @@
+"""Plans that were saved, read again and proven again."""

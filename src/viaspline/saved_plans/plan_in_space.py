@@ -1,0 +1,95 @@
+"""A saved plan in space, proven and timed again.
+
+Tested through ``saved_plans/test_load_plan``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viaspline.curve.height_certificate import certify_heights
+from viaspline.errors import GeometryError
+from viaspline.mission.model import Mission
+from viaspline.saved_plans.plan_file import PlanFile
+from viaspline.saved_plans.planar_plan import PROVEN_OFF_M, TIMED_OFF
+from viaspline.saved_plans.served_points import AskedPoint, check_served
+from viaspline.space.plan_spatial import headings_of, stops_of
+from viaspline.space.solve_route import whole_proof
+from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.space.spatial_problem import SpatialProblem
+from viaspline.space.spatial_request import spatial_problem_of
+from viaspline.space.timing.retime_in_space import retime_in_space
+
+
+def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
+    """The plan of a file, of which nothing is believed that can be proven.
+
+    Args:
+        plan: The file.
+        mission: As it was planned.
+
+    Raises:
+        SavedPlanError: It isn't a plan of the mission, its path isn't clear or too high or low, or
+            its proof or its time law isn't what the file says.
+    """
+    problem = spatial_problem_of(mission)
+    path = plan.path()
+    if path.dimension != 3:
+        raise plan.wrong("the path isn't in space, and the mission is")
+    check_served(plan, path, _points(problem))
+    ends = plan.numbers("airborne_m")
+    if ends.shape != (2,) or not 0.0 <= ends[0] <= ends[1] <= path.length * (1.0 + TIMED_OFF):
+        raise plan.wrong("airborne_m isn't a part of the path")
+    airborne = (float(ends[0]), float(ends[1]))
+    _check_upright(plan, problem, airborne, path.length)
+    try:
+        certificate = whole_proof(problem, path, airborne)
+        u = np.asarray(path.parameter(airborne)).tolist()
+        heights = certify_heights(path.section(*u), problem.world)
+    except GeometryError as error:
+        raise plan.wrong(f"the path can't be proven: {error}") from None
+    said = plan.number("certificate", "clearance_m")
+    plan.check("clearance [m]", said, certificate.clearance, PROVEN_OFF_M)
+    certificate = plan.named(certificate)
+    if not (certificate.holds and heights.holds):
+        raise plan.wrong("the path doesn't keep the clearance or the heights of its mission")
+    yaw = headings_of(problem, path)
+    law = retime_in_space(
+        path, problem.limits, tuple(stops_of(problem, path)), yaw, zones=problem.zones
+    )
+    lasts = plan.number("trajectory", "duration_s")
+    plan.check("duration [s]", lasts, law.duration, TIMED_OFF * (1.0 + law.duration))
+    return SpatialPlan(
+        mission, problem.world, path, certificate, heights, (), airborne, problem.limits, yaw, law
+    )
+
+
+def _points(problem: SpatialProblem) -> list[AskedPoint]:
+    """The points of a route that have to be served; take-off and landing are on the ground."""
+    points = [
+        AskedPoint(via.index, tuple(via.at.tolist()), via.dwell or 0.0)
+        for via in problem.vias
+        if via.index is not None
+    ]
+    if problem.takeoff is not None:
+        points[0] = points[0]._replace(at=tuple(problem.takeoff.tolist()), dwell=0.0)
+    if problem.landing is not None:
+        points[-1] = points[-1]._replace(at=tuple(problem.landing.tolist()), dwell=0.0)
+    return points
+
+
+def _check_upright(
+    plan: PlanFile, problem: SpatialProblem, airborne: tuple[float, float], length: float
+) -> None:
+    """See that only what takes off or lands is proven without the ground."""
+    grounded = (problem.takeoff is not None, problem.landing is not None)
+    if airborne[0] > 0.0 and not grounded[0]:
+        raise plan.wrong("airborne_m begins under way, and the mission has no take-off")
+    if airborne[1] < length * (1.0 - TIMED_OFF) and not grounded[1]:
+        raise plan.wrong("airborne_m ends under way, and the mission has no landing")
+    if problem.takeoff is not None:
+        up = float(np.linalg.norm(problem.vias[0].at - problem.takeoff))
+        plan.check("take-off [m]", airborne[0], up, TIMED_OFF * (1.0 + length))
+    if problem.landing is not None:
+        down = float(np.linalg.norm(problem.vias[-1].at - problem.landing))
+        plan.check("landing [m]", length - airborne[1], down, TIMED_OFF * (1.0 + length))

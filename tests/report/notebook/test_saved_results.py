@@ -1,0 +1,112 @@
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+import viaspline as vs
+from viaspline.cli import cli
+
+MISSION = vs.Mission.model_validate(
+    {
+        "world": {"known": [{"circle": {"center": [25, 0.5], "radius": 4}}]},
+        "route": {"start": [0, 0], "goal": [50, 0]},
+    }
+)
+TEXT = """
+world:
+  known:
+    - circle: {center: [25, 0.5], radius: 4}
+route: {start: [0, 0], goal: [50, 0]}
+"""
+TOWER = {"circle": {"center": [25, 0.5], "radius": 4}, "height_m": [0, 30]}
+FLIGHT = vs.Mission.model_validate(
+    {"world": {"known": [TOWER]}, "route": {"start": [0, 0, 10], "goal": [50, 0, 10]}}
+)
+PAIR = vs.Fleet.model_validate(
+    {
+        "fleet": [
+            {"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}},
+            {"name": "b", "route": {"start": [20, -20], "goal": [20, 20]}},
+        ]
+    }
+)
+PLAN, FLOWN, FLEET_PLAN = vs.plan(MISSION), vs.plan(FLIGHT), vs.plan_fleet(PAIR)
+PLAN_FILES = {"plan.json", "path.csv", "plan.png", "planned-mission.yaml"}
+SAVED: dict[str, tuple[Any, set[str]]] = {
+    "plan": (PLAN, PLAN_FILES),
+    "flight plan": (FLOWN, PLAN_FILES),
+    "run": (vs.simulate(MISSION, plan=PLAN), PLAN_FILES | {"run.json", "run.csv", "run.png"}),
+    "flight": (vs.fly(FLOWN), PLAN_FILES | {"run.json", "run.csv"}),
+    "fleet plan": (FLEET_PLAN, {"fleet.json", "fleet.png", "a", "b"}),
+    "fleet run": (vs.simulate_fleet(PAIR, plan=FLEET_PLAN), {"run.json"}),
+}
+
+
+@pytest.mark.parametrize("name", SAVED)
+def test_what_is_saved_is_said_and_the_same_every_time(name: str, tmp_path: Path) -> None:
+    value, files = SAVED[name]
+    folder = tmp_path / "deep" / "patrol"
+    written = value.save(folder)
+    assert {path.name for path in folder.iterdir()} == files
+    assert {path.relative_to(folder).parts[0] for path in written} == files
+    before = {path: path.read_bytes() for path in written if path.is_file()}
+    assert value.save(str(folder)) == written
+    assert all(path.read_bytes() == data for path, data in before.items())
+    for path in written:
+        if path.suffix == ".json":
+            assert json.loads(path.read_text())
+
+
+@pytest.mark.parametrize("command", ["plan", "run"])
+def test_the_command_line_writes_the_same_files(command: str, tmp_path: Path) -> None:
+    file, out = tmp_path / "patrol.yaml", tmp_path / "cli" / "patrol"
+    file.write_text(TEXT)
+    done = CliRunner().invoke(cli, [command, str(file), "--out", str(out), "--quiet"])
+    assert done.exit_code == 0, done.output
+    made = SAVED["plan" if command == "plan" else "run"][0]
+    written = made.save(tmp_path / "api" / "patrol")
+    assert {path.name for path in out.iterdir()} - {"timing.json"} == {p.name for p in written}
+    for path in written:
+        assert path.read_bytes() == (out / path.name).read_bytes(), path.name
+    assert vs.load_plan(out) == PLAN
+
+
+def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    for value, _ in SAVED.values():
+        with pytest.raises(vs.OutputError, match="is a file, not a folder"):
+            value.save(tmp_path / "file" / "patrol")
+        with pytest.raises(vs.GeometryError, match="path is of the class"):
+            value.save(5)
+    if os.geteuid() != 0:
+        tmp_path.chmod(0o500)
+        with pytest.raises(vs.OutputError, match="can't be written"):
+            PLAN.save(tmp_path / "patrol")
+
+
+def test_a_single_file_is_for_those_who_write_such_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for value, _ in SAVED.values():
+        if not isinstance(value, vs.Plan | vs.SpatialPlan):
+            with pytest.raises(vs.OutputError, match="isn't written as such a file; give a folder"):
+                value.save(tmp_path / "patrol.kml")
+
+    def without_the_room(door: str) -> Any:
+        raise ImportError(door)
+
+    monkeypatch.setattr("viaspline.report.notebook.saved_results.opened", without_the_room)
+    with pytest.raises(vs.OutputError, match=r"nothing that writes \.geojson; give a folder"):
+        PLAN.save(tmp_path / "patrol.geojson")
+    told: list[Any] = []
+    monkeypatch.setattr(
+        "viaspline.report.notebook.saved_results.opened",
+        lambda door: lambda *given: told.append(given),
+    )
+    assert PLAN.save(tmp_path / "patrol.plan") == [tmp_path / "patrol.plan"]
+    assert told == [(PLAN, tmp_path / "patrol.plan")]
+    (tmp_path / "old.csv").mkdir()  # a folder, whatever it is called
+    assert PLAN.save(tmp_path / "old.csv")

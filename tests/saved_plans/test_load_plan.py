@@ -1,0 +1,286 @@
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import viaspline as vs
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+CART = {
+    "name": "cart", "circle": {"center": [0, 0], "radius": 1},
+    "motion": {"from": [60, 40], "velocity_mps": [0, 1]},
+}  # fmt: skip
+TANK = {"name": "tank", "circle": {"center": [50, 52], "radius": 10}}
+ROUTE = {"start": [10, 50], "via": [{"at": [70, 60], "dwell_s": 3}], "goal": [90, 20]}
+TOWER = {"circle": {"center": [40, 0.5], "radius": 4}, "height_m": [0, 30]}
+ASKED: dict[str, dict[str, Any]] = {
+    "plain": {"world": {"bounds": [0, 0, 100, 100], "known": [TANK]}, "route": ROUTE},
+    "stiff": {
+        "world": {"known": [TANK]},
+        "robot": {
+            "min_turn_radius_m": 3, "footprint": [[-1, -0.5], [2, -0.5], [2, 0.5], [-1, 0.5]],
+        },
+        "route": ROUTE,
+    },
+    "driven": {
+        "world": {"known": [TANK]},
+        "robot": {"radius_m": 0.3, "drive": {"differential": {"track_m": 0.4}}},
+        "route": ROUTE,
+    },
+    "reordered": {
+        "world": {"known": [TANK]},
+        "spline": {"tension": "auto"},
+        "route": {**ROUTE, "via": [[80, 80], [20, 90], [70, 20]], "order": "shortest"},
+    },
+    "among": {"world": {"known": [TANK, CART]}, "route": ROUTE},
+    "laps": {
+        "world": {"known": [TANK]},
+        "route": {"start": [10, 50], "via": [[70, 70], [80, 30]], "closed": True, "laps": 2},
+    },
+    "flight": {
+        "world": {"known": [TOWER], "ground": {"flat_m": 0}},
+        "route": {
+            "start": [0, 0], "takeoff": {"to_agl_m": 10}, "via": [{"at": [60, 5], "agl_m": 15}],
+            "land": {"at": [90, 0]},
+        },
+    },
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def saved(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Path, Any]]:
+    folders = {}
+    for name, asked in ASKED.items():
+        folder = tmp_path_factory.mktemp(name)
+        made = vs.plan(vs.Mission.model_validate(asked))
+        made.save(folder)
+        folders[name] = (folder, made)
+    return folders
+
+
+Saved = dict[str, tuple[Path, Any]]
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_a_plan_that_is_loaded_equals_the_one_that_was_saved(name: str, saved: Saved) -> None:
+    folder, made = saved[name]
+    again = vs.load_plan(folder)
+    assert type(again) is type(made)
+    assert again == made
+    assert hash(again) == hash(made)
+    assert vs.load_plan(str(folder / "plan.json"), made.mission) == made
+    assert again.ledger == ()
+    if isinstance(again, vs.Plan):
+        assert again.drivability.verdict == made.drivability.verdict
+        assert again.timed is None or again.timed.certificate.holds
+
+
+def test_a_loaded_plan_is_saved_simulated_and_drawn_as_any_other(
+    saved: Saved, tmp_path: Path
+) -> None:
+    folder, made = saved["plain"]
+    again = vs.load_plan(folder)
+    again.save(tmp_path / "again")
+    assert vs.load_plan(tmp_path / "again") == made
+    assert isinstance(again, vs.Plan)
+    assert vs.simulate(again.mission, plan=again).reached
+    assert again._repr_png_()
+
+
+@pytest.mark.parametrize("name", ["depot-round", "hill-survey", "oncoming-niche", "yard-rover"])
+def test_an_example_is_loaded_again_with_its_maps(name: str, tmp_path: Path) -> None:
+    made = vs.plan(EXAMPLES / f"{name}.yaml")
+    made.save(tmp_path)
+    assert vs.load_plan(tmp_path) == made
+
+
+def edited(source: Path, target: Path, change: Callable[[Any], None]) -> Path:
+    shutil.copytree(source, target, dirs_exist_ok=True)
+    data = json.loads((target / "plan.json").read_text())
+    change(data)
+    (target / "plan.json").write_text(json.dumps(data))
+    return target
+
+
+def through_the_tank(data: Any) -> None:
+    for span in data["path"]["spans"]:
+        for point in span:
+            if 30 < point[0] < 60:
+                point[1] = 52.0
+    for via in data["path"]["vias"]:
+        if via["kind"] == "detour":
+            via["at"][1] = 52.0
+
+
+def nudge(*keys: Any, by: float = 0.01) -> Callable[[Any], None]:
+    def change(data: Any) -> None:
+        for key in keys[:-1]:
+            data = data[key]
+        data[keys[-1]] += by
+
+    return change
+
+
+def put(value: Any, *keys: Any) -> Callable[[Any], None]:
+    def change(data: Any) -> None:
+        for key in keys[:-1]:
+            data = data[key]
+        data[keys[-1]] = value
+
+    return change
+
+
+def faster(data: Any) -> None:
+    law = data["trajectory"]["law"]
+    law["times_s"] = [0.5 * time for time in law["times_s"]]
+    law["speeds_mps"] = [2.0 * speed for speed in law["speeds_mps"]]
+    law["accelerations_mps2"] = [4.0 * accel for accel in law["accelerations_mps2"]]
+
+
+CHANGES: list[tuple[str, str, Callable[[Any], None], str]] = [
+    ("plain", "through the tank", through_the_tank, "isn't on the path|clearance|jumps|starts"),
+    ("plain", "more clearance", nudge("certificate", "clearance_m"), "says .* of clearance"),
+    ("plain", "sooner", nudge("trajectory", "duration_s", by=-1.0), "says .* of duration"),
+    ("plain", "another neighbour", put("bounds", "certificate", "nearest"), "is nearest"),
+    ("plain", "a via elsewhere", nudge("path", "vias", 1, "at", 0), "isn't on the path"),
+    ("plain", "no dwell", put(0.0, "path", "vias", -2, "dwell_s"), "stays 0 s"),
+    ("plain", "no points of the route", put([], "path", "vias"), "doesn't run through point 0"),
+    ("plain", "kept more", put(0.2, "tracking_error_m"), "clearance|keep"),
+    ("plain", "no spans", put([], "path", "spans"), "path is none"),
+    ("plain", "words for numbers", put([[["a", 1]]], "path", "spans"), "else than numbers"),
+    ("plain", "no certificate", put(5, "certificate"), "has no certificate.clearance_m"),
+    ("plain", "not a number", put("much", "certificate", "clearance_m"), "not a number"),
+    ("stiff", "less curved", nudge("path", "curvature_bound_1pm", by=-0.1), "of curvature"),
+    ("among", "faster than it may", faster, "faster than the robot"),
+    ("among", "no motion", nudge("trajectory", "law", "speeds_mps", 1), "isn't a motion"),
+    ("among", "begun later", nudge("trajectory", "law", "times_s", 0, by=-0.5), "begin|motion"),
+    ("among", "nearer", nudge("certificate", "moving", "clearance_m"), "to what moves"),
+    ("among", "shorter columns", put([0.0], "trajectory", "law", "times_s"), "isn't as long"),
+    ("among", "no stations", put(7, "trajectory", "stations"), "stations are none"),
+    ("flight", "on the ground all the way", put([80.0, 85.0], "airborne_m"), "take-off"),
+    ("flight", "airborne nowhere", put([5.0, 1.0], "airborne_m"), "isn't a part"),
+    ("flight", "more clearance", nudge("certificate", "clearance_m"), "of clearance"),
+    ("flight", "sooner", nudge("trajectory", "duration_s", by=-1.0), "of duration"),
+]
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "words"),
+    [(name, change, words) for name, _, change, words in CHANGES],
+    ids=[f"{name}: {what}" for name, what, _, _ in CHANGES],
+)
+def test_a_file_that_somebody_changed_is_refused(
+    name: str, change: Callable[[Any], None], words: str, saved: Saved, tmp_path: Path
+) -> None:
+    folder = edited(saved[name][0], tmp_path / "edited", change)
+    with pytest.raises(vs.SavedPlanError, match=words) as told:
+        vs.load_plan(folder)
+    assert told.value.path.endswith("plan.json")
+
+
+def test_a_mission_that_somebody_changed_is_refused(saved: Saved, tmp_path: Path) -> None:
+    folder, made = saved["plain"]
+    grown = vs.Mission.model_validate(
+        {**ASKED["plain"], "world": {"known": [{"circle": {"center": [50, 52], "radius": 12}}]}}
+    )
+    with pytest.raises(vs.SavedPlanError, match="clearance"):
+        vs.load_plan(folder, grown)
+    farther = vs.Mission.model_validate({**ASKED["plain"], "route": {**ROUTE, "goal": [91, 20]}})
+    with pytest.raises(vs.SavedPlanError, match="doesn't run through point 2"):
+        vs.load_plan(folder, farther)
+    slower = made.mission.model_copy(
+        update={"robot": made.mission.robot.model_copy(update={"max_speed_mps": 1.0})}
+    )
+    with pytest.raises(vs.SavedPlanError, match="duration"):
+        vs.load_plan(folder, slower)
+
+
+def leaves(data: Any, *keys: Any) -> list[tuple[Any, ...]]:
+    """The keys of every number in a file."""
+    if isinstance(data, dict):
+        return [leaf for key, item in data.items() for leaf in leaves(item, *keys, key)]
+    if isinstance(data, list):
+        return [leaf for key, item in enumerate(data) for leaf in leaves(item, *keys, key)]
+    return [keys]
+
+
+@given(data=st.data())
+@settings(
+    max_examples=150, deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)  # fmt: skip
+def test_whatever_is_put_into_a_file_it_is_loaded_or_refused(
+    data: st.DataObject, saved: Saved, tmp_path: Path
+) -> None:
+    name = data.draw(st.sampled_from(["plain", "among", "flight"]))
+    folder, made = saved[name]
+    content = json.loads((folder / "plan.json").read_text())
+    keys = data.draw(st.sampled_from(leaves(content)))
+    junk = data.draw(
+        st.one_of(
+            st.none(), st.booleans(), st.text(max_size=3), st.floats(-1e9, 1e9), st.just([]),
+            st.just({}), st.just(1e308), st.just([[1, 2], [3]]),
+        )
+    )  # fmt: skip
+    depth = data.draw(st.integers(1, len(keys)))
+    changed = edited(folder, tmp_path / "junk", put(junk, *keys[:depth]))
+    try:
+        again = vs.load_plan(changed)
+    except vs.SavedPlanError:
+        return
+    assert again.certificate.holds
+    assert again.mission == made.mission
+
+
+def test_what_is_no_plan_is_told(saved: Saved, tmp_path: Path) -> None:
+    with pytest.raises(vs.MissionError, match="there is no such file"):
+        vs.load_plan(tmp_path)
+    (tmp_path / "plan.json").write_text("{")
+    with pytest.raises(vs.SavedPlanError, match="is no JSON"):
+        vs.load_plan(tmp_path, EXAMPLES / "fig8-patrol.yaml")
+    (tmp_path / "plan.json").write_text("[" * 100_000)
+    with pytest.raises(vs.SavedPlanError, match="is no JSON"):
+        vs.load_plan(tmp_path, EXAMPLES / "fig8-patrol.yaml")
+    (tmp_path / "plan.json").write_text("[1]")
+    with pytest.raises(vs.SavedPlanError, match="holds no plan"):
+        vs.load_plan(tmp_path, EXAMPLES / "fig8-patrol.yaml")
+    shutil.copy(saved["plain"][0] / "plan.json", tmp_path)
+    with pytest.raises(vs.SavedPlanError, match=r"no planned-mission\.yaml beside it"):
+        vs.load_plan(tmp_path)
+    with pytest.raises(vs.GeometryError, match="folder is of the class int"):
+        vs.load_plan(5)  # type: ignore[arg-type]
+
+
+def test_the_plan_of_a_fleet_says_where_its_robots_are(tmp_path: Path) -> None:
+    pair = vs.Fleet.model_validate(
+        {"fleet": [{"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}}]}
+    )
+    planned = vs.plan_fleet(pair)
+    planned.save(tmp_path)
+    with pytest.raises(vs.SavedPlanError, match="the plan of a fleet"):
+        vs.load_plan(tmp_path)
+    assert vs.load_plan(tmp_path / "a", pair.members[0].mission) == planned.plans["a"]
+
+
+def test_a_map_that_was_made_in_memory_is_given_again(tmp_path: Path) -> None:
+    cells = np.zeros((40, 40), bool)
+    cells[18:22, 18:22] = True
+    mission = vs.Mission.model_validate(
+        {
+            "world": {"known": [vs.Obstacle(grid=vs.Grid(cells, 0.5))]},
+            "route": {"start": [2, 2], "goal": [18, 18]},
+        }
+    )
+    made = vs.plan(mission)
+    (tmp_path / "planned-mission.yaml").write_text("of an earlier plan")
+    with pytest.warns(vs.MissionWarning, match="made in memory.*give it to load_plan"):
+        made.save(tmp_path)
+    with pytest.raises(vs.SavedPlanError, match="give load_plan the mission"):
+        vs.load_plan(tmp_path)
+    assert vs.load_plan(tmp_path, made.mission) == made
