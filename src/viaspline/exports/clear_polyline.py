@@ -20,7 +20,7 @@ from viaspline.exports.line_proof import LineProof, LineProver
 from viaspline.exports.sparse_vertices import sparse_parameters
 from viaspline.kernels.arrays import Flags, Floats
 
-EXPORT_SLACK_M: Final = 1e-5
+EXPORT_SLACK_M: Final = 2e-5
 """What the lines may lack of the required clearance: the digits of a file are not endless [m]."""
 
 _MARGIN_M: Final = 2e-6
@@ -206,7 +206,7 @@ def _cut(
 
 def _failing(cutting: _Cutting, found: ClearPolyline) -> Flags:
     """Which lines don't hold."""
-    lacks = found.clearances < found.required - 0.5 * EXPORT_SLACK_M
+    lacks = found.clearances < found.required - 0.25 * EXPORT_SLACK_M
     bounds = cutting.bounds(found.parameters, found.points)
     return np.asarray(lacks | (bounds > cutting.chord_error))
 

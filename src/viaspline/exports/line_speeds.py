@@ -95,9 +95,7 @@ def set_speeds(speeds: Floats) -> Floats:
     return found
 
 
-def _ramps(
-    law: Trajectory, max_accel: float, max_brake: float
-) -> list[tuple[float, float, float]]:
+def _ramps(law: Trajectory, max_accel: float, max_brake: float) -> list[tuple[float, float, float]]:
     """Where the vehicle speeds up or brakes by itself: from, to [m], and the speed for it."""
     at, speed = law.distances, law.speeds
     step = np.diff(at)
