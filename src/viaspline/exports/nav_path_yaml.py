@@ -1,4 +1,7 @@
-"""A path as a ``nav_msgs/Path`` in YAML, as ``ros2 topic pub`` and ``ros2 topic echo`` have it."""
+"""A path as a ``nav_msgs/Path`` in YAML, as ``ros2 topic pub`` and ``ros2 topic echo`` have it.
+
+Tested through ``exports/test_other_readers``.
+"""
 
 from __future__ import annotations
 
