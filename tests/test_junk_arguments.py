@@ -197,7 +197,8 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     ),
 }
 RESULTS = {
-    "Certificate", "Command", "Exported", "FleetCommand", "FleetPlan", "FleetRun", "MovingCertificate", "Plan",
+    "Certificate", "Command", "Exported", "FleetCommand", "FleetPlan", "FleetRun",
+    "MovingCertificate", "Plan",
     "Run", "SpatialPlan", "SpatialRun", "TensionAdvice",
 }  # fmt: skip
 

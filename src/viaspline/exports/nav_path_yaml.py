@@ -21,7 +21,7 @@ class NavPathYaml:
     """
 
     description: ClassVar[str] = "nav_msgs/Path in YAML"
-    endings: ClassVar[tuple[str, ...]] = (".path.yaml", ".path.yml")
+    endings: ClassVar[tuple[str, ...]] = (".path.yaml", ".path.yml", "-path.yaml")
     carries: ClassVar[frozenset[Carried]] = frozenset({"times", "headings"})
     is_geographic: ClassVar[bool] = False
     is_driven: ClassVar[bool] = False
