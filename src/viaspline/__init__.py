@@ -37,6 +37,8 @@ if TYPE_CHECKING:
         SavedPlanError,
         ViasplineError,
     )
+    from viaspline.exports.export_options import ExportOptions
+    from viaspline.exports.export_path import Exported, export, export_fleet
     from viaspline.fleet.execution.changed_plans import add_robot, remove_robot, reroute_robot
     from viaspline.fleet.execution.delays import Delays
     from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
@@ -80,6 +82,8 @@ _HOMES = {
     "Certificate": "curve.certificate",
     "Command": "robot.state",
     "Delays": "fleet.execution.delays",
+    "ExportOptions": "exports.export_options",
+    "Exported": "exports.export_path",
     "Fleet": "mission.fleet.fleet",
     "FleetCommand": "fleet.execution.fleet_messages",
     "FleetMember": "mission.fleet.fleet",
@@ -125,6 +129,8 @@ _HOMES = {
     "advise_tension": "advice",
     "certify": "curve.certificate",
     "certify_moving": "trajectory.moving_certificate",
+    "export": "exports.export_path",
+    "export_fleet": "exports.export_path",
     "fly": "space.online.fly",
     "load": "formats.load",
     "load_map": "mission.load_map",

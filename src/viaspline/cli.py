@@ -20,6 +20,7 @@ from viaspline.command_steps import (
     say_written,
 )
 from viaspline.commands.warm_command import warm
+from viaspline.commands.export_command import export_command
 from viaspline.exit_codes import Commands
 from viaspline.report.terminal_lines import say
 
@@ -299,3 +300,4 @@ def studio(mission: Path | None, port: int, host: str, token: str | None, no_bro
 
 
 cli.add_command(warm)
+cli.add_command(export_command)

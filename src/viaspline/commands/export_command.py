@@ -1,0 +1,144 @@
+"""``viaspline export``: the proven path in other people's formats."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from viaspline.command_steps import load_asked, progress_bar, result_folder
+from viaspline.report.terminal_lines import say
+
+if TYPE_CHECKING:
+    from viaspline.exports.export_options import ExportOptions
+    from viaspline.exports.export_path import Exported
+    from viaspline.fleet.fleet_plan import FleetPlan
+    from viaspline.mission.fleet.fleet import Fleet
+    from viaspline.mission.model import Mission
+    from viaspline.planner import Plan
+    from viaspline.report.progress_bar import ProgressBar
+    from viaspline.space.spatial_plan import SpatialPlan
+
+METRES = click.FloatRange(min=0.0, max=1e4)
+
+
+@click.command("export")
+@click.argument("mission", metavar="IN", type=click.Path(path_type=Path))
+@click.argument("out", metavar="OUT", type=click.Path(path_type=Path))
+@click.option(
+    "--origin", metavar="LAT,LON",
+    help="Latitude and longitude of the mission's 0, 0.  [default: the mission's, if it says so]",
+)  # fmt: skip
+@click.option(
+    "--chord-error", type=METRES, metavar="M",
+    help="How far the lines may be from the curve.  [default: clearance / 10, 0.01 to 0.25]",
+)  # fmt: skip
+@click.option(
+    "--acceptance", type=METRES, metavar="M",
+    help="How near to a way point the vehicle turns to the next.  [default: what can be proven]",
+)  # fmt: skip
+@click.option(
+    "--spacing", type=METRES, metavar="M",
+    help="The longest line.  [default: 0.1 for nav_msgs/Path, else as long as may be]",
+)  # fmt: skip
+@click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
+def export_command(
+    mission: Path, out: Path, origin: str | None, chord_error: float | None,
+    acceptance: float | None, spacing: float | None, quiet: bool,
+) -> None:  # fmt: skip
+    r"""Write the proven path of a mission into a file of another program.
+
+    IN is a mission of any format. OUT says the format by its ending: .plan (QGroundControl),
+    .waypoints or .txt (QGC WPL 110), .path.yaml or .mcap (nav_msgs/Path), .geojson, .kml, .gpx,
+    .csv or .json. The path becomes straight lines, few of them, which are proven again as the file
+    has them. Of a fleet each robot has a file of its own, OUT with the robot's name.
+
+    \b
+    Examples:
+      viaspline export examples/fence-survey.plan survey.kml
+      viaspline export examples/fig8-patrol.yaml patrol.plan --origin 47.3977,8.5456
+    """
+    from viaspline.exports.export_options import ExportOptions
+    from viaspline.exports.path_format import path_format_of
+    from viaspline.exports.tabled_path import check_origin
+
+    kind = path_format_of(out)  # what can't be is refused before the long work
+    _check_in(mission)
+    asked = load_asked(mission)
+    options = ExportOptions(_origin_of(mission, origin), chord_error, acceptance, spacing)
+    options = options.checked()
+    check_origin(kind, options, str(out))
+    with result_folder(out.parent, (out.name,)), progress_bar(quiet, asked) as watch:
+        planned = _planned(asked, watch)
+        with watch.stage("export", "cutting and proving"):
+            done = _exported(planned, out, options)
+    if not quiet:
+        for robot, one in done.items():
+            say(f"{robot}: {one.words}" if robot else one.words)
+        first = next(iter(done.values()), None)
+        if first is not None:
+            say(*(f"not carried: {words}" for words in first.lost))
+            say(*(f"note: {words}" for words in first.notes))
+            say(f"wrote {', '.join(str(one.path) for one in done.values())}")
+    _end_unserved(planned)
+
+
+def _planned(asked: Mission | Fleet, watch: ProgressBar) -> Plan | SpatialPlan | FleetPlan:
+    from viaspline.mission.model import Mission
+
+    if isinstance(asked, Mission):
+        with watch.stage("plan", "planning"):
+            from viaspline.plan_mission import plan
+
+            return plan(asked)
+    from viaspline.fleet_steps import LaidBy, watched_fleet_plan
+
+    return watched_fleet_plan(asked, watch, 0.0, LaidBy())
+
+
+def _exported(
+    planned: Plan | SpatialPlan | FleetPlan, out: Path, options: ExportOptions
+) -> dict[str, Exported]:
+    """What was written, by the robot's name; a single one has none."""
+    from viaspline.exports.export_path import export, export_fleet
+    from viaspline.fleet.fleet_plan import FleetPlan
+
+    if isinstance(planned, FleetPlan):
+        return export_fleet(planned, out, options)
+    done = export(
+        planned, out, origin=options.origin, chord_error=options.chord_error,
+        acceptance=options.acceptance, spacing=options.spacing,
+    )  # fmt: skip
+    return {"": done}
+
+
+def _end_unserved(planned: Plan | SpatialPlan | FleetPlan) -> None:
+    """End with the code for it if robots of a fleet have no path, and so no file."""
+    from viaspline.fleet.fleet_plan import FleetPlan
+
+    if isinstance(planned, FleetPlan):
+        from viaspline.fleet_steps import end_unserved
+
+        end_unserved(planned)
+
+
+def _check_in(file: Path) -> None:
+    """Refuse results, which don't hold the world that a path has to be proven against."""
+    if file.is_dir() or file.name == "plan.json":
+        raise click.UsageError(
+            f"{file} holds results, without the world that the path is proven against; give the "
+            "mission that they were made from"
+        )
+
+
+def _origin_of(mission: Path, said: str | None) -> tuple[float, float] | None:
+    if said is None:
+        from viaspline.formats.load import origin_of
+
+        return origin_of(mission)
+    try:
+        latitude, longitude = (float(part) for part in said.split(","))
+    except ValueError:
+        raise click.UsageError(f"--origin {said} is no LAT,LON such as 47.3977,8.5456") from None
+    return latitude, longitude
