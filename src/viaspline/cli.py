@@ -19,6 +19,8 @@ from viaspline.command_steps import (
     result_folder,
     say_written,
 )
+from viaspline.commands.download_command import download
+from viaspline.commands.upload_command import upload
 from viaspline.exit_codes import Commands
 from viaspline.report.terminal_lines import say
 
@@ -294,3 +296,7 @@ def studio(mission: Path | None, port: int, host: str, token: str | None, no_bro
     from viaspline.studio.serve import serve
 
     serve(mission, host=host, port=port, token=token, browser=not no_browser, say=say)
+
+
+cli.add_command(upload)
+cli.add_command(download)
