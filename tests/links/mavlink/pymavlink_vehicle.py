@@ -272,8 +272,7 @@ class PymavlinkVehicle:
         wanted, target = (0.0, 0.0), self._commanded()
         if target is not None and self.autopilot == ARDUPILOT:
             # As its rovers take it: the sign of vx is the direction, yaw rate clockwise.
-            assert target.type_mask & 0b111 == 0b111 and target.type_mask & 0b111000000
-            assert not target.type_mask & 0b111000 and not target.type_mask & 2048
+            assert target.type_mask & 0b110111111111 == 0b010111000111
             speed = math.copysign(math.hypot(target.vx, target.vy), target.vx)
             wanted = (speed, -target.yaw_rate)
         elif target is not None:
@@ -296,7 +295,8 @@ class PymavlinkVehicle:
             if abs(self.taking_off - self.up) < 0.05:
                 self.taking_off = None
         elif target is not None and self.up > 0.05:
-            assert target.coordinate_frame == 1 and target.type_mask & 2048
+            assert target.coordinate_frame == 1
+            assert target.type_mask & 0b110111111111 == 0b100111000111
             wanted, climb = (target.vy, target.vx), -target.vz
             heading = math.pi / 2 - target.yaw
             turn = math.remainder(heading - self.heading, math.tau)

@@ -54,7 +54,7 @@ def as_bytes(value: object) -> object:
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_a_kind_is_the_one_of_pymavlink(kind: type[MavlinkMessage]) -> None:
     peer = dialect.mavlink_map[kind.NUMBER]
-    assert kind.EXTRA == peer.crc_extra
+    assert peer.crc_extra == kind.EXTRA
     assert [one.name for one in fields(kind)] == peer.ordered_fieldnames
     assert kind.PACKING.size == peer.unpacker.size
     name = peer.msgname.replace("_", "").lower()
@@ -109,7 +109,7 @@ def test_junk_and_a_broken_frame_are_passed_over(junk: bytes, flip: int) -> None
     at = 10 + flip % (len(good) - 10)
     broken = good[:at] + bytes((good[at] ^ 0xFF,)) + good[at + 1 :]
     tail = good * 40  # junk may look like the head of a frame, and swallow what it claims to hold
-    reader, heard = FrameReader().fed(junk + broken + tail)
+    _, heard = FrameReader().fed(junk + broken + tail)
     assert heard
     assert all(one.message == MissionCount(51, 1, 1, 0) for one in heard)
 

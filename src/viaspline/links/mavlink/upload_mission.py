@@ -99,7 +99,7 @@ def _check(
     else:
         assert read.failure is not None
         asked = read.failure.words(read.count or 0, name)
-        unlike, board = (), f"what is on board isn't known, as it couldn't be read back: {asked}"
+        unlike, board = (), f"isn't known, as it couldn't be read back ({asked})"
     if sent.failure is not None:
         what = sent.failure.words(len(sent.items), name)
     elif unlike:
@@ -108,7 +108,7 @@ def _check(
         what = f"it took the {name}"
     earlier = "".join(f"; the {LISTS[one]} is on board as sent" for one in done)
     remedy = _remedy(sent.kind, sent.failure)
-    raise LinkError(link, f"{whole}: {what}\n  on board: {board}{earlier}\n  remedy", remedy)
+    raise LinkError(link, f"{whole}: {what}\n  on board: {board}{earlier}", remedy)
 
 
 def _both_empty(
