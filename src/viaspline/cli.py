@@ -20,6 +20,7 @@ from viaspline.command_steps import (
     say_written,
 )
 from viaspline.commands.download_command import download
+from viaspline.commands.drive_command import drive
 from viaspline.commands.upload_command import upload
 from viaspline.exit_codes import Commands
 from viaspline.report.terminal_lines import say
@@ -300,3 +301,4 @@ def studio(mission: Path | None, port: int, host: str, token: str | None, no_bro
 
 cli.add_command(upload)
 cli.add_command(download)
+cli.add_command(drive)

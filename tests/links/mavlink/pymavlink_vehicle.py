@@ -290,11 +290,14 @@ class PymavlinkVehicle:
 
     def _fly(self) -> None:
         wanted, climb, target = (0.0, 0.0), 0.0, self._commanded()
+        if self.mode in (9, 4 << 16 | 6 << 24):  # LAND
+            climb = -0.7
+            self.armed = self.armed and self.up > 0.0
         if self.taking_off is not None and self.armed and self.is_guided:
             climb = min(max(self.taking_off - self.up, -1.0), 1.0)
             if abs(self.taking_off - self.up) < 0.05:
                 self.taking_off = None
-        elif target is not None and self.up > 0.05:
+        elif target is not None and (self.up > 0.05 or self.autopilot == PX4):
             assert target.coordinate_frame == 1
             assert target.type_mask & 0b110111111111 == 0b100111000111
             wanted, climb = (target.vy, target.vx), -target.vz

@@ -30,6 +30,8 @@ BEAT_S: Final = 1.0
 """Between two heartbeats of our own."""
 
 _LOOK_S: Final = 0.05
+_OLD_BYTES: Final = 2048
+"""What is read at once of what has been waiting; less than that has just come."""
 _ACTIVE: Final = 4
 _VERSION: Final = 3
 
@@ -43,6 +45,7 @@ class Conversation:
         transport: It carries them.
         name: How the link is called in messages.
         clock: Seconds that never run backwards.
+        sleep: Lets some of them pass.
         system: Our own number.
     """
 
@@ -52,10 +55,11 @@ class Conversation:
         name: object,
         *,
         clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], object] = time.sleep,
         system: int = OWN_SYSTEM,
     ) -> None:
         self.name, self.now, self.system = str(name), clock, system
-        self._transport = transport
+        self._transport, self._sleep = transport, sleep
         self._reader = FrameReader()
         self._sequence = 0
         self._next_beat = -float("inf")
@@ -111,7 +115,7 @@ class Conversation:
                 return found
             if now - began > patience and (search.first_at is None or wanted is not None):
                 raise search.nobody(self.name, patience)
-            with self._breaking():
+            with self.breaking():
                 for heard in self.listen(_LOOK_S):
                     search = search.heard(heard, self.now())
 
@@ -124,7 +128,7 @@ class Conversation:
             LinkError: The link breaks.
         """
         try:
-            with self._breaking():
+            with self.breaking():
                 exchange, said = exchange.begun(self.now())
                 self.say(said)
                 while not exchange.is_over:
@@ -140,13 +144,28 @@ class Conversation:
             raise
         return exchange
 
+    def forget(self) -> None:
+        """Pass over all that has come and wasn't read: it is old."""
+        with self.breaking():
+            while len(self._transport.read(0.0)) >= _OLD_BYTES:
+                pass
+        self._reader = FrameReader()
+
+    def rest(self, duration: float) -> None:
+        """Let some time pass [s]."""
+        self._sleep(duration)
+
     def close(self) -> None:
         """Let go of the link."""
         self._transport.close()
 
     @contextmanager
-    def _breaking(self) -> Iterator[None]:
-        """Within the block a link that breaks is an error in words."""
+    def breaking(self) -> Iterator[None]:
+        """Within the block a link that breaks is an error in words.
+
+        Raises:
+            LinkError: It breaks.
+        """
         try:
             yield
         except OSError as error:
