@@ -229,7 +229,7 @@ def test_an_ekf_that_is_not_ready_is_waited_for_and_then_refused(flags: int, wor
     vehicle = PymavlinkVehicle()
     vehicle.ekf = flags
     day = Day(vehicle)
-    day.link.at(6.0, lambda: setattr(vehicle, "ekf", HEALTHY))
+    day.link.at(3.0, lambda: setattr(vehicle, "ekf", HEALTHY))
     assert day.drive(AheadPilot(metres=1.0)).reached
     assert any(words in told for told in day.told)
 
