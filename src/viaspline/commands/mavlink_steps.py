@@ -140,9 +140,9 @@ def _pilot(mission: Mission, quiet: bool) -> Pilot:
 
 def _from(mission: Mission, here: VehicleState) -> Mission:
     """The mission from where the vehicle stands."""
-    from viaspline.mission.route_spec import ViaPoint
+    from viaspline.mission.route_spec import EndPoint
 
-    start = ViaPoint(at=(here.x, here.y), heading_deg=math.degrees(here.heading))
+    start = EndPoint(at=(here.x, here.y), heading_deg=math.degrees(here.heading))
     route = mission.route.model_copy(update={"start": start})
     return mission.model_copy(update={"route": route})
 

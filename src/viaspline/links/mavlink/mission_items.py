@@ -16,6 +16,7 @@ from viaspline.formats.commands import (
     INCLUSION_CIRCLE,
     INCLUSION_CORNER,
 )
+from viaspline.formats.fences import fence_areas
 from viaspline.formats.flown_items import MISSION_FRAME, OVER_HOME, WAYPOINT
 from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
 from viaspline.links.mavlink.common_messages import MissionItemInt
@@ -36,7 +37,8 @@ _MOST_ITEMS: Final = 65535
 def lists_of(itinerary: Itinerary, rally: Sequence[tuple[float, float, float]] = ()) -> Lists:
     """The items of an itinerary, by what they are; home is not among them.
 
-    The mission begins with the speed that is asked for. Rally points are there if any are given.
+    The mission begins with the speed that is asked for, unless it sets speeds itself. Rally points
+    are there if any are given.
 
     Args:
         itinerary: Its fences, its items and its speed count.
@@ -44,11 +46,13 @@ def lists_of(itinerary: Itinerary, rally: Sequence[tuple[float, float, float]] =
 
     Raises:
         LinkError: There are more items than can be numbered.
+        MissionError: A fence has too few corners or no radius.
     """
     mission = [_item(one) for one in itinerary.items if one.command not in FENCE_COMMANDS]
-    if itinerary.speed is not None:
+    sets_speeds = any(item.command == CHANGE_SPEED for item in mission)
+    if itinerary.speed is not None and mission and not sets_speeds:
         mission.insert(0, _speed(itinerary.speed))
-    fence = [item for area in itinerary.fences for item in _fence(area)]
+    fence = [item for area in fence_areas(itinerary)[0] for item in _fence(area)]
     found = {MISSION: _numbered(mission, MISSION), FENCE: _numbered(fence, FENCE)}
     if rally:
         points = [_placed(RALLY_POINT, OVER_HOME, (at, on), up) for at, on, up in rally]
