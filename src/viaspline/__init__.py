@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         PlanningError,
         ViasplineError,
     )
+    from viaspline.exports.export_path import Exported, export, export_fleet
     from viaspline.fleet.execution.changed_plans import add_robot, remove_robot, reroute_robot
     from viaspline.fleet.execution.delays import Delays
     from viaspline.fleet.execution.fleet_messages import FleetCommand, ProgressReport
@@ -78,6 +79,7 @@ _HOMES = {
     "Certificate": "curve.certificate",
     "Command": "robot.state",
     "Delays": "fleet.execution.delays",
+    "Exported": "exports.export_path",
     "Fleet": "mission.fleet.fleet",
     "FleetCommand": "fleet.execution.fleet_messages",
     "FleetMember": "mission.fleet.fleet",
@@ -122,6 +124,8 @@ _HOMES = {
     "advise_tension": "advice",
     "certify": "curve.certificate",
     "certify_moving": "trajectory.moving_certificate",
+    "export": "exports.export_path",
+    "export_fleet": "exports.export_path",
     "fly": "space.online.fly",
     "load": "formats.load",
     "load_map": "mission.load_map",

@@ -21,6 +21,7 @@ from viaspline.command_steps import (
 )
 from viaspline.commands.download_command import download
 from viaspline.commands.drive_command import drive
+from viaspline.commands.export_command import export_command
 from viaspline.commands.upload_command import upload
 from viaspline.exit_codes import Commands
 from viaspline.report.terminal_lines import say
@@ -302,3 +303,4 @@ def studio(mission: Path | None, port: int, host: str, token: str | None, no_bro
 cli.add_command(upload)
 cli.add_command(download)
 cli.add_command(drive)
+cli.add_command(export_command)

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import shapely
 from click.testing import CliRunner, Result
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "links" / "mavlink"))
-from pymavlink_vehicle import PX4, PymavlinkVehicle, VehicleOnUdp, free_udp_port
+from pymavlink_vehicle import PX4, PymavlinkVehicle, VehicleOnUdp, free_udp_port, metres_per_degree
 
 from viaspline.cli import cli
 
@@ -139,3 +140,34 @@ def test_a_fleet_is_refused(tmp_path: Path) -> None:
     result = uploaded(file, free_udp_port(), "--vias", "--origin", "47.1,8.2")
     assert result.exit_code == 2
     assert "this is a fleet" in result.output
+
+
+def test_the_proven_path_is_on_board_with_its_speeds_and_radius(mission: Path) -> None:
+    mission.write_text(MISSION.replace("[20, 0], dwell_s: 7", "[20, 16], dwell_s: 7"))
+    port, vehicle = free_udp_port(), PymavlinkVehicle()
+    with VehicleOnUdp(vehicle, port):
+        result = uploaded(mission, port, "--origin", "47.1,8.2")
+    assert result.exit_code == 0, result.output
+    assert "proven" in result.output
+    way = [item for item in vehicle.board[0][1:] if item.command == 16]
+    assert len(way) > 4
+    assert {item.param2 for item in way} == {way[0].param2}
+    assert any(item.param1 == 7.0 for item in way)
+    north, east = metres_per_degree(47.1)
+    points = [((item.y / 1e7 - 8.2) * east, (item.x / 1e7 - 47.1) * north) for item in way]
+    line = shapely.LineString(points)
+    assert line.distance(shapely.Point(20, 10)) > 3 + 0.5 + 0.45 - way[0].param2
+    assert line.distance(shapely.Polygon([[5, 10], [8, 10], [8, 14]])) > 0.95 - way[0].param2
+
+
+def test_what_was_exported_goes_up_as_it_stands(mission: Path, tmp_path: Path) -> None:
+    file = tmp_path / "round.plan"
+    words = ["export", str(mission), str(file), "--origin", "47.1,8.2"]
+    exported = CliRunner().invoke(cli, words)
+    assert exported.exit_code == 0, exported.output
+    port, vehicle = free_udp_port(), PymavlinkVehicle(autopilot=PX4)
+    with VehicleOnUdp(vehicle, port):
+        result = uploaded(file, port, "--vias")
+    assert result.exit_code == 0, result.output
+    items = json.loads(file.read_text())["mission"]["items"]
+    assert [item.command for item in vehicle.board[0]] == [one["command"] for one in items]

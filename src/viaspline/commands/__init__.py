@@ -1,1 +1,1 @@
-"""Commands of the command line, one file each; ``viaspline.cli`` has the oldest."""
+"""Commands of the command line, one file each."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, ClassVar, Final
 
@@ -112,32 +112,42 @@ class QgcPlan(WaypointFormat):
         if itinerary.ground is not None:
             data = {"ground": itinerary.ground}
             own |= {"ground": world_data(mission.world, data, where.folder)["ground"]}
-        home, fences = itinerary.home, itinerary.fences
-        assert home is not None
-        plan = {
-            "fileType": "Plan",
-            "version": 1,
-            "groundStation": "viaspline",
-            "mission": {
-                "version": 2,
-                "firmwareType": ARDUPILOT,
-                "vehicleType": QUADROTOR if mission.is_spatial else GROUND_ROVER,
-                "globalPlanAltitudeMode": 1,
-                "cruiseSpeed": itinerary.speed,
-                "hoverSpeed": itinerary.speed,
-                "plannedHomePosition": [home.latitude, home.longitude, home.altitude],
-                "items": [item_json(item) for item in itinerary.items],
-            },
-            "geoFence": {
-                "version": 2,
-                "polygons": [polygon_json(area) for area in fences if area.center is None],
-                "circles": [circle_json(area) for area in fences if area.center is not None],
-            },
-            "rallyPoints": {"version": 2, "points": []},
-            "viaspline": own,
-        }
-        text = json.dumps(plan, indent=4, sort_keys=True, allow_nan=False)
-        return Written(text + "\n", lost_of(itinerary))
+        return Written(plan_text(itinerary, own, rotors=mission.is_spatial), lost_of(itinerary))
+
+
+def plan_text(itinerary: Itinerary, own: Mapping[str, Any], *, rotors: bool) -> str:
+    """The text of a plan.
+
+    Args:
+        itinerary: Home, items and fences.
+        own: What stands under viaspline's own key.
+        rotors: Whether it is for a multirotor; else for a rover.
+    """
+    home, fences = itinerary.home, itinerary.fences
+    assert home is not None
+    plan = {
+        "fileType": "Plan",
+        "version": 1,
+        "groundStation": "viaspline",
+        "mission": {
+            "version": 2,
+            "firmwareType": ARDUPILOT,
+            "vehicleType": QUADROTOR if rotors else GROUND_ROVER,
+            "globalPlanAltitudeMode": 1,
+            "cruiseSpeed": itinerary.speed,
+            "hoverSpeed": itinerary.speed,
+            "plannedHomePosition": [home.latitude, home.longitude, home.altitude],
+            "items": [item_json(item) for item in itinerary.items],
+        },
+        "geoFence": {
+            "version": 2,
+            "polygons": [polygon_json(area) for area in fences if area.center is None],
+            "circles": [circle_json(area) for area in fences if area.center is not None],
+        },
+        "rallyPoints": {"version": 2, "points": []},
+        "viaspline": own,
+    }
+    return json.dumps(plan, indent=4, sort_keys=True, allow_nan=False) + "\n"
 
 
 def _check_versions(root: Tree, mission: Tree) -> None:

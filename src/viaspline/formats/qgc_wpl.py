@@ -111,8 +111,12 @@ class QgcWpl(WaypointFormat):
             more.append(("world", "ground"))
         if any(mission.route.start.at[:2]):
             more.append(("place of the origin: read again, 0, 0 is at the start", "route.start"))
-        text = "\n".join(("QGC WPL 110", *_lines(itinerary)))
-        return Written(text + "\n", lost_of(itinerary, *more))
+        return Written(wpl_text(itinerary), lost_of(itinerary, *more))
+
+
+def wpl_text(itinerary: Itinerary) -> str:
+    """The text of an itinerary: home, items, fences."""
+    return "\n".join(("QGC WPL 110", *_lines(itinerary))) + "\n"
 
 
 def _item(source: str, line_number: int, line: str) -> Item | list[Fault]:
@@ -182,7 +186,7 @@ def _lines(itinerary: Itinerary) -> Iterator[str]:
 
 
 def _of_item(item: Item) -> str:
-    params = (item.params[0], 0.0, 0.0, 0.0)
+    params = tuple(0.0 if math.isnan(param) else param for param in item.params)
     place = (item.latitude, item.longitude)
     return _line(item.number, item.frame, item.command, params, place, item.altitude)
 

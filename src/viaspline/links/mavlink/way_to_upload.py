@@ -6,20 +6,45 @@ Tested through ``commands/test_upload_command``.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Final, NamedTuple
 
 from viaspline.bounded_file import MISSION_FILE, read_text
+from viaspline.exports.export_options import ExportOptions
+from viaspline.exports.path_items import path_itinerary
+from viaspline.exports.plan_of_path import PlanOfPath
+from viaspline.exports.tabled_path import rendered
 from viaspline.formats.format_registry import format_of
 from viaspline.formats.items import Itinerary, LatLon
 from viaspline.formats.outgoing import itinerary_of
 from viaspline.formats.waypoint_format import WaypointFormat
 from viaspline.mission.model import Mission
+from viaspline.planner import Plan
+from viaspline.space.spatial_plan import SpatialPlan
 
-RALLY: str = "rally point"
+_RALLY: Final = "rally point"
 """Rally points are sent, though a mission has none."""
 
+_UNPROVEN: Final = (
+    "the straight lines between its own points, which the vehicle drives, are unproven"
+)
 
-def own_points(file: Path, mission: Mission, origin: LatLon) -> Itinerary:
-    """A mission's own points with its fences: what a vehicle drives between them isn't proven.
+
+class WayToUpload(NamedTuple):
+    """What is sent, and what has to be known of it.
+
+    Attributes:
+        itinerary: Home, items and fences.
+        notes: What isn't sent, and what has to be known to drive it, a thing a line.
+        proof: What is proven of it, in a sentence.
+    """
+
+    itinerary: Itinerary
+    notes: tuple[str, ...]
+    proof: str
+
+
+def own_points(file: Path, mission: Mission, origin: LatLon) -> WayToUpload:
+    """A mission's own points with its fences.
 
     Args:
         file: Where it was read from: items of way-point files are taken as they stand there.
@@ -33,11 +58,26 @@ def own_points(file: Path, mission: Mission, origin: LatLon) -> Itinerary:
     text = read_text(file, MISSION_FILE)
     kind = format_of(file, text)
     if isinstance(kind, WaypointFormat):
-        return kind.parse(text, str(file))
-    return itinerary_of(mission, origin)
+        itinerary = kind.parse(text, str(file))
+    else:
+        itinerary = itinerary_of(mission, origin)
+    left_out = (note for note in itinerary.notes if note[0] != _RALLY)
+    notes = tuple(f"not sent: {kind}: {where}".removesuffix(": ") for kind, where in left_out)
+    return WayToUpload(itinerary, notes, _UNPROVEN)
 
 
-def left_out(itinerary: Itinerary) -> tuple[str, ...]:
-    """What isn't sent of an itinerary, a kind a line."""
-    notes = (note for note in itinerary.notes if note[0] != RALLY)
-    return tuple(f"{kind}: {where}" if where else kind for kind, where in notes)
+def proven_way(plan: Plan | SpatialPlan, origin: LatLon, name: str) -> WayToUpload:
+    """A plan's path as straight lines that are proven again, acceptance radius and all.
+
+    Args:
+        plan: What was planned.
+        origin: Latitude and longitude of its 0, 0 [deg].
+        name: What errors call the mission.
+
+    Raises:
+        OutputError: No lines were found that are clear.
+    """
+    _, table = rendered(plan, PlanOfPath(), ExportOptions(origin=origin), name, name)
+    fences = itinerary_of(plan.mission, origin).fences
+    notes = (*table.notes, *(f"not sent: {words}" for words in table.lost))
+    return WayToUpload(path_itinerary(table, fences), notes, table.proof_words())

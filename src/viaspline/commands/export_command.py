@@ -1,0 +1,125 @@
+"""``viaspline export``: the proven path in other people's formats."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from viaspline.command_steps import load_asked, progress_bar
+from viaspline.report.terminal_lines import say, say_error
+
+if TYPE_CHECKING:
+    from viaspline.exports.export_options import ExportOptions
+    from viaspline.exports.export_path import Exported
+    from viaspline.mission.fleet.fleet import Fleet
+    from viaspline.mission.model import Mission
+    from viaspline.report.progress_bar import ProgressBar
+
+METRES = click.FloatRange(min=0.0, max=1e4)
+
+
+@click.command("export")
+@click.argument("mission", metavar="IN", type=click.Path(path_type=Path))
+@click.argument("out", metavar="OUT", type=click.Path(path_type=Path))
+@click.option(
+    "--origin", metavar="LAT,LON",
+    help="Latitude and longitude of the mission's 0, 0.  [default: the mission's, if it says so]",
+)  # fmt: skip
+@click.option(
+    "--chord-error", type=METRES, metavar="M",
+    help="How far the lines may be from the curve.  [default: clearance / 10, 0.01 to 0.25]",
+)  # fmt: skip
+@click.option(
+    "--acceptance", type=METRES, metavar="M",
+    help="How near to a way point the vehicle turns to the next.  [default: what can be proven]",
+)  # fmt: skip
+@click.option(
+    "--spacing", type=METRES, metavar="M",
+    help="The longest line.  [default: 0.1 for nav_msgs/Path, else as long as may be]",
+)  # fmt: skip
+@click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
+def export_command(
+    mission: Path, out: Path, origin: str | None, chord_error: float | None,
+    acceptance: float | None, spacing: float | None, quiet: bool,
+) -> None:  # fmt: skip
+    r"""Write the proven path of a mission into a file of another program.
+
+    IN is a mission of any format. OUT says the format by its ending: .plan (QGroundControl),
+    .waypoints or .txt (QGC WPL 110), .path.yaml or .mcap (nav_msgs/Path), .geojson, .kml, .gpx,
+    .csv or .json. The path becomes straight lines, few of them, which are proven again as the file
+    has them. Of a fleet each robot has a file of its own, OUT with the robot's name.
+
+    \b
+    Examples:
+      viaspline export examples/fence-survey.plan survey.kml
+      viaspline export examples/fig8-patrol.yaml patrol.plan --origin 47.3977,8.5456
+    """
+    from viaspline.exports.export_options import ExportOptions
+    from viaspline.exports.path_format import path_format_of
+
+    path_format_of(out)  # refused before the long work
+    _check_in(mission)
+    asked = load_asked(mission)
+    options = ExportOptions(_origin_of(mission, origin), chord_error, acceptance, spacing).checked()
+    with progress_bar(quiet, asked) as watch:
+        done = _exported(asked, out, options, watch)
+    if not quiet:
+        for robot, one in done.items():
+            say(f"{robot}: {one.words}" if robot else one.words)
+        first = next(iter(done.values()), None)
+        if first is not None:
+            say(*(f"not carried: {words}" for words in first.lost))
+            say(*(f"note: {words}" for words in first.notes))
+        say(f"wrote {', '.join(str(one.path) for one in done.values())}")
+
+
+def _exported(
+    asked: Mission | Fleet, out: Path, options: ExportOptions, watch: ProgressBar
+) -> dict[str, Exported]:
+    """What was written, by the robot's name; a single one has none."""
+    from viaspline.exports.export_path import export, export_fleet
+    from viaspline.mission.model import Mission
+
+    if isinstance(asked, Mission):
+        with watch.stage("plan", "planning"):
+            from viaspline.plan_mission import plan
+
+            planned = plan(asked)
+        with watch.stage("export", "cutting and proving"):
+            done = export(
+                planned, out, origin=options.origin, chord_error=options.chord_error,
+                acceptance=options.acceptance, spacing=options.spacing,
+            )  # fmt: skip
+        return {"": done}
+    from viaspline.fleet_steps import LaidBy, end_unserved, watched_fleet_plan
+
+    planned_fleet = watched_fleet_plan(asked, watch, 0.0, LaidBy())
+    with watch.stage("export", "cutting and proving"):
+        found = export_fleet(planned_fleet, out, options)
+    if not planned_fleet.served:
+        say_error("only robots that are served have a file", prefix="note: ")
+        end_unserved(planned_fleet)
+    return found
+
+
+def _check_in(file: Path) -> None:
+    """Refuse results, which don't hold the world that a path has to be proven against."""
+    if file.is_dir() or file.name == "plan.json":
+        raise click.UsageError(
+            f"{file} holds results, without the world that the path is proven against; give the "
+            "mission that they were made from"
+        )
+
+
+def _origin_of(mission: Path, said: str | None) -> tuple[float, float] | None:
+    if said is None:
+        from viaspline.formats.load import origin_of
+
+        return origin_of(mission)
+    try:
+        latitude, longitude = (float(part) for part in said.split(","))
+    except ValueError:
+        raise click.UsageError(f"--origin {said} is no LAT,LON such as 47.3977,8.5456") from None
+    return latitude, longitude

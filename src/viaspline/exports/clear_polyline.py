@@ -1,0 +1,247 @@
+"""From a proven path to straight lines that are proven as well: few of them, near to it.
+
+Lines inside of a bend are nearer to what the path leads round. Where they don't keep what is
+required, their corners are moved away from what is near, as far as the stated error lets them;
+where that isn't enough, the lines are made shorter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.exports.chord_bound import chord_bound
+from viaspline.exports.corner_cut import corner_strays
+from viaspline.exports.line_proof import LineProof, LineProver
+from viaspline.exports.sparse_vertices import sparse_parameters
+from viaspline.kernels.arrays import Flags, Floats
+
+EXPORT_SLACK_M: Final = 2e-5
+"""What the lines may lack of the required clearance: the digits of a file are not endless [m]."""
+
+_MARGIN_M: Final = 2e-6
+"""By which corners are moved farther than they have to be [m]."""
+
+_MAX_MOVES: Final = 16
+_MAX_ROUNDS: Final = 10
+_STARTS: Final = (1.0, 0.5, 0.25, 0.1)
+"""Of the stated error, what lines are cut with before their corners are moved."""
+
+_SHORTEST_M: Final = 1e-3
+"""Lines shorter than this aren't cut any more."""
+
+
+@dataclass(frozen=True, eq=False)
+class ClearPolyline:
+    """Straight lines along a path.
+
+    Attributes:
+        parameters: Of the places of the path that the corners stand for, shape (n,).
+        points: The corners [m], shape (n, d).
+        chord_error: A proven bound of the distance between lines and path, either way [m].
+        proofs: What is proven of each line.
+        strays: How far beside each line the vehicle may get about it [m], shape (n - 1,).
+        required: Free space that the body has to keep [m].
+    """
+
+    parameters: Floats
+    points: Floats
+    chord_error: float
+    proofs: tuple[LineProof, ...]
+    strays: Floats
+    required: float
+
+    @property
+    def clearances(self) -> Floats:
+        """What is proven of each line and of a vehicle that cuts its corners [m], (n - 1,)."""
+        return np.array([proof.clearance for proof in self.proofs]) - self.strays
+
+    @property
+    def holds(self) -> bool:
+        """Whether everything keeps what is required."""
+        return bool((self.clearances >= self.required - EXPORT_SLACK_M).all())
+
+
+@dataclass(eq=False)
+class _Cutting:
+    """What is cut into lines, and how."""
+
+    path: PiecewiseCubic
+    prover: LineProver
+    chord_error: float
+    acceptance: float
+    fixed: Floats
+    known: dict[bytes, LineProof]
+
+    def bounds(self, u: Floats, points: Floats) -> Floats:
+        """The chord error of each line [m], shape (n - 1,)."""
+        return np.array(
+            [
+                chord_bound(self.path.section(a, b).spans, points[i], points[i + 1])
+                for i, (a, b) in enumerate(zip(u[:-1].tolist(), u[1:].tolist(), strict=True))
+            ]
+        )
+
+    def judged(self, u: Floats, points: Floats) -> _Judged:
+        """What is proven of lines."""
+        distances = np.asarray(self.path.distance(u))
+        middles = 0.5 * (distances[:-1] + distances[1:])
+        proofs = []
+        for i, middle in enumerate(middles.tolist()):
+            corners = points[i : i + 3]
+            key = corners.tobytes() + np.float64(middle).tobytes()
+            if key not in self.known:
+                self.known[key] = self.prover.proof(corners, middle)
+            proofs.append(self.known[key])
+        strays = corner_strays(points, self.acceptance, self.prover.outer)
+        cleared = np.array([proof.clearance for proof in proofs]) - strays
+        return _Judged(tuple(proofs), strays, self.prover.required + _MARGIN_M - cleared)
+
+    def whole(self, u: Floats, points: Floats) -> ClearPolyline:
+        """Lines with all that is proven of them."""
+        found = self.judged(u, points)
+        error = float(self.bounds(u, points).max())
+        required = self.prover.required
+        return ClearPolyline(u, points, error, found.proofs, found.strays, required)
+
+
+class _Judged(NamedTuple):
+    """What is proven of lines, and what each of them lacks [m]."""
+
+    proofs: tuple[LineProof, ...]
+    strays: Floats
+    lacks: Floats
+
+
+def polyline_proof(
+    path: PiecewiseCubic, prover: LineProver, u: Floats, points: Floats, acceptance: float
+) -> ClearPolyline:
+    """What is proven of given lines.
+
+    Args:
+        path: The path that they stand for.
+        prover: What it is proven against.
+        u: Parameters of the path that the corners stand for, shape (n,).
+        points: The corners [m], shape (n, d).
+        acceptance: How near to a corner the vehicle turns to the next one [m].
+    """
+    return _Cutting(path, prover, 0.0, acceptance, u, {}).whole(u, points)
+
+
+def clear_polyline(
+    path: PiecewiseCubic,
+    prover: LineProver,
+    fixed: Floats,
+    *,
+    chord_error: float,
+    acceptance: float,
+    may_join: Callable[[float, float], bool],
+    most: int,
+    known: dict[bytes, LineProof],
+) -> ClearPolyline:
+    """Straight lines along a path that keep what is required, if such are found.
+
+    Args:
+        path: The proven path.
+        prover: What it is proven against.
+        fixed: Parameters of places that the lines have to run through, the ends among them.
+        chord_error: How far from the path they may be [m].
+        acceptance: How near to a corner the vehicle turns to the next one [m].
+        may_join: What else is asked of each line, by its parameters.
+        most: So many corners at most.
+        known: What was proven of lines before; it is added to.
+
+    Returns:
+        The lines; if they don't hold, the last ones that were tried.
+    """
+    cutting = _Cutting(path, prover, chord_error, acceptance, fixed, known)
+    for start in _STARTS:
+        found, is_whole = _cut(cutting, start * chord_error, may_join, most)
+        if is_whole or len(found.points) > most:
+            break
+    return found
+
+
+def _cut(
+    cutting: _Cutting, error: float, may_join: Callable[[float, float], bool], most: int
+) -> tuple[ClearPolyline, bool]:
+    """Lines that are cut with an error, and with less of it where they don't hold."""
+
+    def near(error: float) -> Callable[[float, float], bool]:
+        def allowed(a: float, b: float) -> bool:
+            if not may_join(a, b):
+                return False
+            spans = cutting.path.section(a, b).spans
+            return chord_bound(spans, spans[0, 0], spans[-1, 3]) <= error
+
+        return allowed
+
+    u = np.array(sparse_parameters(cutting.fixed.tolist(), near(error)))
+    errors = np.full(len(u) - 1, error)
+    for _ in range(_MAX_ROUNDS):
+        found = _moved(cutting, u)
+        failing = _failing(cutting, found)
+        if not failing.any():
+            return found, True
+        lengths = np.linalg.norm(np.diff(found.points, axis=0), axis=1)
+        # Of lines shorter than two radii nothing is known but that radius.
+        if len(u) > most or lengths[failing].min() < max(4.0 * cutting.acceptance, _SHORTEST_M):
+            break
+        parts, kept = [u[:1]], []
+        for i, fails in enumerate(failing.tolist()):
+            error, ends = float(errors[i]), u[i : i + 2].tolist()
+            if fails:
+                error *= 0.5
+                inner = sparse_parameters(ends, near(error))
+                ends = inner if len(inner) > 2 else [ends[0], 0.5 * sum(ends), ends[1]]
+            parts.append(np.array(ends[1:]))
+            kept += [error] * (len(ends) - 1)
+        u, errors = np.concatenate(parts), np.array(kept)
+    return found, False
+
+
+def _failing(cutting: _Cutting, found: ClearPolyline) -> Flags:
+    """Which lines don't hold."""
+    lacks = found.clearances < found.required - 0.25 * EXPORT_SLACK_M
+    bounds = cutting.bounds(found.parameters, found.points)
+    return np.asarray(lacks | (bounds > cutting.chord_error))
+
+
+def _moved(cutting: _Cutting, u: Floats) -> ClearPolyline:
+    """The lines between places of the path, their corners moved away from what is too near."""
+    own = np.asarray(cutting.path.evaluate(u))
+    free = ~np.isin(u, cutting.fixed)
+    limit = (1.0 - 1e-9) * cutting.chord_error
+    points = own.copy()
+    for _ in range(_MAX_MOVES):
+        found = cutting.judged(u, points)
+        if not (found.lacks > 0.5 * _MARGIN_M).any():
+            break
+        moved: Floats = points - own + _shifts(found.proofs, found.lacks, free)
+        sizes = np.linalg.norm(moved, axis=1)
+        moved *= np.divide(limit, sizes, out=np.ones(len(sizes)), where=sizes > limit)[:, None]
+        if np.abs(own + moved - points).max() < 1e-9:
+            break
+        points = own + moved
+    return cutting.whole(u, points)
+
+
+def _shifts(proofs: tuple[LineProof, ...], lacks: Floats, free: Flags) -> Floats:
+    """By how much corners are moved so that lines get what they lack [m], shape (n, d)."""
+    shifts = np.zeros((len(free), len(proofs[0].at)))
+    for i, (proof, lack) in enumerate(zip(proofs, lacks.tolist(), strict=True)):
+        if lack <= 0.0 or proof.away is None or not np.isfinite(lack):
+            continue
+        weights = {i: 1.0 - proof.part, i + 1: proof.part}
+        movable = {k: weight for k, weight in weights.items() if free[k] and weight > 0.05}
+        total = sum(weight * weight for weight in movable.values())
+        for k, weight in movable.items():
+            # The least moves of the two corners that move the place between them by what it lacks.
+            wanted = lack * weight / total
+            got = float(shifts[k] @ proof.away)
+            shifts[k] += max(wanted - got, 0.0) * proof.away
+    return shifts
