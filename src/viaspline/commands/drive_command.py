@@ -34,7 +34,7 @@ def drive(
     """
     if mavlink is None:
         raise click.UsageError("say how the vehicle is reached: --mavlink ADDRESS")
-    from viaspline.commands.mavlink_steps import Link, drive_over_mavlink
+    from viaspline.commands.mavlink_steps import MavlinkLink, drive_over_mavlink
 
-    link = Link(mavlink, system, origin, arm, from_here, wait)
+    link = MavlinkLink(mavlink, system, origin, arm, from_here, wait)
     drive_over_mavlink(mission, link, quiet=quiet)

@@ -34,7 +34,7 @@ OPEN_LOOP: Final = (
 )
 
 
-class Link(NamedTuple):
+class MavlinkLink(NamedTuple):
     """How a vehicle is spoken to.
 
     Attributes:
@@ -54,7 +54,7 @@ class Link(NamedTuple):
     patience: float
 
 
-def drive_over_mavlink(file: Path, link: Link, *, quiet: bool) -> None:
+def drive_over_mavlink(file: Path, link: MavlinkLink, *, quiet: bool) -> None:
     """Drive a mission with a vehicle, and say what came of it.
 
     Args:
@@ -163,8 +163,8 @@ def _check_kind(link: str, vehicle: Vehicle, mission: Mission) -> None:
 
 
 def _drive(
-    name: str, vehicle: Vehicle, pilot: Pilot, frame: LocalFrame, link: Link, telemetry: Telemetry,
-    now: Callable[[], float],
+    name: str, vehicle: Vehicle, pilot: Pilot, frame: LocalFrame, link: MavlinkLink,
+    telemetry: Telemetry, now: Callable[[], float],
 ) -> VehicleDrive:  # fmt: skip
     """The drive at its beginning.
 

@@ -17,7 +17,7 @@ from viaspline.formats.json_tree import Tree, json_tree
 from viaspline.formats.mission_format import Whereabouts, Written
 from viaspline.formats.named_files import world_data
 from viaspline.formats.outgoing import itinerary_of, lost_of
-from viaspline.formats.plan_json import ABOVE_TERRAIN, circle_json, item_json, polygon_json
+from viaspline.formats.plan_parts import ABOVE_TERRAIN, circle_json, item_json, polygon_json
 from viaspline.formats.waypoint_format import WaypointFormat
 from viaspline.mission.model import Mission
 from viaspline.mission.unplaced_faults import describe

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from viaspline.links.mavlink.addresses import Address
+from viaspline.links.mavlink.addresses import LinkAddress
 from viaspline.links.mavlink.common_messages import MissionItemInt
 from viaspline.links.mavlink.conversation import Conversation
 from viaspline.links.mavlink.mav_words import MISSION
@@ -26,7 +26,7 @@ def served(capfd: pytest.CaptureFixture[str]) -> Any:
     settings = mavsdk.Configuration.create_with_component_type(mavsdk.ComponentType.AUTOPILOT)
     settings.system_id = 1
     peer = mavsdk.Mavsdk(settings)
-    talk = Conversation(open_transport(Address("udp", "127.0.0.1", port)), f"udp:{port}")
+    talk = Conversation(open_transport(LinkAddress("udp", "127.0.0.1", port)), f"udp:{port}")
     peer.add_any_connection(f"udpout://127.0.0.1:{port}")
     server = MissionRawServer(peer.server_component())
     come, plans = threading.Event(), []

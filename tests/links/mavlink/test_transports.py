@@ -7,7 +7,7 @@ import threading
 import pytest
 
 from viaspline.errors import LinkError
-from viaspline.links.mavlink.addresses import Address, parse_address
+from viaspline.links.mavlink.addresses import LinkAddress, parse_address
 from viaspline.links.mavlink.transport import open_transport
 
 
@@ -29,15 +29,15 @@ def test_what_is_no_address_is_refused_with_those_that_are(text: str) -> None:
 
 
 def test_addresses_may_be_written_as_others_do() -> None:
-    assert parse_address("udp://0.0.0.0:14550") == Address("udp", "0.0.0.0", 14550)
+    assert parse_address("udp://0.0.0.0:14550") == LinkAddress("udp", "0.0.0.0", 14550)
     assert parse_address(" serial:/dev/ttyUSB0:115200 ").number == 115200
     assert str(parse_address("serial:/dev/ttyUSB0")) == "serial:/dev/ttyUSB0:57600"
 
 
 def test_who_listens_answers_those_who_have_spoken() -> None:
     port = free_port()
-    ground = open_transport(Address("udp", "127.0.0.1", port))
-    first, second = (open_transport(Address("udpout", "127.0.0.1", port)) for _ in range(2))
+    ground = open_transport(LinkAddress("udp", "127.0.0.1", port))
+    first, second = (open_transport(LinkAddress("udpout", "127.0.0.1", port)) for _ in range(2))
     ground.write(b"nobody is there yet")
     assert ground.read(0.0) == b""
     first.write(b"one")
@@ -51,7 +51,7 @@ def test_who_listens_answers_those_who_have_spoken() -> None:
 
 
 def test_speaking_to_nobody_is_no_error() -> None:
-    transport = open_transport(Address("udpout", "127.0.0.1", free_port()))
+    transport = open_transport(LinkAddress("udpout", "127.0.0.1", free_port()))
     for _ in range(3):
         transport.write(b"anybody?")
         assert transport.read(0.01) == b""
@@ -60,26 +60,26 @@ def test_speaking_to_nobody_is_no_error() -> None:
 
 def test_a_port_that_is_taken_is_said_to_be() -> None:
     port = free_port()
-    first = open_transport(Address("udp", "127.0.0.1", port))
+    first = open_transport(LinkAddress("udp", "127.0.0.1", port))
     with pytest.raises(LinkError, match=r"the port is taken; end what listens there"):
-        open_transport(Address("udp", "127.0.0.1", port))
+        open_transport(LinkAddress("udp", "127.0.0.1", port))
     first.close()
 
 
 def test_nobody_can_listen_at_another_machines_address() -> None:
     with pytest.raises(LinkError, match=r"udpout:192\.0\.2\.7:14550 speaks to it"):
-        open_transport(Address("udp", "192.0.2.7", 14550))
+        open_transport(LinkAddress("udp", "192.0.2.7", 14550))
 
 
 @pytest.mark.parametrize("kind", ["udp", "udpout", "tcp"])
 def test_a_name_that_is_not_known_is_said_to_be(kind: str) -> None:
     with pytest.raises(LinkError, match="network"):
-        open_transport(Address(kind, "no-such-host.invalid", 14550))
+        open_transport(LinkAddress(kind, "no-such-host.invalid", 14550))
 
 
 def test_nobody_listens_at_a_port() -> None:
     with pytest.raises(LinkError, match=r"can't be reached \(connection refused\)"):
-        open_transport(Address("tcp", "127.0.0.1", free_port(socket.SOCK_STREAM)))
+        open_transport(LinkAddress("tcp", "127.0.0.1", free_port(socket.SOCK_STREAM)))
 
 
 def test_a_stream_is_carried_both_ways_until_it_is_closed() -> None:
@@ -93,7 +93,7 @@ def test_a_stream_is_carried_both_ways_until_it_is_closed() -> None:
 
         answering = threading.Thread(target=echo)
         answering.start()
-        transport = open_transport(Address("tcp", "127.0.0.1", port))
+        transport = open_transport(LinkAddress("tcp", "127.0.0.1", port))
         transport.write(b"hello")
         assert transport.read(2.0) == b"hello"
         answering.join()
@@ -105,7 +105,7 @@ def test_a_stream_is_carried_both_ways_until_it_is_closed() -> None:
 def test_a_device_that_is_not_there_is_said_so() -> None:
     pytest.importorskip("serial")
     with pytest.raises(LinkError, match="is it plugged in"):
-        open_transport(Address("serial", "/dev/no-such-line", 57600))
+        open_transport(LinkAddress("serial", "/dev/no-such-line", 57600))
 
 
 def test_a_serial_line_is_carried_both_ways() -> None:
@@ -114,7 +114,7 @@ def test_a_serial_line_is_carried_both_ways() -> None:
     tty = pytest.importorskip("tty")
     near, far = pty.openpty()
     tty.setraw(near)
-    transport = open_transport(Address("serial", os.ttyname(far), 57600))
+    transport = open_transport(LinkAddress("serial", os.ttyname(far), 57600))
     assert transport.read(0.01) == b""
     os.write(near, b"\xfd\x00\x11\x13\xff")
     data = transport.read(2.0)
@@ -131,4 +131,4 @@ def test_a_serial_line_is_carried_both_ways() -> None:
 def test_without_the_extra_it_says_which_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(__import__("sys").modules, "serial", None)
     with pytest.raises(LinkError, match=r"pip install 'viaspline\[serial\]'"):
-        open_transport(Address("serial", "/dev/ttyUSB0", 57600))
+        open_transport(LinkAddress("serial", "/dev/ttyUSB0", 57600))

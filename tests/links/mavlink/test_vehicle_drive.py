@@ -25,7 +25,7 @@ from viaspline.formats.local_frame import LocalFrame
 from viaspline.links.mavlink.conversation import Conversation
 from viaspline.links.mavlink.drive_orders import DriveOrders, Ended
 from viaspline.links.mavlink.pilot import Steering
-from viaspline.links.mavlink.setpoints import Motion
+from viaspline.links.mavlink.setpoints import VehicleMotion
 from viaspline.links.mavlink.vehicle_drive import VehicleDrive
 from viaspline.links.mavlink.vehicle_runner import VehicleRunner, prepared
 from viaspline.links.mavlink.vehicle_state import VehicleState
@@ -46,7 +46,7 @@ class AheadPilot:
 
     def steered(self, state: VehicleState, time: float) -> tuple["AheadPilot", Steering]:
         self.does(time)
-        motion = Motion(1.0, 0.0, (1.0, 0.0, 0.0), 0.0)
+        motion = VehicleMotion(1.0, 0.0, (1.0, 0.0, 0.0), 0.0)
         return self, Steering(motion, abs(state.y), state.x >= self.metres)
 
 
@@ -341,7 +341,7 @@ def test_signs_are_those_of_north_east_down_and_clockwise() -> None:
             def steered(self, state: VehicleState, time: float) -> tuple[AheadPilot, Steering]:
                 turn, up = 0.4, 0.3
                 velocity = (math.cos(turn * time), math.sin(turn * time), up)
-                motion = Motion(1.0, turn, velocity, turn * time)
+                motion = VehicleMotion(1.0, turn, velocity, turn * time)
                 return self, Steering(motion, 0.0, time > 2.0)
 
         assert Day(vehicle).drive(Left()).reached
@@ -355,7 +355,7 @@ def test_backwards_is_a_speed_below_nothing() -> None:
     @dataclass(frozen=True)
     class Back(AheadPilot):
         def steered(self, state: VehicleState, time: float) -> tuple[AheadPilot, Steering]:
-            return self, Steering(Motion(-0.5, 0.0, (-0.5, 0.0, 0.0), 0.0), 0.0, time > 3.0)
+            return self, Steering(VehicleMotion(-0.5, 0.0, (-0.5, 0.0, 0.0), 0.0), 0.0, time > 3.0)
 
     vehicle = PymavlinkVehicle()
     assert Day(vehicle).drive(Back()).reached

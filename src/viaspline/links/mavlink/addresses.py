@@ -15,7 +15,7 @@ _FORMS: Final = (
 )
 
 
-class Address(NamedTuple):
+class LinkAddress(NamedTuple):
     """Where a vehicle is spoken to.
 
     Attributes:
@@ -32,7 +32,7 @@ class Address(NamedTuple):
         return f"{self.kind}:{self.place}:{self.number}"
 
 
-def parse_address(text: str) -> Address:
+def parse_address(text: str) -> LinkAddress:
     """The address that a text means.
 
     Args:
@@ -42,7 +42,7 @@ def parse_address(text: str) -> Address:
         LinkError: It is none.
 
     >>> parse_address("tcp:127.0.0.1:5760")
-    Address(kind='tcp', place='127.0.0.1', number=5760)
+    LinkAddress(kind='tcp', place='127.0.0.1', number=5760)
     >>> parse_address("serial:/dev/ttyACM0").number
     57600
     >>> parse_address("udp:[::1]:14550").place
@@ -57,13 +57,13 @@ def parse_address(text: str) -> Address:
     place, _, digits = rest.rpartition(":")
     if not place or not (digits.isascii() and digits.isdigit()) or not 0 < int(digits) < 65536:
         raise LinkError(text, "names no host and port", f"it can be {_FORMS}")
-    return Address(kind, place.removeprefix("[").removesuffix("]"), int(digits))
+    return LinkAddress(kind, place.removeprefix("[").removesuffix("]"), int(digits))
 
 
-def _serial(text: str, rest: str) -> Address:
+def _serial(text: str, rest: str) -> LinkAddress:
     device, _, digits = rest.rpartition(":")
     if not device:
         device, digits = rest, str(USUAL_BAUD)
     if not device or not (digits.isascii() and digits.isdigit()) or not 0 < int(digits) < 10**8:
         raise LinkError(text, "names no device and baud rate", f"it can be {_FORMS}")
-    return Address("serial", device, int(digits))
+    return LinkAddress("serial", device, int(digits))

@@ -1,4 +1,7 @@
-"""What a vehicle has on board as a plan of QGroundControl's: every item as it is."""
+"""What a vehicle has on board as a plan of QGroundControl's: every item as it is.
+
+Tested through ``commands/test_upload_command``.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,7 @@ import json
 from collections.abc import Sequence
 
 from viaspline.formats.items import Itinerary
-from viaspline.formats.plan_json import circle_json, item_json, polygon_json
+from viaspline.formats.plan_parts import circle_json, item_json, polygon_json
 from viaspline.links.mavlink.common_messages import MissionItemInt
 from viaspline.links.mavlink.mav_words import RALLY
 from viaspline.links.mavlink.mission_items import Lists, itinerary_on_board

@@ -1,4 +1,7 @@
-"""A vehicle's mission, fence and rally points as a plan file."""
+"""A vehicle's mission, fence and rally points as a plan file.
+
+Tested through ``links/mavlink/test_upload_mission``.
+"""
 
 from __future__ import annotations
 

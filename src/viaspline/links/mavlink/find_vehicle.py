@@ -1,4 +1,7 @@
-"""Who is there: the vehicles of a link by their heartbeats, and which of them is meant."""
+"""Who is there: the vehicles of a link by their heartbeats, and which of them is meant.
+
+Tested through ``links/mavlink/test_upload_mission``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A plan in space at the stick of a copter."""
+"""A plan in space at the stick of a copter.
+
+Tested through ``links/mavlink/test_closed_loop``.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ import numpy as np
 
 from viaspline.kernels.arrays import Floats
 from viaspline.links.mavlink.pilot import FAR_OFF_M, Steering
-from viaspline.links.mavlink.setpoints import Motion
+from viaspline.links.mavlink.setpoints import VehicleMotion
 from viaspline.links.mavlink.vehicle_state import VehicleState
 from viaspline.mission.space.flight_places import flight_places
 from viaspline.space.spatial_plan import SpatialPlan
@@ -97,7 +100,7 @@ class FlightPilot:
         beside = float(np.linalg.norm(error - (error @ along) * along))
         heading = float(self.plan.yaw.at(distance))
         over = now >= end and float(np.linalg.norm(error)) < AT_GOAL_M
-        steering = Steering(Motion(0.0, 0.0, (east, north, up), heading), beside, over)
+        steering = Steering(VehicleMotion(0.0, 0.0, (east, north, up), heading), beside, over)
         return replace(self, law_time=now, last=time), steering
 
     def _later(self, now: float, passed: float, here: Floats) -> float:

@@ -1,13 +1,13 @@
 """Who steers: state and time in, what to do out.
 
-Tested through ``links/mavlink/test_planar_pilot`` and ``links/mavlink/test_flight_pilot``.
+Tested through ``links/mavlink/test_closed_loop``.
 """
 
 from __future__ import annotations
 
 from typing import Final, NamedTuple, Protocol, Self
 
-from viaspline.links.mavlink.setpoints import Motion
+from viaspline.links.mavlink.setpoints import VehicleMotion
 from viaspline.links.mavlink.vehicle_state import VehicleState
 
 FAR_OFF_M: Final = 3.0
@@ -25,7 +25,7 @@ class Steering(NamedTuple):
         news: What has happened, in words.
     """
 
-    motion: Motion
+    motion: VehicleMotion
     beside: float
     is_over: bool = False
     failed: str | None = None

@@ -1,4 +1,7 @@
-"""A navigator at the wheel of a rover or a boat, or of a copter that keeps its height."""
+"""A navigator at the wheel of a rover or a boat, or of a copter that keeps its height.
+
+Tested through ``links/mavlink/test_closed_loop``.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from typing import Final
 
 from viaspline.errors import LinkError
 from viaspline.links.mavlink.pilot import FAR_OFF_M, Steering
-from viaspline.links.mavlink.setpoints import Motion
+from viaspline.links.mavlink.setpoints import VehicleMotion
 from viaspline.links.mavlink.vehicle_state import VehicleState
 from viaspline.mission.model import Mission
 from viaspline.robot.navigator import Navigator
@@ -105,7 +108,7 @@ def _turns(command: Command, state: VehicleState) -> bool:
     return command.stopped and not command.finished and abs(off) > STRAIGHT_RAD
 
 
-def _motion(command: Command, state: VehicleState, nav: Navigator, height: float) -> Motion:
+def _motion(command: Command, state: VehicleState, nav: Navigator, height: float) -> VehicleMotion:
     along, across = command.velocity
     cos, sin = math.cos(state.heading), math.sin(state.heading)
     climb = max(-MAX_CLIMB_MPS, min(MAX_CLIMB_MPS, HEIGHT_GAIN_PER_S * (height - state.up)))
@@ -116,4 +119,4 @@ def _motion(command: Command, state: VehicleState, nav: Navigator, height: float
         off = math.remainder(command.heading - state.heading, math.tau)
         rate = max(-most, min(most, TURN_GAIN_PER_S * off))
     velocity = (along * cos - across * sin, along * sin + across * cos, climb)
-    return Motion(along, rate, velocity, command.heading)
+    return VehicleMotion(along, rate, velocity, command.heading)

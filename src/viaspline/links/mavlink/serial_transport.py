@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from viaspline.errors import LinkError
-from viaspline.links.mavlink.addresses import Address
+from viaspline.links.mavlink.addresses import LinkAddress
 
 if TYPE_CHECKING:
     from serial import Serial
@@ -23,7 +23,7 @@ class SerialTransport:
         self._line = line
 
     @classmethod
-    def to(cls, address: Address) -> SerialTransport:
+    def to(cls, address: LinkAddress) -> SerialTransport:
         """The transport over a device.
 
         Raises:

@@ -4,6 +4,8 @@ ArduPilot's rovers take a speed along the body, its sign in vx, and a yaw rate; 
 velocity over the ground, to whose bearing the body turns; copters a velocity and a yaw. Sources:
 https://ardupilot.org/dev/docs/mavlink-rover-commands.html,
 https://docs.px4.io/main/en/flight_modes/offboard.html
+
+Tested through ``links/mavlink/test_vehicle_drive``.
 """
 
 from __future__ import annotations
@@ -33,7 +35,7 @@ BEARING_AHEAD_S: Final = 0.5
 is where a yaw rate leads in this time."""
 
 
-class Motion(NamedTuple):
+class VehicleMotion(NamedTuple):
     """What a vehicle is to do.
 
     Attributes:
@@ -49,13 +51,13 @@ class Motion(NamedTuple):
     heading: float
 
 
-def standstill(state: VehicleState) -> Motion:
+def standstill(state: VehicleState) -> VehicleMotion:
     """Staying where it is, as it is turned."""
-    return Motion(0.0, 0.0, (0.0, 0.0, 0.0), state.heading)
+    return VehicleMotion(0.0, 0.0, (0.0, 0.0, 0.0), state.heading)
 
 
 def setpoint(
-    vehicle: Vehicle, motion: Motion, heading: float, now: float
+    vehicle: Vehicle, motion: VehicleMotion, heading: float, now: float
 ) -> SetPositionTargetLocalNed:
     """The message that has a vehicle move so.
 

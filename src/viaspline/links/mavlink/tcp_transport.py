@@ -10,7 +10,7 @@ import socket
 from typing import Final
 
 from viaspline.errors import LinkError
-from viaspline.links.mavlink.addresses import Address
+from viaspline.links.mavlink.addresses import LinkAddress
 
 _CHUNK: Final = 65536
 _PATIENCE_S: Final = 5.0
@@ -23,7 +23,7 @@ class TcpTransport:
         self._link = link
 
     @classmethod
-    def to(cls, address: Address) -> TcpTransport:
+    def to(cls, address: LinkAddress) -> TcpTransport:
         """The transport to whoever listens at an address.
 
         Raises:

@@ -72,7 +72,8 @@ class Telemetry:
             return replace(self, ack=message)
         if isinstance(message, Statustext):
             text = message.text.split(b"\0", 1)[0].decode("utf-8", "replace")
-            return replace(self, text=" ".join(text.split()))
+            shown = "".join(one for one in text if one.isprintable())
+            return replace(self, text=" ".join(shown.split()))
         return self
 
     @property

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from viaspline.links.mavlink.addresses import Address
+from viaspline.links.mavlink.addresses import LinkAddress
 
 
 class Transport(Protocol):
@@ -26,7 +26,7 @@ class Transport(Protocol):
         ...
 
 
-def open_transport(address: Address) -> Transport:
+def open_transport(address: LinkAddress) -> Transport:
     """The transport to an address.
 
     Raises:

@@ -12,7 +12,7 @@ from contextlib import suppress
 from typing import Any, Final
 
 from viaspline.errors import LinkError
-from viaspline.links.mavlink.addresses import Address
+from viaspline.links.mavlink.addresses import LinkAddress
 
 _LARGEST: Final = 65536
 _MOST_PEERS: Final = 16
@@ -26,7 +26,7 @@ class UdpTransport:
         self._peers = peers
 
     @classmethod
-    def at(cls, address: Address) -> UdpTransport:
+    def at(cls, address: LinkAddress) -> UdpTransport:
         """The transport that listens at an address, or speaks to it first.
 
         Raises:
@@ -72,7 +72,7 @@ class UdpTransport:
         self._link.close()
 
 
-def _cannot_listen(address: Address, error: OSError) -> LinkError:
+def _cannot_listen(address: LinkAddress, error: OSError) -> LinkError:
     if error.errno == errno.EADDRINUSE:
         remedy = "end what listens there (a ground station?), or have the vehicle send elsewhere"
         return LinkError(address, "the port is taken", remedy)

@@ -17,7 +17,7 @@ from viaspline.links.mavlink.mav_words import ACCEPTED, PX4, TAKE_OFF
 from viaspline.links.mavlink.message import MavlinkMessage
 from viaspline.links.mavlink.pilot import Pilot, Steering
 from viaspline.links.mavlink.requests import arm, change_mode, take_off
-from viaspline.links.mavlink.setpoints import Motion, setpoint, standstill
+from viaspline.links.mavlink.setpoints import VehicleMotion, setpoint, standstill
 from viaspline.links.mavlink.telemetry import ON_GROUND, Telemetry
 from viaspline.links.mavlink.vehicle import Modes, Vehicle
 from viaspline.links.mavlink.vehicle_state import VehicleState, vehicle_state
@@ -162,7 +162,9 @@ class VehicleDrive:
             return self._holding(Ended(False, words), now), self._still(now)
         if self.vehicle.autopilot == PX4:  # its take-off is a mode of its own
             state = self._state(now)
-            return self, self._do(Motion(0.0, 0.0, (0.0, 0.0, 1.0), state.heading), state, now)
+            return self, self._do(
+                VehicleMotion(0.0, 0.0, (0.0, 0.0, 1.0), state.heading), state, now
+            )
         if now - self.asked_at < AGAIN_S or self._has_left_the_ground():
             return self, ()
         return replace(self, asked_at=now), (take_off(self.vehicle, height),)
@@ -277,7 +279,7 @@ class VehicleDrive:
     def _state(self, now: float) -> VehicleState:
         return vehicle_state(self.telemetry, self.frame, now)
 
-    def _do(self, motion: Motion, state: VehicleState, now: float) -> Said:
+    def _do(self, motion: VehicleMotion, state: VehicleState, now: float) -> Said:
         return (setpoint(self.vehicle, motion, state.heading, now),)
 
     def _still(self, now: float) -> Said:

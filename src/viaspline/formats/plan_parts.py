@@ -1,6 +1,6 @@
 """The parts of a plan of QGroundControl's as JSON: items, fences, rally points.
 
-Tested through ``formats/test_qgc_plan`` and ``links/mavlink/test_board_plan``.
+Tested through ``formats/test_qgc_plan`` and ``commands/test_upload_command``.
 """
 
 from __future__ import annotations
