@@ -32,7 +32,7 @@ def download(out: Path, address: str, system: int | None, wait: float, quiet: bo
 
     tell = telling(quiet)
     with talking_to(address) as conversation:
-        tell(f"waiting for an autopilot on {conversation.name}")
+        tell(f"waiting for an autopilot on {conversation.name} …")
         vehicle, _ = conversation.find(system, wait)
         read = download_mission(conversation, vehicle, tell)
     write_whole(out, board_plan(read.lists, vehicle))

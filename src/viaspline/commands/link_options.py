@@ -57,4 +57,4 @@ def telling(quiet: bool) -> Callable[[str], Any]:
     """Who is told what goes on: the error stream, or nobody."""
     from viaspline.report.terminal_lines import say_error
 
-    return (lambda words: None) if quiet else (lambda words: say_error(f"{words} …", prefix=""))
+    return (lambda words: None) if quiet else (lambda words: say_error(words, prefix=""))

@@ -76,7 +76,7 @@ def drive_over_mavlink(file: Path, link: MavlinkLink, *, quiet: bool) -> None:
     with talking_to(link.address) as talk:
         from viaspline.links.mavlink.vehicle_runner import VehicleRunner, prepared
 
-        tell(f"waiting for an autopilot on {talk.name}")
+        tell(f"waiting for an autopilot on {talk.name} …")
         vehicle, _ = talk.find(link.system, link.patience)
         _check_kind(talk.name, vehicle, mission)
         if pilot is None:

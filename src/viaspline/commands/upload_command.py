@@ -61,7 +61,7 @@ def upload(
         lists.pop(FENCE)
     tell = telling(quiet)
     with talking_to(address) as conversation:
-        tell(f"waiting for an autopilot on {conversation.name}")
+        tell(f"waiting for an autopilot on {conversation.name} …")
         vehicle, heartbeat = conversation.find(system, wait)
         refuse_under_way(conversation.name, vehicle, heartbeat)
         done = upload_mission(conversation, vehicle, lists, way.itinerary.home, tell)

@@ -324,7 +324,7 @@ class SimulatedLink:
         self.vehicles, self.loss = vehicles, loss
         self.random = random.Random(seed)
         self.time = 0.0
-        self.is_up = True
+        self.is_up, self.is_broken = True, False
         self.events: list[tuple[float, Callable[[], object]]] = []
         self.waiting = b""
 
@@ -339,6 +339,14 @@ class SimulatedLink:
         return not self.is_up or self.random.random() < self.loss
 
     def read(self, timeout: float) -> bytes:
+        if self.is_broken:
+            raise ConnectionResetError("the other end has closed the connection")
+        self.sleep(timeout)
+        data, self.waiting = self.waiting, b""
+        return data
+
+    def sleep(self, timeout: float) -> None:
+        """Until something has come, or that time has passed [s]."""
         end = self.time + max(timeout, TICK_S)
         while self.time < end - 1e-9:
             self.time += TICK_S
@@ -352,10 +360,10 @@ class SimulatedLink:
                 self.waiting += b"" if self._lost() else said
             if self.waiting:
                 break
-        data, self.waiting = self.waiting, b""
-        return data
 
     def write(self, data: bytes) -> None:
+        if self.is_broken:
+            raise BrokenPipeError("the other end has closed the connection")
         for vehicle in self.vehicles:
             if not self._lost():
                 vehicle.receive(data)

@@ -53,7 +53,7 @@ def driven(
     """Drive a vehicle to the end of its mission."""
     link = SimulatedLink(vehicle, loss=loss)
     told: list[str] = []
-    talk = Conversation(link, "udp:test", clock=link.now, sleep=link.read)
+    talk = Conversation(link, "udp:test", clock=link.now, sleep=link.sleep)
     found, _ = talk.find(None, 10.0)
     telemetry = prepared(talk, found, 10.0, told.append)
     assert found.modes is not None

@@ -56,7 +56,7 @@ class Day:
     def __init__(self, vehicle: PymavlinkVehicle, *others: PymavlinkVehicle) -> None:
         self.vehicle, self.told = vehicle, list[str]()
         self.link = SimulatedLink(vehicle, *others)
-        self.talk = Conversation(self.link, "udp:test", clock=self.link.now, sleep=self.link.read)
+        self.talk = Conversation(self.link, "udp:test", clock=self.link.now, sleep=self.link.sleep)
 
     def drive(self, pilot: Any = None, *, arms: bool = True, patience: float = 5.0) -> Ended:
         found, _ = self.talk.find(self.vehicle.system, 10.0)
@@ -375,3 +375,59 @@ def test_a_drive_that_is_over_says_nothing() -> None:
     day.drive(AheadPilot(metres=1.0))
     drive = day.runner.drive
     assert drive.ticked(1e3) == (replace(drive, news=()), ())
+
+
+def test_a_link_that_breaks_is_an_error_in_words() -> None:
+    vehicle = PymavlinkVehicle()
+    day = Day(vehicle)
+    day.link.at(8.0, lambda: setattr(day.link, "is_broken", True))
+    with pytest.raises(LinkError, match=r"the link broke .* own failsafe"):
+        day.drive()
+    assert "it may not have heard that it is to stop" in day.told
+    day.link.is_broken = False
+    day.link.sleep(0.01)
+    while day.link.time < 16.0:
+        day.link.sleep(1.0)
+        day.link.waiting = b""
+    assert vehicle.speed < 0.01
+
+
+def test_a_link_that_breaks_for_a_moment_is_gone_on_with() -> None:
+    vehicle = PymavlinkVehicle()
+    day = Day(vehicle)
+    day.link.at(8.0, lambda: setattr(day.link, "is_broken", True))
+    day.link.at(9.0, lambda: setattr(day.link, "is_broken", False))
+    assert day.drive(AheadPilot(metres=8.0)).reached
+
+
+def test_a_pose_that_comes_too_seldom_is_refused() -> None:
+    vehicle = PymavlinkVehicle()
+    vehicle._on_command_long = _only(vehicle._on_command_long, 511)  # type: ignore[method-assign]
+    vehicle._on_request_data_stream = lambda message: None  # type: ignore[method-assign]
+    vehicle.intervals = {30: 0.1, 33: 1.0, 193: 1.0}
+    with pytest.raises(LinkError, match="its position comes too seldom to drive by"):
+        Day(vehicle).drive()
+    assert vehicle.setpoints == []
+
+
+def test_ctrl_c_while_it_is_taken_over_leaves_it_holding_or_as_it_was() -> None:
+    for takes in (True, False):
+        vehicle = PymavlinkVehicle()
+        vehicle.takes_mode = takes
+        day = Day(vehicle)
+        waited: list[float] = []
+
+        def listens(timeout: float, day: Day = day, waited: list[float] = waited) -> bytes:
+            asked = [one for one in day.commands(176) if one.param2 == 15.0]
+            if asked and not waited:
+                waited.append(day.link.time)
+                raise KeyboardInterrupt
+            day.link.sleep(timeout)
+            data, day.link.waiting = day.link.waiting, b""
+            return data
+
+        day.link.read = listens  # type: ignore[method-assign]
+        with pytest.raises(KeyboardInterrupt):
+            day.drive()
+        assert vehicle.mode == (4 if takes else 0)
+        assert not vehicle.armed

@@ -46,7 +46,7 @@ def download_mission(
     lists: Lists = {}
     lacking: list[str] = []
     for kind in (MISSION, FENCE, RALLY):
-        tell(f"reading the {LISTS[kind]}")
+        tell(f"reading the {LISTS[kind]} …")
         read = conversation.carried_out(MissionDownload(vehicle, kind), vehicle)
         if read.failure is None:
             lists[kind] = read.items

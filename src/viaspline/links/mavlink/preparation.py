@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass, field, replace
 from typing import Final
 
+from viaspline.links.mavlink.common_messages import GlobalPositionInt
 from viaspline.links.mavlink.exchange import Said
 from viaspline.links.mavlink.message import MavlinkMessage
 from viaspline.links.mavlink.requests import ask_for_streams
@@ -18,7 +19,8 @@ from viaspline.links.mavlink.vehicle import Vehicle
 AGAIN_S: Final = 2.0
 """Streams are asked for so often until they come."""
 
-FRESH_S: Final = 0.5
+FRESH_S: Final = 0.45
+"""A vehicle whose positions come less often isn't driven by them."""
 
 
 @dataclass(frozen=True)
@@ -29,15 +31,20 @@ class Preparation:
         vehicle: It.
         telemetry: What it has said.
         asked_at: When streams were asked for last [s].
+        gap: Between its last two positions [s].
     """
 
     vehicle: Vehicle
     telemetry: Telemetry = field(default_factory=Telemetry)
     asked_at: float = -math.inf
+    gap: float = math.inf
 
     def heard(self, message: MavlinkMessage, now: float) -> Preparation:
         """After a message."""
-        return replace(self, telemetry=self.telemetry.heard(message, now))
+        gap = self.gap
+        if isinstance(message, GlobalPositionInt):
+            gap = now - self.telemetry.position_at
+        return replace(self, telemetry=self.telemetry.heard(message, now), gap=gap)
 
     def waited(self, now: float) -> tuple[Preparation, Said]:
         """Ask for what doesn't come."""
@@ -50,6 +57,6 @@ class Preparation:
         missing = self.telemetry.not_ready
         if self.telemetry.beat is None:
             missing = ("it has no heartbeat", *missing)
-        elif not missing and now - self.telemetry.pose_at > FRESH_S:
-            missing = ("its pose comes too seldom",)
+        elif not missing and max(now - self.telemetry.pose_at, self.gap) > FRESH_S:
+            missing = (f"its position comes too seldom to drive by: each {FRESH_S:g} s at least",)
         return missing

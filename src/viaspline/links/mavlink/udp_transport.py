@@ -33,12 +33,12 @@ class UdpTransport:
             LinkError: The name isn't known, the port is taken, or it is no address of this machine.
         """
         try:
-            family, _, _, _, place = socket.getaddrinfo(
-                address.place, address.number, type=socket.SOCK_DGRAM
-            )[0]
+            found = socket.getaddrinfo(address.place, address.number, type=socket.SOCK_DGRAM)
         except (OSError, UnicodeError) as error:
             remedy = "give an IP address, or look at the network"
             raise LinkError(address, f"the name isn't known ({error})", remedy) from None
+        # Autopilots speak IPv4: "localhost" may have both.
+        family, _, _, _, place = min(found, key=lambda one: one[0] != socket.AF_INET)
         link = socket.socket(family, socket.SOCK_DGRAM)
         try:
             if address.kind == "udp":

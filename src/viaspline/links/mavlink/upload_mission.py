@@ -72,13 +72,25 @@ def upload_mission(
     counts: dict[int, int] = {}
     for kind in (one for one in ORDER if one in lists):
         items = addressed(lists[kind], kind, vehicle, home)
-        tell(f"sending the {LISTS[kind]}: {len(items)} items")
-        sent = conversation.carried_out(MissionUpload(vehicle, kind, items), vehicle)
-        tell(f"reading the {LISTS[kind]} back")
+        tell(f"sending the {LISTS[kind]}: {len(items)} items …")
+        sent = _sent(conversation, MissionUpload(vehicle, kind, items), tell)
+        tell(f"reading the {LISTS[kind]} back …")
         read = conversation.carried_out(MissionDownload(vehicle, kind), vehicle)
         _check(conversation.name, vehicle, sent, read, counts)
         counts[kind] = len(lists[kind])
     return Uploaded(vehicle, counts)
+
+
+def _sent(conversation: Conversation, upload: MissionUpload, tell: Tell) -> MissionUpload:
+    """An upload at its end; who breaks it off is told what that means."""
+    try:
+        return conversation.carried_out(upload, upload.vehicle)
+    except BaseException:
+        tell(
+            f"the {LISTS[upload.kind]} was broken off: what is on board now isn't known; "
+            "viaspline download shows it"
+        )
+        raise
 
 
 def _check(

@@ -114,7 +114,9 @@ class VehicleDrive:
 
     def interrupted(self, now: float) -> VehicleDrive:
         """The drive that somebody has broken off: it stops and holds."""
-        if self.phase in ("take over", "over"):
+        if self.phase == "over":
+            return self
+        if self.phase == "take over" and self.asked_at == -math.inf:
             return self._over(Ended(False, "interrupted before the vehicle was taken over"))
         return self if self.phase == "hold" else self._holding(Ended(False, "interrupted"), now)
 
@@ -229,6 +231,11 @@ class VehicleDrive:
 
     def _hold(self, now: float) -> tuple[VehicleDrive, Said]:
         assert self.ending is not None
+        if self.telemetry.mode not in (self.modes.guided, self.modes.hold, self.modes.land):
+            # It was never taken over, or a person has it again: its heartbeat will tell.
+            return (
+                (self, ()) if now - self.since <= 1.2 * AGAIN_S else (self._over(self.ending), ())
+            )
         if self.telemetry.mode == self.modes.hold and self.telemetry.beat_at >= self.since:
             name = self.vehicle.mode_name(self.modes.hold)
             return self._over(Ended(self.ending.reached, f"{self.ending.words}; {name}")), ()
@@ -250,7 +257,7 @@ class VehicleDrive:
         ours = {
             "take over": (self.first_mode, self.modes.guided),
             "land": (self.modes.guided, self.modes.land),
-            "hold": (self.modes.guided, self.modes.hold, self.modes.land),
+            "hold": (self.modes.guided, self.modes.hold, self.modes.land, self.first_mode),
         }.get(self.phase, (self.modes.guided,))
         mode = self.telemetry.mode
         if mode is None or mode in ours:

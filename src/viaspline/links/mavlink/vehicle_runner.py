@@ -57,7 +57,7 @@ def prepared(
             remedy = "wait for its GPS and its EKF, or look at it with a ground station"
             raise LinkError(conversation.name, problem, remedy)
         if words != told and now - began > 1.0:
-            tell(f"waiting: {words}")
+            tell(f"waiting: {words} …")
             told = words
         with conversation.breaking():
             preparation, said = preparation.waited(now)
@@ -98,7 +98,7 @@ class VehicleRunner:
             with suppress(OSError, LinkError):
                 self._until(lambda: self._conversation.now() > end)
             ended = self.drive.ended
-            self._tell("it was told to stop and to hold" if ended is None else ended.words)
+            self._tell("it may not have heard that it is to stop" if ended is None else ended.words)
             raise
 
     def stop_at_once(self) -> None:
