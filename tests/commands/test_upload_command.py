@@ -104,6 +104,14 @@ def test_without_an_origin_nothing_is_sent(
     assert words in result.output
 
 
+def test_two_origins_are_one_too_many(tmp_path: Path) -> None:
+    file = tmp_path / "tour.plan"
+    write_plan(file)
+    result = uploaded(file, free_udp_port(), "--vias", "--origin", "47.2,8.2")
+    assert result.exit_code == 2
+    assert "the file has its own origin, 47.1,8.2; leave out --origin" in result.output
+
+
 def test_nobody_answers(mission: Path) -> None:
     result = uploaded(mission, free_udp_port(), "--vias", "--origin", "47.1,8.2", "--wait", "1")
     assert result.exit_code == 2

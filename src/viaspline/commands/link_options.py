@@ -14,8 +14,8 @@ import click
 if TYPE_CHECKING:
     from viaspline.links.mavlink.conversation import Conversation
 
-PATIENCE_S = 15.0
-"""How long an autopilot is waited for, if nobody says [s]."""
+PATIENCE_S = 30.0
+"""How long an autopilot is waited for, and until it is ready, if nobody says [s]."""
 
 ADDRESSES = "udp:HOST:PORT, udpout:HOST:PORT, tcp:HOST:PORT or serial:DEVICE[:BAUD]."
 
@@ -29,7 +29,7 @@ ORIGIN = click.option(
 )  # fmt: skip
 WAIT = click.option(
     "--wait", type=click.FloatRange(min=1.0, max=86400.0), default=PATIENCE_S, show_default=True,
-    metavar="SECONDS", help="How long an autopilot is waited for.",
+    metavar="SECONDS", help="How long an autopilot is waited for, and until it is ready.",
 )  # fmt: skip
 QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all goes well.")
 

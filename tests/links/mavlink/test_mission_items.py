@@ -49,7 +49,8 @@ def test_what_goes_out_is_what_comes_back(
     for one, other in zip(items, back.items[1:], strict=True):
         assert other.latitude == pytest.approx(one.latitude, abs=1e-7)
         assert other.longitude == pytest.approx(one.longitude, abs=1e-7)
-        assert (other.altitude, other.params[0]) == (one.altitude, one.params[0])
+        stays = one.params[0] if vehicle is PX4 else math.ceil(one.params[0])  # in whole seconds
+        assert (other.altitude, other.params[0]) == (one.altitude, stays)
     assert [area.inclusion for area in back.fences] == [True, False, False]
     assert [len(area.corners) for area in back.fences] == [len(polygon), 0, len(polygon)]
     assert back.fences[1].radius == circle[1]

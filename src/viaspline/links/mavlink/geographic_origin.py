@@ -1,4 +1,7 @@
-"""Where on earth a mission's 0, 0 is: as its file says, or as somebody says."""
+"""Where on earth a mission's 0, 0 is: as its file says, or as somebody says.
+
+Tested through ``commands/test_upload_command``.
+"""
 
 from __future__ import annotations
 
@@ -17,18 +20,18 @@ def mission_origin(path: Path, given: str | None) -> LatLon:
         given: What somebody says instead, as ``LAT,LON``.
 
     Raises:
-        LinkError: Nobody says it, or it can't be meant.
+        LinkError: Nobody says it, two say it, or it can't be meant.
         MissionError: The file can't be read.
-
-    >>> mission_origin(Path("patrol.yaml"), "47.1, 8.2")
-    (47.1, 8.2)
     """
+    own = origin_of(path)
+    if own is not None and given is not None:
+        problem = f"the file has its own origin, {own[0]:g},{own[1]:g}"
+        raise LinkError(path, problem, "leave out --origin")
+    if own is not None:
+        return own
     if given is None:
-        origin = origin_of(path)
-        if origin is None:
-            problem = "the mission is in metres, and a vehicle drives in latitudes and longitudes"
-            raise LinkError(path, problem, "say where its 0, 0 is: --origin LAT,LON")
-        return origin
+        problem = "the mission is in metres, and a vehicle drives in latitudes and longitudes"
+        raise LinkError(path, problem, "say where its 0, 0 is: --origin LAT,LON")
     try:
         latitude, longitude = (float(part) for part in given.split(","))
     except ValueError:

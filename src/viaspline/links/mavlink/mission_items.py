@@ -20,7 +20,7 @@ from viaspline.formats.fences import fence_areas
 from viaspline.formats.flown_items import MISSION_FRAME, OVER_HOME, WAYPOINT
 from viaspline.formats.items import FenceArea, Home, Item, Itinerary, LatLon, Place
 from viaspline.links.mavlink.common_messages import MissionItemInt
-from viaspline.links.mavlink.mav_words import FENCE, MISSION, RALLY
+from viaspline.links.mavlink.mav_words import ARDUPILOT, FENCE, MISSION, RALLY
 from viaspline.links.mavlink.vehicle import Vehicle
 
 Lists: TypeAlias = dict[int, tuple[MissionItemInt, ...]]
@@ -65,6 +65,8 @@ def addressed(
 ) -> tuple[MissionItemInt, ...]:
     """Items as they are sent to a vehicle: to its number, its home before the mission if it so has.
 
+    ArduPilot keeps whole seconds and whole metres of rally points: they are rounded up for it.
+
     Args:
         items: Of one list.
         kind: Its MAV_MISSION_TYPE.
@@ -77,10 +79,20 @@ def addressed(
         height = 0.0 if home is None or math.isnan(home.altitude) else home.altitude
         sent.insert(0, _placed(WAYPOINT, _OVER_SEA, place, height))
     to = {"target_system": vehicle.system, "target_component": vehicle.component}
+    if vehicle.autopilot == ARDUPILOT:
+        sent = [_rounded(item) for item in sent]
     first = {0: 1} if kind == MISSION else {}
     return tuple(
         replace(item, seq=seq, current=first.get(seq, 0), **to) for seq, item in enumerate(sent)
     )
+
+
+def _rounded(item: MissionItemInt) -> MissionItemInt:
+    if item.command == WAYPOINT and math.isfinite(item.param1):
+        return replace(item, param1=float(math.ceil(item.param1)))
+    if item.command == RALLY_POINT and math.isfinite(item.z):
+        return replace(item, z=float(math.ceil(item.z)))
+    return item
 
 
 def itinerary_on_board(lists: Lists, vehicle: Vehicle, source: str) -> Itinerary:
