@@ -27,6 +27,8 @@ FLEET = vs.Fleet.model_validate(
     {"fleet": [{"name": "a", "route": {"start": [0, 0], "goal": [9, 0]}}]}
 )
 FLEET_PLAN = vs.plan_fleet(FLEET)
+ROUTE_PLAN = vs.plan(MISSION)
+TO_NOWHERE = "no such folder/x.plan"
 FLEET_NAV = vs.FleetNavigator(FLEET_PLAN)
 
 JUNK: list[Any] = [
@@ -167,6 +169,17 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "FleetNavigator robot": lambda junk: FLEET_NAV.with_robot(junk),
     "FleetNavigator elsewhere": lambda junk: FLEET_NAV.rerouted("a", junk),
     "FleetNavigator stopping": lambda junk: FLEET_NAV.stopping(junk),
+    "export": lambda junk: vs.export(junk, "x.csv"),
+    "export path": lambda junk: vs.export(ROUTE_PLAN, junk),
+    "export origin": lambda junk: vs.export(ROUTE_PLAN, TO_NOWHERE, origin=junk),
+    "export chord_error": lambda junk: vs.export(ROUTE_PLAN, TO_NOWHERE, chord_error=junk),
+    "export acceptance": lambda junk: vs.export(ROUTE_PLAN, TO_NOWHERE, acceptance=junk),
+    "export spacing": lambda junk: vs.export(ROUTE_PLAN, TO_NOWHERE, spacing=junk),
+    "export name": lambda junk: vs.export(ROUTE_PLAN, TO_NOWHERE, name=junk),
+    "ExportOptions": lambda junk: vs.ExportOptions(junk).checked(),
+    "export_fleet": lambda junk: vs.export_fleet(junk, TO_NOWHERE),
+    "export_fleet path": lambda junk: vs.export_fleet(FLEET_PLAN, junk),
+    "export_fleet options": lambda junk: vs.export_fleet(FLEET_PLAN, TO_NOWHERE, junk),
     "FleetMember": lambda junk: vs.add_robot(FLEET_PLAN, vs.FleetMember("b", junk)),
     "add_robot": lambda junk: vs.add_robot(junk, FLEET.members[0]),
     "add_robot member": lambda junk: vs.add_robot(FLEET_PLAN, junk),
@@ -184,7 +197,8 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     ),
 }
 RESULTS = {
-    "Certificate", "Command", "FleetCommand", "FleetPlan", "FleetRun", "MovingCertificate", "Plan",
+    "Certificate", "Command", "Exported", "FleetCommand", "FleetPlan", "FleetRun",
+    "MovingCertificate", "Plan",
     "Run", "SpatialPlan", "SpatialRun", "TensionAdvice",
 }  # fmt: skip
 

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         PlanningError,
         ViasplineError,
     )
+    from viaspline.exports.export_options import ExportOptions
     from viaspline.exports.export_path import Exported, export, export_fleet
     from viaspline.fleet.execution.changed_plans import add_robot, remove_robot, reroute_robot
     from viaspline.fleet.execution.delays import Delays
@@ -79,6 +80,7 @@ _HOMES = {
     "Certificate": "curve.certificate",
     "Command": "robot.state",
     "Delays": "fleet.execution.delays",
+    "ExportOptions": "exports.export_options",
     "Exported": "exports.export_path",
     "Fleet": "mission.fleet.fleet",
     "FleetCommand": "fleet.execution.fleet_messages",

@@ -126,3 +126,18 @@ def random_edits(page: Any, source: random.Random, count: int) -> None:
     script = (Path(__file__).parents[2] / "benchmarks" / "studio_fuzz.js").read_text()
     page.js(script)
     page.js("([seed, count]) => studioFuzz(seed, count)", [source.randrange(2**31), count])
+
+
+def test_the_path_is_taken_in_formats_of_others_and_what_is_proven_is_shown(
+    visit: Visit, patrol: Path
+) -> None:
+    page = visit(patrol)
+    page.press("Control+e")
+    page.page.get_by_role("button", name="path.kml").click()
+    page.page.get_by_role("alert").filter(has_text="give the origin").wait_for()
+    page.page.get_by_label("Origin").fill("47.3977, 8.5456")
+    with page.page.expect_download() as caught:
+        page.page.get_by_role("button", name="path.kml").click()
+    assert caught.value.suggested_filename == f"{patrol.stem}-path.kml"
+    page.page.get_by_text("not carried: speeds").wait_for()
+    page.page.get_by_role("button", name="OK").click()

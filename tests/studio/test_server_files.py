@@ -140,3 +140,23 @@ def test_two_pages_on_one_mission_plan_each_their_own_and_lose_nothing(
         assert other.ask("save", "saved", name=patrol.name, replace=True)["name"] == patrol.name
         assert "[95, 320]" in patrol.read_text()
         assert other.ask("save", "saved", name=patrol.name)["name"] == patrol.name
+
+
+def test_the_path_is_exported_to_formats_of_others_with_what_is_proven_of_it(
+    start: START, patrol: Path, tmp_path: Path
+) -> None:
+    with start(patrol).client() as client:
+        assert client.edit()["ok"]
+        for kind in ("path.plan", "path.waypoints", "path.geojson", "path.kml", "path.gpx"):
+            refused = client.ask("export", "refused", kind=kind)
+            assert "give the origin" in refused["message"]
+            done = client.ask("export", "exported", kind=kind, origin="47, 8")
+            assert done["name"] == f"{patrol.stem}-{kind}"
+            assert "m clear" in done["told"][0]
+        done = client.ask("export", "exported", kind="path.yaml")
+        assert base64.b64decode(done["data"]).startswith(f"# {patrol.stem}: ".encode())
+        plan = client.ask("export", "exported", kind="path.plan", origin="47, 8")
+    file = tmp_path / "exported.plan"
+    file.write_bytes(base64.b64decode(plan["data"]))
+    checked = CliRunner().invoke(cli, ["check", str(file)])
+    assert checked.exit_code == 0, checked.output

@@ -7,15 +7,18 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viaspline.command_steps import load_asked, progress_bar
-from viaspline.report.terminal_lines import say, say_error
+from viaspline.command_steps import load_asked, progress_bar, result_folder
+from viaspline.report.terminal_lines import say
 
 if TYPE_CHECKING:
     from viaspline.exports.export_options import ExportOptions
     from viaspline.exports.export_path import Exported
+    from viaspline.fleet.fleet_plan import FleetPlan
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.model import Mission
+    from viaspline.planner import Plan
     from viaspline.report.progress_bar import ProgressBar
+    from viaspline.space.spatial_plan import SpatialPlan
 
 METRES = click.FloatRange(min=0.0, max=1e4)
 
@@ -58,13 +61,18 @@ def export_command(
     """
     from viaspline.exports.export_options import ExportOptions
     from viaspline.exports.path_format import path_format_of
+    from viaspline.exports.tabled_path import check_origin
 
-    path_format_of(out)  # refused before the long work
+    kind = path_format_of(out)  # what can't be is refused before the long work
     _check_in(mission)
     asked = load_asked(mission)
-    options = ExportOptions(_origin_of(mission, origin), chord_error, acceptance, spacing).checked()
-    with progress_bar(quiet, asked) as watch:
-        done = _exported(asked, out, options, watch)
+    options = ExportOptions(_origin_of(mission, origin), chord_error, acceptance, spacing)
+    options = options.checked()
+    check_origin(kind, options, str(out))
+    with result_folder(out.parent, (out.name,)), progress_bar(quiet, asked) as watch:
+        planned = _planned(asked, watch)
+        with watch.stage("export", "cutting and proving"):
+            done = _exported(planned, out, options)
     if not quiet:
         for robot, one in done.items():
             say(f"{robot}: {one.words}" if robot else one.words)
@@ -72,36 +80,47 @@ def export_command(
         if first is not None:
             say(*(f"not carried: {words}" for words in first.lost))
             say(*(f"note: {words}" for words in first.notes))
-        say(f"wrote {', '.join(str(one.path) for one in done.values())}")
+            say(f"wrote {', '.join(str(one.path) for one in done.values())}")
+    _end_unserved(planned)
 
 
-def _exported(
-    asked: Mission | Fleet, out: Path, options: ExportOptions, watch: ProgressBar
-) -> dict[str, Exported]:
-    """What was written, by the robot's name; a single one has none."""
-    from viaspline.exports.export_path import export, export_fleet
+def _planned(asked: Mission | Fleet, watch: ProgressBar) -> Plan | SpatialPlan | FleetPlan:
     from viaspline.mission.model import Mission
 
     if isinstance(asked, Mission):
         with watch.stage("plan", "planning"):
             from viaspline.plan_mission import plan
 
-            planned = plan(asked)
-        with watch.stage("export", "cutting and proving"):
-            done = export(
-                planned, out, origin=options.origin, chord_error=options.chord_error,
-                acceptance=options.acceptance, spacing=options.spacing,
-            )  # fmt: skip
-        return {"": done}
-    from viaspline.fleet_steps import LaidBy, end_unserved, watched_fleet_plan
+            return plan(asked)
+    from viaspline.fleet_steps import LaidBy, watched_fleet_plan
 
-    planned_fleet = watched_fleet_plan(asked, watch, 0.0, LaidBy())
-    with watch.stage("export", "cutting and proving"):
-        found = export_fleet(planned_fleet, out, options)
-    if not planned_fleet.served:
-        say_error("only robots that are served have a file", prefix="note: ")
-        end_unserved(planned_fleet)
-    return found
+    return watched_fleet_plan(asked, watch, 0.0, LaidBy())
+
+
+def _exported(
+    planned: Plan | SpatialPlan | FleetPlan, out: Path, options: ExportOptions
+) -> dict[str, Exported]:
+    """What was written, by the robot's name; a single one has none."""
+    from viaspline.exports.export_path import export, export_fleet
+    from viaspline.fleet.fleet_plan import FleetPlan
+
+    if isinstance(planned, FleetPlan):
+        return export_fleet(planned, out, options)
+    done = export(
+        planned, out, origin=options.origin, chord_error=options.chord_error,
+        acceptance=options.acceptance, spacing=options.spacing,
+    )  # fmt: skip
+    return {"": done}
+
+
+def _end_unserved(planned: Plan | SpatialPlan | FleetPlan) -> None:
+    """End with the code for it if robots of a fleet have no path, and so no file."""
+    from viaspline.fleet.fleet_plan import FleetPlan
+
+    if isinstance(planned, FleetPlan):
+        from viaspline.fleet_steps import end_unserved
+
+        end_unserved(planned)
 
 
 def _check_in(file: Path) -> None:

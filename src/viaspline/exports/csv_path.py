@@ -1,4 +1,7 @@
-"""A path as a table of numbers."""
+"""A path as a table of numbers.
+
+Tested through ``exports/test_other_readers``.
+"""
 
 from __future__ import annotations
 

@@ -120,7 +120,13 @@ def export_fleet(
     Raises:
         OutputError, GeometryError: As ``export``; nothing is written then.
     """
-    checked = (options or ExportOptions()).checked()
+    from viaspline.fleet.fleet_plan import FleetPlan
+
+    check_kind("plan", plan, FleetPlan, "give what viaspline.plan_fleet(fleet) returns")
+    check_kind("path", path, str | Path, "give the file to write")
+    asked = ExportOptions() if options is None else options
+    check_kind("options", asked, ExportOptions, "give ExportOptions(chord_error=0.05)")
+    checked = asked.checked()
     kind = path_format_of(path)
     stem, ending = stem_of(Path(path), kind), _ending(Path(path), kind)
     ready: list[tuple[str, Path, bytes, PathTable]] = []

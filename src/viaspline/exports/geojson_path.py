@@ -1,4 +1,7 @@
-"""A path as GeoJSON (RFC 7946): a line, and a point for each via point."""
+"""A path as GeoJSON (RFC 7946): a line, and a point for each via point.
+
+Tested through ``exports/test_other_readers``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A path as GPX 1.1: a route of all its points, and a way point for each via point."""
+"""A path as GPX 1.1: a route of all its points, and a way point for each via point.
+
+Tested through ``exports/test_other_readers``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A path as JSON: all that the others have, and the exact curve beside it."""
+"""A path as JSON: all that the others have, and the exact curve beside it.
+
+Tested through ``exports/test_other_readers``.
+"""
 
 from __future__ import annotations
 

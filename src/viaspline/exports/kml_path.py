@@ -1,4 +1,7 @@
-"""A path as KML 2.2: a line, and a placemark for each via point."""
+"""A path as KML 2.2: a line, and a placemark for each via point.
+
+Tested through ``exports/test_other_readers``.
+"""
 
 from __future__ import annotations
 

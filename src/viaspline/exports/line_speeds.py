@@ -10,7 +10,13 @@ from viaspline.kernels.arrays import Floats
 from viaspline.trajectory.trajectory import Trajectory
 
 SPEED_STEP: Final = 1.25
-"""Within a line, and between lines of one speed, what may be set differs by no more than this."""
+"""Within a line what may be set differs by no more than this."""
+
+SAME_SPEED: Final = 1.03
+"""Lines behind each other whose speeds differ by no more than this get one."""
+
+MOST_LOST_S: Final = 0.5
+"""What a line may take longer for having one speed [s]."""
 
 _FULL: Final = 0.9
 """Of the greatest acceleration, what counts as speeding up or braking as hard as can be."""
@@ -54,7 +60,12 @@ class SettableSpeeds:
     def may_be_one(self, first: float, last: float) -> bool:
         """Whether one speed does between two distances along the path [m]."""
         part = self._slice(first, last)
-        return bool(self._high[part].max() <= SPEED_STEP * self._low[part].min())
+        least, high = float(self._low[part].min()), self._high[part]
+        if high.max() > SPEED_STEP * least:
+            return False
+        # Of the samples the mean stands for the line: they are close together.
+        step = (last - first) / max(len(high), 1)
+        return float((step / max(least, 1e-9) - step / np.maximum(high, 1e-9)).sum()) <= MOST_LOST_S
 
     def of_line(self, first: float, last: float) -> float:
         """The speed to be set for a line between two distances along the path [m], in [m/s]."""
@@ -76,20 +87,20 @@ class SettableSpeeds:
 def set_speeds(speeds: Floats) -> Floats:
     """The speeds that are set for lines in a row, changed as seldom as may be [m/s], shape (n,).
 
-    Lines behind each other get one speed, the least of theirs, as long as it is no more than a
-    fifth less than any of them.
+    Lines behind each other get one speed, the least of theirs, as long as it is no more than three
+    in a hundred less than any of them.
 
     Args:
         speeds: What may be set for each line [m/s], shape (n,).
 
-    >>> set_speeds(np.array([2.0, 1.9, 1.7, 0.9, 1.0, 2.0])).tolist()
-    [1.7, 1.7, 1.7, 0.9, 0.9, 2.0]
+    >>> set_speeds(np.array([2.0, 1.99, 1.95, 0.9, 1.0, 2.0])).tolist()
+    [1.95, 1.95, 1.95, 0.9, 1.0, 2.0]
     """
     found = np.array(speeds, np.float64)
     first = 0
     for i in range(1, len(found) + 1):
         run = speeds[first : i + 1]
-        if i == len(found) or run.max() > SPEED_STEP * run.min():
+        if i == len(found) or run.max() > SAME_SPEED * run.min():
             found[first:i] = speeds[first:i].min()
             first = i
     return found

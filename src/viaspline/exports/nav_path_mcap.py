@@ -1,6 +1,8 @@
 """A path as a ``nav_msgs/Path`` in an MCAP file, as ``ros2 bag play`` reads it.
 
 Needs the package ``mcap``. The message is CDR, little endian, the schema ``ros2msg``.
+
+Tested through ``exports/test_other_readers``.
 """
 
 from __future__ import annotations

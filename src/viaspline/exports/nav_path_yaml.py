@@ -1,4 +1,7 @@
-"""A path as a ``nav_msgs/Path`` in YAML, as ``ros2 topic pub`` and ``ros2 topic echo`` have it."""
+"""A path as a ``nav_msgs/Path`` in YAML, as ``ros2 topic pub`` and ``ros2 topic echo`` have it.
+
+Tested through ``exports/test_other_readers``.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ class NavPathYaml:
     """
 
     description: ClassVar[str] = "nav_msgs/Path in YAML"
-    endings: ClassVar[tuple[str, ...]] = (".path.yaml", ".path.yml")
+    endings: ClassVar[tuple[str, ...]] = (".path.yaml", ".path.yml", "-path.yaml")
     carries: ClassVar[frozenset[Carried]] = frozenset({"times", "headings"})
     is_geographic: ClassVar[bool] = False
     is_driven: ClassVar[bool] = False

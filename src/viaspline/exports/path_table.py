@@ -9,15 +9,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viaspline.exports.clear_polyline import EXPORT_SLACK_M
 from viaspline.formats.items import LatLon
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.model import Mission
+from viaspline.report.units import down
 
 DIGITS_DEG = 10
 """Of latitudes and longitudes: a hundredth of a millimetre."""
 
 DIGITS_M = 7
 """Of places in metres."""
+
+NOTHING = "with nothing known to keep clear of"
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,11 @@ class ExportProof:
     nearest: str | None
     chord_error: float
     acceptance: float | None
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether it is clear as it was asked for, but for the last digits of a file."""
+        return self.clearance >= self.required - EXPORT_SLACK_M
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,15 +123,13 @@ class PathTable:
     def proof_words(self) -> str:
         """What is proven, in a sentence."""
         proof = self.proof
-        clear = (
-            f"{np.floor(1e3 * proof.clearance) / 1e3:.3f} m clear"
-            if np.isfinite(proof.clearance)
-            else "nothing known to keep clear of"
-        )
+        known = proof.required if proof.is_kept else proof.clearance
+        clear = down(max(proof.clearance, known))
+        clear = f"proven {clear} clear" if np.isfinite(proof.clearance) else NOTHING
         near = f"at most {np.ceil(1e3 * proof.chord_error) / 1e3:.3f} m beside the exact curve"
         cuts = (
             f", for vehicles that turn {proof.acceptance:g} m before a point or later"
             if proof.acceptance is not None
             else ""
         )
-        return f"{len(self.points)} points, {near}, proven {clear}{cuts}"
+        return f"{len(self.points)} points, {near}, {clear}{cuts}"

@@ -133,15 +133,24 @@ def _as_written(points: Floats, frame: LocalFrame | None) -> tuple[Floats, Float
     return written, degrees
 
 
-def _frame(
-    kind: PathFormat, options: ExportOptions, target: str, path: ProvenPath
-) -> LocalFrame | None:
-    if options.origin is None:
-        if not kind.is_geographic:
-            return None
+def check_origin(kind: PathFormat, options: ExportOptions, target: str) -> None:
+    """Refuse a format in degrees for a mission that lies nowhere on earth.
+
+    Raises:
+        OutputError: There is no origin, and the format needs one.
+    """
+    if kind.is_geographic and options.origin is None:
         problem = "holds latitudes and longitudes, but the mission is in metres without an origin"
         remedy = "give the latitude and longitude of its 0, 0: --origin LAT,LON, or origin=(47, 8)"
         raise OutputError(target, f"{problem}; {remedy}")
+
+
+def _frame(
+    kind: PathFormat, options: ExportOptions, target: str, path: ProvenPath
+) -> LocalFrame | None:
+    check_origin(kind, options, target)
+    if options.origin is None:
+        return None
     if float(np.abs(path.spans[..., :2]).max()) > 0.6 * MAX_REACH_M:
         problem = f"the path reaches more than {0.6 * MAX_REACH_M / 1e3:g} km from its origin"
         raise OutputError(target, f"{problem}; a file has one flat frame")

@@ -1,4 +1,7 @@
-"""A path as a ``QGC WPL 110`` text, the format of ArduPilot's ground stations."""
+"""A path as a ``QGC WPL 110`` text, the format of ArduPilot's ground stations.
+
+Tested through ``exports/test_other_readers``.
+"""
 
 from __future__ import annotations
 

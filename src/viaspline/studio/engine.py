@@ -25,6 +25,7 @@ from viaspline.studio.worker import Worker
 
 if TYPE_CHECKING:
     from viaspline.fleet.fleet_plan import FleetPlan
+    from viaspline.formats.items import LatLon
     from viaspline.mission.model import Mission
     from viaspline.planner import Plan
     from viaspline.robot.run import Run
@@ -319,6 +320,18 @@ class Engine:
             from viaspline.studio.exports import plan_file
 
             return plan_file(plan, kind, name)
+
+        return await self._others.run(work)
+
+    async def path_file(
+        self, plan: Plan, kind: str, name: str, origin: LatLon | None
+    ) -> tuple[bytes, tuple[str, ...]]:
+        """The path of a plan in a format of other people's, and what is to be said of it."""
+
+        def work() -> tuple[bytes, tuple[str, ...]]:
+            from viaspline.studio.exports import path_file
+
+            return path_file(plan, kind, name, origin)
 
         return await self._others.run(work)
 

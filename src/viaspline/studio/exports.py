@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from typing import Final
 
+from viaspline.errors import ViasplineError
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.formats.items import LatLon
 from viaspline.planner import Plan
 from viaspline.report.csv_tables import path_csv, run_csv, spacing
 from viaspline.report.plan_json import plan_json
@@ -22,6 +24,11 @@ from viaspline.studio.fleet.simulated_fleet import (
 from viaspline.studio.refused_error import RefusedError
 
 PLAN_FILES: Final = ("plan.json", "path.csv", "plan.png")
+PATH_FILES: Final = (
+    "path.plan", "path.waypoints", "path.yaml", "path.mcap", "path.geojson", "path.kml", "path.gpx",
+)  # fmt: skip
+"""The proven path in formats of other people's; see ``viaspline.exports``."""
+
 RUN_FILES: Final = ("run.json", "run.csv", "run.png")
 
 
@@ -45,6 +52,35 @@ def plan_file(plan: Plan | FleetPlan, kind: str, name: str) -> bytes:
     return plan_picture(plan, name)
 
 
+def path_file(
+    plan: Plan, kind: str, name: str, origin: LatLon | None
+) -> tuple[bytes, tuple[str, ...]]:
+    """The path of a plan in a format of other people's, and what is to be said of it.
+
+    Args:
+        plan: The plan.
+        kind: One of ``PATH_FILES``.
+        name: The mission's name.
+        origin: Latitude and longitude of the mission's 0, 0 [deg], if they are known.
+
+    Raises:
+        RefusedError: The format needs an origin, or no lines were found that are clear.
+    """
+    from viaspline.exports.export_options import ExportOptions
+    from viaspline.exports.path_format import path_format_of
+    from viaspline.exports.tabled_path import rendered
+
+    file = f"{name}-{kind}"
+    form = path_format_of(file)
+    if form.is_geographic and origin is None:
+        raise RefusedError(f"{file} holds latitudes and longitudes: give the origin of the mission")
+    try:
+        content, table = rendered(plan, form, ExportOptions(origin).checked(), name, file)
+    except ViasplineError as error:
+        raise RefusedError(str(error)) from None
+    return content, tuple(table.remarks())
+
+
 def run_file(run: Run | SimulatedFleet, kind: str, name: str, seed: int) -> bytes:
     """One of the files of a run: ``run.json``, ``run.png``, and of one robot ``run.csv``."""
     if isinstance(run, SimulatedFleet):
@@ -64,6 +100,6 @@ def check_kind(kind: str) -> None:
     Raises:
         RefusedError: Naming what can.
     """
-    known = PLAN_FILES + RUN_FILES + FLEET_FILES
+    known = PLAN_FILES + PATH_FILES + RUN_FILES + FLEET_FILES
     if kind not in known:
         raise RefusedError(f"'{kind}' can't be exported; {', '.join(known)} can")

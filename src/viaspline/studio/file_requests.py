@@ -127,16 +127,18 @@ async def export(
 
     Args:
         current: Of whose document.
-        message: With the ``kind``, and of a fleet the name of a ``robot``.
+        message: With the ``kind``, of a fleet the name of a ``robot``, and perhaps an ``origin``.
         engine: Writes the file.
         planned: Gives the plan.
         driven: The document that was driven last, the run and its seed.
     """
-    from viaspline.studio.exports import RUN_FILES, check_kind
+    from viaspline.fleet.fleet_plan import FleetPlan
+    from viaspline.studio.exports import PATH_FILES, RUN_FILES, check_kind
 
     kind = text_of(message, "kind")
     check_kind(kind)
     stem = Path(current.name).stem if current.name is not None else "mission"
+    told: tuple[str, ...] = ()
     if kind in RUN_FILES:
         if driven is None or driven[0] is not current.document:
             raise RefusedError("drive the mission first; it has changed since")
@@ -146,9 +148,16 @@ async def export(
     else:
         plan = _plan_of(await planned(), kind, message)
         stem = f"{stem}-{message['robot']}" if "robot" in message else stem
-        content = await engine.plan_file(plan, kind, stem)
+        if kind in PATH_FILES:
+            assert not isinstance(plan, FleetPlan)  # which has files of its own
+            origin = origin_from(text_of(message, "origin", "")) or current.origin
+            content, told = await engine.path_file(plan, kind, stem, origin)
+        else:
+            content = await engine.plan_file(plan, kind, stem)
     data = base64.b64encode(content).decode()
-    return {"type": "exported", "name": f"{stem}-{kind}", "kind": kind, "data": data}
+    return {
+        "type": "exported", "name": f"{stem}-{kind}", "kind": kind, "data": data, "told": told,
+    }  # fmt: skip
 
 
 def _plan_of(planned: Planned, kind: str, message: Message) -> Plan | FleetPlan:

@@ -24,7 +24,9 @@ def way_point(number: int, place: tuple[float, float], height: float, dwell: flo
 
 
 @given(
-    places=st.lists(st.tuples(DEGREES, st.floats(-50, 500), st.floats(0, 60)), max_size=6),
+    places=st.lists(
+        st.tuples(DEGREES, st.floats(-50, 500), st.floats(0, 60)), min_size=1, max_size=6
+    ),
     polygon=st.lists(DEGREES, min_size=3, max_size=6),
     circle=st.tuples(DEGREES, st.floats(0.1, 1e3)),
     vehicle=st.sampled_from([ARDUPILOT, PX4]),

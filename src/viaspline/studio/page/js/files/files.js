@@ -13,7 +13,16 @@ const PLAN_EXPORTS = [
   ["scene.svg", "The scene as curves, in metres"],
   ["scene.png", "The map as it is on the screen"],
 ];
-const ONE_ROBOT = ["plan.json", "path.csv", "plan.png"]; // of a fleet, that which is chosen
+const PATH_EXPORTS = [
+  ["path.plan", "QGroundControl: way points, speeds, dwells, fences"],
+  ["path.waypoints", "QGC WPL 110: way points for ArduPilot's ground stations"],
+  ["path.yaml", "ROS: nav_msgs/Path as YAML"],
+  ["path.mcap", "ROS: nav_msgs/Path as a bag"],
+  ["path.geojson", "GeoJSON: the line with speeds and times, the via points"],
+  ["path.kml", "KML: for Google Earth"],
+  ["path.gpx", "GPX: a route for chart plotters and hand-held receivers"],
+]; // the path as few straight lines, proven again
+const ONE_ROBOT = ["plan.json", "path.csv", "plan.png", ...PATH_EXPORTS.map(([kind]) => kind)]; // of a fleet, that which is chosen
 const RUN_EXPORTS = [
   ["run.json", "What was driven, every event and every re-plan"],
   ["run.csv", "The driven path over time"],
@@ -162,12 +171,16 @@ export class Files {
     const whose = isOfFleet ? ` · ${robotName(store.file, store.robot ?? 0)}` : "";
     const own = PLAN_EXPORTS.map(([kind, words]) => [kind, ONE_ROBOT.includes(kind) ? `${words}${whose}` : words]);
     const list = [...(isOfFleet ? FLEET_EXPORTS : []), ...own, ...(!store.run ? [] : isOfFleet ? FLEET_RUN_EXPORTS : RUN_EXPORTS)];
-    this.show("Export", h("ul", { class: "file-list" }, ...list.map(([kind, words]) => h("li", {}, h("button", { type: "button", class: "file", onclick: () => this.attempt(() => this.take(kind)) }, icon("export", 16), h("span", {}, h("strong", {}, kind), h("small", {}, words)))))),
+    const place = h("input", { type: "text", class: "wide-input", value: store.origin ? store.origin.join(", ") : "", placeholder: "47.3977, 8.5456", "aria-label": "Origin", spellcheck: "false" });
+    const items = (/** @type {string[][]} */ some) => h("ul", { class: "file-list" }, ...some.map(([kind, words]) => h("li", {}, h("button", { type: "button", class: "file", onclick: () => this.attempt(() => this.take(kind, place.value)) }, icon("export", 16), h("span", {}, h("strong", {}, kind), h("small", {}, words))))));
+    this.show("Export", items(list),
+      h("p", { class: "hint" }, `The path as few straight lines, proven again as the file has them${whose}`),
+      h("label", { class: "field" }, h("span", { class: "field-name" }, "Latitude and longitude of 0, 0 (all but those for ROS need it)"), place), items(PATH_EXPORTS),
       store.run ? null : h("p", { class: "hint" }, "After a drive its files are here as well."));
   }
 
-  /** @param {string} kind */
-  async take(kind) {
+  /** @param {string} kind @param {string} [origin] */
+  async take(kind, origin = "") {
     const { app } = this;
     const stem = (app.store.name ?? "mission").replace(/^.*\//, "").replace(/\.[^.]+$/, "");
     if (kind === "scene.svg") download(`${stem}.svg`, new Blob([svgOf(app.store)], { type: "image/svg+xml" }));
@@ -177,9 +190,13 @@ export class Files {
     } else {
       await app.settled();
       const { file, robot } = app.store;
-      const answer = await app.link.ask({ type: "export", kind, ...(robot !== null && ONE_ROBOT.includes(kind) ? { robot: robotName(file, robot) } : {}) });
+      const answer = await app.link.ask({ type: "export", kind, origin, ...(robot !== null && ONE_ROBOT.includes(kind) ? { robot: robotName(file, robot) } : {}) });
       const bytes = Uint8Array.from(atob(answer.data), (c) => c.charCodeAt(0));
       download(answer.name, new Blob([bytes]));
+      if (answer.told?.length) {
+        this.show(`Exported ${answer.name}`, ...listed("What is proven of it, and what it can't carry:", answer.told),
+          h("div", { class: "dialog-buttons" }, h("button", { type: "button", class: "button is-primary", onclick: () => this.dialog.close() }, "OK")));
+      }
     }
     app.say(`${kind} exported`);
   }

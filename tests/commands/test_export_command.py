@@ -1,0 +1,68 @@
+"""The command that exports, as a person types it."""
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from viaspline.cli import cli
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def call(*arguments: object) -> Result:
+    return CliRunner().invoke(cli, ["export", *map(str, arguments)])
+
+
+def test_a_mission_is_exported_and_told_about(tmp_path: Path) -> None:
+    out = tmp_path / "new" / "patrol.plan"
+    result = call(EXAMPLES / "fig8-patrol.yaml", out, "--origin", "47.3977,8.5456")
+    assert result.exit_code == 0, result.output
+    assert "m clear, for vehicles that turn" in result.output
+    assert "not carried: times" in result.output
+    assert f"wrote {out}" in " ".join(result.output.split())
+    assert out.exists()
+
+
+def test_the_origin_of_a_plan_of_others_is_its_own(tmp_path: Path) -> None:
+    out = tmp_path / "survey.kml"
+    result = call(EXAMPLES / "fence-survey.plan", out, "-q", "--chord-error", "0.2")
+    assert result.exit_code == 0, result.output
+    assert "<LineString>" in out.read_text()
+
+
+def test_each_robot_of_a_fleet_has_its_file(tmp_path: Path) -> None:
+    result = call(EXAMPLES / "corridor-bay.yaml", tmp_path / "bay.csv")
+    assert result.exit_code == 0, result.output
+    names = sorted(file.name for file in tmp_path.iterdir())
+    assert names == ["bay-eastbound.csv", "bay-westbound.csv"]
+    assert "who waits for whom" in result.output
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("fig8-patrol.yaml", "x.plan"), "--origin LAT,LON"),
+        (("fig8-patrol.yaml", "x.dxf"), "the endings are"),
+        (("fig8-patrol.yaml", "x"), "the endings are"),
+        (("fig8-patrol.yaml", "x.plan", "--origin", "north"), "is no LAT,LON"),
+        (("fig8-patrol.yaml", "x.plan", "--origin", "91,0"), "can't be the origin"),
+        (("fig8-patrol.yaml", "x.csv", "--chord-error", "-1"), "chord-error"),
+        (("fig8-patrol.yaml", "x.csv", "--chord-error", "0"), "chord_error is 0"),
+        (("missing.yaml", "x.csv"), "there is no such file"),
+        ((".", "x.csv"), "results"),
+    ],
+)
+def test_what_can_not_be_exported_is_refused_in_words_before_the_work(
+    arguments: tuple[str, ...], words: str, tmp_path: Path
+) -> None:
+    mission, out, *more = arguments
+    result = call(EXAMPLES / mission, tmp_path / out, *more)
+    assert result.exit_code == 2
+    assert words in " ".join(result.output.split())
+    assert "Traceback" not in result.output
+    assert not list(tmp_path.iterdir())
+
+
+def test_its_help_has_examples() -> None:
+    assert "viaspline export examples/fence-survey.plan survey.kml" in call("--help").output

@@ -1,0 +1,47 @@
+"""The bound of the chord error against dense samples, and how tight it is."""
+
+from itertools import pairwise
+
+import numpy as np
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.exports.chord_bound import chord_bound
+
+numbers = st.floats(-10, 10).map(lambda x: round(x, 3))
+places = st.tuples(numbers, numbers)
+
+
+@given(st.lists(places, min_size=4, max_size=4), places, places)
+def test_no_point_of_the_curve_or_of_the_line_is_farther_than_the_bound(
+    control: list[tuple[float, float]], start: tuple[float, float], end: tuple[float, float]
+) -> None:
+    curve = PiecewiseCubic([control])
+    bound = chord_bound(curve.spans, np.array(start), np.array(end))
+    sampled = shapely.LineString(curve.evaluate(np.linspace(0, 1, 2001)))
+    line = shapely.LineString([start, end])
+    assert shapely.hausdorff_distance(sampled, line, densify=0.01) <= bound + 1e-3
+
+
+def test_on_a_shallow_arc_the_bound_is_within_a_few_percent_of_the_truth() -> None:
+    angles = np.linspace(-0.2, 0.2, 5)
+    curve = _arc(50.0, angles)
+    height = 50.0 * (1.0 - np.cos(0.2))
+    found = chord_bound(curve.spans, curve.spans[0, 0], curve.spans[-1, 3])
+    assert height <= found + 1e-9 <= 1.03 * height
+
+
+def test_a_line_that_is_a_point_is_as_far_as_the_farthest_place() -> None:
+    spans = np.array([[[0, 0], [1, 0], [2, 0], [3, 0]]], float)
+    assert chord_bound(spans, np.zeros(2), np.zeros(2)) == 3.0
+
+
+def _arc(radius: float, angles: np.ndarray) -> PiecewiseCubic:
+    spans = []
+    for a, b in pairwise(angles):
+        k = 4.0 / 3.0 * np.tan((b - a) / 4.0)
+        p, q = (np.array([np.cos(x), np.sin(x)]) for x in (a, b))
+        spans.append([p, p + k * np.array([-p[1], p[0]]), q - k * np.array([-q[1], q[0]]), q])
+    return PiecewiseCubic(radius * np.array(spans))
