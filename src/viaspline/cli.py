@@ -20,7 +20,10 @@ from viaspline.command_steps import (
     say_written,
 )
 from viaspline.commands.warm_command import warm
+from viaspline.commands.download_command import download
+from viaspline.commands.drive_command import drive
 from viaspline.commands.export_command import export_command
+from viaspline.commands.upload_command import upload
 from viaspline.exit_codes import Commands
 from viaspline.report.terminal_lines import say
 
@@ -300,4 +303,7 @@ def studio(mission: Path | None, port: int, host: str, token: str | None, no_bro
 
 
 cli.add_command(warm)
+cli.add_command(upload)
+cli.add_command(download)
+cli.add_command(drive)
 cli.add_command(export_command)

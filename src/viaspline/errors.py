@@ -9,6 +9,7 @@
     ├── SavedPlanError      a saved plan can't be read, or isn't what it says  (exit code 2)
     ├── StudioError         the studio can't be served                         (exit code 2)
     ├── WorkersError        those who were to do the work can't, or are gone   (exit code 2)
+    ├── LinkError           a machine can't be reached, or doesn't do as told  (exit code 2)
     └── PlanningError       no path was laid: where, why, what would help
         ├── NoPathError     there is none: that is proven                      (exit code 3)
         └── GaveUpError     a budget ran out before it was known               (exit code 5)
@@ -136,6 +137,20 @@ class StudioError(ViasplineError):
 
 class WorkersError(ViasplineError):
     """Those who were to do pieces of the work can't be had, or died."""
+
+
+class LinkError(ViasplineError):
+    """A machine can't be reached, or doesn't do as it is told.
+
+    Attributes:
+        link: Its address, or its name.
+        problem: What is wrong.
+        remedy: What would help.
+    """
+
+    def __init__(self, link: object, problem: str, remedy: str) -> None:
+        self.link, self.problem, self.remedy = str(link), problem, remedy
+        super().__init__(f"{self.link}: {problem}; {remedy}")
 
 
 class PlanningError(ViasplineError):

@@ -17,6 +17,7 @@ from viaspline.formats.json_tree import Tree, json_tree
 from viaspline.formats.mission_format import Whereabouts, Written
 from viaspline.formats.named_files import world_data
 from viaspline.formats.outgoing import itinerary_of, lost_of
+from viaspline.formats.plan_parts import ABOVE_TERRAIN, circle_json, item_json, polygon_json
 from viaspline.formats.waypoint_format import WaypointFormat
 from viaspline.mission.model import Mission
 from viaspline.mission.unplaced_faults import describe
@@ -27,11 +28,6 @@ _ROTORCRAFT: Final = frozenset({2, 3, 4, 13, 14, 15, 29, 35})
 ARDUPILOT: Final = 3
 GROUND_ROVER: Final = 10
 QUADROTOR: Final = 2
-
-RELATIVE_ALTITUDE: Final = 1
-ABOVE_TERRAIN: Final = 3
-TERRAIN_FRAME: Final = 4
-"""QGroundControl's AltitudeModes; 2 is above sea level."""
 
 
 class QgcPlan(WaypointFormat):
@@ -141,12 +137,12 @@ def plan_text(itinerary: Itinerary, own: Mapping[str, Any], *, rotors: bool) -> 
             "cruiseSpeed": itinerary.speed,
             "hoverSpeed": itinerary.speed,
             "plannedHomePosition": [home.latitude, home.longitude, home.altitude],
-            "items": [_item_json(item) for item in itinerary.items],
+            "items": [item_json(item) for item in itinerary.items],
         },
         "geoFence": {
             "version": 2,
-            "polygons": [_polygon_json(area) for area in fences if area.center is None],
-            "circles": [_circle_json(area) for area in fences if area.center is not None],
+            "polygons": [polygon_json(area) for area in fences if area.center is None],
+            "circles": [circle_json(area) for area in fences if area.center is not None],
         },
         "rallyPoints": {"version": 2, "points": []},
         "viaspline": own,
@@ -306,27 +302,3 @@ def _is_inclusion(area: Tree) -> bool:
 def _corners(tree: Tree) -> tuple[tuple[float, float], ...]:
     pairs = [corner.numbers(2, "[latitude, longitude]") for corner in tree.items()]
     return tuple((pair[0], pair[1]) for pair in pairs if pair)
-
-
-def _item_json(item: Item) -> dict[str, Any]:
-    params = [None if math.isnan(param) else param for param in item.params]
-    return {
-        "type": "SimpleItem",
-        "AMSLAltAboveTerrain": None,
-        "Altitude": item.altitude,
-        "AltitudeMode": TERRAIN_FRAME if item.frame in TERRAIN else RELATIVE_ALTITUDE,
-        "autoContinue": True,
-        "command": item.command,
-        "doJumpId": item.number,
-        "frame": item.frame,
-        "params": [*params, item.latitude, item.longitude, item.altitude],
-    }
-
-
-def _polygon_json(area: FenceArea) -> dict[str, Any]:
-    return {"inclusion": area.inclusion, "polygon": area.corners, "version": 1}
-
-
-def _circle_json(area: FenceArea) -> dict[str, Any]:
-    circle = {"center": area.center, "radius": area.radius}
-    return {"circle": circle, "inclusion": area.inclusion, "version": 1}

@@ -1,0 +1,45 @@
+"""The parts of a plan of QGroundControl's as JSON: items, fences, rally points.
+
+Tested through ``formats/test_qgc_plan`` and ``commands/test_upload_command``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Final
+
+from viaspline.formats.items import ABSOLUTE, TERRAIN, FenceArea, Item
+
+RELATIVE_ALTITUDE: Final = 1
+ABSOLUTE_ALTITUDE: Final = 2
+ABOVE_TERRAIN: Final = 3
+TERRAIN_FRAME: Final = 4
+"""QGroundControl's AltitudeModes."""
+
+
+def item_json(item: Item) -> dict[str, Any]:
+    """An item."""
+    params = [None if math.isnan(param) else param for param in item.params]
+    mode = TERRAIN_FRAME if item.frame in TERRAIN else RELATIVE_ALTITUDE
+    return {
+        "type": "SimpleItem",
+        "AMSLAltAboveTerrain": None,
+        "Altitude": item.altitude,
+        "AltitudeMode": ABSOLUTE_ALTITUDE if item.frame in ABSOLUTE else mode,
+        "autoContinue": True,
+        "command": item.command,
+        "doJumpId": item.number,
+        "frame": item.frame,
+        "params": [*params, item.latitude, item.longitude, item.altitude],
+    }
+
+
+def polygon_json(area: FenceArea) -> dict[str, Any]:
+    """A fence that is a polygon."""
+    return {"inclusion": area.inclusion, "polygon": area.corners, "version": 1}
+
+
+def circle_json(area: FenceArea) -> dict[str, Any]:
+    """A fence that is a circle."""
+    circle = {"center": area.center, "radius": area.radius}
+    return {"circle": circle, "inclusion": area.inclusion, "version": 1}

@@ -1,0 +1,1 @@
+"""MAVLink: missions to and from autopilots, and driving them."""
