@@ -191,7 +191,9 @@ class Navigator:
         if not progress.finished or progress.controller is not None:
             motion = None
             if not progress.finished and inputs.stale != "pose":
-                motion = watched_motion(task, before.watch, watch, schedule, measured, time)
+                motion = watched_motion(
+                    task, before.watch, watch, progress, schedule, measured, time
+                )
                 watch, schedule = motion.watch, motion.schedule
                 log = log.with_events(*motion.events)
             progress, schedule = track(progress, schedule, measured, time)
@@ -252,6 +254,8 @@ class Navigator:
         controller = before.progress.controller
         progress, schedule = with_command(controller, progress, schedule, measured, time, work)
         command = command_for(task.mission.robot, progress, schedule, measured)
+        if schedule.giving_up is not None and progress.finished:
+            command = stop_command(task, command)
         watch = replace(watch, held=inputs.stale).having_given(
             time + work, command.speed, remembered_for(task)
         )

@@ -1,4 +1,7 @@
-"""A robot that is held still, because it doesn't know what is true now, and how it goes on."""
+"""A robot that is held still, because it doesn't know what is true now, and how it goes on.
+
+Tested through ``robot/watching/test_fresh_inputs``.
+"""
 
 from __future__ import annotations
 

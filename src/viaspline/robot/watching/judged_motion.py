@@ -5,18 +5,24 @@ Tested through ``robot/watching/test_renewed_allowance``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.reschedule import rescheduled
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.state import RobotState
+from viaspline.robot.watching.gentler_drive import gentler_drive
 from viaspline.robot.watching.model_watch import WatchedMotion, told_of_lag
 from viaspline.robot.watching.path_deviation import path_deviation
 from viaspline.robot.watching.renewed_allowance import renewed_allowance
 from viaspline.robot.watching.watch import Watch
+
+GENTLE_FROM = 2
+"""From the so manieth time on that it was farther beside its path than was kept, a robot goes on
+more gently."""
 
 
 @dataclass(frozen=True)
@@ -25,6 +31,7 @@ class JudgedMotion:
 
     Attributes:
         task: What is asked of it from now on.
+        progress: With what its controller is from now on.
         watch: With what was told.
         schedule: What the robot means to do.
         decisions: What there is to note, in order.
@@ -32,6 +39,7 @@ class JudgedMotion:
     """
 
     task: DriveTask
+    progress: Progress
     watch: Watch
     schedule: Schedule
     decisions: tuple[Decision, ...]
@@ -61,12 +69,19 @@ def judged_motion(
     watch, lags = told_of_lag(watch, progress, schedule, motion)
     told = Decision(schedule, lags)
     if progress.finished or schedule.giving_up is not None:
-        return JudgedMotion(task, watch, schedule, (told,))
+        return JudgedMotion(task, progress, watch, schedule, (told,))
     watch, deviation = path_deviation(
         task, watch, knowledge, schedule, measured, motion.place, was_set=motion.was_set
     )
     if deviation is None:
-        return JudgedMotion(task, watch, schedule, (told,))
+        return JudgedMotion(task, progress, watch, schedule, (told,))
     renewed = renewed_allowance(task, progress, knowledge, schedule, deviation)
-    decision = renewed.decision
-    return JudgedMotion(renewed.task, watch, decision.schedule, (told, decision), decision.work)
+    task, decision = renewed.task, renewed.decision
+    schedule = decision.schedule
+    if deviation.returns is None and schedule.giving_up is None:
+        watch = replace(watch, renewals=watch.renewals + 1)
+        if watch.renewals >= GENTLE_FROM:
+            task, progress = gentler_drive(task, progress)
+            speed = float(schedule.trajectory.state_at(progress.time)[1])
+            schedule = rescheduled(task, progress, knowledge, schedule, speed)
+    return JudgedMotion(task, progress, watch, schedule, (told, decision), decision.work)

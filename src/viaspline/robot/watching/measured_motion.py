@@ -33,6 +33,9 @@ SLIP_RATIO, SLIP_RATIO_WITHOUT_DRIVE = 0.5, 0.35
 SLIP_OVER_RATIO = 0.8
 """With more than this it is over."""
 
+TOLD_AGAIN_S = 10.0
+"""What comes and goes is told of again after so long [s]."""
+
 LEAST_MEANT_M = 0.12
 """So much it has to have been told to drive, to compare that [m]."""
 
@@ -85,7 +88,8 @@ def pose_jump(
     allowed = JUMP_M + 2.0 * noise + JUMP_SPEED_SHARE * fastest * seconds
     if far <= allowed and abs(turned) <= most + JUMP_RAD + 2.0 * turned_noise:
         return None
-    return far, turned
+    driven = 0.5 * (last.speed + measured.speed) * seconds
+    return math.hypot(along - driven, aside), turned
 
 
 def meant_speed(task: DriveTask, watch: Watch, time: float, seconds: float) -> float:
@@ -134,7 +138,7 @@ def slipping(
         return watch, ()
     ratio = (now.place - first.place) / meant
     least = SLIP_RATIO_WITHOUT_DRIVE if task.model is None else SLIP_RATIO
-    if ratio > SLIP_OVER_RATIO:
+    if ratio > SLIP_OVER_RATIO and now.time >= watch.told.get("slip", -math.inf) + TOLD_AGAIN_S:
         return watch.without_telling("slip"), ()
     if ratio >= least or "slip" in watch.told:
         return watch, ()
@@ -144,7 +148,7 @@ def slipping(
     )
     data = {"ratio": ratio, "commanded_mps": told, "measured_mps": done, "over_s": seconds}
     event = Event("slip", watch.time, where, words, data)
-    return watch.having_told("slip", ratio), (event,)
+    return watch.having_told("slip", now.time), (event,)
 
 
 def lagging(
@@ -167,14 +171,16 @@ def lagging(
     return watch.having_told("lag", watch.behind), (Event("lag", watch.time, where, words, data),)
 
 
-def waits_for(watch: Watch, should: float, driven: float, seconds: float) -> float:
+def waits_for(watch: Watch, reached: float, seconds: float) -> float:
     """For how long the time law of a robot without a drive waits in a step [s].
+
+    Where its law has it can't lie behind what it was taken to have reached: else it would be taken
+    for being there when it is not.
 
     Args:
         watch: With where the robot is.
-        should: Where it should be along its path [m].
-        driven: What was driven before that begins [m].
-        seconds: Since the step before [s].
+        reached: Where it was taken to be in the step before, along all that is driven [m].
+        seconds: Since then [s].
     """
-    behind = should - (watch.place - driven)
+    behind = reached - watch.place
     return max(seconds, 0.0) if behind > WAIT_M + WAIT_S * watch.speed else 0.0

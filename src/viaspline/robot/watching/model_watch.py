@@ -20,6 +20,9 @@ from viaspline.robot.watching.measured_motion import (
 from viaspline.robot.watching.true_place import TruePlace, is_there, true_place
 from viaspline.robot.watching.watch import Watch
 
+LEAST_SPEED_MPS = 0.1
+"""With which a distance is taken for a time where the robot is to be slower [m/s]."""
+
 
 @dataclass(frozen=True)
 class WatchedMotion:
@@ -46,6 +49,7 @@ def watched_motion(
     task: DriveTask,
     before: Watch,
     watch: Watch,
+    progress: Progress,
     schedule: Schedule,
     measured: RobotState,
     time: float,
@@ -56,6 +60,7 @@ def watched_motion(
         task: What is asked of the drive.
         before: The watch of the step before.
         watch: With what was handed in now.
+        progress: As of the step before.
         schedule: What the robot means to do.
         measured: Where it is now.
         time: Now [s].
@@ -64,9 +69,12 @@ def watched_motion(
     seconds = 0.0 if last is None else max(time - before.time, 0.0)
     should = float(schedule.trajectory.distance_at(time))
     was_at = should if last is None else before.place - schedule.driven
-    jump = None
-    if last is not None and not is_there(schedule, measured, should):
-        jump = pose_jump(task, before, last, measured, max(watch.at - before.at, 0.0))
+    jump, now = None, watch.measured
+    is_new = last is not None and now is not None and (watch.at > before.at or time > before.time)
+    if is_new and not is_there(schedule, measured, should):
+        assert last is not None
+        assert now is not None
+        jump = pose_jump(task, before, last, now, max(watch.at - before.at, 0.0))
     around = 0.0 if jump is None else jump[0]
     place = true_place(task.mission.robot, schedule, measured, should, was_at, around)
     total = schedule.driven + place.distance
@@ -82,8 +90,8 @@ def watched_motion(
         watch, events = replace(watch, trail=()), (_jumped(jump, measured, time),)
     watch, slips = slipping(task, watch, measured.position)
     waited = 0.0
-    if task.model is None and last is not None:
-        waited = waits_for(watch, should, schedule.driven, seconds)
+    if task.model is None and last is not None and schedule.giving_up is None:
+        waited = waits_for(watch, schedule.driven + progress.distance, seconds)
         if waited > 0.0:
             schedule = replace(schedule, trajectory=schedule.trajectory.delayed(waited))
     was_set = last is None or jump is not None
@@ -101,11 +109,13 @@ def told_of_lag(
         schedule: What it means to do.
         motion: Of this step.
     """
+    should = float(schedule.trajectory.distance_at(watch.time))
+    behind = max(should - motion.place.distance, -progress.along_track, 0.0)
     waited = motion.waited
     if progress.controller is not None:
         waited = progress.controller.late
-    should = float(schedule.trajectory.distance_at(watch.time))
-    behind = max(should - motion.place.distance, 0.0)
+    elif progress.along_track < 0.0:  # it got a new time law, from where it is
+        waited += -progress.along_track / max(watch.speed, LEAST_SPEED_MPS)
     return lagging(watch, waited, schedule.place(motion.place.distance), behind)
 
 

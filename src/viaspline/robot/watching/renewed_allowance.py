@@ -7,6 +7,7 @@ anew, from the first place on that has room for more; and where that can't be, t
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,6 +19,7 @@ from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.reschedule import rescheduled
 from viaspline.robot.navigation.schedule import ReducedClearance, Schedule
 from viaspline.robot.replanning.path_candidate import PathCandidate, timed
 from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
@@ -92,6 +94,10 @@ def _set_back(
     context = ReplanContext.of(task, progress, knowledge, schedule)
     if deviation.returns:
         told = _told(context, deviation, "it comes back to it, where it is clear", "returns")
+        if deviation.slowly is not None:
+            slow = replace(schedule, slow=(*schedule.slow, deviation.slowly))
+            speed = float(schedule.trajectory.state_at(progress.time)[1])
+            schedule = rescheduled(task, progress, knowledge, slow, speed)
         return Decision(schedule, (told,))
     told = _told(context, deviation, "the way back is not clear", "stops")
     why = f"it was set {deviation.off:.2f} m beside its path, and the way back is not clear"
@@ -122,12 +128,17 @@ def _laid_anew(context: ReplanContext, deviation: Deviation) -> Decision:
 def _candidate(context: ReplanContext) -> tuple[PathCandidate | None, float]:
     """A path with more room, and what was spent on it [s of the reference machine].
 
+    It may begin as fast as the robot is, though that may be more than it should be by now.
+
     Raises:
         SpentBudgetError: When more would have to be.
     """
     path, world = context.schedule.path, context.knowledge.world
     requirements, here = context.requirements, context.progress.distance
     spacing = SPACING_RATIO * requirements.required
+    limits = context.task.limits
+    limits = replace(limits, max_speed=max(limits.max_speed, context.speed))
+    context = replace(context, task=replace(context.task, limits=limits))
     for leave in context.leaves:
         places = np.arange(leave, path.length, spacing)
         roomy = np.flatnonzero(world.distance(path.at_distance(places)) >= requirements.required)
@@ -148,10 +159,17 @@ def _candidate(context: ReplanContext) -> tuple[PathCandidate | None, float]:
             raise
         except PlanningError:
             continue
-        candidate = timed(less, "planned", solution)
+        # its model says that the robot gets too far beside it? it has been wrong already
+        candidate = timed(less, "planned", solution) or timed(_untried(less), "planned", solution)
         if candidate is not None:
             return candidate, context.work
     return None, context.work
+
+
+def _untried(context: ReplanContext) -> ReplanContext:
+    """A context in which a path isn't driven ahead by the model."""
+    requirements = replace(context.task.requirements, tracking_error=0.0)
+    return replace(context, task=replace(context.task, requirements=requirements))
 
 
 def _told(context: ReplanContext, deviation: Deviation, then: str, outcome: str) -> Event:
@@ -164,6 +182,7 @@ def _told(context: ReplanContext, deviation: Deviation, then: str, outcome: str)
         "off_m": deviation.off,
         "kept_m": deviation.kept,
         "allowance_m": deviation.needed,
+        "clearance_m": None if math.isinf(deviation.clearance) else deviation.clearance,
         "outcome": outcome,
     }
     words = f"is {deviation.off:.3f} m beside its path; {kept}; {then}"
