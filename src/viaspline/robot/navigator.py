@@ -196,7 +196,9 @@ class Navigator:
                 )
                 watch, schedule = motion.watch, motion.schedule
                 log = log.with_events(*motion.events)
-            progress, schedule = track(progress, schedule, measured, time)
+            progress, waiting = track(progress, schedule, measured, time)
+            # who is held still isn't waited for: it stands when it has had the time for that
+            schedule = waiting if inputs.stale is None else schedule
             progress, log = note_arrivals(task, progress, schedule, log)
             if is_due(progress, schedule):
                 progress, schedule, log = _next_part(task, progress, knowledge, schedule, log)
@@ -252,7 +254,8 @@ class Navigator:
         if inputs.stale is not None and not progress.finished and schedule.giving_up is None:
             schedule = held_still(task, progress, schedule)
         controller = before.progress.controller
-        progress, schedule = with_command(controller, progress, schedule, measured, time, work)
+        progress, waiting = with_command(controller, progress, schedule, measured, time, work)
+        schedule = waiting if inputs.stale is None else schedule
         command = command_for(task.mission.robot, progress, schedule, measured)
         if schedule.giving_up is not None and progress.finished:
             command = stop_command(task, command)
