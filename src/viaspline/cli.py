@@ -19,6 +19,7 @@ from viaspline.command_steps import (
     result_folder,
     say_written,
 )
+from viaspline.commands.identify_command import identify
 from viaspline.exit_codes import Commands
 from viaspline.report.terminal_lines import say
 
@@ -294,3 +295,6 @@ def studio(mission: Path | None, port: int, host: str, token: str | None, no_bro
     from viaspline.studio.serve import serve
 
     serve(mission, host=host, port=port, token=token, browser=not no_browser, say=say)
+
+
+cli.add_command(identify)
