@@ -133,9 +133,11 @@ def test_noise_in_what_is_measured_does_no_harm(mission_of: Make) -> None:
     assert nav.reached
     for via in nav.path.vias:
         assert np.linalg.norm(track - via.at, axis=1).min() < 0.3
-    assert [e.kind for e in book.events] == [
+    told = [e.kind for e in book.events]
+    assert [kind for kind in told if kind != "deviation"] == [
         "started", "arrived", "dwell", "via", "reached",
     ]  # fmt: skip
+    assert told.count("deviation") <= 4  # it has no drive, so nothing was kept for that
 
 
 def test_a_robot_that_lags_gets_a_new_time_law_from_where_it_is(mission_of: Make) -> None:
