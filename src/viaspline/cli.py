@@ -24,6 +24,7 @@ from viaspline.commands.download_command import download
 from viaspline.commands.drive_command import drive
 from viaspline.commands.export_command import export_command
 from viaspline.commands.upload_command import upload
+from viaspline.commands.identify_command import identify
 from viaspline.exit_codes import Commands
 from viaspline.report.terminal_lines import say
 
@@ -307,3 +308,4 @@ cli.add_command(upload)
 cli.add_command(download)
 cli.add_command(drive)
 cli.add_command(export_command)
+cli.add_command(identify)

@@ -5,6 +5,7 @@ Tested through ``test_junk_arguments``.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -51,6 +52,21 @@ def number_from(name: str, value: object) -> float:
         return float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         raise GeometryError(f"{name} is {value!r:.40}; give a number") from None
+
+
+def finite_from(name: str, value: object) -> float:
+    """A finite number that was handed in.
+
+    Raises:
+        GeometryError: It is none, or not finite.
+
+    >>> finite_from("stamp", 2)
+    2.0
+    """
+    number = number_from(name, value)
+    if not math.isfinite(number):
+        raise GeometryError(f"{name} is {number}; give a finite number")
+    return number
 
 
 def time_from(name: str, value: object) -> float:

@@ -38,6 +38,12 @@ from viaspline.robot.replanning.decide import decide, look_again
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
 from viaspline.robot.warmed import KernelCallback, warm_up
+from viaspline.robot.watching.clock import runs_backwards, told_of_clock
+from viaspline.robot.watching.fresh_inputs import fresh_inputs
+from viaspline.robot.watching.held_still import held_still, let_on, stop_command
+from viaspline.robot.watching.judged_motion import judged_motion
+from viaspline.robot.watching.measured_motion import remembered_for
+from viaspline.robot.watching.model_watch import watched_motion
 from viaspline.robot.yielding.broken_premises import broken_premises
 from viaspline.robot.yielding.foreseen import foreseen
 from viaspline.robot.yielding.give_way import give_way
@@ -45,9 +51,6 @@ from viaspline.robot.yielding.stoppable import kept_to_path, sight_of, stoppable
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
-
-TIME_ROUNDING = 1e-12
-"""Part of a time by which one that is not before it may look earlier."""
 
 
 class Navigator:
@@ -91,6 +94,14 @@ class Navigator:
     too far behind, its time law waits for it. A path that is laid under way is driven ahead in the
     same loop first: where the robot would get farther beside it than is kept for that, it goes
     more slowly, and a path to which it can't stay so near at all is not taken.
+
+    The model is watched. A pose or a scan that is older than 0.2 s, and a clock that runs
+    backwards, stop the robot until there is something newer. What it is beside its path beyond what
+    is kept for that, a speed that isn't reached, a time law that waits, a pose that jumps: each is
+    an event with its figures (``deviation``, ``slip``, ``lag``, ``pose_jump``, ``stale``,
+    ``clock``). What it is measured beside its path is kept from then on (``allowance``): the path
+    ahead is proven anew with that, laid anew where it doesn't hold, and where that can't be the
+    robot stops and says so.
 
     Args:
         mission: What to do.
@@ -163,33 +174,59 @@ class Navigator:
             state: Where the robot is, as measured.
             sensed: What is seen now: a lidar's scan, or every obstacle in sight; those already
                 known make no difference. What moves is told of as ``MovingSighting``.
-            time: Now [s], never less than in the step before.
+            time: Now [s]. While it is less than in the step before, the robot stands.
 
         Returns:
             The command, and the navigator for the next step.
 
         Raises:
-            GeometryError: When time runs backwards, the state is not finite or has the wrong
-                dimension, or a scan is given to a robot that has no lidar.
+            GeometryError: When the state or the time is not finite or has the wrong dimension, or
+                a scan is given to a robot that has no lidar.
         """
         time = number_from("time", time)
         _check(state, time, self._state)
-        task, measured = self._task, state
+        task = self._task
         before = replace(self._state, log=Log())
         if not before.progress.set_off:
             before = set_off(before, time, self._plan)
+        if runs_backwards(before.watch, time):
+            return self._stood(state, time)
         progress, knowledge = before.progress, before.knowledge
         schedule = proven = before.schedule
-        log = before.log
+        # is what it is told of now?
+        inputs = fresh_inputs(task, before.watch, progress, schedule, state, sensed, time)
+        measured, sensed, watch = inputs.measured, inputs.sensed, inputs.watch
+        log = before.log.with_events(*inputs.events)
         # how far has the robot come?
-        respond = decide
+        respond, work = decide, 0.0
         if not progress.finished or progress.controller is not None:
-            progress, schedule = track(progress, schedule, measured, time)
+            motion = None
+            if not progress.finished and inputs.stale != "pose":
+                motion = watched_motion(
+                    task, before.watch, watch, progress, schedule, measured, time
+                )
+                watch, schedule = motion.watch, motion.schedule
+                log = log.with_events(*motion.events)
+            progress, waiting = track(progress, schedule, measured, time)
+            # who is held still isn't waited for: it stands when it has had the time for that
+            schedule = waiting if inputs.stale is None else schedule
             progress, log = note_arrivals(task, progress, schedule, log)
             if is_due(progress, schedule):
                 progress, schedule, log = _next_part(task, progress, knowledge, schedule, log)
-                respond, proven = look_again, schedule
+                respond, proven, motion = look_again, schedule, None
             schedule = caught_up(task, progress, knowledge, schedule, measured.speed)
+            if before.watch.held is not None and inputs.stale is None:
+                schedule = let_on(task, progress, knowledge, schedule)
+            if motion is not None:
+                judged = judged_motion(task, progress, knowledge, schedule, watch, motion, measured)
+                task, watch, schedule, work = (
+                    judged.task,
+                    judged.watch,
+                    judged.schedule,
+                    judged.work,
+                )
+                for decision in judged.decisions:
+                    log = log.with_decision(decision, 0.0)
         # what does it perceive? after the end only a lidar goes on
         sighting = None
         if isinstance(sensed, Scan):
@@ -204,12 +241,12 @@ class Navigator:
             *broken_premises(task, progress, before.knowledge, knowledge, schedule)
         )
         # what does it do about that?
-        work, undecided = 0.0, (progress, log)
+        undecided = progress, log
         if sighting is not None or schedule.pending is not None or respond is look_again:
             began = clock.perf_counter()
             decision = respond(task, progress, knowledge, schedule, sighting)
             log = log.with_decision(decision, clock.perf_counter() - began)
-            schedule, work = decision.schedule, decision.work
+            schedule, work = decision.schedule, max(work, decision.work)
             progress, log = note_arrivals(task, progress, schedule, log)
         if len(knowledge.moving):
             decision = give_way(task, progress, knowledge, schedule)
@@ -225,10 +262,19 @@ class Navigator:
                 schedule, event = kept_to_path(progress, knowledge, schedule, looked_at)
                 log = log.with_events(event)
         # what is it to do now?
+        if inputs.stale is not None and not progress.finished and schedule.giving_up is None:
+            schedule = held_still(task, progress, schedule)
         controller = before.progress.controller
-        progress, schedule = with_command(controller, progress, schedule, measured, time, work)
+        progress, waiting = with_command(controller, progress, schedule, measured, time, work)
+        schedule = waiting if inputs.stale is None else schedule
         command = command_for(task.mission.robot, progress, schedule, measured)
-        return command, self._with(NavigationState(progress, knowledge, schedule, log, work))
+        if schedule.giving_up is not None and progress.finished:
+            command = stop_command(task, command)
+        watch = replace(watch, held=inputs.stale).having_given(
+            time + work, command.speed, remembered_for(task)
+        )
+        state_now = NavigationState(progress, knowledge, schedule, log, work, watch)
+        return command, self._with(task, state_now)
 
     def warm(self, progress: KernelCallback | None = None) -> None:
         """Load all that any step can need, so that none has to wait for it.
@@ -243,10 +289,30 @@ class Navigator:
         """
         warm_up(self.mission, progress)
 
-    def _with(self, state: NavigationState) -> Navigator:
+    def _stood(self, state: RobotState, time: float) -> tuple[Command, Navigator]:
+        """The command and the navigator of a step before the last one: the robot stands."""
+        task, before = self._task, self._state
+        progress, schedule = before.progress, before.schedule
+        if before.watch.held is None and not progress.finished and schedule.giving_up is None:
+            schedule = held_still(task, progress, schedule)
+        watch, events = told_of_clock(before.watch, schedule.place(progress.distance), time)
+        log = Log().with_events(*events)
+        command = stop_command(task, command_for(task.mission.robot, progress, schedule, state))
+        now = replace(before, schedule=schedule, log=log, work=0.0, watch=watch)
+        return command, self._with(task, now)
+
+    def _with(self, task: DriveTask, state: NavigationState) -> Navigator:
         navigator = object.__new__(Navigator)
-        navigator._plan, navigator._task, navigator._state = self._plan, self._task, state
+        navigator._plan, navigator._task, navigator._state = self._plan, task, state
         return navigator
+
+    @property
+    def allowance(self) -> float:
+        """How far beside its path the robot may get by what is kept for that now [m].
+
+        It grows when the robot is measured farther beside its path.
+        """
+        return self._task.requirements.tracking_error
 
     def reference(self, time: float) -> RobotState:
         """Where a robot that follows exactly will be at a time, if nothing new is seen [s]."""
@@ -374,10 +440,7 @@ def _next_part(
 def _check(measured: RobotState, time: float, state: NavigationState) -> None:
     """Refuse what can't have been measured after the last step."""
     check_kind("state", measured, RobotState, "give RobotState(position, heading, speed)")
-    progress, dimension = state.progress, state.schedule.path.dimension
-    last = progress.time - (0.0 if progress.controller is None else progress.controller.ahead)
-    if progress.set_off and time < last - TIME_ROUNDING * (1.0 + abs(last)):
-        raise GeometryError(f"time {time} s is before the last step's, {last} s")
+    dimension = state.schedule.path.dimension
     position = numbers_from("state.position", measured.position)
     motion = (measured.heading, measured.speed, measured.speed_across, time)
     is_finite = np.isfinite(position).all() and np.isfinite(numbers_from("state", motion)).all()

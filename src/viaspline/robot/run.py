@@ -28,7 +28,7 @@ from viaspline.world.world import World
 
 EventKind = Literal[
     "started", "detected", "replanned", "via", "arrived", "dwell", "skipped", "braked", "stopped",
-    "reached", "contact", "premise",
+    "reached", "contact", "premise", "deviation", "lag", "slip", "stale", "pose_jump", "clock",
 ]  # fmt: skip
 Mode = Literal["reflex", "planned", "from_rest"]
 

@@ -20,12 +20,15 @@ class RobotState:
         heading: Of its body, anticlockwise from x [rad].
         speed: Forward, along its body [m/s].
         speed_across: To the left, across its body [m/s]; 0 of a robot that can't.
+        stamp: When that was measured, by the clock of the steps [s]; None: now, whenever it is
+            handed in. What is older than 0.2 s stops the robot.
     """
 
     position: tuple[float, ...]
     heading: float
     speed: float
     speed_across: float = 0.0
+    stamp: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,12 +5,13 @@ Tested through ``robot/test_navigator``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.progress import Progress
 from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.watching.watch import Watch
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,7 @@ class NavigationState:
         log: What has happened.
         work: What the last step has spent on its search for a new path [s of the reference
             machine].
+        watch: What tells whether the model fits the machine.
     """
 
     progress: Progress
@@ -31,3 +33,4 @@ class NavigationState:
     schedule: Schedule
     log: Log
     work: float = 0.0
+    watch: Watch = field(default_factory=Watch)

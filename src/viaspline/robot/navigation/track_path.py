@@ -65,9 +65,12 @@ def _controlled(
     measured: RobotState,
     time: float,
 ) -> tuple[Progress, Schedule]:
-    """The progress of a robot with a drive: its trajectory waits for it where it is too late."""
+    """The progress of a robot with a drive: its trajectory waits for it where it is too late.
+
+    One that brakes for good isn't waited for: it stands when it has had the time for that.
+    """
     controller = controller.on(schedule.path, schedule.trajectory).step(measured, time)
-    if controller.late > 0.0:
+    if controller.late > 0.0 and schedule.giving_up is None:
         schedule = replace(schedule, trajectory=schedule.trajectory.delayed(controller.late))
     now = time + controller.ahead
     should = float(schedule.trajectory.distance_at(now))
@@ -144,7 +147,7 @@ def with_command(
     if is_new or work > 0.0:
         waited = controller.late > 0.0
         controller = before.on(schedule.path, schedule.trajectory).step(measured, time, work)
-        if controller.late > 0.0 and not waited:
+        if controller.late > 0.0 and not waited and schedule.giving_up is None:
             schedule = replace(schedule, trajectory=schedule.trajectory.delayed(controller.late))
     return replace(progress, controller=controller.gave(time + work)), schedule
 

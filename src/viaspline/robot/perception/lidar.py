@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from viaspline.errors import GeometryError
-from viaspline.handed_in import number_from, numbers_from
+from viaspline.handed_in import finite_from, number_from, numbers_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.sensing.raycast import cast
 from viaspline.kernels.world.packed import PackedWorld
 from viaspline.mission.sensor_spec import Lidar
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.robot.perception.laser_beams import laser_beams
+from viaspline.robot.state import RobotState
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.shapes_at import shapes_at
 from viaspline.world.world import World
@@ -37,6 +39,8 @@ class Scan(ComparedByValue):
         range_max: The length of a beam [m].
         ranges: Distance to what each beam hit [m], shape (beams,), read-only: infinite where there
             was nothing as far as the beam reaches, NaN where nothing was measured.
+        stamp: When it was taken, by the clock of the steps [s]; None: now, whenever it is handed
+            in. One that is older than 0.2 s stops the robot.
 
     Raises:
         GeometryError: When a number makes no scan.
@@ -53,6 +57,63 @@ class Scan(ComparedByValue):
     angle_increment: float
     range_max: float
     ranges: Floats
+    stamp: float | None = None
+
+    @classmethod
+    def from_laserscan(
+        cls,
+        ranges: Sequence[float] | Floats,
+        angle_min: float,
+        angle_increment: float,
+        range_min: float,
+        range_max: float,
+        pose: RobotState | tuple[float, float, float],
+        *,
+        mount: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        stamp: float | None = None,
+        intensities: object = None,
+    ) -> Scan:
+        """A scan from the fields of ROS's ``sensor_msgs/LaserScan``, as drivers really fill them.
+
+        Beams that tell nothing become NaN: NaN, minus infinity (too near to measure, REP 117), 0
+        and all that is below ``range_min`` or above ``range_max``; the robot doesn't take their
+        directions for free. Plus infinity is a beam that met nothing. Angles that run clockwise
+        are turned round; of beams that go round more than once the last turn counts. Without any
+        beam it is a scan that shows nothing, which is as good as none.
+
+        Of a scanner that hangs upside down, negate ``angle_min`` and ``angle_increment``.
+
+        Args:
+            ranges: Distances [m], shape (beams,), 0 beams or more.
+            angle_min: Direction of the first beam in the scanner's frame, anticlockwise [rad].
+            angle_increment: From each beam to the next [rad]; below 0 if they run clockwise.
+            range_min: The least distance that is measured [m].
+            range_max: The greatest [m].
+            pose: Of the robot's reference point when the scan was taken (not now): its x, y [m]
+                and heading [rad], or its state.
+            mount: Of the scanner on the body: x forward, y left [m], and yaw [rad].
+            stamp: When it was taken, by the clock of the steps [s]. None: now.
+            intensities: Not looked at.
+
+        Raises:
+            GeometryError: When a number makes no scan: shapes, angles or ranges that contradict
+                each other, a pose that is not finite.
+
+        Example:
+            >>> ranges = [0.0, 2.0, np.inf]  # clockwise from the left, the first too near
+            >>> angles, reach, pose = (np.pi / 2, -np.pi / 2), (0.1, 8.0), (1.0, 2.0, 0.0)
+            >>> scan = Scan.from_laserscan(ranges, *angles, *reach, pose, mount=(0.25, 0, 0))
+            >>> scan.position, scan.ranges, scan.hits
+            ((1.25, 2.0), array([inf,  2., nan]), array([[3.25, 2.  ]]))
+        """
+        del intensities
+        beams, first, step = laser_beams(ranges, angle_min, angle_increment, range_min, range_max)
+        x, y, heading = _pose_of(pose)
+        ahead, left, turned = _three("mount", mount, "(x, y, yaw) of the scanner on the body")
+        c, s = math.cos(heading), math.sin(heading)
+        place = x + c * ahead - s * left, y + s * ahead + c * left
+        reach = number_from("range_max", range_max)
+        return cls(place, heading + turned, first, step, reach, beams, stamp)
 
     def __post_init__(self) -> None:
         ranges = numbers_from("ranges", self.ranges).copy()
@@ -60,6 +121,8 @@ class Scan(ComparedByValue):
         object.__setattr__(self, "position", position)
         for name in ("heading", "angle_min", "angle_increment", "range_max"):
             object.__setattr__(self, name, number_from(name, getattr(self, name)))
+        if self.stamp is not None:
+            object.__setattr__(self, "stamp", finite_from("stamp", self.stamp))
         if ranges.ndim != 1 or not ranges.size:
             raise GeometryError(f"ranges have shape {ranges.shape}; give one for each beam")
         numbers = (*self.position, self.heading, self.angle_min, self.range_max)
@@ -86,6 +149,11 @@ class Scan(ComparedByValue):
         return same and len(self.ranges) == len(other.ranges)
 
     @cached_property
+    def shows_nothing(self) -> bool:
+        """Whether no beam has measured anything, not even that nothing is there."""
+        return bool(np.isnan(self.ranges).all())
+
+    @cached_property
     def free(self) -> Floats:
         """How far each beam met nothing [m], shape (beams,)."""
         return np.where(np.isnan(self.ranges), 0.0, np.minimum(self.ranges, self.range_max))
@@ -97,6 +165,21 @@ class Scan(ComparedByValue):
         angles = self.first_direction + beams * self.angle_increment
         rays = np.column_stack((np.cos(angles), np.sin(angles)))
         return np.asarray(self.ranges[beams, None] * rays + np.asarray(self.position[:2]))
+
+
+def _pose_of(pose: RobotState | tuple[float, float, float]) -> tuple[float, float, float]:
+    if isinstance(pose, RobotState):
+        x, y = (finite_from("pose", value) for value in pose.position[:2])
+        return x, y, finite_from("pose", pose.heading)
+    return _three("pose", pose, "(x, y, heading) of the robot, or its RobotState")
+
+
+def _three(name: str, values: object, what: str) -> tuple[float, float, float]:
+    numbers = numbers_from(name, values)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+        raise GeometryError(f"{name} is {values!r:.60}; give three finite numbers: {what}")
+    x, y, turned = numbers.tolist()
+    return x, y, turned
 
 
 class LidarSensor:

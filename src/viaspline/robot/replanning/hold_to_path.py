@@ -192,8 +192,9 @@ def _pieces(context: ReplanContext, trajectory: Trajectory, far: Floats) -> NDAr
     speeds = trajectory.speed_at(far)
     late = model.delay + model.lag
     back = np.maximum(model.convergence_distance, (model.convergence_time + late) * speeds)
-    first = np.floor(np.maximum(far - back, context.progress.distance) / PIECE_M)
     last = np.floor(far / PIECE_M)
+    # a robot that is late may be too far beside a place that its law has passed
+    first = np.minimum(np.floor(np.maximum(far - back, context.progress.distance) / PIECE_M), last)
     marked = np.zeros(int(last.max()) + 2)
     np.add.at(marked, first.astype(np.int64), 1)
     np.add.at(marked, last.astype(np.int64) + 1, -1)

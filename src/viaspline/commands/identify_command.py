@@ -1,0 +1,114 @@
+"""``viaspline identify``: the drive of a robot, fitted to a log of one, as keys to paste."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from viaspline.report.terminal_lines import say
+
+if TYPE_CHECKING:
+    from viaspline.mission.robot_parts import RobotSpec
+
+ABOVE_0 = click.FloatRange(min=0.0, max=1e4, min_open=True)
+
+
+@click.command()
+@click.argument("log", type=click.Path(path_type=Path), required=False)
+@click.option(
+    "--out", type=click.Path(path_type=Path), metavar="FILE", help="Write the keys there."
+)
+@click.option("--track", type=ABOVE_0, default=0.5, show_default=True, metavar="METRES",
+              help="Distance between the wheels, which no log shows.")  # fmt: skip
+@click.option("--drive", "drive", type=click.Path(path_type=Path), metavar="OUT",
+              help="Write the commands of a drive that shows enough, and stop.")  # fmt: skip
+@click.option("--max-speed", type=ABOVE_0, metavar="MPS", help="Of those.  [default: 1]")
+@click.option("--max-yaw-rate", type=ABOVE_0, metavar="RADPS", help="Of those.  [default: 0.8]")
+@click.option("--period", type=ABOVE_0, metavar="SECONDS", help="Of those.  [default: 0.05]")
+@click.option("--on", "mission", type=click.Path(path_type=Path), metavar="MISSION",
+              help="Drive them on a mission's simulated robot; OUT is the log.")  # fmt: skip
+@click.option("--seed", type=click.IntRange(min=0), metavar="N",
+              help="Of its noise.  [default: 0]")  # fmt: skip
+def identify(
+    log: Path | None, out: Path | None, track: float, drive: Path | None,
+    max_speed: float | None, max_yaw_rate: float | None, period: float | None,
+    mission: Path | None, seed: int | None,
+) -> None:  # fmt: skip
+    """Fit delay, lag, limits, noise and slip of a robot's drive to a log of it.
+
+    LOG is a CSV file with the columns time_s, x_m, y_m, heading_rad (or heading_deg),
+    speed_command_mps and yaw_rate_command_radps, a command from its row to the next. Prints the
+    keys robot.drive and the like, each with its spread, to paste into a mission.
+
+    \b
+    Examples:
+      viaspline identify --drive commands.csv --max-speed 1.5     what the robot is to drive
+      viaspline identify drive.csv --track 0.42                   what its log shows
+      viaspline identify --drive log.csv --on examples/depot-cart.yaml    in simulation
+    """  # noqa: D301  (click looks for the character, not for a backslash)
+    if drive is not None:
+        if log is not None or out is not None:
+            raise click.UsageError("give LOG to fit it, or --drive to write commands, not both")
+        _write_commands(drive, max_speed or 1.0, max_yaw_rate or 0.8, period or 0.05, mission, seed)
+        return
+    asked = (max_speed, max_yaw_rate, period, mission, seed)
+    if any(value is not None for value in asked):
+        raise click.UsageError(
+            "--max-speed, --max-yaw-rate, --period, --on and --seed go with --drive"
+        )
+    if log is None:
+        raise click.UsageError("give the LOG of a drive, or --drive OUT for one that shows enough")
+    from viaspline.formats.whole_file import write_whole
+    from viaspline.identify.drive_log import read_drive_csv
+    from viaspline.identify.fit_drive import fit_drive
+    from viaspline.identify.identified_drive import drive_block
+
+    found = fit_drive(read_drive_csv(log))
+    block = f"# fitted to {found.seconds:.0f} s of {log.name}\n{drive_block(found, track)}"
+    if out is None:
+        say(block.rstrip("\n"))
+    else:
+        write_whole(out, block)
+        say(f"delay {found.delay} s, lag {found.lag} s", f"wrote {out}")
+
+
+def _write_commands(
+    out: Path, max_speed: float, max_yaw_rate: float, period: float, mission: Path | None,
+    seed: int | None,
+) -> None:  # fmt: skip
+    from viaspline.formats.whole_file import write_whole
+    from viaspline.identify.standard_drive import commands_csv, room_of, standard_commands
+
+    commands = standard_commands(max_speed, max_yaw_rate, period)
+    seconds = f"{commands[-1, 0] + period:.0f} s at up to {max_speed:g} m/s"
+    if mission is not None:
+        from viaspline.identify.drive_log import drive_csv
+        from viaspline.identify.simulated_log import simulated_log
+
+        simulated = simulated_log(_robot_of(mission), commands, seed or 0)
+        write_whole(out, drive_csv(simulated))
+        say(f"wrote {out}: the log of {seconds}, simulated")
+        return
+    if seed is not None:
+        raise click.UsageError("--seed goes with --on: commands are not random")
+    ahead, behind, left, right = room_of(commands)
+    write_whole(out, commands_csv(commands))
+    say(
+        f"wrote {out}: commands of {seconds}, one every {period:g} s",
+        f"it takes {ahead:.1f} m ahead, {behind:.1f} m behind, {left:.1f} m to the left and "
+        f"{right:.1f} m to the right of a robot that does as it is told; leave it twice that",
+    )
+
+
+def _robot_of(path: Path) -> RobotSpec:
+    from viaspline.command_steps import load_asked
+    from viaspline.mission.model import Mission
+
+    asked = load_asked(path)
+    if not isinstance(asked, Mission):
+        raise click.UsageError("the drive of one robot is identified; this is a fleet")
+    if asked.robot.held_heading is not None:
+        raise click.UsageError("this robot keeps its heading: it has no yaw rate to identify")
+    return asked.robot

@@ -1,0 +1,1 @@
+"""A robot's drive from a log of one: how late, how slow, how noisy it is."""

@@ -1,0 +1,114 @@
+"""A drive as a log shows it: each figure with its spread; and as keys of a mission to paste."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from viaspline.machine.robot_model import ACCEL_RESERVE, YAW_RESERVE
+
+
+class Estimate(NamedTuple):
+    """A figure and its standard deviation, in the same unit."""
+
+    value: float
+    spread: float
+
+    def __str__(self) -> str:
+        return f"{self.value:.3g} ± {self.spread:.2g}"
+
+
+@dataclass(frozen=True)
+class IdentifiedDrive:
+    """What a log shows of a drive. None: it doesn't show that limit.
+
+    Attributes:
+        delay: From a command to its effect [s].
+        lag: Time constant with which speed and yaw rate follow [s].
+        speed_share: Of the commanded speed, that is reached.
+        yaw_share: Of the commanded yaw rate, that is reached; the rest slips.
+        top_speed: The greatest speed [m/s].
+        accel: The greatest change of the speed [m/s²].
+        yaw_accel: The greatest change of the yaw rate [rad/s²].
+        speed_noise: Of the speed that is driven [m/s], standard deviation.
+        yaw_noise: Of the yaw rate that is driven [rad/s].
+        position_noise: Of a measured coordinate [m].
+        heading_noise: Of a measured heading [rad].
+        fastest: The greatest speed in the log [m/s].
+        seconds: Length of the log [s].
+    """
+
+    delay: Estimate
+    lag: Estimate
+    speed_share: Estimate
+    yaw_share: Estimate
+    top_speed: Estimate | None
+    accel: Estimate | None
+    yaw_accel: Estimate | None
+    speed_noise: Estimate
+    yaw_noise: Estimate
+    position_noise: Estimate
+    heading_noise: Estimate
+    fastest: float
+    seconds: float
+
+
+SLIPS_FROM = 0.03
+"""A robot that loses less of its yaw rate doesn't slip."""
+
+
+def drive_block(drive: IdentifiedDrive, track: float) -> str:
+    """The ``robot:`` keys of a mission that say what a log has shown, as YAML to paste.
+
+    Args:
+        drive: What the log shows.
+        track: Distance between the wheels, which no log shows [m].
+    """
+    deg = math.degrees
+    lines = ["robot:"]
+    if drive.top_speed is not None:
+        lines.append(_line("  max_speed_mps", drive.top_speed, "no command makes it faster"))
+    else:
+        lines.append(f"  # its greatest speed is no less than {drive.fastest:.3g} m/s")
+    if drive.accel is not None:
+        half = _scaled(drive.accel, 1.0 / ACCEL_RESERVE)
+        words = f"{drive.accel} m/s² at most, of which control needs a half"
+        lines.append(_line("  max_accel_mps2", half, words))
+    if drive.yaw_accel is not None:
+        most = _scaled(drive.yaw_accel, deg(1.0) / YAW_RESERVE)
+        lines.append(_line("  max_yaw_accel_degps2", most, "with a fifth left for control"))
+    slip = 1.0 - drive.yaw_share.value
+    kind = f"differential: {{track_m: {track:g}}}"
+    if slip > max(SLIPS_FROM, 2.0 * drive.yaw_share.spread):
+        kind = f"skid_steer: {{track_m: {track:g}, slip: {min(slip, 0.99):.3g}}}"
+    lines += [
+        "  drive:",
+        f"    {kind}  # the distance between its wheels: measure it",
+        _line("    delay_s", drive.delay),
+        _line("    lag_s", drive.lag),
+        _noise("    speed_noise_mps", drive.speed_noise),
+        _noise("    yaw_rate_noise_degps", _scaled(drive.yaw_noise, deg(1.0))),
+        "  localization:",
+        _noise("    position_noise_m", drive.position_noise),
+        _noise("    heading_noise_deg", _scaled(drive.heading_noise, deg(1.0))),
+    ]
+    for what, share in (("drives at", drive.speed_share), ("turns at", drive.yaw_share)):
+        if abs(1.0 - share.value) > max(SLIPS_FROM, 2.0 * share.spread):
+            more = f"give it {1.0 / share.value:.3g} times as much"
+            lines.append(f"# it {what} {share} of what it is told: {more}")
+    return "\n".join(lines) + "\n"
+
+
+def _line(key: str, figure: Estimate, words: str = "") -> str:
+    note = f"± {figure.spread:.2g}" + (f"; {words}" if words else "")
+    return f"{key}: {figure.value:.3g}  # {note}"
+
+
+def _noise(key: str, figure: Estimate) -> str:
+    """A line with as much noise as there may be: too little would be kept for less."""
+    return f"{key}: {sum(figure):.3g}  # {figure}, both added"
+
+
+def _scaled(figure: Estimate, by: float) -> Estimate:
+    return Estimate(figure.value * by, figure.spread * by)

@@ -1,0 +1,138 @@
+"""How far beside its path a robot is, and whether that is more than is kept for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viaspline.robot.navigation.drive_task import DriveTask
+from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.state import RobotState
+from viaspline.robot.watching.measured_motion import noise_of
+from viaspline.robot.watching.true_place import TruePlace
+from viaspline.robot.watching.watch import Excuse, Watch
+from viaspline.robot.watching.way_back import SETTLED, is_way_back_clear, room_on, way_back
+from viaspline.trajectory.slow_zones import Slow
+
+BESIDE_M = 0.005
+"""What is farther beside the path than is kept, by less, is not told of [m]."""
+
+MARGIN = 1.5
+"""By which what is kept from then on is more than what was measured, as that of trial drives is,"""
+
+LEAST_GROWTH_M = 0.02
+"""and at least more than before [m]: so that it isn't told again at every step."""
+
+DIED_OUT_M = 0.005
+"""A deviation that is less is over [m]."""
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """A robot that is farther beside its path than is kept for that.
+
+    Attributes:
+        off: How far, for certain: without what noise may feign [m].
+        kept: What was kept [m].
+        needed: What has to be kept from now on [m].
+        clearance: Room that is left about the body, here or, where it comes back, on its way [m].
+        returns: Whether it was set there, and comes back; None if it has driven there. False: what
+            is between it and its path is not clear.
+        slowly: From where to where along the path it has to be slower for that, and how slow.
+    """
+
+    off: float
+    kept: float
+    needed: float
+    clearance: float
+    returns: bool | None = None
+    slowly: Slow | None = None
+
+
+def path_deviation(
+    task: DriveTask,
+    watch: Watch,
+    knowledge: Knowledge,
+    schedule: Schedule,
+    measured: RobotState,
+    place: TruePlace,
+    *,
+    was_set: bool,
+) -> tuple[Watch, Deviation | None]:
+    """Whether a robot is farther beside its path than is kept for that.
+
+    Args:
+        task: What is asked of the drive.
+        watch: So far.
+        knowledge: All that is known.
+        schedule: What the robot means to do.
+        measured: Where it is.
+        place: That on its path.
+        was_set: Whether it was set there, by hand or by its filter, and has not driven there.
+    """
+    kept = task.requirements.tracking_error
+    noise, turned = noise_of(task.mission.robot)
+    reach = 0.0 if task.mission.robot.footprint is None else task.mission.robot.outer_radius
+    off = max(place.off - noise - reach * turned, 0.0)
+    here = schedule.driven + place.distance
+    if was_set and off > kept + BESIDE_M:
+        return _set_beside(task, watch, knowledge, schedule, measured, place, off)
+    excused = 0.0 if watch.excuse is None else MARGIN * watch.excuse.left_at(here)
+    if watch.excuse is not None and excused < DIED_OUT_M:
+        watch = replace(watch, excuse=None)
+    if off <= max(kept, excused) + BESIDE_M:
+        return watch, None
+    needed = max(MARGIN * off + BESIDE_M, kept + LEAST_GROWTH_M)
+    room = room_on(knowledge.world, np.asarray(measured.position)[None])
+    return watch, Deviation(off, kept, needed, float(room[0]) - task.requirements.outer_radius)
+
+
+def _set_beside(
+    task: DriveTask,
+    watch: Watch,
+    knowledge: Knowledge,
+    schedule: Schedule,
+    measured: RobotState,
+    place: TruePlace,
+    off: float,
+) -> tuple[Watch, Deviation]:
+    """How one comes back that was set beside its path: as fast as it is, slowly, or not at all."""
+    kept, here = task.requirements.tracking_error, schedule.driven + place.distance
+    world, at = knowledge.world, np.asarray(measured.position)
+    required = task.requirements.outer_radius + task.requirements.clearance
+    over = _convergence(task, task.limits.max_speed)
+    watch = replace(watch, excuse=Excuse(off, here, over))
+    body, path = task.requirements.outer_radius, schedule.path
+    room = room_on(world, way_back(path, place.distance, at, over))
+    if is_way_back_clear(room, required, body):
+        return watch, Deviation(off, kept, kept, float(room.min()) - body, returns=True)
+    slow, least = _slowest(task), _convergence(task, 0.0)
+    braking = max(measured.speed**2 - slow**2, 0.0) / (2.0 * task.limits.brake)
+    braking += abs(measured.speed) * task.reaction
+    room = room_on(world, way_back(path, place.distance, at, least, beside=braking))
+    whole = braking + SETTLED * least
+    if not is_way_back_clear(room, required, body, braking / whole):
+        return watch, Deviation(off, kept, kept, float(room[0]) - body, returns=False)
+    end = place.distance + whole
+    watch = replace(watch, excuse=Excuse(off, here + braking, least))
+    slowly = Slow(place.distance + braking, end, slow)
+    clearance = float(room.min()) - body
+    return watch, Deviation(off, kept, kept, clearance, returns=True, slowly=slowly)
+
+
+def _slowest(task: DriveTask) -> float:
+    """The speed up to which a deviation dies out over the least distance [m/s]."""
+    if task.model is None:
+        return min(1.0, task.limits.max_speed)
+    model = task.model
+    return min(model.convergence_distance / model.convergence_time, task.limits.max_speed)
+
+
+def _convergence(task: DriveTask, speed: float) -> float:
+    """The distance over which a deviation dies out [m]."""
+    if task.model is None:
+        return max(1.0, abs(speed))
+    model = task.model
+    return max(model.convergence_distance, model.convergence_time * abs(speed))

@@ -1,0 +1,189 @@
+"""The certificate of what is still ahead, renewed with what a robot is truly beside its path.
+
+What was kept for the tracking error is a promise of the model. Where the machine breaks it, what is
+measured takes its place: the path ahead is proven anew with that. Where it doesn't hold it is laid
+anew, from the first place on that has room for more; and where that can't be, the robot stops.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viaspline.errors import PlanningError
+from viaspline.planning import replan
+from viaspline.planning.problem.work_budget import SpentBudgetError
+from viaspline.robot.navigation.decision import Decision
+from viaspline.robot.navigation.drive_task import DriveTask
+from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.progress import Progress
+from viaspline.robot.navigation.reschedule import rescheduled
+from viaspline.robot.navigation.schedule import ReducedClearance, Schedule
+from viaspline.robot.replanning.path_candidate import PathCandidate, timed
+from viaspline.robot.replanning.replan_context import Obstruction, ReplanContext
+from viaspline.robot.replanning.transitions import stop_for_good, take_over
+from viaspline.robot.run import Event
+from viaspline.robot.watching.path_deviation import Deviation
+
+LAY_WORK_S = (0.03, 0.12)
+"""What may be spent on a new path: first, and then [s of the reference machine]."""
+
+SPACING_RATIO = 0.25
+"""From place to place at which the room is looked at, of what is required."""
+
+FLOOR_SLACK_M = 1e-3
+"""By which the path may keep less than its samples show [m]."""
+
+
+@dataclass(frozen=True)
+class RenewedAllowance:
+    """A drive that goes on with what its robot is truly beside its path.
+
+    Attributes:
+        task: With what is kept for that from now on.
+        decision: What the robot means to do, and what there is to note of it.
+    """
+
+    task: DriveTask
+    decision: Decision
+
+
+def renewed_allowance(
+    task: DriveTask,
+    progress: Progress,
+    knowledge: Knowledge,
+    schedule: Schedule,
+    deviation: Deviation,
+) -> RenewedAllowance:
+    """How a robot goes on that is farther beside its path than was kept.
+
+    Args:
+        task: What is asked of the drive.
+        progress: How far the robot has come.
+        knowledge: All that is known.
+        schedule: What it means to do.
+        deviation: How far it is beside its path.
+    """
+    if deviation.returns is not None:
+        return RenewedAllowance(task, _set_back(task, progress, knowledge, schedule, deviation))
+    requirements = replace(task.requirements, tracking_error=deviation.needed)
+    renewed = replace(task, requirements=requirements)
+    context = ReplanContext.of(renewed, progress, knowledge, schedule)
+    if knowledge.belief is not None:  # what it sees decides anew with every scan
+        told = _told(context, deviation, "what is ahead is looked at again with that", "renewed")
+        return RenewedAllowance(renewed, Decision(schedule, (told,)))
+    free = context.free_until(knowledge.world)
+    if free is None:
+        told = _told(context, deviation, "the path ahead is proven clear with that", "holds")
+        return RenewedAllowance(renewed, Decision(schedule, (told,)))
+    names = context.in_the_way(knowledge.world)
+    blocked = replace(context, obstruction=Obstruction(knowledge.world, names, free))
+    return RenewedAllowance(renewed, _laid_anew(blocked, deviation))
+
+
+def _set_back(
+    task: DriveTask,
+    progress: Progress,
+    knowledge: Knowledge,
+    schedule: Schedule,
+    deviation: Deviation,
+) -> Decision:
+    """How one goes on that was set beside its path: back to it, or not at all."""
+    context = ReplanContext.of(task, progress, knowledge, schedule)
+    if deviation.returns:
+        told = _told(context, deviation, "it comes back to it, where it is clear", "returns")
+        if deviation.slowly is not None:
+            slow = replace(schedule, slow=(*schedule.slow, deviation.slowly))
+            speed = float(schedule.trajectory.state_at(progress.time)[1])
+            schedule = rescheduled(task, progress, knowledge, slow, speed)
+        return Decision(schedule, (told,))
+    told = _told(context, deviation, "the way back is not clear", "stops")
+    why = f"it was set {deviation.off:.2f} m beside its path, and the way back is not clear"
+    stopped = stop_for_good(context, why)
+    return replace(stopped, events=(told, *stopped.events))
+
+
+def _laid_anew(context: ReplanContext, deviation: Deviation) -> Decision:
+    """A path that keeps more, from the first place on that has room for it; else a stop."""
+    tried: tuple[PathCandidate | None, float] = (None, 0.0)
+    for limit in LAY_WORK_S:
+        try:
+            tried = _candidate(context.searching(limit))
+            break
+        except SpentBudgetError:
+            tried = (None, limit)
+    candidate, work = tried
+    if candidate is None:
+        told = _told(context, deviation, "no path ahead that keeps so much was found", "stops")
+        why = f"it gets {deviation.off:.2f} m beside its path, and what is ahead is not clear then"
+        stopped = stop_for_good(context, why)
+        return replace(stopped, events=(told, *stopped.events), searched=True, work=work)
+    told = _told(context, deviation, "the path ahead is laid anew with that", "laid anew")
+    decision = take_over(context, candidate, {})
+    return replace(decision, events=(told, *decision.events), searched=True, work=work)
+
+
+def _candidate(context: ReplanContext) -> tuple[PathCandidate | None, float]:
+    """A path with more room, and what was spent on it [s of the reference machine].
+
+    It may begin as fast as the robot is, though that may be more than it should be by now.
+
+    Raises:
+        SpentBudgetError: When more would have to be.
+    """
+    path, world = context.schedule.path, context.knowledge.world
+    requirements, here = context.requirements, context.progress.distance
+    spacing = SPACING_RATIO * requirements.required
+    limits = context.task.limits
+    limits = replace(limits, max_speed=max(limits.max_speed, context.speed))
+    context = replace(context, task=replace(context.task, limits=limits))
+    for leave in context.leaves:
+        places = np.arange(leave, path.length, spacing)
+        roomy = np.flatnonzero(world.distance(path.at_distance(places)) >= requirements.required)
+        if not roomy.size:
+            continue
+        at = float(places[roomy[0]])
+        before = np.linspace(here, at, 2 + int((at - here) / spacing))
+        floor = float(np.min(world.distance(path.at_distance(before)))) - FLOOR_SLACK_M
+        if floor < requirements.radius + requirements.tracking_error:
+            return None, context.work  # it might touch something on the way there
+        less = context
+        if floor < requirements.required:
+            reduced = ReducedClearance(at, floor)
+            less = replace(context, schedule=replace(context.schedule, reduced=reduced))
+        try:
+            solution = replan.planned(path, at, world, requirements, (), less.schedule.looked_at)
+        except SpentBudgetError:
+            raise
+        except PlanningError:
+            continue
+        # its model says that the robot gets too far beside it? it has been wrong already
+        candidate = timed(less, "planned", solution) or timed(_untried(less), "planned", solution)
+        if candidate is not None:
+            return candidate, context.work
+    return None, context.work
+
+
+def _untried(context: ReplanContext) -> ReplanContext:
+    """A context in which a path isn't driven ahead by the model."""
+    requirements = replace(context.task.requirements, tracking_error=0.0)
+    return replace(context, task=replace(context.task, requirements=requirements))
+
+
+def _told(context: ReplanContext, deviation: Deviation, then: str, outcome: str) -> Event:
+    task, kept = context.task, f"{deviation.kept:.3f} m are kept for that"
+    if task.model is None and deviation.kept == 0.0:
+        kept = "no allowance is kept: the mission has no robot.drive, nor robot.tracking_error_m"
+    if deviation.returns is None:
+        kept += f", {deviation.needed:.3f} m from now on"
+    data = {
+        "off_m": deviation.off,
+        "kept_m": deviation.kept,
+        "allowance_m": deviation.needed,
+        "clearance_m": None if math.isinf(deviation.clearance) else deviation.clearance,
+        "outcome": outcome,
+    }
+    words = f"is {deviation.off:.3f} m beside its path; {kept}; {then}"
+    return Event("deviation", context.progress.time, context.here, words, data)

@@ -1,0 +1,85 @@
+"""Where beside its path a robot truly is, as measured: how far along it, and how far off.
+
+Tested through ``robot/watching/test_path_deviation``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.navigation.track_path import ON_PATH_M, project
+from viaspline.robot.state import RobotState
+
+AROUND_M = 0.5
+"""A robot is looked for so far before and behind where it was and where it should be [m]."""
+
+PASSED_M = 0.1
+"""It has passed a corner when it should be so far behind that [m]."""
+
+TURNING_MPS = 0.05
+"""One that is slower may be turning where it stands [m/s]."""
+
+
+@dataclass(frozen=True)
+class TruePlace:
+    """Where a robot is, as measured.
+
+    Attributes:
+        distance: Along its path [m].
+        aside: How far its reference point is beside the path there [m].
+        off: How far any point of its body is from where it would be on the path [m].
+    """
+
+    distance: float
+    aside: float
+    off: float
+
+
+def is_there(schedule: Schedule, measured: RobotState, should: float) -> bool:
+    """Whether a robot is exactly where it should be along its path [m]."""
+    place = np.asarray(schedule.path.at_distance(should))
+    return float(np.linalg.norm(np.asarray(measured.position) - place)) <= ON_PATH_M
+
+
+def true_place(
+    robot: RobotSpec,
+    schedule: Schedule,
+    measured: RobotState,
+    should: float,
+    last: float,
+    around: float = 0.0,
+) -> TruePlace:
+    """Where a robot is on its path.
+
+    It is looked for near where it was and where it should be, so a path that crosses or repeats
+    itself makes no difference.
+
+    Args:
+        robot: Its body.
+        schedule: Its path.
+        measured: Where it is.
+        should: Distance along the path at which it should be [m].
+        last: Distance at which it was in the step before [m].
+        around: By which more it is looked for before and behind [m].
+    """
+    path = schedule.path
+    if is_there(schedule, measured, should):
+        return TruePlace(should, 0.0, 0.0)
+    low = max(min(last, should) - AROUND_M - around, 0.0)
+    high = min(max(last, should) + AROUND_M + around, path.length)
+    distance, aside = project(path, measured.position, min(low, high), high)
+    off = aside
+    if robot.footprint is not None and abs(measured.speed) > TURNING_MPS:
+        way = float(path.heading(float(path.parameter(distance))))
+        wanted = way if robot.held_heading is None else robot.held_heading
+        turned = abs(math.remainder(measured.heading - wanted, math.tau))
+        off += 2.0 * robot.outer_radius * math.sin(0.5 * turned)
+    passed = [turn for turn in schedule.turns if turn <= should - PASSED_M]
+    to_come = [turn for turn in schedule.turns if turn > should - PASSED_M]
+    distance = min(max([distance, *passed]), min(to_come, default=math.inf))
+    return TruePlace(distance, aside, off)

@@ -1,0 +1,72 @@
+"""The command that fits a drive: what it writes and says, and what it refuses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from ruamel.yaml import YAML
+
+from viaspline.cli import cli
+from viaspline.mission.model import Mission
+
+MISSION = """\
+robot:
+  max_speed_mps: 1.2
+  drive: {differential: {track_m: 0.4}, delay_s: 0.2, lag_s: 0.15, speed_noise_mps: 0.01}
+  localization: {position_noise_m: 0.005, heading_noise_deg: 0.3}
+route: {start: [0, 0], goal: [10, 0]}
+"""
+
+
+def run(*arguments: object) -> Result:
+    return CliRunner().invoke(cli, ["identify", *map(str, arguments)])
+
+
+def test_what_is_simulated_is_identified_and_can_be_pasted(tmp_path: Path) -> None:
+    (tmp_path / "m.yaml").write_text(MISSION)
+    done = run("--drive", tmp_path / "log.csv", "--on", tmp_path / "m.yaml", "--seed", 2)
+    assert done.exit_code == 0, done.output
+    assert "log.csv" in done.output
+    found = run(tmp_path / "log.csv", "--track", 0.4)
+    assert found.exit_code == 0, found.output
+    block = YAML(typ="safe").load(found.output)
+    mission = Mission.model_validate({**block, "route": {"start": [0, 0], "goal": [10, 0]}})
+    drive = mission.robot.drive
+    assert drive is not None
+    assert drive.delay_s == pytest.approx(0.2, abs=0.02)
+    assert drive.lag_s == pytest.approx(0.15, abs=0.02)
+    assert drive.kind.example.keys() == {"track_m"}
+    out = run(tmp_path / "log.csv", "--track", 0.4, "--out", tmp_path / "drive.yaml")
+    assert "wrote" in out.output
+    assert (tmp_path / "drive.yaml").read_text() == found.output
+
+
+def test_commands_are_written_with_the_ground_that_they_take(tmp_path: Path) -> None:
+    done = run("--drive", tmp_path / "c.csv", "--max-speed", 2, "--period", 0.1)
+    assert done.exit_code == 0, done.output
+    assert "m ahead" in done.output
+    first, *rows = (tmp_path / "c.csv").read_text().splitlines()
+    assert first == "time_s,speed_command_mps,yaw_rate_command_radps"
+    assert max(float(row.split(",")[1]) for row in rows) == 2.0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        ([], 2, "give the LOG"),
+        (["a.csv", "--drive", "b.csv"], 2, "not both"),
+        (["a.csv", "--max-speed", "1"], 2, "go with --drive"),
+        (["none.csv"], 2, "no such file"),
+        (["--drive", "c.csv", "--seed", "1"], 2, "--seed goes with --on"),
+        (["--drive", "/nowhere/c.csv"], 2, "no such file"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], code: int, said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = run(*arguments)
+    assert done.exit_code == code
+    assert said in done.output

@@ -1,0 +1,151 @@
+"""Drives with random truths: what is fitted to their logs is as near as its spread says."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from viaspline.curve.cardinal import CardinalSpline
+from viaspline.identify.drive_log import DriveLog, DriveLogError
+from viaspline.identify.fit_drive import fit_drive
+from viaspline.identify.identified_drive import drive_block
+from viaspline.identify.simulated_log import simulated_log
+from viaspline.identify.standard_drive import standard_commands
+from viaspline.machine.allowance import allowance
+from viaspline.machine.machine_limits import limits_of
+from viaspline.machine.trial_drive import follow
+from viaspline.mission.robot_parts import RobotSpec
+from viaspline.trajectory.retime import retime
+
+COMMANDS = standard_commands(1.0, 0.8, 0.05)
+SPREADS = 4.0
+"""So many spreads off is hardly ever anything; of some dozens of figures each."""
+
+
+def robot(
+    delay: float,
+    lag: float,
+    accel: float,
+    slip: float = 0.0,
+    wobble: float = 0.0,
+    blur: float = 0.0,
+) -> RobotSpec:
+    return RobotSpec(
+        max_speed_mps=1.0,
+        max_accel_mps2=accel,
+        drive={
+            "differential": {"track_m": 0.5},
+            "delay_s": delay,
+            "lag_s": lag,
+            "speed_noise_mps": slip,
+            "yaw_rate_noise_degps": wobble,
+        },
+        localization={"position_noise_m": blur, "heading_noise_deg": 30.0 * blur},
+    )
+
+
+@settings(max_examples=3)
+@given(
+    delay=st.floats(0.0, 0.5),
+    lag=st.floats(0.03, 0.6),
+    accel=st.floats(0.3, 2.0),
+    noise=st.tuples(st.floats(0.0, 0.05), st.floats(0.0, 3.0), st.floats(0.001, 0.03)),
+    seed=st.integers(0, 10_000),
+)
+def test_the_truth_is_within_the_spread(
+    delay: float, lag: float, accel: float, noise: tuple[float, float, float], seed: int
+) -> None:
+    found = fit_drive(simulated_log(robot(delay, lag, accel, *noise), COMMANDS, seed))
+    for estimate, truth, slack in (
+        (found.delay, delay, 0.01),
+        (found.lag, lag, 0.01),
+        (found.speed_share, 1.0, 0.01),
+        (found.yaw_share, 1.0, 0.01),
+        (found.speed_noise, noise[0], 0.01),
+        (found.yaw_noise, math.radians(noise[1]), 0.01),
+        (found.position_noise, noise[2], 0.002),
+        (found.heading_noise, math.radians(30.0 * noise[2]), 0.002),
+    ):
+        assert abs(estimate.value - truth) <= SPREADS * estimate.spread + slack
+    if found.accel is not None:
+        assert abs(found.accel.value / (2.0 * accel) - 1.0) < 0.25
+
+
+def test_without_noise_it_is_found_to_a_hundredth() -> None:
+    found = fit_drive(simulated_log(robot(0.23, 0.31, 0.5), COMMANDS))
+    assert found.delay.value == pytest.approx(0.23, abs=0.01)
+    assert found.lag.value == pytest.approx(0.31, abs=0.01)
+    assert found.accel is not None
+    assert found.accel.value == pytest.approx(1.0, rel=0.05)
+    assert found.position_noise.value < 2e-3
+
+
+def test_a_top_speed_that_commands_exceed_is_found() -> None:
+    slow = robot(0.1, 0.1, 1.0).model_copy(update={"max_speed_mps": 0.7})
+    found = fit_drive(simulated_log(slow, COMMANDS))
+    assert found.top_speed is not None
+    assert found.top_speed.value == pytest.approx(0.7, abs=0.01)
+
+
+def test_slip_is_told_from_a_yaw_rate_that_is_not_reached() -> None:
+    log = simulated_log(robot(0.1, 0.1, 1.0, 0.01, 0.5, 0.003), COMMANDS, seed=3)
+    slipping = DriveLog(
+        log.times, log.x, log.y, log.headings, log.speeds, log.yaw_rates / (1.0 - 0.3)
+    )
+    found = fit_drive(slipping)
+    assert found.yaw_share.value == pytest.approx(0.7, abs=0.02)
+    assert "skid_steer: {track_m: 0.6, slip: 0.3" in drive_block(found, 0.6)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_the_allowance_of_the_identified_drive_covers_the_true_one(seed: int) -> None:
+    chance = np.random.default_rng(seed)
+    true = robot(
+        chance.uniform(0.0, 0.4), chance.uniform(0.05, 0.5), 0.8, chance.uniform(0.0, 0.04),
+        chance.uniform(0.0, 2.0), chance.uniform(0.001, 0.02),
+    )  # fmt: skip
+    found = fit_drive(simulated_log(true, COMMANDS, seed))
+    named = robot(
+        found.delay.value, found.lag.value, 0.8, sum(found.speed_noise),
+        math.degrees(sum(found.yaw_noise)), sum(found.position_noise),
+    )  # fmt: skip
+    path = CardinalSpline(
+        np.array([[0, 0], [6, 2], [10, -2], [16, 3], [22, 0]]), knots="chordal",
+        tangents="continuous",
+    )  # fmt: skip
+    law = retime(path, limits_of(named))
+    kept = allowance(path, law, named)
+    for drive in range(4):
+        track = follow(path, law, true, seed=100 + drive)
+        assert track.finished
+        assert track.tracking.body_deviation(0.0) <= kept
+
+
+def test_a_log_that_shows_too_little_is_refused_with_what_would_do() -> None:
+    t = np.arange(0.0, 20.0, 0.05)
+    still = DriveLog(t, 0 * t, 0 * t, 0 * t, 0 * t, 0 * t)
+    with pytest.raises(DriveLogError, match="identify --drive"):
+        fit_drive(still)
+    straight = DriveLog(t, t, 0 * t, 0 * t, 1.0 + 0.1 * np.sin(t), 0 * t)
+    with pytest.raises(DriveLogError, match="too little"):
+        fit_drive(straight)
+
+
+def test_what_does_not_follow_from_the_commands_is_refused() -> None:
+    log = simulated_log(robot(0.1, 0.1, 1.0), COMMANDS)
+    chance = np.random.default_rng(1)
+    other = DriveLog(
+        log.times, log.x, log.y, log.headings, chance.uniform(-1, 1, len(log.times)),
+        chance.uniform(-1, 1, len(log.times)),
+    )  # fmt: skip
+    with pytest.raises(DriveLogError, match="doesn't follow from its commands"):
+        fit_drive(other)
+
+
+def test_the_same_log_gives_the_same_figures() -> None:
+    log = simulated_log(robot(0.1, 0.2, 1.0, 0.02, 1.0, 0.01), COMMANDS, seed=5)
+    assert fit_drive(log) == fit_drive(log)

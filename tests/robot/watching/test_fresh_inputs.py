@@ -1,0 +1,170 @@
+"""What a robot is handed late, twice or not at all stops it, and is told."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.perception.lidar import LidarSensor, Scan
+from viaspline.robot.state import RobotState
+
+DRIVE = {"differential": {"track_m": 0.5}, "delay_s": 0.05, "lag_s": 0.05}
+GOOD = {"delay": 0.05, "lag": 0.05}
+LIDAR = {"lidar": {"range_m": 8, "fov_deg": 270, "beams": 181}}
+LOST = (4.0, 5.2)
+"""Nothing new comes in this time [s]."""
+
+
+def lost(time: float) -> bool:
+    return LOST[0] <= time < LOST[1]
+
+
+def speed_at(track: np.ndarray, time: float) -> float:
+    return float(np.interp(time, track[:, 0], track[:, 3]))
+
+
+def with_gap(*, stamps: bool) -> Callable[[RobotState, float], RobotState]:
+    """Poses that stay what they were for a while."""
+    last: list[RobotState] = []
+
+    def measure(state: RobotState, time: float) -> RobotState:
+        if lost(time):
+            return last[-1]
+        last.append(replace(state, stamp=time) if stamps else state)
+        return last[-1]
+
+    return measure
+
+
+@pytest.mark.parametrize("drive", [DRIVE, None], ids=["drive", "no drive"])
+@pytest.mark.parametrize("stamps", [True, False], ids=["stamps", "no stamps"])
+def test_a_pose_that_is_old_stops_the_robot_until_a_new_one_comes(
+    slalom_of: Any, cart_of: Any, loop: Any, discs: Any, drive: Any, stamps: bool
+) -> None:
+    nav = Navigator(slalom_of(drive=drive))
+    done = loop(nav, cart_of(**GOOD), measure=with_gap(stamps=stamps))
+    told = [event for event in done.book.events if event.kind == "stale"]
+    assert [event.data["what"] for event in told] == ["pose"]
+    assert LOST[0] + 0.2 <= told[0].time <= LOST[0] + 0.4
+    assert told[0].data["age_s"] > told[0].data["allowed_s"] == 0.2
+    before, braked = speed_at(done.track, LOST[0]), speed_at(done.track, LOST[1])
+    assert braked < before - 0.6 * (LOST[1] - LOST[0] - 0.4)
+    assert done.nav.reached
+    assert done.gap(discs, 0.3) >= 0.5 - 0.01
+
+
+def look(nav: Navigator, discs: Any) -> Callable[[RobotState, int, float], Scan]:
+    sensor = LidarSensor(discs, nav.mission.robot.sensor.lidar)  # type: ignore[union-attr, arg-type]
+    return lambda state, tick, _: sensor.scan(state.position, state.heading, tick)
+
+
+@pytest.mark.parametrize("blind", ["missing", "empty", "old"])
+def test_scans_that_do_not_come_stop_the_robot(
+    slalom_of: Any, cart_of: Any, loop: Any, discs: Any, blind: str
+) -> None:
+    nav = Navigator(slalom_of(drive=DRIVE, sensor=LIDAR))
+    see, kept = look(nav, discs), []
+
+    def sense(state: RobotState, tick: int, time: float) -> object:
+        if not lost(time):
+            kept.append(replace(see(state, tick, time), stamp=time))
+            return kept[-1]
+        nothing = Scan.from_laserscan([], 0.0, 0.01, 0.1, 8.0, (*state.position, state.heading))
+        return {"missing": (), "empty": nothing, "old": kept[-1]}[blind]
+
+    done = loop(nav, cart_of(**GOOD), sense=sense)
+    told = [event for event in done.book.events if event.kind == "stale"]
+    assert [event.data["what"] for event in told] == ["scan"]
+    before, braked = speed_at(done.track, LOST[0]), speed_at(done.track, LOST[1])
+    assert braked < before - 0.6 * (LOST[1] - LOST[0] - 0.4)
+    assert done.nav.reached, done.nav.reason
+    assert done.gap(discs, 0.3) >= 0.5 - 0.01
+
+
+def test_a_scan_of_nothing_but_nan_is_as_good_as_none(slalom_of: Any, discs: Any) -> None:
+    nav = Navigator(slalom_of(drive=DRIVE, sensor=LIDAR))
+    state, nan = RobotState((0.0, 0.0), 0.0, 0.0), [math.nan] * 181
+    _, nav = nav.step(state, look(nav, discs)(state, 0, 0.0), 0.0)
+    kinds = []
+    for tick in range(1, 14):
+        scan = Scan.from_laserscan(nan, -2.0, 0.02, 0.1, 8.0, (0.0, 0.0, 0.0))
+        command, nav = nav.step(state, scan, 0.05 * tick)
+        kinds += [event.kind for event in nav.events]
+    assert "stale" in kinds
+    assert command.velocity == (0.0, 0.0)
+
+
+def test_steps_that_come_late_are_told_and_do_no_harm(
+    slalom_of: Any, cart_of: Any, loop: Any, discs: Any
+) -> None:
+    nav = Navigator(slalom_of(drive=DRIVE))
+    done = loop(nav, cart_of(**GOOD), period=lambda tick: 0.5 if tick in (60, 150) else 0.05)
+    told = [event for event in done.book.events if event.kind == "stale"]
+    assert [event.data["what"] for event in told] == ["step", "step"]
+    assert told[0].data["age_s"] == pytest.approx(0.5)
+    assert done.nav.reached
+    assert done.gap(discs, 0.3) >= 0.5 - 0.01
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_period_that_varies_by_three_changes_nothing(
+    slalom_of: Any, cart_of: Any, loop: Any, discs: Any, seed: int
+) -> None:
+    chance = random.Random(seed)
+    nav = Navigator(slalom_of(drive=DRIVE))
+    done = loop(nav, cart_of(**GOOD), period=lambda _: chance.uniform(0.033, 0.099))
+    assert done.nav.reached
+    assert not {"stale", "slip", "lag", "pose_jump", "clock"} & set(done.kinds)
+    assert done.gap(discs, 0.3) >= 0.5
+
+
+def test_a_clock_that_runs_backwards_stops_the_robot_until_it_is_past(slalom_of: Any) -> None:
+    nav = Navigator(slalom_of(drive=DRIVE))
+    at_two = RobotState((0.01, 0.0), 0.0, 0.5)
+    for tick in range(10):
+        command, nav = nav.step(nav.reference(0.05 * tick), (), 0.05 * tick)
+    assert command.velocity[0] > 0.0
+    for time in (0.2, 0.25, 0.4):
+        command, nav = nav.step(at_two, (), time)
+        assert command.velocity == (0.0, 0.0)
+        assert command.yaw_rate == 0.0
+        if time == 0.2:
+            (event,) = nav.events
+            assert event.kind == "clock"
+            assert event.data["back_s"] == pytest.approx(0.25)
+            assert "needs a new Navigator" in event.message
+        else:
+            assert nav.events == ()
+    command, nav = nav.step(nav.reference(0.5), (), 0.5)
+    command, nav = nav.step(nav.reference(0.55), (), 0.55)
+    assert command.velocity[0] > 0.0
+
+
+def test_a_pose_that_is_a_little_late_is_carried_on_to_now(slalom_of: Any) -> None:
+    quick, late = (Navigator(slalom_of(drive=DRIVE)) for _ in range(2))
+    for tick in range(60):
+        time = 0.05 * tick
+        now = quick.reference(time)
+        back = tuple(p - 0.1 * now.speed * d for p, d in zip(now.position, (1.0, 0.0), strict=True))
+        on_line = abs(now.heading) < 1e-6
+        first, quick = quick.step(now, (), time)
+        second, late = late.step(
+            replace(now, position=back, stamp=time - 0.1) if on_line else now, (), time
+        )
+    assert late.events == quick.events
+    assert second.velocity[0] == pytest.approx(first.velocity[0], abs=1e-6)
+
+
+def test_a_robot_that_follows_exactly_may_leave_out_steps(slalom_of: Any) -> None:
+    nav, kinds = Navigator(slalom_of()), []
+    for time in (0.0, 3.0, 9.0, 40.0):
+        _, nav = nav.step(nav.reference(time), (), time)
+        kinds += [event.kind for event in nav.events]
+    assert set(kinds) == {"started", "via", "reached"}

@@ -1,0 +1,112 @@
+"""Speed that isn't reached, delay that adds up and poses that jump are told, with their figures."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.state import RobotState
+
+DRIVE = {"differential": {"track_m": 0.5}, "delay_s": 0.05, "lag_s": 0.05}
+GOOD = {"delay": 0.05, "lag": 0.05}
+
+
+@pytest.mark.parametrize("drive", [DRIVE, None], ids=["drive", "no drive"])
+@pytest.mark.parametrize("since", [0.0, 4.0])
+def test_a_cart_that_crawls_is_noticed_within_two_seconds(
+    slalom_of: Any, cart_of: Any, loop: Any, drive: Any, since: float
+) -> None:
+    nav = Navigator(slalom_of(drive=drive))
+    crawling = cart_of(**GOOD, share=lambda time: 0.15 if time >= since else 1.0)
+    done = loop(nav, crawling, limit=20.0)
+    slip = done.first("slip")
+    assert since < slip.time <= since + 2.0
+    assert slip.data["ratio"] < 0.5
+    assert slip.data["measured_mps"] < 0.5 * slip.data["commanded_mps"]
+    lag = done.first("lag")
+    assert lag.time < since + 4.0
+    assert lag.data["behind_s"] >= 1.0
+
+
+@pytest.mark.parametrize("drive", [DRIVE, None], ids=["drive", "no drive"])
+def test_a_crawling_robot_is_not_taken_for_being_where_its_time_law_is(
+    slalom_of: Any, cart_of: Any, loop: Any, drive: Any
+) -> None:
+    nav = Navigator(slalom_of(drive=drive))
+    done = loop(nav, cart_of(**GOOD, share=lambda _: 0.15), limit=30.0)
+    driven = float(np.hypot(*np.diff(done.track[:, 1:3], axis=0).T).sum())
+    assert abs(done.nav.distance - driven) < 0.8
+    assert "via" not in done.kinds
+
+
+def test_lag_is_told_again_when_it_has_doubled(slalom_of: Any, cart_of: Any, loop: Any) -> None:
+    done = loop(Navigator(slalom_of(drive=DRIVE)), cart_of(**GOOD, share=lambda _: 0.3), limit=40.0)
+    told = [event.data["behind_s"] for event in done.book.events if event.kind == "lag"]
+    assert len(told) >= 3
+    assert all(2.0 * a <= b < 2.0 * a + 0.2 for a, b in itertools.pairwise(told))
+
+
+@pytest.mark.parametrize("drive", [DRIVE, None], ids=["drive", "no drive"])
+def test_a_machine_as_its_model_says_is_not_complained_of(
+    slalom_of: Any, cart_of: Any, loop: Any, drive: Any
+) -> None:
+    truth = GOOD if drive else {}
+    done = loop(Navigator(slalom_of(drive=drive)), cart_of(**truth))
+    assert done.nav.reached
+    assert not {"slip", "lag", "pose_jump", "stale", "clock"} & set(done.kinds)
+    assert drive is None or "deviation" not in done.kinds
+
+
+def moved_by(dx: float, dy: float, since: float) -> Any:
+    def measure(state: RobotState, time: float) -> RobotState:
+        if time < since:
+            return state
+        x, y = state.position
+        return replace(state, position=(x + dx, y + dy))
+
+    return measure
+
+
+@pytest.mark.parametrize("drive", [DRIVE, None], ids=["drive", "no drive"])
+@pytest.mark.parametrize("since", [3.0, 6.5])
+@pytest.mark.parametrize("jump", [(0.0, 0.3), (-0.4, 0.0), (0.3, 0.5)])
+def test_a_pose_that_jumps_is_told_and_touches_nothing(
+    slalom_of: Any,
+    cart_of: Any,
+    loop: Any,
+    discs: list[Obstacle],
+    drive: Any,
+    since: float,
+    jump: tuple[float, float],
+) -> None:
+    """What is measured after the jump is taken for true: so it is when a filter closes a loop."""
+    nav = Navigator(slalom_of(drive=drive))
+    done = loop(nav, cart_of(**(GOOD if drive else {})), measure=moved_by(*jump, since))
+    event = done.first("pose_jump")
+    assert since - 1e-9 <= event.time <= since + 0.1
+    assert event.data["jump_m"] == pytest.approx(np.hypot(*jump), abs=0.12)
+    assert done.kinds.count("pose_jump") == 1
+    true = done.track[done.track[:, 0] > since]
+    true[:, 1:3] += jump
+    gap = replace(done, track=true).gap(discs, 0.3)
+    assert gap > 0.0
+    assert done.nav.finished
+    # no nearer than what was stated, or told
+    told = [e.data["clearance_m"] for e in done.book.events if e.kind == "deviation"]
+    assert gap >= min([0.5, *told]) - 0.05
+
+
+def test_heading_that_jumps_is_told(slalom_of: Any, cart_of: Any, loop: Any) -> None:
+    nav = Navigator(slalom_of(drive=DRIVE))
+
+    def turned(state: RobotState, time: float) -> RobotState:
+        return state if time < 3.0 else replace(state, heading=state.heading + 0.9)
+
+    done = loop(nav, cart_of(**GOOD), measure=turned, limit=5.0)
+    assert done.first("pose_jump").data["turned_rad"] == pytest.approx(0.9, abs=0.05)

@@ -1,0 +1,73 @@
+"""How far beside its path a robot is, by which place on the path, and when that is told."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from viaspline.robot.navigation.schedule import Schedule
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.state import RobotState
+from viaspline.robot.watching.true_place import true_place
+
+BODY = {"radius_m": None, "footprint": [[0.5, 0.3], [-0.5, 0.3], [-0.5, -0.3], [0.5, -0.3]]}
+
+
+def schedule_of(nav: Navigator) -> Schedule:
+    return Schedule(nav.path, nav.trajectory, laid_in=nav.world)
+
+
+def test_it_is_the_distance_to_the_nearest_place_nearby(slalom_of: Any) -> None:
+    nav = Navigator(slalom_of())
+    on_path = nav.reference(5.0)
+    x, y = on_path.position
+    aside = replace(on_path, position=(x, y + 0.2))
+    place = true_place(nav.mission.robot, schedule_of(nav), aside, 8.0, 8.0)
+    assert 0.1 < place.off <= 0.2
+    assert place.off == place.aside
+
+
+def test_a_body_that_looks_another_way_is_off_by_its_corners(slalom_of: Any) -> None:
+    robot = slalom_of().robot.model_copy(update={"footprint": BODY["footprint"]})
+    nav = Navigator(slalom_of())
+    on_path = nav.reference(5.0)
+    turned = replace(on_path, position=(on_path.position[0], on_path.position[1] + 1e-4))
+    turned = replace(turned, heading=turned.heading + 0.2)
+    should = float(nav.trajectory.distance_at(5.0))
+    place = true_place(robot, schedule_of(nav), turned, should, should)
+    assert place.off == pytest.approx(2.0 * 0.5831 * 0.0998, abs=2e-3)
+
+
+@pytest.mark.parametrize("drive", [{"differential": {"track_m": 0.5}}, None], ids=["drive", "none"])
+def test_a_robot_that_is_set_off_beside_its_start_comes_to_its_path(
+    slalom_of: Any, cart_of: Any, loop: Any, drive: Any
+) -> None:
+    nav, one = Navigator(slalom_of(drive=drive)), cart_of()
+    one.state = RobotState((0.0, 0.4), 0.0, 0.0)
+    done = loop(nav, one)
+    told = [event for event in done.book.events if event.kind == "deviation"]
+    assert told[0].data["outcome"] == "returns"
+    assert told[0].data["off_m"] == pytest.approx(0.4, abs=0.01)
+    assert done.nav.reached
+    assert done.nav.allowance <= nav.allowance + 0.1
+
+
+def test_noise_that_the_mission_tells_of_is_no_deviation(
+    slalom_of: Any, cart_of: Any, loop: Any
+) -> None:
+    import random
+
+    chance = random.Random(4)
+    mission = slalom_of(
+        drive={"differential": {"track_m": 0.5}}, localization={"position_noise_m": 0.02}
+    )
+
+    def noisy(state: RobotState, _: float) -> RobotState:
+        x, y = (value + chance.gauss(0.0, 0.02) for value in state.position)
+        return replace(state, position=(x, y))
+
+    done = loop(Navigator(mission), cart_of(), measure=noisy)
+    assert done.nav.reached
+    assert not {"deviation", "pose_jump", "slip"} & set(done.kinds)

@@ -1,0 +1,114 @@
+"""What a robot is beside its path is kept from then on: the path ahead is proven with it, or left.
+
+The measured cases: robots in other people's simulators that were off without a word of warning.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.robot.navigator import Navigator
+
+GUESSED = {"differential": {"track_m": 0.5}, "delay_s": 0.05, "lag_s": 0.05}
+
+
+def deviations(done: Any) -> list[Any]:
+    return [event for event in done.book.events if event.kind == "deviation"]
+
+
+@pytest.mark.parametrize(("delay", "lag"), [(0.15, 0.3), (0.25, 0.4)])
+def test_without_a_drive_it_says_that_no_allowance_is_kept(
+    slalom_of: Any, cart_of: Any, loop: Any, discs: list[Obstacle], delay: float, lag: float
+) -> None:
+    nav = Navigator(slalom_of())
+    assert nav.allowance == 0.0
+    done = loop(nav, cart_of(delay, lag))
+    first = deviations(done)[0]
+    assert "no allowance is kept" in first.message
+    assert "robot.drive" in first.message
+    assert first.data["kept_m"] == 0.0
+    assert first.data["off_m"] < 0.02  # and not when it is 0.18 m off
+    assert done.nav.reached
+    assert done.nav.allowance > 0.05
+    assert done.gap(discs, 0.3) >= 0.5
+
+
+@pytest.mark.parametrize(("delay", "lag"), [(0.2, 0.15), (0.25, 0.3)])
+def test_a_guessed_drive_that_is_wrong_is_told_and_what_is_kept_grows(
+    slalom_of: Any, cart_of: Any, loop: Any, discs: list[Obstacle], delay: float, lag: float
+) -> None:
+    nav = Navigator(slalom_of(drive=GUESSED))
+    done = loop(nav, cart_of(delay, lag), limit=200.0)
+    told = deviations(done)
+    assert told
+    assert told[0].data["off_m"] < 0.05
+    assert all(e.data["allowance_m"] > e.data["off_m"] > e.data["kept_m"] for e in told)
+    assert done.nav.allowance == told[-1].data["allowance_m"] > nav.allowance
+    worst = max(event.data["off_m"] for event in told)
+    assert worst <= done.nav.allowance
+    gap = done.gap(discs, 0.3)
+    assert gap > 0.0
+    # it never comes nearer than it tells
+    told_room = min(event.data["clearance_m"] for event in told)
+    assert gap >= min(0.5, told_room) - 0.1
+
+
+def test_what_is_ahead_is_proven_with_what_is_kept_from_then_on(
+    slalom_of: Any, cart_of: Any, loop: Any, discs: list[Obstacle]
+) -> None:
+    done = loop(Navigator(slalom_of()), cart_of(0.15, 0.3), limit=8.0)
+    kept = 0.3 + 0.5 + done.nav.allowance
+    ahead = np.linspace(done.nav.distance + 2.0, done.nav.path.length, 4000)
+    places = np.asarray(done.nav.path.at_distance(ahead))
+    for disc in discs:
+        assert disc.circle is not None
+        away = np.hypot(*(places - np.array(disc.circle.center)).T) - disc.circle.radius
+        assert away.min() >= kept - 1e-6
+
+
+def test_where_more_cannot_be_kept_the_robot_stops_and_says_so(
+    slalom_of: Any, cart_of: Any, loop: Any
+) -> None:
+    """A lane that is wide enough as planned, and not for a robot that swings about its path."""
+    mission = slalom_of()
+    wall = (
+        {"polygon": [[4, 0.82], [40, 0.82], [40, 6], [4, 6]]},
+        {"polygon": [[4, -0.82], [40, -0.82], [40, -6], [4, -6]]},
+    )
+    data = mission.model_dump(exclude_unset=True)
+    data["world"] = {"known": list(wall), "bounds": [-3, -6, 45, 6]}
+    data["route"] = {"start": {"at": [0, 0.9], "heading_deg": 0}, "goal": [42, 0]}
+    nav = Navigator(type(mission).model_validate(data))
+    done = loop(nav, cart_of(0.25, 0.4), limit=60.0)
+    assert not done.nav.reached
+    assert "beside its path" in str(done.nav.reason)
+    last = deviations(done)[-1]
+    assert last.data["outcome"] == "stops"
+    assert done.kinds[-1] == "stopped"
+    end = done.track[-1]
+    assert end[3] == pytest.approx(0.0, abs=0.01)
+    inside = (done.track[:, 1] > 4.0) & (done.track[:, 1] < 40.0)
+    assert (np.abs(done.track[inside, 2]) < 0.82 - 0.3).all()
+
+
+def test_a_robot_with_a_lidar_keeps_more_too(
+    slalom_of: Any, cart_of: Any, loop: Any, discs: list[Obstacle]
+) -> None:
+    from viaspline.robot.perception.lidar import LidarSensor
+
+    lidar = {"lidar": {"range_m": 8, "fov_deg": 270, "beams": 181}}
+    nav = Navigator(slalom_of(drive=GUESSED, sensor=lidar))
+    sensor = LidarSensor(discs, nav.mission.robot.sensor.lidar)  # type: ignore[union-attr, arg-type]
+    done = loop(
+        nav,
+        cart_of(0.2, 0.2),
+        sense=lambda state, tick, _: sensor.scan(state.position, state.heading, tick),
+    )
+    assert deviations(done)
+    assert done.nav.allowance > nav.allowance
+    assert done.gap(discs, 0.3) > 0.0
+    assert done.nav.reached, done.nav.reason
