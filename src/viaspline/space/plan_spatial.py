@@ -11,6 +11,7 @@ from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.space.leg_router import LegRouter
 from viaspline.space.solve_route import LANDING, TAKE_OFF, solve_route
+from viaspline.space.spatial_order import ordered_in_space
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
@@ -30,6 +31,7 @@ def plan_spatial(mission: Mission) -> SpatialPlan:
         GaveUpError: When none was found.
         GeometryError: When it asks for something that isn't planned in space.
     """
+    mission = ordered_in_space(mission)
     problem = spatial_problem_of(mission)
     found = solve_route(problem, LegRouter(problem, mission))
     path = found.path

@@ -69,8 +69,6 @@ def _refuse_what_is_not_planned(mission: Mission) -> None:
         raise GeometryError(
             "obstacles that move aren't planned round in space; leave out their motion"
         )
-    if mission.route.order != "given":
-        raise GeometryError("an order of via points isn't sought in space; give order: given")
 
 
 def spatial_limits_of(mission: Mission) -> SpatialLimits:
