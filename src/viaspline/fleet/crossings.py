@@ -8,6 +8,7 @@ import numpy as np
 
 from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import FleetCourses
+from viaspline.fleet.space.spatial_crossings import spatial_crossings
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet import packed_pieces as columns
 from viaspline.kernels.fleet.joined_boxes import joined_boxes
@@ -63,6 +64,8 @@ def crossings_of(
         >>> found.robots.tolist(), found.span.round(3).tolist()
         ([[0, 1]], [[10.0, 14.0, 7.0, 11.0]])
     """
+    if courses.bodies is not None:
+        return FleetCrossings(spatial_crossings(courses, only, max_boxes))
     packed = courses.packed
     robots = len(courses.names)
     is_asked, takes_part = np.ones(robots, dtype=np.bool_), np.ones(robots, dtype=np.bool_)

@@ -64,7 +64,7 @@ def solve_route(problem: SpatialProblem, router: WaysPast) -> SpatialSolution:
         raise _gave_up(problem, stuck) from None
     path, airborne = _whole_path(problem, found)
     ledger = tuple(entries[leg] for leg in sorted(entries))
-    return SpatialSolution(path, _certificate(problem, path, airborne), ledger, airborne)
+    return SpatialSolution(path, certificate_of(problem, path, airborne), ledger, airborne)
 
 
 def _directions(problem: SpatialProblem) -> Floats:
@@ -158,7 +158,9 @@ def _moved(via: PathVia, by: int) -> PathVia:
     return PathVia(via.name, via.at, via.kind, via.u + by, via.dwell, via.index)
 
 
-def _certificate(problem: SpatialProblem, path: Path, airborne: tuple[float, float]) -> Certificate:
+def certificate_of(
+    problem: SpatialProblem, path: Path, airborne: tuple[float, float]
+) -> Certificate:
     """What is proven of the whole path; on upright legs the ground doesn't count."""
     parts: list[tuple[float, float, bool]] = [(*airborne, False)]
     if problem.takeoff is not None:

@@ -1,8 +1,8 @@
 """The order of the via points of a round in space, so that the ways between them cost least.
 
 The travelling salesman's problem over the taut ways between all points, round and over what stands
-between them: their lengths, or where time counts the times that their speeds allow at best. Climbing
-may take longer than descending, so there and back differ. How it is solved, see
+between them: their lengths, or where time counts the times that their speeds allow at best.
+Climbing may take longer than descending, so there and back differ. How it is solved, see
 `viaspline.planning.routing.visit_order`; among very many via points lengths are straight.
 """
 

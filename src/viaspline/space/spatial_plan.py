@@ -55,6 +55,11 @@ class SpatialPlan:
             f"{len(self.ledger)} detours>"
         )
 
+    @property
+    def tracking_error(self) -> float:
+        """How far the robot gets beside its path, as the mission says [m]."""
+        return self.mission.robot.tracking_error_m or 0.0
+
     @cached_property
     def sharpest_radius(self) -> float:
         """The smallest radius of curvature of the path [m]; infinite on a straight one."""

@@ -41,7 +41,9 @@ def test_points_of_three_numbers_alone_make_no_fleet_in_space() -> None:
 
 
 def test_robots_one_above_the_other_are_apart() -> None:
-    Fleet.model_validate(fleet(drone("a", [0, 0, 9], [9, 0, 9]), drone("b", [0, 0, 12], [9, 0, 12])))
+    Fleet.model_validate(
+        fleet(drone("a", [0, 0, 9], [9, 0, 9]), drone("b", [0, 0, 12], [9, 0, 12]))
+    )
 
 
 def test_robots_too_near_above_each_other_are_told_with_the_separation_that_would_do() -> None:
@@ -120,7 +122,7 @@ def test_a_patrol_that_never_ends_is_refused_in_words() -> None:
 def test_what_moves_is_refused_in_words() -> None:
     data = fleet(drone("a", [0, 0, 9], [9, 0, 9]))
     crane = {"circle": {"center": [50, 50], "radius": 2},
-             "motion": {"keyframes": [[0, 50, 50], [9, 60, 50]]}}  # fmt: skip
+             "motion": {"keyframes": [[0, 50, 50], [9, 60, 50]], "after": "stay"}}  # fmt: skip
     data["world"]["known"] = [crane]
     assert "isn't planned among things that move" in faults(data)
 

@@ -99,13 +99,16 @@ class Fleet(FleetParts):
 
     @property
     def is_spatial(self) -> bool:
-        """Whether anything in it says heights: then all its robots are planned in space.
+        """Whether anything in it says heights, a kind of robots or its world included.
+
+        Then all its robots are planned in space.
 
         >>> Fleet.model_validate({"fleet": [
         ...     {"name": "r1", "route": {"start": [0, 0], "goal": [9, 0]}}]}).is_spatial
         False
         """
-        return any(one.mission.is_spatial for one in self.members)
+        kinds = any(robot.is_spatial for robot in self.robots.values())
+        return kinds or any(one.mission.is_spatial for one in self.members)
 
     @cached_property
     def members(self) -> tuple[FleetMember, ...]:
