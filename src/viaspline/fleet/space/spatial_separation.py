@@ -48,7 +48,7 @@ class Nearest(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class _Stages:
+class _FlownStages:
     """What one robot does: one row for each stay and each way from a node to the next.
 
     Attributes:
@@ -106,7 +106,7 @@ def nearest_in_space(courses: FleetCourses, laws: FleetLaws) -> Nearest:
     return best._replace(bound=min(lower, best.met))
 
 
-def _stages_of(courses: FleetCourses, laws: FleetLaws, robot: int) -> _Stages:
+def _stages_of(courses: FleetCourses, laws: FleetLaws, robot: int) -> _FlownStages:
     """The stays and ways of a robot; before it departs it stands at its start."""
     packed = courses.packed
     nodes = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
@@ -133,14 +133,14 @@ def _stages_of(courses: FleetCourses, laws: FleetLaws, robot: int) -> _Stages:
     still = np.zeros(count)
     ends = np.maximum.accumulate(woven(leave, arrive[1:]))
     begins = np.append(-np.inf, ends[:-1])
-    return _Stages(
+    return _FlownStages(
         ends, begins, woven(place, place[:-1]), woven(0.0 * place, np.diff(place, axis=0)),
         woven(still, start), woven(still, rise), woven(still, error),
     )  # fmt: skip
 
 
 def _nearest_of_two(
-    one: _Stages, other: _Stages, pair: BodyPair, known: float, who: tuple[int, int]
+    one: _FlownStages, other: _FlownStages, pair: BodyPair, known: float, who: tuple[int, int]
 ) -> Nearest:
     """The least gap of two robots; what is surely more than is known isn't looked at closely."""
     begin, end = _span(one, other)
@@ -192,7 +192,7 @@ def _between(first: Floats, second: Floats) -> Floats:
     return rows
 
 
-def _span(one: _Stages, other: _Stages) -> tuple[float, float]:
+def _span(one: _FlownStages, other: _FlownStages) -> tuple[float, float]:
     """From when to when the offset of two robots may change, or both are there at all [s]."""
     finite = np.concatenate((one.ends, other.ends))
     finite = finite[np.isfinite(finite)]
