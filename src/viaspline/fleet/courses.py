@@ -18,6 +18,7 @@ from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_paths import PackedPaths
 from viaspline.mission.space.flying_body import FlyingBody
 from viaspline.planner import Plan
+from viaspline.space.meeting.gap_of_bodies import SpatialCourses
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.trajectory.trajectory import Trajectory
 
@@ -44,6 +45,12 @@ class FleetCourses:
     names: tuple[str, ...]
     packed: PackedCourses
     bodies: Floats | None = None
+
+    def in_space(self) -> SpatialCourses:
+        """Courses in space, all of which are there all the time."""
+        assert self.bodies is not None, "courses in space have bodies"
+        there = np.ones(len(self.packed.distance), np.bool_)
+        return SpatialCourses(self.names, self.packed, self.bodies, there)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,6 @@ import numpy as np
 
 from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import FleetCourses
-from viaspline.fleet.space.spatial_crossings import spatial_crossings
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet import packed_pieces as columns
 from viaspline.kernels.fleet.joined_boxes import joined_boxes
@@ -17,6 +16,7 @@ from viaspline.kernels.fleet.near_pieces import grid_of, near_pieces
 from viaspline.kernels.fleet.neighbouring import mark_neighbours
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_pieces import PackedPieces, pieces_of
+from viaspline.space.meeting.spatial_crossings import spatial_crossings
 
 MAX_BOXES = 50_000_000
 """How many boxes the crossings of a fleet may have: 2 GB."""
@@ -65,7 +65,7 @@ def crossings_of(
         ([[0, 1]], [[10.0, 14.0, 7.0, 11.0]])
     """
     if courses.bodies is not None:
-        return FleetCrossings(spatial_crossings(courses, only, max_boxes))
+        return FleetCrossings(spatial_crossings(courses.in_space(), only, max_boxes))
     packed = courses.packed
     robots = len(courses.names)
     is_asked, takes_part = np.ones(robots, dtype=np.bool_), np.ones(robots, dtype=np.bool_)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from viaspline.curve.certificate import PROOF_SLACK_M, PROOF_TOLERANCE_M
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.space.spatial_separation import nearest_in_space
 from viaspline.handed_in import number_from
 from viaspline.kernels.fleet.fleet_proof import fleet_tightest
+from viaspline.space.meeting.spatial_separation import nearest_in_space
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def _certified_in_space(
     courses: FleetCourses, laws: FleetLaws, required: float
 ) -> FleetCertificate:
     """The certificate of robots in space."""
-    found = nearest_in_space(courses, laws)
+    found = nearest_in_space(courses.in_space(), laws.packed)
     if found.pair[0] < 0:
         return FleetCertificate(math.inf, required, None, 0.0, None)
     first, second = (courses.names[k] for k in found.pair)

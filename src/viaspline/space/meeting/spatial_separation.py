@@ -15,10 +15,14 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from viaspline.errors import GaveUpError
-from viaspline.fleet.courses import FleetCourses
-from viaspline.fleet.fleet_laws import FleetLaws
-from viaspline.fleet.space.gap_of_bodies import BodyPair, gap_slopes, gaps_of
-from viaspline.kernels.arrays import Floats, Ints
+from viaspline.kernels.arrays import Flags, Floats, Ints
+from viaspline.kernels.fleet.packed_laws import PackedLaws
+from viaspline.space.meeting.gap_of_bodies import (
+    BodyPair,
+    SpatialCourses,
+    gap_slopes,
+    gaps_of,
+)
 
 DEEPEST: Final = 48
 """How often an interval is halved."""
@@ -59,6 +63,7 @@ class _FlownStages:
         speed: As a share of the way, when it begins [1/s], (m,).
         rise: By how much that grows [1/s²], (m,).
         error: How far the robot is from there, at most [m], (m,).
+        there: Whether it is there at all, (m,).
     """
 
     ends: Floats
@@ -68,6 +73,7 @@ class _FlownStages:
     speed: Floats
     rise: Floats
     error: Floats
+    there: Flags
 
     def at(self, stages: Ints, times: Floats) -> Floats:
         """Where on the chords of stages it is at times [s], (k,): [m], (k, 3)."""
@@ -82,22 +88,24 @@ class _FlownStages:
         return np.asarray(self.rise[stages][:, None] * self.way[stages])
 
 
-def nearest_in_space(courses: FleetCourses, laws: FleetLaws) -> Nearest:
+def nearest_in_space(courses: SpatialCourses, laws: PackedLaws, only: int | None = None) -> Nearest:
     """The two bodies that come nearest to each other, proven.
 
     Args:
-        courses: In space; their bodies hold half of the separation each.
-        laws: When each robot is where. Those that have none play no part.
+        courses: Of what moves; their bodies hold half of the separation each.
+        laws: When each is where. Those that have none play no part.
+        only: One that has to be in each pair; None: any.
 
     Raises:
         GaveUpError: It takes too many halvings.
     """
-    assert courses.bodies is not None, "courses in space have bodies"
-    timed = np.flatnonzero(laws.packed.is_timed).tolist()
+    timed = np.flatnonzero(laws.is_timed).tolist()
     stages = {robot: _stages_of(courses, laws, robot) for robot in timed}
     best = Nearest(np.inf, np.inf, 0.0, (-1, -1), np.zeros((2, 3)))
     lower = np.inf
     for one, other in combinations(timed, 2):
+        if only is not None and only not in (one, other):
+            continue
         pair = BodyPair.of(courses.bodies, one, other)
         found = _nearest_of_two(stages[one], stages[other], pair, best.met, (one, other))
         lower = min(lower, found.bound)
@@ -106,12 +114,12 @@ def nearest_in_space(courses: FleetCourses, laws: FleetLaws) -> Nearest:
     return best._replace(bound=min(lower, best.met))
 
 
-def _stages_of(courses: FleetCourses, laws: FleetLaws, robot: int) -> _FlownStages:
+def _stages_of(courses: SpatialCourses, laws: PackedLaws, robot: int) -> _FlownStages:
     """The stays and ways of a robot; before it departs it stands at its start."""
     packed = courses.packed
     nodes = slice(int(packed.first[robot]), int(packed.first[robot + 1]))
-    arrive, leave = laws.packed.arrive[nodes], laws.packed.leave[nodes]
-    speed, place = laws.packed.speed[nodes], packed.place[nodes]
+    arrive, leave = laws.arrive[nodes], laws.leave[nodes]
+    speed, place = laws.speed[nodes], packed.place[nodes]
     length = np.diff(packed.distance[nodes])
     with np.errstate(invalid="ignore"):  # who never departs takes no time to be known
         lasts = arrive[1:] - leave[:-1]
@@ -131,11 +139,16 @@ def _stages_of(courses: FleetCourses, laws: FleetLaws, robot: int) -> _FlownStag
         return rows
 
     still = np.zeros(count)
+    ways = courses.there[nodes]
+    there = np.ones(2 * count - 1, np.bool_)
+    there[1::2] = ways[:-1]
+    there[2:-1:2] = ways[:-2] | ways[1:-1]  # at a node it is there if it is before it or after it
+    there[0], there[-1] = ways[0], ways[-2]
     ends = np.maximum.accumulate(woven(leave, arrive[1:]))
     begins = np.append(-np.inf, ends[:-1])
     return _FlownStages(
         ends, begins, woven(place, place[:-1]), woven(0.0 * place, np.diff(place, axis=0)),
-        woven(still, start), woven(still, rise), woven(still, error),
+        woven(still, start), woven(still, rise), woven(still, error), there,
     )  # fmt: skip
 
 
@@ -149,6 +162,10 @@ def _nearest_of_two(
     t0, t1 = np.append(begin, cuts), np.append(cuts, end)
     i = np.minimum(np.searchsorted(one.ends, t0, side="right"), len(one.ends) - 1)
     j = np.minimum(np.searchsorted(other.ends, t0, side="right"), len(other.ends) - 1)
+    there = one.there[i] & other.there[j]
+    i, j, t0, t1 = i[there], j[there], t0[there], t1[there]
+    if not len(i):
+        return Nearest(np.inf, np.inf, begin, (-1, -1), np.zeros((2, 3)))
     off = one.error[i] + other.error[j]
     bend = 0.125 * np.linalg.norm(one.bends(i) - other.bends(j), axis=1)
     p0, p1 = (other.at(j, t) - one.at(i, t) for t in (t0, t1))

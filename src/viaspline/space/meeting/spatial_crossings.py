@@ -14,14 +14,17 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from viaspline.errors import GaveUpError
-from viaspline.fleet.courses import FleetCourses
-from viaspline.fleet.space.gap_of_bodies import BodyPair, gap_slopes, gaps_of
 from viaspline.kernels.arrays import Flags, Floats, Ints
 from viaspline.kernels.fleet.joined_boxes import joined_boxes
 from viaspline.kernels.fleet.near_boxes import ONE_GAP, RawBoxes
 from viaspline.kernels.fleet.near_pieces import TOUCHING
-from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
+from viaspline.space.meeting.gap_of_bodies import (
+    BodyPair,
+    SpatialCourses,
+    gap_slopes,
+    gaps_of,
+)
 
 PIECE_M: Final = 0.125
 """Longest piece of a cell [m]."""
@@ -52,22 +55,23 @@ class _Pieces(NamedTuple):
     high: Floats
 
 
-def spatial_crossings(courses: FleetCourses, only: Ints | None, max_boxes: int) -> PackedCrossings:
+def spatial_crossings(
+    courses: SpatialCourses, only: Ints | None, max_boxes: int
+) -> PackedCrossings:
     """Every pair of places on two courses at which their robots would be too near each other.
 
     Args:
-        courses: Of a fleet in space.
+        courses: Of what moves.
         only: The robots of which one has to be in each pair, (k,); None: any.
         max_boxes: So many boxes may be found.
 
     Raises:
         GaveUpError: There are more, or too many pieces are near each other.
     """
-    assert courses.bodies is not None, "courses in space have bodies"
     packed = courses.packed
     robots = len(courses.names)
     asked = range(robots) if only is None else set(only.tolist())
-    pieces = [_pieces_of(packed, robot) for robot in range(robots)]
+    pieces = [_pieces_of(courses, robot) for robot in range(robots)]
     rows: list[list[tuple[int, Ints, Floats, Floats]]] = [[] for _ in range(robots)]
     boxes = 0
     for one, other in combinations(range(robots), 2):
@@ -89,8 +93,9 @@ def spatial_crossings(courses: FleetCourses, only: Ints | None, max_boxes: int) 
     )  # fmt: skip
 
 
-def _pieces_of(packed: PackedCourses, robot: int) -> _Pieces:
-    """The pieces of one robot's course."""
+def _pieces_of(courses: SpatialCourses, robot: int) -> _Pieces:
+    """The pieces of one robot's course on which it is there."""
+    packed = courses.packed
     begin, end = int(packed.first[robot]), int(packed.first[robot + 1])
     length = np.diff(packed.distance[begin:end])
     counts = np.maximum(np.ceil(length / PIECE_M), 1.0).astype(np.int64)
@@ -102,21 +107,24 @@ def _pieces_of(packed: PackedCourses, robot: int) -> _Pieces:
     along, long = packed.distance[cell], packed.distance[cell + 1] - packed.distance[cell]
     half = way * (0.5 * share)[:, None]
     bow = packed.bow[cell]
+    there = courses.there[cell]
     return _Pieces(
-        cell=cell,
-        middle=start + way * (0.5 * (low + high))[:, None],
-        half=half,
-        reach=np.linalg.norm(half, axis=1) + bow,
-        bow=bow,
-        low=along + low * long,
-        high=along + high * long,
+        cell=cell[there],
+        middle=(start + way * (0.5 * (low + high))[:, None])[there],
+        half=half[there],
+        reach=(np.linalg.norm(half, axis=1) + bow)[there],
+        bow=bow[there],
+        low=(along + low * long)[there],
+        high=(along + high * long)[there],
     )
 
 
 def _near(
-    one: _Pieces, other: _Pieces, pair: BodyPair, courses: FleetCourses, who: tuple[int, int]
+    one: _Pieces, other: _Pieces, pair: BodyPair, courses: SpatialCourses, who: tuple[int, int]
 ) -> tuple[Ints, Ints]:
     """Pairs of pieces on which two bodies may be too near each other."""
+    if not len(one.cell) or not len(other.cell):
+        return np.empty(0, np.int64), np.empty(0, np.int64)
     far = pair.outermost + float(one.reach.max()) + float(other.reach.max())
     mine, its = _within(one.middle, other.middle, far), _within(other.middle, one.middle, far)
     i, j = _pairs_within(one.middle[mine], other.middle[its], far, courses, who)
@@ -137,7 +145,7 @@ def _within(places: Floats, others: Floats, far: float) -> Flags:
 
 
 def _pairs_within(
-    places: Floats, others: Floats, far: float, courses: FleetCourses, who: tuple[int, int]
+    places: Floats, others: Floats, far: float, courses: SpatialCourses, who: tuple[int, int]
 ) -> tuple[Ints, Ints]:
     """Indices of places that are no farther apart than some distance [m]."""
     from scipy.spatial import cKDTree
@@ -198,7 +206,7 @@ def _in_order(rows: list[list[tuple[int, Ints, Floats, Floats]]]) -> RawBoxes:
     )
 
 
-def _too_many(courses: FleetCourses, who: tuple[int, int], where: Floats) -> GaveUpError:
+def _too_many(courses: SpatialCourses, who: tuple[int, int], where: Floats) -> GaveUpError:
     names = " and ".join(f"'{courses.names[k]}'" for k in who)
     x, y, z = where.tolist()
     return GaveUpError(

@@ -13,8 +13,8 @@ from viaspline.curve.path import Path
 from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import FleetCourses, FleetPath, courses_along
 from viaspline.fleet.crossings import crossings_of
-from viaspline.fleet.space.gap_of_bodies import BodyPair, gap_slopes, gaps_of
-from viaspline.fleet.space.spatial_crossings import spatial_crossings
+from viaspline.space.meeting.gap_of_bodies import BodyPair, gap_slopes, gaps_of
+from viaspline.space.meeting.spatial_crossings import spatial_crossings
 
 Floats = NDArray[np.float64]
 
@@ -88,7 +88,7 @@ def test_too_many_boxes_are_given_up_with_the_robots_named() -> None:
     lines = [flown(np.array([[0.0, y, 5], [20, y, 5]]), body) for y in (0, 0.5)]
     courses = courses_along(["a", "b"], lines)
     with pytest.raises(GaveUpError, match="the paths of 'a' and 'b' come near each other in too"):
-        spatial_crossings(courses, None, 3)
+        spatial_crossings(courses.in_space(), None, 3)
 
 
 @given(seed=st.integers(0, 10_000))

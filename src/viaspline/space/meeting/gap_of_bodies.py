@@ -4,7 +4,7 @@ The gap of two upright cylinders with margins is the distance of the offset from
 as wide and as high as both together, less both margins: a convex function that changes by no more
 than the offset does. So its tangent at any offset bounds it from below everywhere.
 
-Tested through ``fleet/space/test_spatial_crossings``.
+Tested through ``space/meeting/test_spatial_crossings``.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.fleet.packed_courses import PackedCourses
 
 
 class BodyPair(NamedTuple):
@@ -67,3 +68,20 @@ def gap_slopes(pair: BodyPair, offsets: Floats) -> Floats:
     share = beyond / some / np.where(level > 0.0, level, 1.0)
     up = over / some * np.sign(offsets[:, 2])
     return np.column_stack((share * offsets[:, 0], share * offsets[:, 1], up)) + 0.0
+
+
+class SpatialCourses(NamedTuple):
+    """What moves along courses in space, as kernels see them, and how large it is.
+
+    Attributes:
+        names: Of what moves.
+        packed: The courses, with places of three columns. How far along them something is may be
+            any number that grows while it moves.
+        bodies: Upright cylinders, radius and half height, and what is kept about them [m], (n, 3).
+        there: Whether it is there on its way from each node, (nodes,).
+    """
+
+    names: tuple[str, ...]
+    packed: PackedCourses
+    bodies: Floats
+    there: Flags

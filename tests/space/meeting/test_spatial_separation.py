@@ -14,8 +14,8 @@ from viaspline.curve.path import Path
 from viaspline.fleet.courses import FleetPath, courses_along
 from viaspline.fleet.fleet_certificate import certify_fleet
 from viaspline.fleet.fleet_laws import static_laws
-from viaspline.fleet.space.spatial_separation import nearest_in_space
 from viaspline.fleet.timing.time_paths import standing_laws
+from viaspline.space.meeting.spatial_separation import nearest_in_space
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 
@@ -71,7 +71,7 @@ def test_robots_that_hover_above_each_other_are_their_heights_apart() -> None:
     courses = courses_along(
         ["a", "b"], [FleetPath(p, w.distances, 1.0, body) for p, w in zip(paths, laws, strict=True)]
     )
-    found = nearest_in_space(courses, static_laws(courses, laws))
+    found = nearest_in_space(courses.in_space(), static_laws(courses, laws).packed)
     assert found.bound == pytest.approx(4 - 0.5 - 1.0, abs=1e-9)
 
 
@@ -80,7 +80,7 @@ def test_robots_without_a_law_play_no_part() -> None:
     one = FleetPath(path, np.array([0.0, path.length]), 1.0, (0.5, 0.2, 0.5))
     courses = courses_along(["a", "b"], [one, one])
     laws = standing_laws(courses)
-    assert nearest_in_space(courses, laws).pair == (-1, -1)
+    assert nearest_in_space(courses.in_space(), laws.packed).pair == (-1, -1)
     assert certify_fleet(courses, laws, 1.0).pair is None
 
 
@@ -90,7 +90,7 @@ def test_robots_that_stand_at_one_place_for_ever_are_not_apart() -> None:
     courses = courses_along(["a", "b"], [one, one])
     laws = standing_laws(courses)
     laws.packed.is_timed[:] = True
-    found = nearest_in_space(courses, laws)
+    found = nearest_in_space(courses.in_space(), laws.packed)
     assert found.pair == (0, 1)
     assert found.bound == pytest.approx(-1.0)
 
@@ -106,5 +106,5 @@ def test_who_has_left_is_in_nobodys_way() -> None:
     there = static_laws(courses, laws)
     last = courses.packed.first[2] - 1
     there.packed.leave[last] = there.packed.arrive[last]
-    found = nearest_in_space(courses, there)
+    found = nearest_in_space(courses.in_space(), there.packed)
     assert found.bound == pytest.approx(9 - 1.0 - 1.0, abs=2e-3)
