@@ -15,7 +15,9 @@ from viaspline.mission.model import Mission
 from viaspline.planning.problem.ledger import LedgerEntry
 from viaspline.space.timing.spatial_limits import SpatialLimits
 from viaspline.space.timing.yaw_profile import YawProfile
+from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.trajectory.trajectory import Trajectory
+from viaspline.trajectory.yielding.waits import TrafficWait
 from viaspline.world.space.spatial_world import SpatialWorld
 
 
@@ -35,6 +37,8 @@ class SpatialPlan:
         limits: Of its drive.
         yaw: Its heading along the path.
         trajectory: The time law along the path.
+        moving: What is proven of the distance from what moves; None where nothing does.
+        waits: Where the law loses time to what moves.
     """
 
     mission: Mission
@@ -47,6 +51,8 @@ class SpatialPlan:
     limits: SpatialLimits
     yaw: YawProfile
     trajectory: Trajectory
+    moving: MovingCertificate | None = None
+    waits: tuple[TrafficWait, ...] = ()
 
     def __repr__(self) -> str:
         kept = f"{self.certificate.clearance:.2f} m clear"

@@ -9,7 +9,7 @@ robot stands that has no path itself, no path passes.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -20,13 +20,10 @@ from viaspline.fleet.not_served import NotServed, Outcome
 from viaspline.fleet.space.hover_places import HoverPlace, hovers_of
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.fleet.fleet import FleetMember
-from viaspline.mission.model import Mission
-from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.space.flying_body import FlyingBody
+from viaspline.space.laid_round import laid_round
 from viaspline.space.plan_spatial import plan_spatial
-from viaspline.space.solve_route import certificate_of
 from viaspline.space.spatial_plan import SpatialPlan
-from viaspline.space.spatial_request import spatial_problem_of
 
 KEPT_MORE_M: Final = 0.1
 """What a path keeps from resting places beyond what it must [m],"""
@@ -179,23 +176,3 @@ def _places_of(plan: SpatialPlan) -> Floats:
 def places_gap(place: HoverPlace, body: FlyingBody, places: Floats) -> float:
     """The least free space between a robot that hovers and a body at places [m]."""
     return float(place.gaps(body, places).min())
-
-
-def laid_round(alone: SpatialPlan, obstacles: Sequence[Obstacle]) -> SpatialPlan:
-    """A robot's plan with more obstacles in its world; it is proven in the world without them.
-
-    Raises:
-        NoPathError: There is none.
-        GaveUpError: None was found.
-    """
-    mission = _among(alone.mission, obstacles)
-    plan = plan_spatial(mission)
-    problem = spatial_problem_of(alone.mission)
-    proof = certificate_of(problem, plan.path, plan.airborne)
-    return replace(plan, mission=alone.mission, world=alone.world, certificate=proof)
-
-
-def _among(mission: Mission, obstacles: Sequence[Obstacle]) -> Mission:
-    world = mission.world
-    more = world.model_copy(update={"known": (*world.known, *obstacles)})
-    return mission.model_copy(update={"world": more})

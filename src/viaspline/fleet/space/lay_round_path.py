@@ -16,11 +16,12 @@ import numpy as np
 
 from viaspline.errors import PlanningError
 from viaspline.fleet.space.flown_ways import FlownWays
-from viaspline.fleet.space.lay_in_space import KEPT_MORE_M, laid_round
+from viaspline.fleet.space.lay_in_space import KEPT_MORE_M
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.capsule import Capsule
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.space.flying_body import FlyingBody
+from viaspline.space.laid_round import laid_round
 from viaspline.space.meeting.gap_of_bodies import BodyPair
 from viaspline.space.spatial_plan import SpatialPlan
 

@@ -29,6 +29,8 @@ from viaspline.space.meeting.gap_of_bodies import (
 PIECE_M: Final = 0.125
 """Longest piece of a cell [m]."""
 
+LEAST_M: Final = 1e-9
+
 MAX_PAIRS: Final = 20_000_000
 """Pairs of pieces of two paths that are looked at, at most."""
 
@@ -84,7 +86,7 @@ def spatial_crossings(
             rows[robot].append((against, *found))
             boxes += len(found[0])
         if boxes > max_boxes:
-            raise _too_many(courses, (one, other), pieces[one].middle[i[0]])
+            raise _too_many(courses, (one, other))
     raw = _in_order(rows)
     pairs, span, first, crossing, count = joined_boxes(packed, raw)
     return PackedCrossings(
@@ -125,9 +127,14 @@ def _near(
     """Pairs of pieces on which two bodies may be too near each other."""
     if not len(one.cell) or not len(other.cell):
         return np.empty(0, np.int64), np.empty(0, np.int64)
-    far = pair.outermost + float(one.reach.max()) + float(other.reach.max())
-    mine, its = _within(one.middle, other.middle, far), _within(other.middle, one.middle, far)
-    i, j = _pairs_within(one.middle[mine], other.middle[its], far, courses, who)
+    room = float(one.reach.max()) + float(other.reach.max())
+    level, upright = pair.radius + pair.margin + room, pair.half_height + pair.margin + room
+    scale = 1.0 / np.maximum(np.array([level, level, upright]), LEAST_M)
+    mine, its = (
+        _within(one.middle * scale, other.middle * scale),
+        _within(other.middle * scale, one.middle * scale),
+    )
+    i, j = _pairs_within(one.middle[mine] * scale, other.middle[its] * scale, courses, who)
     i, j = np.flatnonzero(mine)[i], np.flatnonzero(its)[j]
     offsets = other.middle[j] - one.middle[i]
     slopes = gap_slopes(pair, offsets)
@@ -138,25 +145,25 @@ def _near(
     return i[near], j[near]
 
 
-def _within(places: Floats, others: Floats, far: float) -> Flags:
-    """Which places are in the box about others, grown [m]."""
-    low, high = others.min(axis=0) - far, others.max(axis=0) + far
+def _within(places: Floats, others: Floats) -> Flags:
+    """Which places are no farther than 1 from the box about others along every axis."""
+    low, high = others.min(axis=0) - 1.0, others.max(axis=0) + 1.0
     return np.asarray(((places >= low) & (places <= high)).all(axis=1))
 
 
 def _pairs_within(
-    places: Floats, others: Floats, far: float, courses: SpatialCourses, who: tuple[int, int]
+    places: Floats, others: Floats, courses: SpatialCourses, who: tuple[int, int]
 ) -> tuple[Ints, Ints]:
-    """Indices of places that are no farther apart than some distance [m]."""
+    """Indices of places that are no farther apart than 1 along every axis."""
     from scipy.spatial import cKDTree
 
     none = np.empty(0, np.int64)
     if not len(places) or not len(others):
         return none, none
     tree, there = cKDTree(places), cKDTree(others)
-    if tree.count_neighbors(there, far) > MAX_PAIRS:
-        raise _too_many(courses, who, places[0])
-    found = tree.query_ball_tree(there, far)
+    if tree.count_neighbors(there, 1.0, p=np.inf) > MAX_PAIRS:
+        raise _too_many(courses, who)
+    found = tree.query_ball_tree(there, 1.0, p=np.inf)
     counts = np.array([len(row) for row in found])
     i = np.repeat(np.arange(len(found)), counts)
     j = np.array([index for row in found for index in row], np.int64)
@@ -206,13 +213,11 @@ def _in_order(rows: list[list[tuple[int, Ints, Floats, Floats]]]) -> RawBoxes:
     )
 
 
-def _too_many(courses: SpatialCourses, who: tuple[int, int], where: Floats) -> GaveUpError:
+def _too_many(courses: SpatialCourses, who: tuple[int, int]) -> GaveUpError:
     names = " and ".join(f"'{courses.names[k]}'" for k in who)
-    x, y, z = where.tolist()
     return GaveUpError(
-        f"the paths of {names} come near each other in too many places, about "
-        f"({x:.6g}, {y:.6g}, {z:.6g})",
-        where=where.tolist(),
+        f"the paths of {names} come near each other in too many places",
+        where=courses.packed.place[int(courses.packed.first[who[0]])].tolist(),
         remedy="send fewer robots through one place",
         tried=("crossings in space",),
     )
