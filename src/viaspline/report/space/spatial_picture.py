@@ -16,6 +16,7 @@ from viaspline.report.path_marks import draw_arrows, draw_path, draw_tightest, d
 from viaspline.report.profile_strips import Ticks
 from viaspline.report.sheet import view_of
 from viaspline.report.space.elevation_profile import SAMPLES, ProfileRange, draw_profile
+from viaspline.report.space.moving_in_space import draw_moving_in_space
 from viaspline.report.space.solid_marks import draw_solids
 from viaspline.report.space.space_view import draw_space
 from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
@@ -63,6 +64,7 @@ def drawn_page(plan: SpatialPlan, name: str, dpi: int = style.DPI) -> SpatialShe
     vias, places = draw_vias(sheet.map, labels, route, plan.mission)
     draw_arrows(sheet.map, points, style.PATH, avoid=places)
     handles += vias + draw_tightest(sheet.map, labels, plan.certificate)
+    handles += draw_moving_in_space(sheet.map, labels, plan)
     labels.place(points, places)
     handles += draw_profile(sheet.elevation, plan.path, scene, robot.radius_m, band_of(plan))
     _fill_strips(sheet, plan)
@@ -108,13 +110,16 @@ def band_of(plan: SpatialPlan) -> ProfileRange | None:
 
 def proof_words(plan: SpatialPlan) -> str:
     """What is proven, in a line."""
-    certificate = plan.certificate
-    if not np.isfinite(certificate.clearance):
-        return "nothing to keep clear of"
-    return (
-        f"proven: nowhere closer than {down(certificate.clearance)} to anything "
-        f"({metres(certificate.required)} asked)"
-    )
+    certificate, moving = plan.certificate, plan.moving
+    words = "nothing to keep clear of"
+    if np.isfinite(certificate.clearance):
+        words = (
+            f"proven: nowhere closer than {down(certificate.clearance)} to anything that stands "
+            f"({metres(certificate.required)} asked)"
+        )
+    if moving is None or not np.isfinite(moving.clearance):
+        return words.replace(" that stands", "")
+    return f"{words}; {down(moving.clearance)} from what moves, at {moving.tightest_at_s:.1f} s"
 
 
 def _subtitle(plan: SpatialPlan) -> str:

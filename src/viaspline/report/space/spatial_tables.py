@@ -13,6 +13,7 @@ from viaspline.report.space.heights_json import heights_rows
 from viaspline.report.terminal_tables import MAX_LIST_LINES, facts_table, ledger_table
 from viaspline.report.units import asked_words, down, metres, place, seconds
 from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.trajectory.moving_certificate import MovingCertificate
 
 
 def spatial_plan_tables(plan: SpatialPlan, name: str) -> RenderableType:
@@ -32,6 +33,11 @@ def spatial_plan_tables(plan: SpatialPlan, name: str) -> RenderableType:
             f"{place(certificate.tightest_at)} at {metres(certificate.tightest_distance, 1)}, "
             f"beside {certificate.obstacle}",
         )
+    if plan.moving is not None:
+        facts.add_row(*_moving_row(plan.moving))
+    for wait in plan.waits[:MAX_LIST_LINES]:
+        words = f"{seconds(wait.lost)} for '{wait.obstacle}', from {metres(wait.start, 1)}"
+        facts.add_row("waits or slows", words)
     for row in heights_rows(plan):
         facts.add_row(*row)
     radius = plan.sharpest_radius
@@ -42,3 +48,11 @@ def spatial_plan_tables(plan: SpatialPlan, name: str) -> RenderableType:
             "stations", ", ".join(f"{s.name} {s.dwell:g} s" for s in stations[:MAX_LIST_LINES])
         )
     return Group(facts, ledger_table(plan.ledger)) if plan.ledger else facts
+
+
+def _moving_row(proof: MovingCertificate) -> tuple[str, str]:
+    """What is proven of the distance from what moves."""
+    if proof.obstacle is None:
+        return "from what moves", "nothing of it is there meanwhile"
+    words = f"{down(proof.clearance)}, of '{proof.obstacle}' after {proof.tightest_at_s:.1f} s"
+    return "from what moves, proven", words
