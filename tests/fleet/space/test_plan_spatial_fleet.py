@@ -257,3 +257,13 @@ def test_what_moves_is_refused_from_python_as_well() -> None:
     with pytest.raises(GeometryError, match="isn't planned among things that move"):
         plan_spatial_fleet(vs.Fleet.model_validate(data), 0.0, lambda words, share: None,
                            THIS_PROCESS)  # fmt: skip
+
+
+def test_paths_of_the_plane_are_not_laid_for_a_fleet_in_space() -> None:
+    from viaspline.fleet.crossing_paths import crossing_paths
+
+    fleet = vs.Fleet.model_validate({
+        "robots": {"flat": FLAT}, "fleet": [drone("a", [0, 0, 9], [9, 0, 9])],
+    })  # fmt: skip
+    with pytest.raises(GeometryError, match="this is a fleet in space"):
+        crossing_paths(fleet)

@@ -174,7 +174,7 @@ def _cut(
 
 
 def _finer(times: Floats, places: Floats, there: Flags) -> tuple[Floats, Floats, Flags]:
-    """The same way with nodes no farther apart than ``LONGEST_CELL_S``."""
+    """A way with more nodes, no farther apart than ``LONGEST_CELL_S``."""
     counts = np.maximum(np.ceil(np.diff(times) / LONGEST_CELL_S), 1.0).astype(np.int64)
     parts = [
         np.linspace(a, b, n + 1)[:-1]
