@@ -111,3 +111,26 @@ def test_a_motion_survives_being_written_and_read(
         mission = mission_with({"keyframes": frames, "after": after})
         again = Mission.model_validate(yaml_document(yaml_text(mission), "x.yaml").data)
     assert again == mission
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        {"keyframes": [[0, 5, 5, 0, 3], [4, 9, 5]], "after": "stay"},
+        {"from": [5, 5, 3], "velocity_mps": [1, 0]},
+        {"from": [5, 5], "velocity_mps": [1, 0, 0.5]},
+    ],
+)
+def test_a_motion_with_heights_makes_a_mission_one_in_space(motion: dict[str, Any]) -> None:
+    disc = {"circle": {"center": [0, 0], "radius": 1}, "motion": motion}
+    data = {"world": {"known": [disc]}, "route": {"start": [0, 0, 9], "goal": [9, 0, 9]}}
+    assert Mission.model_validate(data).is_spatial
+    with pytest.raises(MissionError, match="has no height, in a mission in space"):
+        Mission.model_validate({**data, "route": {"start": [0, 0, 9], "goal": [9, 0]}})
+
+
+def test_numbers_beyond_a_height_are_too_many() -> None:
+    disc = {"circle": {"center": [0, 0], "radius": 1},
+            "motion": {"keyframes": [[0, 5, 5, 0, 3, 1]], "after": "stay"}}  # fmt: skip
+    with pytest.raises(MissionError, match="keyframes"):
+        Mission.model_validate({"world": {"known": [disc]}, "route": {"start": [0, 0]}})

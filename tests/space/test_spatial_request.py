@@ -89,5 +89,5 @@ def test_what_is_not_planned_in_space_is_refused_by_name() -> None:
         "circle": {"center": [30, 30], "radius": 1},
         "motion": {"from": [30, 30], "velocity_mps": [1, 0]},
     }
-    with pytest.raises(GeometryError, match="move"):
-        spatial_problem_of(mission(world={"known": [cart]}))
+    with pytest.raises(GeometryError, match="move and aren't on the map"):
+        spatial_problem_of(mission(world={"unseen": [cart]}, robot={"sensor": {"range_m": 20}}))

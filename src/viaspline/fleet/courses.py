@@ -16,8 +16,11 @@ from viaspline.kernels.fleet import cut_courses as columns
 from viaspline.kernels.fleet.cut_courses import cut_courses
 from viaspline.kernels.fleet.packed_courses import PackedCourses
 from viaspline.kernels.fleet.packed_paths import PackedPaths
+from viaspline.mission.space.flying_body import FlyingBody
 from viaspline.planner import Plan
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.space.meeting.gap_of_bodies import SpatialCourses
+from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.trajectory.trajectory import Trajectory
 
 END_CELL_M = 0.01
@@ -34,11 +37,21 @@ class FleetCourses(ComparedByValue):
 
     Attributes:
         names: The robots, in the order of the courses.
-        packed: The courses as kernels see them.
+        packed: The courses as kernels see them. In space its places have three columns, and its
+            reaches are what robots take up seen from above.
+        bodies: In space the upright cylinders of the robots, radius and half height, and what is
+            kept about them, half of the separation included [m], (n, 3); None in the plane.
     """
 
     names: tuple[str, ...]
     packed: PackedCourses
+    bodies: Floats | None = None
+
+    def in_space(self) -> SpatialCourses:
+        """Courses in space, all of which are there all the time."""
+        assert self.bodies is not None, "courses in space have bodies"
+        there = np.ones(len(self.packed.distance), np.bool_)
+        return SpatialCourses(self.names, self.packed, self.bodies, there)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,18 +62,22 @@ class FleetPath(ComparedByValue):
         path: What is driven, all of its laps.
         knots: Distances along it that have to be nodes, not decreasing [m], (k,).
         reach: Of the robot, with its half of the separation [m]; see ``PackedCourses``.
+        body: In space its row of ``FleetCourses.bodies``; None in the plane.
     """
 
     path: PiecewiseCubic
     knots: Floats
     reach: float
+    body: tuple[float, float, float] | None = None
 
 
 NO_LAWS: Mapping[str, Trajectory] = MappingProxyType({})
 
 
 def courses_of(
-    plans: Mapping[str, Plan], separation: float, laws: Mapping[str, Trajectory] = NO_LAWS
+    plans: Mapping[str, Plan | SpatialPlan],
+    separation: float,
+    laws: Mapping[str, Trajectory] = NO_LAWS,
 ) -> FleetCourses:
     """The paths of plans, cut into cells; the time laws of the plans change at nodes alone.
 
@@ -97,7 +114,7 @@ def courses_of(
     return courses_along(tuple(plans), paths)
 
 
-def fleet_path(plan: Plan, separation: float, *knots: Floats) -> FleetPath:
+def fleet_path(plan: Plan | SpatialPlan, separation: float, *knots: Floats) -> FleetPath:
     """The path of a plan, as it is to be cut.
 
     Args:
@@ -108,11 +125,14 @@ def fleet_path(plan: Plan, separation: float, *knots: Floats) -> FleetPath:
     places = plan.trajectory.distances
     for more in knots:
         places = _joined(places, more)
-    return FleetPath(
-        plan.path,
-        _with_short_ends(places, plan.path.length),
-        plan.mission.robot.outer_radius + plan.tracking_error + 0.5 * separation,
-    )
+    robot, half = plan.mission.robot, 0.5 * separation
+    cuts = _with_short_ends(places, plan.path.length)
+    if isinstance(plan, SpatialPlan):
+        flying = FlyingBody.of(robot)
+        kept = flying.margin + half
+        body = (flying.radius, flying.half_height, kept)
+        return FleetPath(plan.path, cuts, flying.radius + kept, body)
+    return FleetPath(plan.path, cuts, robot.outer_radius + plan.tracking_error + half)
 
 
 def courses_along(names: Sequence[str], paths: Sequence[FleetPath]) -> FleetCourses:
@@ -126,7 +146,8 @@ def courses_along(names: Sequence[str], paths: Sequence[FleetPath]) -> FleetCour
         paths: Theirs.
 
     Raises:
-        GeometryError: A knot lies beyond the end of its path.
+        GeometryError: A knot lies beyond the end of its path, or some paths are in the plane and
+            others in space.
     """
     for name, one in zip(names, paths, strict=True):
         length = one.path.length
@@ -137,6 +158,8 @@ def courses_along(names: Sequence[str], paths: Sequence[FleetPath]) -> FleetCour
             )
     if not paths:
         return FleetCourses((), _empty())
+    if len({one.body is None for one in paths}) > 1:
+        raise GeometryError("some paths are in the plane and others in space; give one kind")
     tables = [one.path.packed_length for one in paths]
     rows, at, along = (tuple(parts) for parts in zip(*tables, strict=True))
     knots = tuple(one.knots for one in paths)
@@ -145,15 +168,30 @@ def courses_along(names: Sequence[str], paths: Sequence[FleetPath]) -> FleetCour
         _firsts(at), np.concatenate(knots), _firsts(knots),
     )  # fmt: skip
     nodes, first = cut_courses(packed)
+    flown = [one.body for one in paths if one.body is not None]
+    place = nodes[:, columns.X : columns.Y + 1].copy()
+    if flown:
+        place = _places_in_space(paths, nodes[:, columns.DISTANCE], first)
     return FleetCourses(
         tuple(names),
         PackedCourses(
             first=first,
             distance=nodes[:, columns.DISTANCE].copy(),
-            place=nodes[:, columns.X : columns.Y + 1].copy(),
+            place=place,
             bow=nodes[:, columns.BOW].copy(),
             reach=np.array([one.reach for one in paths]),
         ),
+        np.array(flown) if flown else None,
+    )
+
+
+def _places_in_space(paths: Sequence[FleetPath], distance: Floats, first: Ints) -> Floats:
+    """The nodes on curves in space [m], (nodes, 3)."""
+    return np.concatenate(
+        [
+            np.asarray(one.path.at_distance(np.minimum(distance[a:b], one.path.length)))
+            for one, a, b in zip(paths, first[:-1].tolist(), first[1:].tolist(), strict=True)
+        ]
     )
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viaspline.errors import GeometryError
 from viaspline.fleet.courses import FleetCourses, courses_of
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
 from viaspline.fleet.laying.lay_paths import THIS_PROCESS, LaidPaths, LayingProgress, lay_paths
@@ -53,6 +54,7 @@ def crossing_paths(
         workers: Who lays the paths; these don't depend on that.
 
     Raises:
+        GeometryError: It is a fleet in space, whose paths ``plan_fleet`` lays.
         GaveUpError: Too many robots pass one place.
         WorkersError: The workers died.
 
@@ -67,6 +69,8 @@ def crossing_paths(
         >>> [then.laid.plans[name] is first.laid.plans[name] for name in ("a", "b")]
         [True, False]
     """
+    if fleet.is_spatial:
+        raise GeometryError("this is a fleet in space; give plan_fleet(fleet) or viaspline plan")
     fleet = without_motion(fleet)
     laid = lay_paths(fleet, progress, None if before is None else before.laid.kept, workers)
     separation, plans = fleet.separation_m, laid.plans

@@ -17,6 +17,7 @@ from viaspline.kernels.fleet.neighbouring import mark_neighbours
 from viaspline.kernels.fleet.packed_crossings import PackedCrossings
 from viaspline.kernels.fleet.packed_pieces import PackedPieces, pieces_of
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.space.meeting.spatial_crossings import spatial_crossings
 
 MAX_BOXES = 50_000_000
 """How many boxes the crossings of a fleet may have: 2 GB."""
@@ -64,6 +65,8 @@ def crossings_of(
         >>> found.robots.tolist(), found.span.round(3).tolist()
         ([[0, 1]], [[10.0, 14.0, 7.0, 11.0]])
     """
+    if courses.bodies is not None:
+        return FleetCrossings(spatial_crossings(courses.in_space(), only, max_boxes))
     packed = courses.packed
     robots = len(courses.names)
     is_asked, takes_part = np.ones(robots, dtype=np.bool_), np.ones(robots, dtype=np.bool_)

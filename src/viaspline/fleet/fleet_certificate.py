@@ -10,6 +10,7 @@ from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.handed_in import number_from
 from viaspline.kernels.fleet.fleet_proof import fleet_tightest
+from viaspline.space.meeting.spatial_separation import nearest_in_space
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class FleetCertificate:
         required: The separation that was asked for [m].
         pair: The two robots that are nearest; None where there are no two.
         at_s: When that is [s].
-        at: Where the two are then [m]; None where there are no two.
+        at: Where the two are then [m], x, y and in space z; None where there are no two.
         repeats: From when on [s] and after how long [s] all comes again; None where nothing does.
             What is proven of the time until then and of a period after it holds for ever.
     """
@@ -31,7 +32,7 @@ class FleetCertificate:
     required: float
     pair: tuple[str, str] | None
     at_s: float
-    at: tuple[tuple[float, float], tuple[float, float]] | None
+    at: tuple[tuple[float, ...], tuple[float, ...]] | None
     repeats: tuple[float, float] | None = None
 
     @property
@@ -73,6 +74,8 @@ def certify_fleet(courses: FleetCourses, laws: FleetLaws, required: float) -> Fl
         (2.0, ('a', 'b'), True)
     """
     required = number_from("required", required)
+    if courses.bodies is not None:
+        return _certified_in_space(courses, laws, required)
     bound, when, x0, y0, x1, y1, first, second = fleet_tightest(
         courses.packed, laws.packed, PROOF_TOLERANCE_M
     )
@@ -84,4 +87,18 @@ def certify_fleet(courses: FleetCourses, laws: FleetLaws, required: float) -> Fl
         pair=(courses.names[first], courses.names[second]),
         at_s=when,
         at=((x0, y0), (x1, y1)),
+    )
+
+
+def _certified_in_space(
+    courses: FleetCourses, laws: FleetLaws, required: float
+) -> FleetCertificate:
+    """The certificate of robots in space."""
+    found = nearest_in_space(courses.in_space(), laws.packed)
+    if found.pair[0] < 0:
+        return FleetCertificate(math.inf, required, None, 0.0, None)
+    first, second = (courses.names[k] for k in found.pair)
+    one, other = (tuple(place) for place in found.places.tolist())
+    return FleetCertificate(
+        found.bound + required, required, (first, second), found.when, (one, other)
     )

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
-from viaspline.kernels.arrays import Floats
 from viaspline.kernels.fleet.packed_laws import PackedLaws
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
 
@@ -54,21 +54,3 @@ def static_laws(courses: FleetCourses, trajectories: Sequence[Trajectory]) -> Fl
         arrive[part], leave[part], speed[part] = law_at_nodes(trajectory, packed.distance[part])
     is_timed = np.ones(len(courses.names), dtype=np.bool_)
     return FleetLaws(PackedLaws(arrive, leave, speed, is_timed))
-
-
-def law_at_nodes(law: Trajectory, nodes: Floats) -> tuple[Floats, Floats, Floats]:
-    """When a robot comes to nodes, when it goes on, and how fast it is there, (k,) each.
-
-    Args:
-        law: It stands at its start from its first time on, and at its end for ever.
-        nodes: Distances, from the start to the end [m], (k,).
-    """
-    come, speed = law.time_at(nodes), law.speed_at(nodes)
-    first = np.minimum(law.distances.searchsorted(nodes, side="left"), len(law.times) - 1)
-    last = np.maximum(law.distances.searchsorted(nodes, side="right") - 1, 0)
-    known = law.distances[first] == nodes
-    arrive = np.where(known, law.times[first], come)
-    leave = np.where(known, law.times[last], come)
-    speed = np.where(known, law.speeds[last], speed)
-    arrive[0], leave[-1] = law.times[0], np.inf
-    return arrive, leave, speed

@@ -5,6 +5,7 @@ Tested through ``fleet/test_plan_fleet``.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import floor
 
@@ -25,6 +26,7 @@ from viaspline.presentable.named_columns import Table, stacked_tables
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
 from viaspline.trajectory.path_samples import USUAL_STEP_M
+from viaspline.space.spatial_plan import SpatialPlan
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,8 +35,9 @@ class FleetPlan(ShownValue, MovingValue, SavedValue, ComparedByValue):
 
     Attributes:
         fleet: What was asked for.
-        plans: The plan of every robot that is served, by name, in the order of the fleet. Its
-            trajectory begins when its robot departs, by the clock of the fleet.
+        plans: The plan of every robot that is served, by name, in the order of the fleet: those of
+            a fleet in space are plans in space. Its trajectory begins when its robot departs, by
+            the clock of the fleet.
         not_served: The others, with the reason.
         certificate: The least separation of any two robots that have a path, over all time.
         precedences: Who passes first, wherever two paths come near each other.
@@ -50,7 +53,7 @@ class FleetPlan(ShownValue, MovingValue, SavedValue, ComparedByValue):
     """
 
     fleet: Fleet
-    plans: dict[str, Plan]
+    plans: Mapping[str, Plan | SpatialPlan]
     not_served: tuple[NotServed, ...]
     certificate: FleetCertificate
     precedences: tuple[Precedence, ...]
@@ -101,6 +104,26 @@ class FleetPlan(ShownValue, MovingValue, SavedValue, ComparedByValue):
     def alone_laws(self) -> FleetLaws:
         """When each robot would be where if it were alone."""
         return self.rides.laws
+
+    @property
+    def is_spatial(self) -> bool:
+        """Whether its robots fly."""
+        return self.fleet.is_spatial
+
+    @property
+    def planar_plans(self) -> dict[str, Plan]:
+        """The plans of a fleet in the plane, by name.
+
+        Raises:
+            GeometryError: It is a fleet in space.
+        """
+        plans = {name: one for name, one in self.plans.items() if isinstance(one, Plan)}
+        if len(plans) < len(self.plans):
+            raise GeometryError(
+                "this is a fleet in space, and only robots in the plane are led off their paths "
+                "here; plan the whole fleet anew with plan_fleet"
+            )
+        return plans
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -29,4 +29,4 @@ class NotServed:
     reason: str
     remedy: str
     obstacles: tuple[str, ...] = ()
-    where: tuple[float, float] | None = None
+    where: tuple[float, ...] | None = None

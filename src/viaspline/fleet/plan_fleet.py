@@ -20,6 +20,7 @@ from viaspline.fleet.precedences import precedences_of
 from viaspline.fleet.relaid_fleet import relaid_fleet
 from viaspline.fleet.rerouted_fleet import rerouted_fleet, try_cost
 from viaspline.fleet.served_fleet import WHOLE_EFFORT, served_fleet
+from viaspline.fleet.space.plan_spatial_fleet import plan_spatial_fleet
 from viaspline.fleet.still_world import without_motion
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.fleet.unserved.explain_unserved import explain_unserved
@@ -66,7 +67,9 @@ def plan_fleet(
             else moves any more.
 
     Returns:
-        The plans of those that are served, proven apart, and why the others are not.
+        The plans of those that are served, proven apart, and why the others are not. Those of a
+        fleet that says heights are plans in space, see
+        `viaspline.fleet.space.plan_spatial_fleet`.
 
     Raises:
         GeometryError: ``improve`` is no finite number of 0 or more, or ``periods`` no whole number
@@ -99,6 +102,8 @@ def plan_fleet(
         if progress is not None:
             progress(stage, share)
 
+    if fleet.is_spatial:
+        return plan_spatial_fleet(fleet, improve, tell, workers)
     if paths is None:
         paths = crossing_paths(
             fleet, lambda done, of: tell("laying paths", done / of), workers=workers

@@ -14,7 +14,7 @@ import numpy as np
 from viaspline.fleet.courses import FleetCourses, courses_of
 from viaspline.fleet.crossing_paths import CrossingPaths
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
-from viaspline.fleet.fleet_laws import FleetLaws, law_at_nodes
+from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.lattice_order.lattice_paths import SHAPES, lattice_paths
 from viaspline.fleet.lattice_order.no_lattice_order import NoLatticeOrder
 from viaspline.fleet.lattice_order.time_in_order import time_in_order
@@ -30,6 +30,7 @@ from viaspline.kernels.fleet.passages import passages_of
 from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import Fleet, FleetMember
 from viaspline.planner import Plan
+from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
 NOBODY: Mapping[int, int] = MappingProxyType({})

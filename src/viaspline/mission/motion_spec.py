@@ -19,7 +19,7 @@ from viaspline.mission.fields import (
     SPEEDS_MPS,
     Distance,
     Number,
-    Point2,
+    Point,
     SpeedNoise,
     plain,
 )
@@ -30,11 +30,12 @@ After: TypeAlias = Literal["loop", "bounce", "stay", "vanish"]
 MAX_KEYFRAMES: Final = 1_000_000
 """How many keyframes one obstacle can have at most."""
 KEYFRAME_WORDS: Final = "[t, x, y] or [t, x, y, heading_deg], in seconds, metres and degrees"
+FRAMES_IN_SPACE: Final = "in space [t, x, y, heading_deg, z]"
 
 
 def _in_range(frame: tuple[float, ...]) -> tuple[float, ...]:
     """A keyframe whose numbers are those of a place and a time."""
-    limits = (MAX_DURATION_S, MAX_LENGTH_M, MAX_LENGTH_M, MAX_HEADING_DEG)
+    limits = (MAX_DURATION_S, MAX_LENGTH_M, MAX_LENGTH_M, MAX_HEADING_DEG, MAX_LENGTH_M)
     for place, (value, limit) in enumerate(zip(frame, limits, strict=False)):
         if not abs(value) <= limit:
             raise PydanticCustomError(
@@ -46,22 +47,23 @@ def _in_range(frame: tuple[float, ...]) -> tuple[float, ...]:
 
 Keyframe: TypeAlias = Annotated[
     tuple[Annotated[Number, Field(ge=-MAX_LENGTH_M, le=MAX_LENGTH_M)], ...],
-    Field(min_length=3, max_length=4),
+    Field(min_length=3, max_length=5),
     AfterValidator(_in_range),
-    Expects(KEYFRAME_WORDS),
+    Expects(f"{KEYFRAME_WORDS}; {FRAMES_IN_SPACE}"),
 ]
 Keyframes: TypeAlias = Annotated[
     tuple[Keyframe, ...],
     Field(min_length=1, max_length=MAX_KEYFRAMES),
     BeforeValidator(plain),
-    Expects(f"a list of keyframes, each {KEYFRAME_WORDS}"),
+    Expects(f"a list of keyframes, each {KEYFRAME_WORDS}; {FRAMES_IN_SPACE}"),
 ]
 SignedSpeed: TypeAlias = Annotated[Number, Field(ge=-SPEEDS_MPS[1], le=SPEEDS_MPS[1])]
 Velocity: TypeAlias = Annotated[
-    tuple[SignedSpeed, SignedSpeed],
+    tuple[SignedSpeed, ...],
+    Field(min_length=2, max_length=3),
     METRES_PER_SECOND,
     BeforeValidator(plain),
-    Expects("[vx, vy] in metres per second"),
+    Expects("[vx, vy], or in space [vx, vy, vz], in metres per second"),
 ]
 
 
@@ -90,16 +92,19 @@ class Motion(
     """How an obstacle moves; its shape stands in a frame of its own, which is moved and turned.
 
     Attributes:
-        keyframes: Where the frame's origin is when, ``[t, x, y]`` or ``[t, x, y, heading_deg]``
-            [s, m, deg anticlockwise from x]; it goes evenly from one to the next. Times increase.
-            One without a heading has that of the one before, at first 0.
+        keyframes: Where the frame's origin is when, ``[t, x, y]`` or ``[t, x, y, heading_deg]``,
+            in space also ``[t, x, y, heading_deg, z]`` [s, m, deg anticlockwise from x]; it goes
+            evenly from one to the next. Times increase. One without a heading or a z has that of
+            the one before, at first 0.
         after: What it does when the keyframes are over: begins again (``loop``), goes back the
             way that it came (``bounce``), ``stay`` or ``vanish``.
         before: What it does before the first keyframe: stands there (``stay``), or isn't there
             (``absent``). None: ``absent`` if it vanishes after the last one, else ``stay``. What
             goes on and on has no before.
-        from_: Where the frame's origin is at time 0 [m]; ``from`` in a file.
-        velocity_mps: How fast it goes from there, ``[vx, vy]`` [m/s], before and after.
+        from_: Where the frame's origin is at time 0, ``[x, y]`` or in space ``[x, y, z]`` [m];
+            ``from`` in a file.
+        velocity_mps: How fast it goes from there, ``[vx, vy]`` or in space ``[vx, vy, vz]`` [m/s],
+            before and after.
         error: How far from there it may be.
     """
 
@@ -110,6 +115,19 @@ class Motion(
     keyframes: Keyframes | None = None
     after: After | None = None
     before: Literal["stay", "absent"] | None = None
-    from_: Annotated[Point2 | None, Field(alias="from")] = None
+    from_: Annotated[Point | None, Field(alias="from")] = None
     velocity_mps: Velocity | None = None
     error: MotionError = MotionError()
+
+    @property
+    def has_heights(self) -> bool:
+        """Whether it says how high the frame is, so that it moves in space.
+
+        >>> Motion(from_=(0, 0, 9), velocity_mps=(1, 0)).has_heights
+        True
+        """
+        return (
+            any(len(frame) > 4 for frame in self.keyframes or ())
+            or (self.from_ is not None and len(self.from_) > 2)
+            or (self.velocity_mps is not None and len(self.velocity_mps) > 2)
+        )

@@ -6,12 +6,15 @@ Tested through ``report/test_fleet_results``.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Final
 
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_plan import FleetPlan
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.report.json_text import dumps
+
+FRAME: Final = "ENU: x east, y north; headings anticlockwise from x"
+SPATIAL_FRAME: Final = "ENU: x east, y north, z up; headings anticlockwise from x"
 
 
 def fleet_json(plan: FleetPlan, name: str, folders: Mapping[str, str]) -> str:
@@ -26,7 +29,7 @@ def fleet_json(plan: FleetPlan, name: str, folders: Mapping[str, str]) -> str:
         {
             "fleet": {
                 "name": name,
-                "frame": "ENU: x east, y north; headings anticlockwise from x",
+                "frame": SPATIAL_FRAME if plan.is_spatial else FRAME,
                 "robots": len(plan.fleet.members),
                 "separation_m": plan.fleet.separation_m,
             },

@@ -10,6 +10,7 @@ from typing import Final
 from viaspline.errors import OutputError
 from viaspline.fleet.execution.fleet_run import FleetRun
 from viaspline.fleet.fleet_plan import FleetPlan
+from viaspline.planner import Plan
 from viaspline.report.earlier_robots import forget_robots
 from viaspline.report.fleet.fleet_picture import fleet_picture
 from viaspline.report.fleet.fleet_run_picture import fleet_run_picture
@@ -17,6 +18,8 @@ from viaspline.report.fleet_json import fleet_json
 from viaspline.report.fleet_run_json import fleet_run_json
 from viaspline.report.result_files import ResultFolder
 from viaspline.report.results import Contents, path_contents
+from viaspline.report.space.spatial_results import spatial_path_contents
+from viaspline.space.spatial_plan import SpatialPlan
 
 FLEET_FILES: Final = ("fleet.json", "fleet.png", "timing.json")
 """What is written for a fleet as a whole."""
@@ -99,10 +102,17 @@ def write_robots(plan: FleetPlan, path: Path, progress: Callable[[float], None])
     for i, (robot, planned) in enumerate(plan.plans.items()):
         progress(i / len(plan.plans))
         folder = ResultFolder(path / names[robot], ROBOT_FILES)
-        for file, content in path_contents(planned, robot).items():
+        for file, content in _robot_contents(planned, robot).items():
             folder.write(file, content)
         folders.append(folder.path)
     return folders
+
+
+def _robot_contents(planned: Plan | SpatialPlan, robot: str) -> Contents:
+    """The files of one robot."""
+    if isinstance(planned, SpatialPlan):
+        return spatial_path_contents(planned, robot)
+    return path_contents(planned, robot)
 
 
 def forget_earlier(path: Path, earlier: Iterable[str], written: Iterable[Path]) -> list[str]:

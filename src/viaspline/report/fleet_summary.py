@@ -101,8 +101,10 @@ def _kind_name(fleet: Fleet, name: str | None, mission: str | None) -> str:
 
 
 def _straight(route: Route) -> float:
-    """How long a route is from point to point, all laps [m]."""
-    places = [point.at for _, point in route.points()]
+    """How long a route is from point to point, seen from above, all laps [m]."""
+    places = [point.at[:2] for _, point in route.points()]
+    if route.land is not None:
+        places.append(route.land.at)
     if route.closed:
         places.append(places[0])
     return route.laps * sum(math.dist(a, b) for a, b in pairwise(places))

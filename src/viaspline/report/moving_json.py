@@ -5,12 +5,14 @@ Tested through ``report/test_moving_pictures``.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from viaspline.planner import Plan
 from viaspline.robot.run import Run
 from viaspline.spacetime.timed_drive import TimedCandidate
 from viaspline.trajectory.moving_certificate import MovingCertificate
+from viaspline.trajectory.yielding.waits import TrafficWait
 
 
 def moving_certificate_data(certificate: MovingCertificate | None) -> dict[str, Any]:
@@ -45,19 +47,22 @@ def waits_data(plan: Plan) -> dict[str, Any]:
     """Where the robot loses time to what moves; nothing where nothing does."""
     if plan.timed is None:
         return {}
-    return {
-        "waits": [
-            {
-                "from_m": wait.start,
-                "to_m": wait.end,
-                "at_s": wait.begins,
-                "lost_s": wait.lost,
-                "stood_s": wait.stood,
-                "obstacle": wait.obstacle,
-            }
-            for wait in plan.timed.waits
-        ]
-    }
+    return {"waits": waits_list(plan.timed.waits)}
+
+
+def waits_list(waits: Iterable[TrafficWait]) -> list[dict[str, Any]]:
+    """Where time is lost, when, how much and for what."""
+    return [
+        {
+            "from_m": wait.start,
+            "to_m": wait.end,
+            "at_s": wait.begins,
+            "lost_s": wait.lost,
+            "stood_s": wait.stood,
+            "obstacle": wait.obstacle,
+        }
+        for wait in waits
+    ]
 
 
 def _candidate(one: TimedCandidate) -> dict[str, Any]:

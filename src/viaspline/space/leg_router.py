@@ -17,6 +17,7 @@ from viaspline.curve.certificate import certify
 from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.errors import GaveUpError, NoPathError
 from viaspline.kernels.arrays import Floats
+from viaspline.kernels.space.routing.way_checks import way_cost
 from viaspline.mission.model import Mission
 from viaspline.mission.shapes.solids import Solid
 from viaspline.planning.problem.ledger import PassingSide
@@ -28,7 +29,14 @@ from viaspline.space.routing.pass_gates import SIDE_BITS, gate
 from viaspline.space.routing.search_room import SearchRoom
 from viaspline.space.routing.side_seeds import seeds
 from viaspline.space.routing.space_router import SpaceRouter
-from viaspline.space.routing.taut_route import LENGTH, Norm, SpaceGaveUp, SpaceRefusal, TautRoute
+from viaspline.space.routing.taut_route import (
+    LENGTH,
+    Norm,
+    SpaceGaveUp,
+    SpaceOutcome,
+    SpaceRefusal,
+    TautRoute,
+)
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.weighed_ways import TautWay
 
@@ -73,8 +81,20 @@ class LegRouter:
 
     def gates(self, leg: int) -> Floats:
         """What a leg has to pass on which sides, (g, 8)."""
+        return self._gates_between(*self._ends(leg))
+
+    def _gates_between(self, first: Floats, last: Floats) -> Floats:
         body = self.problem.required + float(self.problem.world.packed.core[0])
-        return gates_of_leg(self._asked, *self._ends(leg), body)
+        return gates_of_leg(self._asked, first, last, body)
+
+    def between(self, first: Floats, last: Floats) -> SpaceOutcome:
+        """The cheapest way between any two places [m], (3,) each, on the sides that are asked."""
+        gates = self._gates_between(first, last)
+        return self._router.find(first, last, self.problem.required, self._norm, gates)
+
+    def straight_cost(self, first: Floats, last: Floats) -> float:
+        """What the straight way between two places costs [m or s], whatever stands there."""
+        return float(way_cost(np.array(self._norm), np.array([first, last], np.float64)))
 
     def ways(self, leg: int, laid: Floats) -> Sequence[TautWay]:
         """The cheapest way of a leg, ones with more room, and ways on other sides of what is near.

@@ -1,22 +1,12 @@
-"""From a mission in space to a plan: curve, proofs, headings and time law."""
+"""From a mission in space to a plan: round what stands, past what moves."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-import numpy as np
-
-from viaspline.curve.height_certificate import certify_heights
-from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
-from viaspline.space.leg_router import LegRouter
-from viaspline.space.solve_route import LANDING, TAKE_OFF, solve_route
+from viaspline.space.among.plan_past_moving import plan_past_moving
+from viaspline.space.spatial_order import ordered_in_space
 from viaspline.space.spatial_plan import SpatialPlan
-from viaspline.space.spatial_problem import SpatialProblem
-from viaspline.space.spatial_request import spatial_problem_of
-from viaspline.space.timing.retime_in_space import retime_in_space
-from viaspline.space.timing.yaw_profile import YawProfile, yaw_profile
-from viaspline.trajectory.limits import Station
+from viaspline.space.static_plan import static_plan
 
 
 def plan_spatial(mission: Mission) -> SpatialPlan:
@@ -30,35 +20,6 @@ def plan_spatial(mission: Mission) -> SpatialPlan:
         GaveUpError: When none was found.
         GeometryError: When it asks for something that isn't planned in space.
     """
-    problem = spatial_problem_of(mission)
-    found = solve_route(problem, LegRouter(problem, mission))
-    path = found.path
-    yaw = headings_of(problem, path)
-    stops = tuple(stops_of(problem, path))
-    law = retime_in_space(path, problem.limits, stops, yaw, zones=problem.zones)
-    u = np.asarray(path.parameter(found.airborne)).tolist()
-    heights = certify_heights(path.section(*u), problem.world)
-    return SpatialPlan(
-        mission, problem.world, path, found.certificate, heights, found.ledger, found.airborne,
-        problem.limits, yaw, law,
-    )  # fmt: skip
-
-
-def headings_of(problem: SpatialProblem, path: Path) -> YawProfile:
-    """Where the body looks along a path."""
-    a_lap = len(problem.vias) - 1
-    faced = {
-        via.index + lap * a_lap: via.look_at
-        for lap in range(problem.laps)
-        for via in problem.vias
-        if via.look_at is not None and via.index is not None
-    }
-    looks = [(k, faced[via.index]) for k, (via, _) in enumerate(path.stops) if via.index in faced]
-    return yaw_profile(path, problem.facing, looks)
-
-
-def stops_of(problem: SpatialProblem, path: Path) -> Iterator[Station]:
-    """Where the robot hovers: its stations, and the tops of take-off and landing."""
-    for via, distance in zip(path.vias, path.via_distances.tolist(), strict=True):
-        if via.dwell > 0.0 or via.name in (TAKE_OFF, LANDING):
-            yield Station(distance, via.dwell, via.name)
+    mission = ordered_in_space(mission)
+    plan = static_plan(mission)
+    return plan_past_moving(plan) if mission.world.moving else plan

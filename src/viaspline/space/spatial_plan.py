@@ -20,7 +20,9 @@ from viaspline.presentable.shown_value import ShownValue
 from viaspline.space.timing.spatial_limits import SpatialLimits
 from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.path_samples import USUAL_STEP_M, flight_samples
+from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.trajectory.trajectory import Trajectory
+from viaspline.trajectory.yielding.waits import TrafficWait
 from viaspline.world.space.spatial_world import SpatialWorld
 
 
@@ -43,6 +45,8 @@ class SpatialPlan(ShownValue, SavedValue, ComparedByValue):
         limits: Of its drive.
         yaw: Its heading along the path.
         trajectory: The time law along the path.
+        moving: What is proven of the distance from what moves; None where nothing does.
+        waits: Where the law loses time to what moves.
     """
 
     mission: Mission
@@ -55,6 +59,8 @@ class SpatialPlan(ShownValue, SavedValue, ComparedByValue):
     limits: SpatialLimits
     yaw: YawProfile
     trajectory: Trajectory
+    moving: MovingCertificate | None = None
+    waits: tuple[TrafficWait, ...] = ()
 
     def _said(self) -> tuple[object, ...]:
         left_out = ("ledger",)
@@ -82,6 +88,11 @@ class SpatialPlan(ShownValue, SavedValue, ComparedByValue):
             GeometryError: When the step is no number above 0, or the table has too many rows.
         """
         return flight_samples(self.path, self.trajectory, self.yaw.at, self.world.ground_at, step)
+
+    @property
+    def tracking_error(self) -> float:
+        """How far the robot gets beside its path, as the mission says [m]."""
+        return self.mission.robot.tracking_error_m or 0.0
 
     @cached_property
     def sharpest_radius(self) -> float:

@@ -65,12 +65,11 @@ def spatial_problem_of(mission: Mission) -> SpatialProblem:
 
 def _refuse_what_is_not_planned(mission: Mission) -> None:
     """Say what of a mission isn't planned in space, rather than leave it out."""
-    if mission.world.moving or mission.world.unseen_moving:
+    if mission.world.unseen_moving:
         raise GeometryError(
-            "obstacles that move aren't planned round in space; leave out their motion"
+            "obstacles that move and aren't on the map aren't flown round in space; put them under "
+            "world.known, or leave out their motion"
         )
-    if mission.route.order != "given":
-        raise GeometryError("an order of via points isn't sought in space; give order: given")
 
 
 def spatial_limits_of(mission: Mission) -> SpatialLimits:

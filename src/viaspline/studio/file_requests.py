@@ -173,7 +173,7 @@ def _plan_of(planned: Planned, kind: str, message: Message) -> Plan | FleetPlan:
     elif kind in FLEET_FILES:
         found = planned.plan
     else:
-        plans = {} if planned.plan is None else planned.plan.plans
+        plans = {} if planned.plan is None else planned.plan.planar_plans
         found = plans.get(text_of(message, "robot"))
     if found is None:
         raise RefusedError("there is no path to export")

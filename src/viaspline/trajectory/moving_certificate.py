@@ -37,7 +37,7 @@ class MovingCertificate:
             one, and within 1 mm of it. Infinite when nothing moves.
         required: The clearance that was asked for [m].
         tightest_at_s: When it is tightest [s].
-        tightest_at: Where the robot is then [m], (x, y).
+        tightest_at: Where the robot is then [m], (x, y) or in space (x, y, z).
         tightest_distance: How far along the path that is [m].
         obstacle: The name of the obstacle that is nearest then; None when there is none.
         heading: The heading of a polygonal body then [rad]; None for a disc.
@@ -46,7 +46,7 @@ class MovingCertificate:
     clearance: float
     required: float
     tightest_at_s: float
-    tightest_at: tuple[float, float]
+    tightest_at: tuple[float, ...]
     tightest_distance: float
     obstacle: str | None
     heading: float | None = None

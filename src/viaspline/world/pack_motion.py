@@ -57,8 +57,8 @@ def _pieces(motion: Motion) -> tuple[Floats, float]:
         assert motion.velocity_mps is not None
         whole = np.zeros((1, COLUMNS))
         whole[0, columns.BEGINS] = -np.inf
-        whole[0, columns.X : columns.Y + 1] = motion.from_
-        whole[0, columns.SPEED_X : columns.SPEED_Y + 1] = motion.velocity_mps
+        whole[0, columns.X : columns.Y + 1] = motion.from_[:2]
+        whole[0, columns.SPEED_X : columns.SPEED_Y + 1] = motion.velocity_mps[:2]
         whole[0, columns.PRESENT] = 1.0
         return whole, 0.0
     frames = _frames(motion.keyframes)

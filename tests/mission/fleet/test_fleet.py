@@ -327,22 +327,3 @@ def test_what_a_mission_means_in_the_fleet_is_told_in_its_own_file(folder: Path)
 def test_a_file_that_is_no_mission_is_said(folder: Path, text: str, words: str) -> None:
     (folder / "sub" / "a.yaml").write_text(text + "\n")
     assert words in "\n".join(faults_in(folder))
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"world": {"altitude": {"max_m": 50}}},
-        {"robots": {"drone": {"half_height_m": 0.2}}},
-        {
-            "fleet": [
-                {"name": "a", "route": {"start": [0, 0, 9], "goal": [9, 0, 9], "yaw": "along"}}
-            ]
-        },
-    ],
-)
-def test_a_fleet_in_space_is_refused(changes: dict[str, Any]) -> None:
-    route = {"start": [0, 0, 9], "goal": [9, 0, 9]}
-    data = {"fleet": [{"name": "a", "route": route}], **changes}
-    with pytest.raises(MissionError, match="planned in the plane, and something here says heights"):
-        Fleet.model_validate(data)

@@ -101,7 +101,7 @@ def remove_robot(plan: FleetPlan, name: str) -> FleetPlan:
     driven = _driven(plan)
     if name in plan.names:
         driven = fleet_without(driven, plan.names.index(name))
-    plans = {one: it for one, it in plan.plans.items() if one != name}
+    plans = {one: it for one, it in plan.planar_plans.items() if one != name}
     return _planned(plan, members, driven, plans, _rides(driven, plan, name))
 
 
@@ -137,7 +137,7 @@ def _with(plan: FleetPlan, member: FleetMember, members: Sequence[FleetMember]) 
     robot = joined.names.index(member.name)
     rides = _rides(joined, plan, member.name)
     law = timed_trajectory(laid.trajectory, joined.courses, rides, joined.laws, robot)
-    plans = {**plan.plans, member.name: replace(laid, trajectory=law)}
+    plans = {**plan.planar_plans, member.name: replace(laid, trajectory=law)}
     return _planned(plan, members, joined, plans, rides)
 
 

@@ -60,8 +60,8 @@ def driven_laws(
     refined = PackedCourses(
         first=np.array(first, np.int64),
         distance=table[:, 0].copy(),
-        place=table[:, 4:6].copy(),
-        bow=table[:, 6].copy(),
+        place=table[:, 4:-1].copy(),
+        bow=table[:, -1].copy(),
         reach=packed.reach,
     )
     laws = PackedLaws(
@@ -70,7 +70,7 @@ def driven_laws(
         speed=table[:, 3].copy(),
         is_timed=np.ones(len(stretches), np.bool_),
     )
-    return FleetCourses(courses.names, refined), FleetLaws(laws)
+    return FleetCourses(courses.names, refined, courses.bodies), FleetLaws(laws)
 
 
 def _law(rows: Floats, nodes: Floats, end: float) -> Floats:
@@ -112,10 +112,10 @@ def _slowest(square: Floats, begins: Ints) -> Ints:
 
 
 def _on_chords(packed: PackedCourses, nodes: slice, along: Floats) -> Floats:
-    """Places on the chords of a course, and how far the curve is from them at most, (m, 3)."""
+    """Places on the chords of a course, and how far the curve is from them at most, (m, d + 1)."""
     distance, place, bow = packed.distance[nodes], packed.place[nodes], packed.bow[nodes]
     cell = np.clip(np.searchsorted(distance, along, side="right") - 1, 0, len(distance) - 2)
-    columns = [np.interp(along, distance, place[:, k]) for k in (0, 1)]
+    columns = [np.interp(along, distance, place[:, k]) for k in range(place.shape[1])]
     bows = bow[cell]
     bows[-1] = 0.0
     return np.column_stack((*columns, bows))

@@ -102,7 +102,7 @@ class FleetNavigator:
         check_still(plan.fleet)
         warm_up(plan.fleet, progress, warm)
         self._begin(driven_fleet_of(plan), margin_m, stops_within_m, period)
-        self._missions: FleetMissions | None = FleetMissions.of(plan)
+        self._missions = None if plan.is_spatial else FleetMissions.of(plan)
 
     @classmethod
     def of(
@@ -233,7 +233,7 @@ class FleetNavigator:
         check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
         check_still(plan.fleet)
         navigator = self.with_fleet(driven_fleet_of(plan))
-        navigator._missions = FleetMissions.of(plan)
+        navigator._missions = None if plan.is_spatial else FleetMissions.of(plan)
         return navigator
 
     def with_fleet(self, fleet: DrivenFleet) -> FleetNavigator:

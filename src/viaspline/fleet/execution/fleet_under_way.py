@@ -61,7 +61,10 @@ class FleetUnderWay:
             GeometryError: That isn't known.
         """
         if self.missions is None:
-            raise GeometryError("this navigator has no FleetPlan; give one to FleetNavigator")
+            raise GeometryError(
+                "this navigator has no FleetPlan of a fleet in the plane; give one to "
+                "FleetNavigator, or plan a fleet in space anew"
+            )
         return self.missions
 
     def along(self, fleet: DrivenFleet) -> FleetUnderWay:

@@ -51,7 +51,7 @@ class FleetMissions:
     @classmethod
     def of(cls, plan: FleetPlan) -> FleetMissions:
         """What the robots of a plan are to do."""
-        return cls({one.name: one for one in plan.fleet.members}, plan.plans)
+        return cls({one.name: one for one in plan.fleet.members}, plan.planar_plans)
 
     def with_way(self, member: FleetMember, plan: Plan) -> FleetMissions:
         """With a robot more, or another mission and path of one."""

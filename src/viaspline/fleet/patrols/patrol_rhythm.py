@@ -18,7 +18,7 @@ import numpy as np
 from viaspline.errors import GaveUpError
 from viaspline.fleet.courses import FleetCourses, courses_along, fleet_path
 from viaspline.fleet.crossings import FleetCrossings, crossings_of
-from viaspline.fleet.fleet_laws import FleetLaws, law_at_nodes
+from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.patrols.driven_laps import (
     driven_laps,
     on_nodes,
@@ -36,6 +36,7 @@ from viaspline.kernels.fleet.yielding_ride import CLEAR, timed_in_order
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.planner import Plan
 from viaspline.planning.plan_drive import repeated
+from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
 MOST_LAPS_A_PERIOD = 8

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viaspline.errors import GaveUpError
-from viaspline.fleet.fleet_laws import FleetLaws, law_at_nodes
+from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.laying.rest_in_the_way import rest_in_the_way
 from viaspline.fleet.laying.resting_places import rests_of
 from viaspline.fleet.patrols.driven_laps import (
@@ -30,6 +30,7 @@ from viaspline.fleet.patrols.patrol_rhythm import PatrolRhythm, patrol_rhythm
 from viaspline.fleet.timed_fleet import FleetWays, TimedFleet
 from viaspline.fleet.timing.time_paths import copied_laws
 from viaspline.kernels.arrays import Flags
+from viaspline.trajectory.law_at_nodes import law_at_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
 MOST_LAPS = 3000

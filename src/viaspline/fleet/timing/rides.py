@@ -18,7 +18,10 @@ from viaspline.machine.machine_limits import limits_of
 from viaspline.mission.fleet.fleet import FleetMember
 from viaspline.planner import Plan
 from viaspline.presentable.compared_by_value import ComparedByValue
+from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.space.timing.retime_in_space import along_limits
 from viaspline.trajectory.coupled import is_coupled
+from viaspline.trajectory.limits import Limits
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +40,7 @@ class FleetRides(ComparedByValue):
 
 
 def rides_of(
-    members: Sequence[FleetMember], plans: Sequence[Plan], courses: FleetCourses
+    members: Sequence[FleetMember], plans: Sequence[Plan | SpatialPlan], courses: FleetCourses
 ) -> FleetRides:
     """How robots drive where they are alone.
 
@@ -59,7 +62,7 @@ def rides_of(
     depart = np.array([member.mission.route.depart_s for member in members], float)
     later = np.repeat(depart - laws.arrive[first[:-1]], np.diff(first))
     by_clock = laws._replace(arrive=laws.arrive + later, leave=laws.leave + later)
-    limits = [limits_of(plan.mission.robot) for plan in plans]
+    limits = [_limits(plan) for plan in plans]
     paced = [
         one.max_jerk is not None or is_coupled(one, plan.path.dimension)
         for one, plan in zip(limits, plans, strict=True)
@@ -78,6 +81,13 @@ def rides_of(
         np.array([plan.trajectory.duration for plan in plans]),
         FleetLaws(by_clock),
     )
+
+
+def _limits(plan: Plan | SpatialPlan) -> Limits:
+    """Of a robot along its path."""
+    if isinstance(plan, SpatialPlan):
+        return along_limits(plan.limits)
+    return limits_of(plan.mission.robot)
 
 
 def _leaves(member: FleetMember) -> bool:

@@ -5,14 +5,12 @@ Tested through ``fleet/timing/test_time_paths``.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from viaspline.fleet.courses import FleetCourses
 from viaspline.fleet.fleet_laws import FleetLaws
 from viaspline.fleet.timing.rides import FleetRides
-from viaspline.kernels.arrays import Floats
+from viaspline.trajectory.law_at_nodes import law_through_nodes
 from viaspline.trajectory.trajectory import Trajectory
 
 SAME_S = 1e-12
@@ -44,21 +42,4 @@ def timed_trajectory(
         for k in np.flatnonzero(waits > SAME_S):
             law = law.waiting(float(along[k]), float(waits[k]))
         return law
-    return _through_nodes(along, laws.packed.speed[nodes], arrive, leave, static)
-
-
-def _through_nodes(
-    along: Floats, speed: Floats, arrive: Floats, leave: Floats, static: Trajectory
-) -> Trajectory:
-    """The law through all nodes, those twice at which the robot stands."""
-    stands = np.append(leave[:-1] > arrive[:-1], False)
-    twice = np.repeat(np.arange(along.size), 1 + stands)
-    times = arrive[twice]
-    times[np.flatnonzero(twice[1:] == twice[:-1]) + 1] = leave[stands]
-    speeds = speed[twice]
-    lasts = np.diff(times)
-    rises = np.divide(np.diff(speeds), lasts, out=np.zeros(lasts.size), where=lasts > 0.0)
-    return replace(
-        static, distances=along[twice], speeds=speeds, times=times, accelerations=rises,
-        changes=None, jerks=None,
-    )  # fmt: skip
+    return law_through_nodes(along, laws.packed.speed[nodes], arrive, leave, static)

@@ -19,7 +19,8 @@ LEAST_GAIN_M = 1e-9
 @inner
 def _gap(xy: Floats, a: int, b: int) -> float:
     """The distance of two places [m]."""
-    return math.hypot(xy[a, 0] - xy[b, 0], xy[a, 1] - xy[b, 1])
+    level = math.hypot(xy[a, 0] - xy[b, 0], xy[a, 1] - xy[b, 1])
+    return level if xy.shape[1] == 2 else math.hypot(level, xy[a, 2] - xy[b, 2])
 
 
 @inner
@@ -122,8 +123,8 @@ def shortened_tour(xy: Floats, start: Ints, near: Ints, most: int) -> Ints:
     """A round trip with no exchange left that makes it shorter.
 
     Args:
-        xy: Places [m], (n, 2). The first and the last follow each other whatever happens: the trip
-            begins at the one and ends at the other.
+        xy: Places [m], (n, 2) or (n, 3). The first and the last follow each other whatever happens:
+            the trip begins at the one and ends at the other.
         start: All places in the order to begin with, (n,): the first one first, the last one last.
         near: Of each place the nearest, nearest first, (n, k); itself may be among them.
         most: Exchanges beyond which the rest is left.

@@ -98,6 +98,19 @@ class Fleet(ShownValue, FleetParts):
     ) -> Fleet:
         return sound_fleet(data, handler, info.context)
 
+    @property
+    def is_spatial(self) -> bool:
+        """Whether anything in it says heights, a kind of robots or its world included.
+
+        Then all its robots are planned in space.
+
+        >>> Fleet.model_validate({"fleet": [
+        ...     {"name": "r1", "route": {"start": [0, 0], "goal": [9, 0]}}]}).is_spatial
+        False
+        """
+        kinds = any(robot.is_spatial for robot in self.robots.values())
+        return kinds or any(one.mission.is_spatial for one in self.members)
+
     @cached_property
     def members(self) -> tuple[FleetMember, ...]:
         """The robots with a complete mission each, in the order in which they were given.

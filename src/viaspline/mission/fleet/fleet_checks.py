@@ -12,22 +12,20 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from viaspline.mission.clearances import clearance_faults
+from viaspline.mission.fleet.flying_checks import flying_faults, is_flying
 from viaspline.mission.fleet.member_parts import kind_in
 from viaspline.mission.fleet.partial_fleet import PartialFleet, PartialMember
 from viaspline.mission.fleet.standing_places import standing_faults
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.semantic_checks import robot_faults, route_faults, world_faults
+from viaspline.mission.space.spatial_parts import SpatialParts
 from viaspline.mission.unplaced_faults import Path, UnplacedFault, spell
 
 UNSEEN = (
     "a fleet is planned on what is known: a robot that goes round something unseen leaves the path "
     "on which it is proven apart from the others",
     "put these obstacles under world.known, or leave them out",
-)
-HEIGHTS = (
-    "a fleet is planned in the plane, and something here says heights",
-    "plan each of the missions by itself, or leave out what is for space",
 )
 
 
@@ -40,25 +38,17 @@ def fleet_faults(partial: PartialFleet) -> list[UnplacedFault]:
         faults += _moved(robot_faults(kind), ("robot",), kind.robot_path)
     faults += _names(partial)
     strange = set()
+    flies = is_flying(partial)
     for member in partial.members:
-        found, is_strange = _faults_of(member, partial)
+        found, is_strange = _faults_of(member, partial, flies=flies)
         faults += found
         if is_strange:
             strange.add(member.path)
-    if _is_spatial(partial):
-        return [*faults, UnplacedFault(("fleet",), *HEIGHTS, at_key=True)]
+    if flies:
+        return faults + flying_faults(partial, misshapen)
     for points in _asked_together(partial, strange):
         faults += clearance_faults(points, misshapen)
     return faults + standing_faults(partial)
-
-
-def _is_spatial(partial: PartialFleet) -> bool:
-    parts = (partial.world, *(member.parts for member in partial.members))
-    robots = [kind.robot for kind in partial.kinds.values()]
-    robots += (member.parts.robot for member in partial.members)
-    return any(part.space is not None for part in parts) or any(
-        robot is not None and robot.is_spatial for robot in robots
-    )
 
 
 def _moved(faults: list[UnplacedFault], old: Path, new: Path) -> list[UnplacedFault]:
@@ -79,13 +69,18 @@ def _names(partial: PartialFleet) -> Iterator[UnplacedFault]:
             first[member.name] = member.path
 
 
-def _faults_of(member: PartialMember, fleet: PartialFleet) -> tuple[list[UnplacedFault], bool]:
+def _faults_of(
+    member: PartialMember, fleet: PartialFleet, *, flies: bool
+) -> tuple[list[UnplacedFault], bool]:
     """What is wrong with a robot by itself, and whether its corridor is."""
     faults = list(_keys(member, fleet))
     found: list[UnplacedFault] = []
     is_strange = False
     if member.parts.has_route:
-        found, is_strange = route_faults(member.parts)
+        parts = member.parts
+        if flies and parts.space is None:  # its points are looked at as places in space
+            parts = replace(parts, space=SpatialParts())
+        found, is_strange = route_faults(parts)
     if member.home != member.path:
         found += robot_faults(member.parts)
     return faults + _moved(found, (), member.home), is_strange

@@ -37,8 +37,9 @@ class FleetParts(Value):
     Attributes:
         world: The known map, which all robots share. Nothing in it is ``unseen``: a fleet is
             planned, and proven apart, on what is known.
-        separation_m: Free space between the bodies of any two robots, at all times [m]. A body
-            counts as the smallest circle about its reference point that holds it.
+        separation_m: Free space between the bodies of any two robots, at all times [m]. In the
+            plane a body counts as the smallest circle about its reference point that holds it; in
+            space as what it is, a ball or an upright cylinder.
         robots: Kinds of robots by name.
         fleet: The robots.
         spline: The shape of their curves, where they don't say their own.

@@ -21,6 +21,7 @@ from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.resolve_files import ResolvedFiles
 from viaspline.mission.route_spec import EndPoint, Route, ViaPoint
+from viaspline.mission.space.planar_keys import planar_keys_of
 from viaspline.mission.unplaced_faults import Path, children, list_items
 from viaspline.mission.world_spec import WorldSpec
 
@@ -39,6 +40,9 @@ class PartialMember:
         end: The point at which its route ends; None if that can't be said.
         rest: What it does there; None if that is faulty.
         departs_twice: Whether it says ``depart_s``, and its route does, too.
+        is_patrol: Whether its route is a patrol that never ends.
+        planar_keys: Keys of its route, and of its robot if that stands in a mission's file, that
+            are for missions in the plane.
     """
 
     path: Path
@@ -49,6 +53,8 @@ class PartialMember:
     end: ViaPoint | None
     rest: Rest | None
     departs_twice: bool = False
+    is_patrol: bool = False
+    planar_keys: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -138,7 +144,15 @@ def _members_of(fleet: FleetParts) -> Iterator[PartialMember]:
             end=_end_of(route),
             rest=one.rest,
             departs_twice=_departs_twice(one),
+            is_patrol=route.is_patrol,
+            planar_keys=_planar_keys(route, one.asked),
         )
+
+
+def _planar_keys(route: Any, asked: MissionParts | None) -> tuple[Path, ...]:
+    """See `PartialMember`."""
+    own = {} if asked is None else {"robot": asked.robot}
+    return tuple(planar_keys_of({"route": route, **own}))
 
 
 def _departs_twice(one: MemberSpec) -> bool:
@@ -185,6 +199,7 @@ def _salvaged_member(
         parts=parts,
         end=parts.points[-1][1] if parts.has_goal else parts.points[0][1] if parts.closed else None,
         rest=cast(Rest, rest) if rest in ("stay", "leave") else None,
+        planar_keys=_planar_keys(keys.get("route") if asked is None else asked.route, asked),
     )
 
 

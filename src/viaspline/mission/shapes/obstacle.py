@@ -143,6 +143,7 @@ class Obstacle(
             or (self.capsule is not None and self.capsule.is_spatial)
             or self.pass_on in ("over", "under")
             or self.never_pass_on in ("over", "under")
+            or (self.motion is not None and self.motion.has_heights)
         )
 
     def solid(self) -> Solid:

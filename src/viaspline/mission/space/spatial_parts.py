@@ -133,9 +133,17 @@ def _is_solid(item: Mapping[Any, Any]) -> bool:
     ends = (capsule.get(key) for key in ("from", "from_", "to"))
     return (
         _has(item, _SHAPE_KEYS)
+        or _moves_in_space(item.get("motion"))
         or any(isinstance(end, list | tuple) and len(end) == 3 for end in ends)
         or any(item.get(key) in ("over", "under") for key in ("pass_on", "never_pass_on"))
     )
+
+
+def _moves_in_space(data: Any) -> bool:
+    motion = children(data) or {}
+    long = [(motion.get(key), 2) for key in ("from", "from_", "velocity_mps")]
+    long += [(frame, 4) for _, frame in list_items(motion.get("keyframes"))]
+    return any(isinstance(row, list | tuple) and len(row) > most for row, most in long)
 
 
 def _attempt(kind: Any, value: Any) -> Any:

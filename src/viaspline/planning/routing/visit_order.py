@@ -68,9 +68,9 @@ def ordered(mission: Mission, world: World) -> Mission:
     route = mission.route
     if route.order == "given":
         return mission
-    vias = tuple(_named(via, i) for i, via in enumerate(route.via))
+    vias = tuple(named(via, i) for i, via in enumerate(route.via))
     if len(vias) > MAX_VIAS_ROUTED:
-        order = _among_near(np.array([point.at[:2] for _, point in route.points()]), len(vias))
+        order = among_near(np.array([point.at[:2] for _, point in route.points()]), len(vias))
     else:
         order = _order_of_few(mission, world)
     changed = {"via": tuple(vias[i] for i in order), "order": "given"}
@@ -80,10 +80,14 @@ def ordered(mission: Mission, world: World) -> Mission:
 def is_surely_shortest(mission: Mission) -> bool:
     """Whether the order that is taken is the shortest of all, or the soonest, as was asked for.
 
+    In space that isn't known, for the ways between its points are the cheapest that were found.
+
     >>> is_surely_shortest(Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}}))
     True
     """
     route = mission.route
+    if mission.is_spatial:
+        return route.order == "given" or len(route.via) <= 1
     most = MAX_VIAS_ALL_TIMES if route.optimise == "time" else MAX_VIAS_ALL_ORDERS
     return route.order == "given" or len(route.via) <= most
 
@@ -92,8 +96,8 @@ def _order_of_few(mission: Mission, world: World) -> tuple[int, ...]:
     """The order of via points between which ways are laid."""
     route, objective = mission.route, Requirements.of(mission).objective
     ways, count = ways_between(mission, world), len(mission.route.via)
-    last = _last_stop(len(ways.lengths), count, closed=route.closed)
-    order = _shortest_order(ways.lengths, count, last)
+    last = last_stop(len(ways.lengths), count, closed=route.closed)
+    order = shortest_order(ways.lengths, count, last)
     if not objective.is_time or count > MAX_VIAS_TIMED or not np.isfinite(ways.lengths).all():
         return order
     stands = np.array([True, *(via.dwell_s > 0.0 for via in route.via), True])
@@ -109,14 +113,15 @@ def _of_order(cost: Cost, last: int | None) -> Cost:
     return lambda order: cost((0, *(k + 1 for k in order), *ends))
 
 
-def _last_stop(points: int, count: int, *, closed: bool) -> int | None:
+def last_stop(points: int, count: int, *, closed: bool) -> int | None:
     """The point at which a round ends, if it isn't one of its via points."""
     if closed:
         return 0
     return count + 1 if points > count + 1 else None
 
 
-def _named(via: ViaPoint, place: int) -> ViaPoint:
+def named(via: ViaPoint, place: int) -> ViaPoint:
+    """A via point with the name that it goes by at a place of the given order, from 0."""
     return via if via.name else via.model_copy(update={"name": f"via {place + 1}"})
 
 
@@ -160,11 +165,11 @@ def _found(
     return router.find(start, goal, closed, met), met
 
 
-def _among_near(places: Floats, count: int) -> tuple[int, ...]:
+def among_near(places: Floats, count: int) -> tuple[int, ...]:
     """A short order of very many via points, by straight lengths.
 
     Args:
-        places: Start, via points, and the goal if there is one [m], (n, 2).
+        places: Start, via points, and the goal if there is one [m], (n, d).
         count: How many via points there are; a round without a goal ends at its start, and so does
             an open one here, which then goes on to wherever it is at last.
     """
@@ -195,8 +200,18 @@ def _nearest_places(xy: Floats) -> list[int]:
     return order
 
 
-def _shortest_order(lengths: Floats, count: int, last: int | None) -> tuple[int, ...]:
-    """The order of the via points, from 0, between the first point and the last."""
+def shortest_order(lengths: Floats, count: int, last: int | None) -> tuple[int, ...]:
+    """The order of the via points, from 0, between the first point and the last.
+
+    Args:
+        lengths: Of the ways from each point to each other one, start and goal among them, (n, n);
+            there and back may differ.
+        count: How many via points there are: points 1 to ``count``.
+        last: See ``last_stop``.
+
+    >>> shortest_order(np.abs(np.subtract.outer([0, 30, 10, 40], [0, 30, 10, 40])), 2, 3)
+    (1, 0)
+    """
     if count <= MAX_VIAS_ALL_ORDERS:
         return _held_karp(lengths, count, last)
     return _exchanged(_of_order(RoundLength(lengths).of, last), _nearest_first(lengths, count))

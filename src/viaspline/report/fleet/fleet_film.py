@@ -24,6 +24,7 @@ from viaspline.report.fleet.film_names import FilmNames
 from viaspline.report.fleet.fleet_colours import FleetColours, fleet_colours
 from viaspline.report.fleet.fleet_map import robot_keys, scene_of
 from viaspline.report.fleet.fleet_marks import LEAST_ARROW_PX, MAX_PLAIN, paths_of
+from viaspline.report.fleet.flown_scene import FlownScene
 from viaspline.report.fleet.places_over_time import FleetMotion, span_of
 from viaspline.report.moving_film import arrow_line
 from viaspline.report.scene import Scene
@@ -60,7 +61,7 @@ class FilmedFleet:
     """
 
     name: str
-    scene: Scene
+    scene: Scene | FlownScene
     view: Box
     paths: Sequence[Floats]
     motion: FleetMotion

@@ -29,6 +29,7 @@ from viaspline.report.fleet.fleet_marks import (
     name_robots,
     paths_of,
 )
+from viaspline.report.fleet.flown_scene import FlownScene
 from viaspline.report.fleet.places_over_time import FleetMotion
 from viaspline.report.fleet.waits_chart import STANDS_COLOUR
 from viaspline.report.labels import Labels
@@ -43,7 +44,7 @@ HEADS_PX: Final = 170.0  # from one head on a path to the next [pixels]
 
 
 def draw_fleet_map(
-    sheet: Sheet, scene: Scene, plan: FleetPlan, timelines: Sequence[Timeline],
+    sheet: Sheet, scene: Scene | FlownScene, plan: FleetPlan, timelines: Sequence[Timeline],
     motion: FleetMotion, colours: FleetColours,
 ) -> None:  # fmt: skip
     """Draw the map and its column.
@@ -89,12 +90,15 @@ def draw_fleet_on(
     return [*robot_keys(colours), *marks, *arrows, *handles]
 
 
-def scene_of(plan: FleetPlan) -> tuple[Scene, Box]:
+def scene_of(plan: FleetPlan) -> tuple[Scene | FlownScene, Box]:
     """The world of a fleet, and the part of it that pictures show."""
     members = plan.fleet.members
     ends = [one.mission.route.start.at[:2] for one in members]
     ends += [goal_of(one) for one in members]
     seen = np.vstack([*paths_of(plan), np.array(ends).reshape(-1, 2)])
+    if plan.is_spatial:
+        flown = FlownScene.of(plan)
+        return flown, view_of(seen, flown.stands.corners(), flown.stands.bounds, flown.widest)
     kept = [Requirements.of(one.mission, one.tracking_error) for one in plan.plans.values()]
     least = min((one.required for one in kept), default=0.0)
     scene = Scene.of(World.known(members[0].mission), least)

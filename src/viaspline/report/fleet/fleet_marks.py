@@ -37,10 +37,10 @@ POINTS_OF_ALL = 200_000  # of all paths, at most
 
 
 def paths_of(plan: FleetPlan) -> list[Floats]:
-    """The robots' paths as points [m], each (k, 2), in the order of the plan."""
+    """The robots' paths from above as points [m], each (k, 2), in the order of the plan."""
     spans = sum(len(one.path.spans) for one in plan.plans.values())
     each = int(np.clip(POINTS_OF_ALL // max(spans, 1), 6, 40))
-    return [polyline(one.path.spans, each) for one in plan.plans.values()]
+    return [polyline(one.path.spans, each)[:, :2] for one in plan.plans.values()]
 
 
 def draw_paths(axes: Axes, paths: Sequence[Floats], colours: FleetColours) -> None:
@@ -111,6 +111,8 @@ def draw_stations(axes: Axes, members: Sequence[FleetMember]) -> list[Artist]:
 def goal_of(member: FleetMember) -> tuple[float, float]:
     """Where a robot's route ends [m]."""
     route = member.mission.route
+    if route.land is not None:
+        return route.land.at
     end = route.goal or (route.via[-1] if route.via and not route.closed else route.start)
     return end.at[0], end.at[1]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Final
 
 from viaspline.fleet.fleet_certificate import FleetCertificate
 from viaspline.fleet.fleet_plan import FleetPlan
@@ -14,11 +15,18 @@ from viaspline.report.fleet.coordination_panel import draw_coordination, pair_to
 from viaspline.report.fleet.fleet_colours import fleet_colours
 from viaspline.report.fleet.fleet_map import draw_fleet_map, scene_of
 from viaspline.report.fleet.fleet_page import SMALL_TALL, new_fleet_page
+from viaspline.report.fleet.flown_scene import FlownScene, draw_flown
+from viaspline.report.fleet.heights_panel import draw_heights
 from viaspline.report.fleet.places_over_time import FleetMotion, instants, span_of
 from viaspline.report.fleet.separation_panel import draw_separation
 from viaspline.report.fleet.waiting_map import draw_waiting_map, map_width
 from viaspline.report.fleet.waits_chart import draw_waits, rows_of
 from viaspline.report.units import down, seconds
+
+VIEW_WIDE: Final = 4.0
+"""Of the view of a fleet in space in perspective [inch]."""
+HEIGHTS_WIDE: Final = 4.6
+"""Of the panel with its heights over time [inch]."""
 
 
 @any_name()
@@ -35,10 +43,15 @@ def fleet_picture(plan: FleetPlan, name: str) -> bytes:
     colours = fleet_colours(list(plan.plans), plan.fleet, timelines, plan.certificate)
     pair = pair_to_show(plan)
     is_large = not colours.all_told
-    small = ([SMALL_TALL + 0.5] if pair else []) + ([map_width(view)] if is_large else [])
+    flown = [VIEW_WIDE, HEIGHTS_WIDE] if isinstance(scene, FlownScene) else []
+    small = [*flown, *([SMALL_TALL + 0.5] if pair else [])]
+    small += [map_width(view)] if is_large else []
     page = new_fleet_page(view, small, len(rows), *heading(plan, timelines, name))
     draw_fleet_map(page.sheet, scene, plan, timelines, motion, colours)
     panels = list(page.small)
+    if isinstance(scene, FlownScene):
+        draw_flown(page.sheet.figure, panels.pop(0), scene, plan, colours.of)
+        draw_heights(panels.pop(0), motion, colours.of)
     if pair:
         draw_coordination(panels.pop(0), plan, pair, colours.of)
     if is_large:

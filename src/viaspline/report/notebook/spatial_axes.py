@@ -32,7 +32,7 @@ def draw_spatial_plan(plan: SpatialPlan, axes: Axes) -> list[Artist]:
     """The plan view; on axes in three dimensions the path among what stands near it."""
     scene = scene_of(plan)
     if axes.name == "3d":
-        draw_in_perspective(cast("Axes3D", axes), plan.path, scene)
+        draw_in_perspective(cast("Axes3D", axes), [(plan.path, style.PATH)], scene)
         return []
     sheet = map_on(axes, plan_view_of(plan, scene))
     return draw_plan_view(axes, sheet.pixels_per_metre, scene, plan)

@@ -6,6 +6,7 @@ Tested through ``report/space/test_spatial_pictures``.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Final
 
@@ -45,29 +46,48 @@ def draw_space(figure: Figure, box: tuple[float, float, float, float], path: Pat
         path: In space.
         scene: What stands in the world.
     """
+    return draw_space_of_many(figure, box, [(path, style.PATH)], scene)
+
+
+def draw_space_of_many(
+    figure: Figure, box: tuple[float, float, float, float], paths: Sequence[tuple[Path, str]],
+    scene: SpatialScene,
+) -> Axes3D:  # fmt: skip
+    """Draw several paths among what stands near them.
+
+    Args:
+        figure: Where to.
+        box: Left, bottom, width, height as fractions of the figure.
+        paths: In space, each with its colour, at least one.
+        scene: What stands in the world.
+    """
     axes = figure.add_axes(box, projection="3d")
     assert isinstance(axes, Axes3D)
-    draw_in_perspective(axes, path, scene)
+    draw_in_perspective(axes, paths, scene)
     axes.tick_params(labelsize=style.SMALL_PT - 2, pad=-3)
     return axes
 
 
-def draw_in_perspective(axes: Axes3D, path: Path, scene: SpatialScene) -> None:
-    """Draw the path among what stands near it.
+def draw_in_perspective(
+    axes: Axes3D, paths: Sequence[tuple[Path, str]], scene: SpatialScene
+) -> None:
+    """Draw several paths among what stands near them.
 
     Args:
         axes: In three dimensions.
-        path: In space.
+        paths: In space, each with its colour, at least one.
         scene: What stands in the world.
     """
-    places = path.at_distance(np.linspace(0.0, path.length, 400))
+    lines = [path.at_distance(np.linspace(0.0, path.length, 400)) for path, _ in paths]
+    places = np.concatenate(lines)
     low, high = places.min(axis=0), places.max(axis=0)
     _draw_ground(axes, scene, low, high)
-    _draw_solids(axes, scene, places)
-    axes.plot(places[:, 0], places[:, 1], places[:, 2], color=style.PATH, linewidth=1.6, zorder=9,
-              label="path")  # fmt: skip
-    ends = places[[0, -1]]
-    axes.scatter(ends[:, 0], ends[:, 1], ends[:, 2], color=[style.START, style.GOAL], s=12)
+    _draw_solids(axes, scene, lines)
+    for line, (_, colour) in zip(lines, paths, strict=True):
+        axes.plot(line[:, 0], line[:, 1], line[:, 2], color=colour, linewidth=1.6, zorder=9,
+                  label="path")  # fmt: skip
+        ends = line[[0, -1]]
+        axes.scatter(ends[:, 0], ends[:, 1], ends[:, 2], color=[style.START, style.GOAL], s=12)
     low[2] = min(low[2], _floor(scene, places))
     wide = np.maximum(high - low, LEAST_SHARE * float((high - low).max()) + 1e-6)
     sides, floor = 0.5 * (wide - (high - low))[:2], float(low[2])
@@ -94,9 +114,10 @@ def _draw_ground(axes: Axes3D, scene: SpatialScene, low: Floats, high: Floats) -
     axes.plot_surface(across, up, heights, color="#cdb98f", alpha=0.5, linewidth=0, shade=True)
 
 
-def _draw_solids(axes: Axes3D, scene: SpatialScene, places: Floats) -> None:
-    line = shapely.LineString(places[:, :2])
-    apart = shapely.distance(line, scene.shadows) if len(scene.solids) else np.empty(0)
+def _draw_solids(axes: Axes3D, scene: SpatialScene, lines: Sequence[Floats]) -> None:
+    places = np.concatenate(lines)
+    track = shapely.MultiLineString([line[:, :2] for line in lines])
+    apart = shapely.distance(track, scene.shadows) if len(scene.solids) else np.empty(0)
     floor, roof = _floor(scene, places), float(places[:, 2].max()) + 20.0
     for k in np.argsort(apart, kind="stable")[:MAX_SOLIDS].tolist():
         solid = scene.solids[k].solid

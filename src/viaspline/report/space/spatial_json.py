@@ -12,6 +12,7 @@ import numpy as np
 
 from viaspline.report.csv_tables import spacing, table_csv
 from viaspline.report.json_text import dumps
+from viaspline.report.moving_json import moving_certificate_data, waits_list
 from viaspline.report.plan_json import (
     certificate_data,
     ledger_entry_data,
@@ -35,7 +36,8 @@ def spatial_plan_json(plan: SpatialPlan, name: str) -> str:
         {
             "mission": _mission(plan, name),
             "path": path_data(plan.path) | {"csv_spacing_m": spacing(plan.path.length)},
-            "certificate": certificate_data(plan.certificate),
+            "certificate": certificate_data(plan.certificate)
+            | moving_certificate_data(plan.moving),
             "heights": heights_data(plan),
             "airborne_m": plan.airborne,
             "sharpest_radius_m": None if math.isinf(plan.sharpest_radius) else plan.sharpest_radius,
@@ -47,6 +49,7 @@ def spatial_plan_json(plan: SpatialPlan, name: str) -> str:
                     {"name": s.name, "distance_m": s.distance, "dwell_s": s.dwell}
                     for s in plan.trajectory.stations
                 ],
+                **({} if plan.moving is None else {"waits": waits_list(plan.waits)}),
             },
         }
     )

@@ -18,6 +18,7 @@ from viaspline.report.path_marks import draw_arrows, draw_path, draw_tightest, d
 from viaspline.report.profile_strips import Ticks
 from viaspline.report.sheet import Box, view_of
 from viaspline.report.space.elevation_profile import SAMPLES, ProfileRange, draw_profile
+from viaspline.report.space.moving_in_space import draw_moving_in_space
 from viaspline.report.space.solid_marks import draw_solids
 from viaspline.report.space.space_view import draw_space
 from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
@@ -99,6 +100,7 @@ def draw_plan_view(
     vias, places = draw_vias(axes, labels, route, plan.mission)
     draw_arrows(axes, points, style.PATH, avoid=places)
     handles += vias + draw_tightest(axes, labels, plan.certificate)
+    handles += draw_moving_in_space(axes, labels, plan)
     labels.place(points, places)
     return handles
 
@@ -134,13 +136,16 @@ def band_of(plan: SpatialPlan) -> ProfileRange | None:
 
 def proof_words(plan: SpatialPlan) -> str:
     """What is proven, in a line."""
-    certificate = plan.certificate
-    if not np.isfinite(certificate.clearance):
-        return "nothing to keep clear of"
-    return (
-        f"proven: nowhere closer than {down(certificate.clearance)} to anything "
-        f"({metres(certificate.required)} asked)"
-    )
+    certificate, moving = plan.certificate, plan.moving
+    words = "nothing to keep clear of"
+    if np.isfinite(certificate.clearance):
+        words = (
+            f"proven: nowhere closer than {down(certificate.clearance)} to anything that stands "
+            f"({metres(certificate.required)} asked)"
+        )
+    if moving is None or not np.isfinite(moving.clearance):
+        return words.replace(" that stands", "")
+    return f"{words}; {down(moving.clearance)} from what moves, at {moving.tightest_at_s:.1f} s"
 
 
 def _subtitle(plan: SpatialPlan) -> str:

@@ -19,11 +19,12 @@ from viaspline.space.spatial_run import SpatialRun
 
 def spatial_plan_contents(plan: SpatialPlan, name: str) -> Contents:
     """The files of a plan: the same bytes every time."""
-    return {
-        "plan.json": spatial_plan_json(plan, name),
-        "path.csv": spatial_path_csv(plan),
-        "plan.png": spatial_picture(plan, name),
-    }
+    return {**spatial_path_contents(plan, name), "plan.png": spatial_picture(plan, name)}
+
+
+def spatial_path_contents(plan: SpatialPlan, name: str) -> Contents:
+    """The files of a plan without its picture."""
+    return {"plan.json": spatial_plan_json(plan, name), "path.csv": spatial_path_csv(plan)}
 
 
 def spatial_run_contents(run: SpatialRun, name: str) -> Contents:

@@ -14,6 +14,7 @@ from viaspline.report.terminal_tables import MAX_LIST_LINES, Rows, facts_table, 
 from viaspline.report.units import asked_words, down, metres, place, seconds
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_run import SpatialRun
+from viaspline.trajectory.moving_certificate import MovingCertificate
 
 
 def spatial_plan_tables(plan: SpatialPlan, name: str) -> RenderableType:
@@ -41,6 +42,11 @@ def spatial_plan_rows(plan: SpatialPlan) -> Rows:
                 f"beside {certificate.obstacle}",
             )
         )
+    if plan.moving is not None:
+        rows.append(_moving_row(plan.moving))
+    for wait in plan.waits[:MAX_LIST_LINES]:
+        words = f"{seconds(wait.lost)} for '{wait.obstacle}', from {metres(wait.start, 1)}"
+        rows.append(("waits or slows", words))
     rows += heights_rows(plan)
     radius = plan.sharpest_radius
     rows.append(("sharpest radius", "straight" if math.isinf(radius) else metres(radius)))
@@ -62,3 +68,11 @@ def spatial_run_rows(run: SpatialRun) -> Rows:
         ("heights", f"{metres(run.positions[:, 2].min(), 1)} to {run.positions[:, 2].max():.1f} m"),
         ("other paths under way", str(len(run.replans))),
     ]
+
+
+def _moving_row(proof: MovingCertificate) -> tuple[str, str]:
+    """What is proven of the distance from what moves."""
+    if proof.obstacle is None:
+        return "from what moves", "nothing of it is there meanwhile"
+    words = f"{down(proof.clearance)}, of '{proof.obstacle}' after {proof.tightest_at_s:.1f} s"
+    return "from what moves, proven", words

@@ -54,12 +54,12 @@ def retime_in_space(
     )
     stops = with_yaw_turns(stations, yaw, limits.yaw_rate)
     return retime(
-        path, _with_vertical(limits), stops, slow=slow, zones=zones, start_speed=start_speed,
+        path, along_limits(limits), stops, slow=slow, zones=zones, start_speed=start_speed,
         start_time=start_time,
     )  # fmt: skip
 
 
-def _with_vertical(limits: SpatialLimits) -> Limits:
+def along_limits(limits: SpatialLimits) -> Limits:
     """The limits along the path and, where there is one, of the acceleration up and down."""
     along = replace(limits.along, max_yaw_rate=None, max_yaw_accel=None)
     if limits.vertical_accel is None:

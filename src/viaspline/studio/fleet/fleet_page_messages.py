@@ -76,7 +76,7 @@ def _robot(
     member: FleetMember, plan: FleetPlan, missing: NotServed | None, before: FleetPlan | None
 ) -> dict[str, Any]:
     """What there is of a robot; without ``path`` or ``law`` it is as the page has it."""
-    own = plan.plans.get(member.name)
+    own = plan.planar_plans.get(member.name)
     robot: dict[str, Any] = {
         "name": member.name,
         "radius": member.mission.robot.outer_radius,
@@ -121,7 +121,7 @@ def _waits(plan: FleetPlan) -> Iterator[dict[str, Any]]:
     for one in plan.precedences:
         if one.waits_s < SHOWN_WAIT_S or one.second not in plan.plans:
             continue
-        enters = _time_at(plan.plans[one.second], one.enters_at)
+        enters = _time_at(plan.planar_plans[one.second], one.enters_at)
         yield {
             "robot": one.second,
             "waits_for": one.first,

@@ -1,0 +1,1 @@
+"""Fleets in space: paths past resting places, crossings and proofs in three dimensions."""

@@ -1,0 +1,1 @@
+"""Missions in space among things that move: laws past them, and the proof of that."""

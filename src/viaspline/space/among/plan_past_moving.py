@@ -1,0 +1,163 @@
+"""A plan in space past what moves: by waiting, or by another path, whichever arrives first.
+
+The path among what stands comes first: the robot flies slower or hovers where something passes.
+Where that loses time, or can't be, a path is laid round all of the way of what is met, above, below
+or beside it, and timed as well.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+
+from viaspline.errors import GaveUpError, GeometryError, PlanningError
+from viaspline.mission.model import Mission
+from viaspline.mission.shapes.capsule import Capsule
+from viaspline.mission.shapes.obstacle import Obstacle
+from viaspline.mission.space.flying_body import FlyingBody
+from viaspline.space.among.law_past_moving import law_past_moving, proven_past_moving
+from viaspline.space.among.moving_solid import HIGH_M, MovingSolid
+from viaspline.space.laid_round import laid_round
+from viaspline.space.spatial_plan import SpatialPlan
+
+WATCHED_SHARE: Final = 4.0
+WATCHED_S: Final = 300.0
+"""What moves is looked at for so many times as long as the robot would fly, and for so long more
+[s]; who hasn't arrived by then has no law."""
+WORTH_S: Final = 1.0
+"""What has to be lost by waiting before another path is looked for [s]."""
+MAX_LINES: Final = 60
+"""A path is laid round the way of what moves if that has no more lines."""
+MAX_ROUNDS: Final = 3
+"""How often a path is laid, round ever more of what moves."""
+LEAST_M: Final = 0.02
+
+
+def plan_past_moving(static: SpatialPlan) -> SpatialPlan:
+    """A plan past what moves in its world.
+
+    Args:
+        static: The plan as if nothing moved.
+
+    Returns:
+        The one that arrives first of those that were tried; with ``optimise: length`` the shortest.
+
+    Raises:
+        GaveUpError: None was found.
+        GeometryError: It asks for something that isn't planned in space.
+    """
+    mission, law = static.mission, static.trajectory
+    _refuse_what_is_not_planned(mission)
+    until = law.start_time + WATCHED_SHARE * law.duration + WATCHED_S
+    moving = [
+        MovingSolid.of(one, one.name or f"moving obstacle {k + 1}", law.start_time, until)
+        for k, one in enumerate(mission.world.moving)
+    ]
+    first = _timed(static, moving, until)
+    found = [] if isinstance(first, str) else [first]
+    in_the_way = {first} if isinstance(first, str) else {one.obstacle for one in first.waits}
+    if isinstance(first, str) or first.trajectory.end_time > law.end_time + WORTH_S:
+        found += _led_round(static, moving, in_the_way, until)
+    if not found:
+        raise GaveUpError(
+            f"no time law past {' and '.join(repr(name) for name in sorted(in_the_way))} was found "
+            "on any path that was tried",
+            where=static.path.evaluate(0.0).tolist(),
+            remedy="let it depart later (route.depart_s), or give it a via point beside its way",
+            tried=("waiting and slowing down", "paths round the whole way of what moves"),
+        )
+    if mission.route.optimise == "length":
+        return min(found, key=lambda one: one.path.length)
+    return min(found, key=lambda one: one.trajectory.end_time)
+
+
+def _refuse_what_is_not_planned(mission: Mission) -> None:
+    """Say what isn't planned among things that move, rather than leave it out."""
+    if mission.world.unseen_standing:
+        raise GeometryError(
+            "obstacles that aren't on the map and ones that move aren't flown round together in "
+            "space; leave out one of the two"
+        )
+    if mission.route.hold_s > 0.0:
+        raise GeometryError("in space the goal isn't kept free after arrival; leave out hold_s")
+
+
+def _timed(plan: SpatialPlan, moving: Sequence[MovingSolid], until: float) -> SpatialPlan | str:
+    """A plan with its law past what moves, proven; or the name of what it can't let pass."""
+    robot = plan.mission.robot
+    body = FlyingBody.of(robot)
+    kept = (body.radius, body.half_height, body.margin + robot.clearance_m)
+    past = law_past_moving(plan.path, plan.trajectory, plan.limits, kept, moving)
+    if isinstance(past, str):
+        return past
+    law = past.trajectory
+    bare = (body.radius, body.half_height, body.margin)
+    proof = proven_past_moving(plan.path, law, bare, robot.clearance_m, moving)
+    if law.end_time > until or not proof.holds:
+        return proof.obstacle or moving[0].name
+    return replace(plan, trajectory=law, moving=proof, waits=past.waits)
+
+
+def _led_round(
+    static: SpatialPlan, moving: Sequence[MovingSolid], in_the_way: set[str], until: float
+) -> list[SpatialPlan]:
+    """Plans on paths round the whole way of what is met, and of what these meet then."""
+    round_them = set(in_the_way)
+    for _ in range(MAX_ROUNDS):
+        obstacles = [
+            part for one in moving if one.name in round_them for part in swept(one, static)
+        ]
+        if not obstacles:
+            return []
+        try:
+            timed = _timed(laid_round(static, obstacles), moving, until)
+        except PlanningError:
+            return []
+        if not isinstance(timed, str):
+            return [timed]
+        if timed in round_them:
+            return []
+        round_them.add(timed)
+    return []
+
+
+def swept(one: MovingSolid, plan: SpatialPlan) -> list[Obstacle]:
+    """All that something passes while a robot may be under way, as obstacles that stand.
+
+    None where its way has too many lines, or it is where the route has to pass anyway.
+    """
+    radius, half, margin = one.body
+    ways = dict.fromkeys(
+        (tuple(first), tuple(last))
+        for k, (first, last) in enumerate(pairwise(one.places.round(6).tolist()))
+        if one.there[k]
+    )
+    if len(ways) > MAX_LINES:
+        return []
+    off = float(one.off.max()) + margin
+    points = np.array([via.at for via in plan.path.vias if via.kind == "user"], np.float64)
+    found = []
+    for k, (first, last) in enumerate(ways):
+        is_flat = half > 0.5 * HIGH_M
+        ends = [first[:2], last[:2]] if is_flat else [first, last]
+        wide = (radius if is_flat else math.hypot(radius, half)) + off
+        capsule = Capsule.model_validate(
+            {"from": ends[0], "to": ends[1], "radius": max(wide, LEAST_M)}
+        )
+        if _distance(points[:, : len(ends[0])], *map(np.array, ends)) <= wide:
+            return []
+        found.append(Obstacle(name=f"the way of {one.name}, {k + 1}", capsule=capsule))
+    return found
+
+
+def _distance(places: np.ndarray, first: np.ndarray, last: np.ndarray) -> float:
+    """Of the place that is nearest to a line [m]."""
+    way = last - first
+    size = float(way @ way)
+    share = np.clip((places - first) @ way / (size or 1.0), 0.0, 1.0)
+    return float(np.linalg.norm(places - first - share[:, None] * way, axis=1).min())
