@@ -163,6 +163,8 @@ class Session:
         planned = await self._live.planned_mission()
         if planned.mission is None:
             raise RefusedError("the mission isn't sound")
+        if planned.mission.is_spatial:
+            raise RefusedError("no tension is suggested for missions in space; set spline.tension")
         await self._answer(message, await self._engine.advise(planned.mission))
 
     async def _drive(self, message: Message) -> None:

@@ -6,7 +6,9 @@ Tested through ``studio/space/test_spatial_server``.
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -65,7 +67,7 @@ class SolidFiles:
         key = self._key(name, base, {**ground}, "world.ground.terrain")
         if key not in self._kept:
             read = read_ground({"world": {"ground": dict(ground)}}, base)
-            self._keep(key, read.data["world"].get("ground"), read.faults)
+            self._keep(key, base, read.data["world"].get("ground"), read.faults)
         return self._kept[key]
 
     def _voxels(self, item: Mapping[str, Any], place: str, base: Path) -> Any:
@@ -80,7 +82,7 @@ class SolidFiles:
                 int(place.split("[")[1].split("]")[0]),
             )
             found, faults = with_voxels({"voxels": item["voxels"]}, path, base)
-            self._keep(key, found[0]["voxels"] if found else None, faults)
+            self._keep(key, base, found[0]["voxels"] if found else None, faults)
         return {**item, "voxels": self._kept[key]}
 
     def _key(self, name: str, base: Path, asked: Mapping[str, Any], place: str) -> str:
@@ -91,9 +93,13 @@ class SolidFiles:
             raise MissionError([Fault(place, f"{name}: {fault.problem}", fault.remedy)]) from None
         return json.dumps([asked, file_stamp(path)], sort_keys=True, default=str)
 
-    def _keep(self, key: str, found: Any, faults: Sequence[UnplacedFault]) -> None:
+    def _keep(self, key: str, base: Path, found: Any, faults: Sequence[UnplacedFault]) -> None:
         if faults:
-            raise MissionError(located(list(faults), {}, None))
+            told = located(list(faults), {}, None)
+            here = f"{base}{os.sep}"  # a page needn't know where on the disk it is
+            raise MissionError(
+                [replace(one, problem=one.problem.replace(here, "")) for one in told]
+            )
         while len(self._kept) >= MAX_KEPT_SOLIDS:
             del self._kept[next(iter(self._kept))]
         self._kept[key] = found

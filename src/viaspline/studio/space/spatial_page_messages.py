@@ -12,6 +12,7 @@ import numpy as np
 
 from viaspline.planning.problem.ledger import Candidate
 from viaspline.report.space.heights_json import heights_rows
+from viaspline.space.solve_route import LANDING, TAKE_OFF
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.studio.page_numbers import finite, flat, rounded
 from viaspline.studio.plan_messages import grids, law_data, problem_data
@@ -78,17 +79,12 @@ def _from_above(plan: SpatialPlan) -> dict[str, Any]:
 def _in_space(plan: SpatialPlan) -> dict[str, Any]:
     """Heights of a plan, and what is proven of them."""
     path = plan.path
-    users = [via for via in path.vias if via.kind == "user" and via.index is not None]
-    ground = plan.world.ground_at(np.array([via.at for via in users]))
     bends = np.ones(len(plan.yaw.headings), bool)
     bends[1:-1] = np.abs(np.diff(plan.yaw.headings, 2)) > 1e-12
     return {
         "spans": np.ascontiguousarray(path.spans).reshape(-1).tolist(),
         "heights": rounded([via.at[2] for via in path.vias], 4),
-        "stops": [
-            {"index": via.index, "at": rounded(via.at, 4), "ground": finite(float(below))}
-            for via, below in zip(users, ground, strict=True)
-        ],
+        "stops": _stops(plan),
         "airborne": plan.airborne,
         "yaw": {
             "distances": rounded(plan.yaw.distances[bends], 4),
@@ -99,6 +95,27 @@ def _in_space(plan: SpatialPlan) -> dict[str, Any]:
         "band": [finite(limit) for limit in plan.world.band.numbers],
         "limits": [plan.mission.robot.climb_speed, plan.mission.robot.descent_speed],
     }
+
+
+def _stops(plan: SpatialPlan) -> list[dict[str, Any]]:
+    """The points of the route where they are passed in the air, each lap's once more."""
+    vias = plan.path.vias
+    found = []
+    for k, via in enumerate(vias):
+        if via.kind != "user" or via.index is None:
+            continue
+        aloft = via
+        if k + 1 < len(vias) and vias[k + 1].name == TAKE_OFF and vias[k + 1].index is None:
+            aloft = vias[k + 1]
+        elif k > 0 and vias[k - 1].name == LANDING and vias[k - 1].index is None:
+            aloft = vias[k - 1]
+        found.append({
+            "index": via.index,
+            "at": rounded(aloft.at, 4),
+            "ground": finite(float(plan.world.ground_at(np.array(aloft.at)))),
+            "distance": round(float(plan.path.distance(aloft.u)), 4),
+        })  # fmt: skip
+    return found
 
 
 def spatial_ledger(planned: PlannedSpatial, revision: int) -> dict[str, Any]:

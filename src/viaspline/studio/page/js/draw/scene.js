@@ -41,6 +41,7 @@ export class Scene {
     this.fleet = new FleetLayer(store, preview, drive);
     this.isDue = false;
     this.patience = 0;
+    /** Where the tools cover the map [CSS pixel]. */ this.tools = [0, 0, 0, 0];
     /** Heights on the map, of a mission in space. @type {import("../space/plan_layer.js").PlanLayer|null} */ this.space = null;
     /** @type {HTMLCanvasElement|undefined} */ this.still = undefined;
     /** @type {any} */ this.stillWorld = null;
@@ -98,6 +99,7 @@ export class Scene {
   resize() {
     const { width, height } = this.canvas.getBoundingClientRect();
     const ratio = Math.min(devicePixelRatio || 1, 3);
+    this.tools = toolsBox(this.canvas);
     this.camera.width = width;
     this.camera.height = height;
     this.canvas.width = Math.max(1, Math.round(width * ratio));
@@ -259,7 +261,7 @@ export class Scene {
         avoid.push([hx - 7, hy - 7, hx + 7, hy + 7]);
       }
     }
-    avoid.push([0, camera.height - 40, 250, camera.height]);
+    avoid.push([0, camera.height - 40, 250, camera.height], this.tools);
     const line = (store.curve?.samples ?? []).map((s) => camera.toScreen(s.x, s.y));
     if (store.show.names) {
       for (const point of points) {
@@ -314,4 +316,10 @@ export class Scene {
     }
     drawLabels(pen, [...labels, ...this.fleet.labels(pen)], avoid, line);
   }
+}
+
+/** Where the tools lie over a canvas [CSS pixel]. @param {HTMLCanvasElement} canvas */
+function toolsBox(canvas) {
+  const box = document.querySelector("#tools")?.getBoundingClientRect(), own = canvas.getBoundingClientRect();
+  return box ? [box.left - own.left, box.top - own.top, box.right - own.left, box.bottom - own.top] : [0, 0, 0, 0];
 }

@@ -178,6 +178,7 @@ export class Summary {
   changeLabel({ path, value, robot }) {
     const last = path.at(-1);
     if (last === "at") return `Move ${this.nameOf(path, robot)} to ${place(value)}`;
+    if (last === "agl_m") return `Set the height of ${this.nameOf(path.slice(0, -1), robot)} to ${number(value)} m above ground`;
     if (last === "clearance_m") return `Set the clearance to ${number(value)} m`;
     if (last === "pass_on" || last === "never_pass_on") return `Let ${this.nameOf(path)} be passed on either side`;
     return `Set ${path.join(".")} to ${value}`;

@@ -23,6 +23,8 @@ export class Elevation {
     /** From where to where heights are drawn [m]: it stays while something is dragged. @type {number[]} */ this.range = [0, 1];
     /** @type {{id: string, from: number, value: number}|null} */ this.held = null;
     this.count = 0; // of drags: the edits of one are undone together
+    /** Where names stand already: middle, height, width [CSS pixel]. @type {number[][]} */ this.named = [];
+    this.flownTo = 0; // where along the path the robot was last [m]
     this.isDue = false;
     const soon = () => this.later();
     app.store.on("plan profile hover run selection document scene", soon);
@@ -71,19 +73,17 @@ export class Elevation {
   /**
    * Where the points of the route are drawn: where the newest path passes them, as high as they are
    * asked to be.
-   * @returns {{id: string, x: number, y: number, label: string, isLoose: boolean}[]}
+   * @returns {{id: string, x: number, y: number, label: string, dwell: number}[]}
    */
   points() {
     const { curve } = this.app.store;
     if (!curve) return [];
-    const users = curve.vias.filter((/** @type {any} */ via) => via[3] === "user");
-    return this.space.points().flatMap(({ id, at, stop, dwell }, i, all) => {
-      const via = users[i];
-      if (!via) return [];
+    return this.space.points().flatMap(({ id, at, stop, dwell }, i) => {
+      if (!stop) return []; // no path has been by there yet
       const isLand = id === "land";
       const label = id === "start" ? "S" : id === "goal" ? "G" : isLand ? "L" : String(i);
-      const s = isLand ? curve.length : via[5];
-      return [{ id, x: this.x(s), y: this.y(at[2]), label, dwell, isLoose: all.length !== users.length || !stop }];
+      const s = isLand ? curve.length : stop.distance;
+      return [{ id, x: this.x(s), y: this.y(at[2]), label, dwell }];
     });
   }
 
@@ -209,7 +209,7 @@ export class Elevation {
     this.axes(colours);
     ctx.save();
     ctx.beginPath();
-    ctx.rect(LEFT_PX, TOP_PX - 8, width - LEFT_PX - RIGHT_PX, height - TOP_PX - BOTTOM_PX + 16);
+    ctx.rect(LEFT_PX, TOP_PX - 8, width - LEFT_PX - RIGHT_PX, height - TOP_PX - BOTTOM_PX + 10);
     ctx.clip();
     const { profile } = this.space;
     if (profile) this.around(profile, colours, profile.rev === store.plan?.rev ? 1 : 0.5);
@@ -247,6 +247,7 @@ export class Elevation {
     const length = this.app.store.curve.length;
     const along = roundStep((length * 90) / (width - LEFT_PX - RIGHT_PX));
     this.legend(colours);
+    ctx.fillStyle = colours.muted;
     ctx.textAlign = "center";
     for (let s = 0; s <= length; s += along) ctx.fillText(s ? String(s) : "0 m", Math.max(this.x(s), LEFT_PX + 8), height - 8);
   }
@@ -304,6 +305,7 @@ export class Elevation {
       ctx.fillStyle = colours.ground;
       ctx.fill();
     }
+    this.named = this.points().map(({ x: px, y }) => [px, y, 16]);
     for (const near of profile.near) this.silhouette(near, x, colours);
     for (const edge of [profile.low, profile.high]) {
       for (const part of runs(edge)) {
@@ -338,12 +340,15 @@ export class Elevation {
       }
     }
     const [left, right] = [x(first), x(first + low.length - 1)];
-    if (!name || right - left < 7 * name.length) return;
+    const wide = 5.5 * name.length;
     ctx.fillStyle = colours.muted;
     ctx.font = "500 10px Inter, system-ui, sans-serif";
     ctx.textAlign = "center";
-    const middle = Math.floor(high.length / 2);
-    ctx.fillText(name, (left + right) / 2, Math.max(this.y(high[middle]) - 7, TOP_PX));
+    const x0 = (left + right) / 2, y0 = Math.max(this.y(high[Math.floor(high.length / 2)]) - 7, TOP_PX);
+    const isTaken = this.named.some(([other, y, half]) => Math.abs(x0 - other) < (wide + half) / 2 + 4 && Math.abs(y0 - y) < 12);
+    if (!name || right - left < wide || isTaken) return;
+    this.named.push([x0, y0, wide]);
+    ctx.fillText(name, x0, y0);
   }
 
   /** @param {any} curve @param {any} colours @param {boolean} isStale */
@@ -418,7 +423,7 @@ export class Elevation {
   flown() {
     const { curve } = this.app.store;
     const state = this.app.drive.state();
-    return nearestFrom(curve, [state.x, state.y, state.z ?? 0], this.flownTo ?? 0);
+    return nearestFrom(curve, [state.x, state.y, state.z ?? 0], this.flownTo);
   }
 
   /** @param {any} colours @param {boolean} isStale */
@@ -459,7 +464,7 @@ export class Elevation {
     ctx.font = "600 11px Inter, system-ui, sans-serif";
     const w = ctx.measureText(words).width + 8;
     const left = Math.min(Math.max(x - w / 2, LEFT_PX), this.width - w - 2);
-    const top = y - 27 < 2 ? y + 11 : y - 27;
+    const top = y - 27 < TOP_PX ? y + 11 : y - 27;
     ctx.fillStyle = colours.plate;
     ctx.fillRect(left, top, w, 16);
     ctx.fillStyle = colours.select;

@@ -10,6 +10,8 @@ import { SolidPointer } from "./solid_pointer.js";
 import { worldOf } from "./world_meshes.js";
 
 const LENS_DEG = 42;
+const IDLE_SHARE = 3; // of the time that a picture takes: how long none is drawn after it
+const SLOW_MS = 40; // a picture that takes longer is drawn with one pixel for each of the page
 const HANDLE_PX = 46; // from the selected point up to the handle that lifts it
 
 /** Open the view; without WebGL it throws, in words. @param {any} app @param {import("../space.js").Space} space */
@@ -44,6 +46,10 @@ export class SolidView {
     this.isFitted = false;
     /** What has to be made anew. */ this.stale = { world: true, route: true };
     this.drawn = 0; // pictures so far
+    /** Of the newest picture, until the graphics card has it. @type {WebGLSync|null} */ this.fence = null;
+    this.begunAt = 0; // when that was begun [ms]
+    this.lasted = 0; // how long the one before took [ms]
+    this.freeAt = 0; // when the next may begin [ms]
     this.pointer = new SolidPointer(this);
     const { store } = app;
     const route = () => this.later("route");
@@ -79,10 +85,37 @@ export class SolidView {
     if (what) this.stale[what] = true;
     if (this.isDue || !this.space.views.hasSolid) return;
     this.isDue = true;
-    requestAnimationFrame(() => {
-      this.isDue = false;
-      if (this.space.views.hasSolid) this.draw();
-    });
+    requestAnimationFrame(() => this.attempt());
+  }
+
+  /** Draw, unless the card is still at work: it never keeps the other views waiting for long. */
+  attempt() {
+    if (!this.isIdle()) {
+      requestAnimationFrame(() => this.attempt());
+      return;
+    }
+    this.isDue = false;
+    if (!this.space.views.hasSolid) return;
+    const gl = /** @type {WebGL2RenderingContext} */ (this.renderer.getContext());
+    this.begunAt = performance.now();
+    this.draw();
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+  }
+
+  /** Whether the newest picture is done, and has been for long enough. */
+  isIdle() {
+    const gl = /** @type {WebGL2RenderingContext} */ (this.renderer.getContext());
+    const now = performance.now();
+    if (this.fence) {
+      const state = gl.getSyncParameter(this.fence, gl.SYNC_STATUS);
+      if (state !== gl.SIGNALED && !gl.isContextLost()) return false;
+      gl.deleteSync(this.fence);
+      this.fence = null;
+      this.lasted = now - this.begunAt;
+      this.freeAt = this.lasted > SLOW_MS ? now + IDLE_SHARE * this.lasted : now;
+    }
+    return now >= this.freeAt;
   }
 
   /** The path seen from above and its heights, thinned. @returns {number[][]} */
@@ -95,7 +128,7 @@ export class SolidView {
     const { canvas, camera, renderer } = this;
     const { clientWidth: width, clientHeight: height } = canvas;
     if (!width || !height || !this.app.store.curve?.isSpatial) return;
-    const ratio = Math.min(devicePixelRatio || 1, 2);
+    const ratio = this.lasted > SLOW_MS ? 1 : Math.min(devicePixelRatio || 1, 2);
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
       renderer.setPixelRatio(ratio);
       renderer.setSize(width, height, false);
@@ -186,7 +219,7 @@ export class SolidView {
     const low = [0, 1, 2].map((k) => Math.min(...points.map((p) => p[k]))), high = [0, 1, 2].map((k) => Math.max(...points.map((p) => p[k])));
     this.origin = low.map((value, k) => (value + high[k]) / 2);
     this.size = Math.max(Math.hypot(...high.map((value, k) => value - low[k])), 2);
-    const away = (0.62 * this.size) / Math.tan((LENS_DEG * Math.PI) / 360) / Math.min(1, Math.max(this.camera.aspect, 0.5));
+    const away = (0.58 * this.size) / Math.tan((LENS_DEG * Math.PI) / 360) / Math.min(1, Math.max(this.camera.aspect, 0.5));
     this.camera.position.set(-0.45 * away, -0.72 * away, 0.55 * away);
     this.camera.near = this.size / 500;
     this.camera.far = this.size * 60;
