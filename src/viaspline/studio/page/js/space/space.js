@@ -137,7 +137,8 @@ export class Space {
     if (!this.isOn || !stops || store.plan?.rev === store.revision) return [];
     const points = this.points().map((point) => (point.id === "land" ? { ...point, at: [point.at[0], point.at[1], Math.max(point.at[2], stops.at(-1)?.at[2] ?? -Infinity)] } : point));
     const isMoved = points.map(({ at, stop }) => !stop || at.some((value, k) => Math.abs(value - stop.at[k]) > 1e-3));
-    if (points.length !== stops.length) isMoved.fill(true);
+    const count = new Set(stops.map((/** @type {any} */ stop) => stop.index)).size - (store.doc.route?.closed ? 1 : 0);
+    if (points.length !== count) isMoved.fill(true);
     if (!isMoved.some(Boolean)) return [];
     const legs = [];
     for (let k = 0; k + 1 < points.length; k += 1) {
