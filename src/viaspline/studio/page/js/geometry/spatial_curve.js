@@ -13,33 +13,34 @@ export class SpatialCurve extends Curve {
     this.isSpatial = true;
   }
 
-  /** The place and the first two derivatives of a span, each x, y, z. @param {number} k @param {number} w */
-  solidAt(k, w) {
-    const p = this.solid, v = 1 - w;
-    /** @type {number[][]} */ const found = [[], [], []];
-    for (let axis = 0; axis < 3; axis += 1) {
-      const [a, b, c, d] = [0, 3, 6, 9].map((j) => p[12 * k + j + axis]);
-      found[0].push(v * v * v * a + 3 * v * v * w * b + 3 * v * w * w * c + w * w * w * d);
-      found[1].push(3 * (v * v * (b - a) + 2 * v * w * (c - b) + w * w * (d - c)));
-      found[2].push(6 * (v * (c - 2 * b + a) + w * (d - 2 * c + b)));
-    }
-    return found;
+  /** The first derivative of one coordinate of a span. @param {number} k @param {number} axis @param {number} w */
+  slope(k, axis, w) {
+    const p = this.solid, i = 12 * k + axis, v = 1 - w;
+    return 3 * (v * v * (p[i + 3] - p[i]) + 2 * v * w * (p[i + 6] - p[i + 3]) + w * w * (p[i + 9] - p[i + 6]));
   }
 
   /** @param {number} k @param {number} w */
   speedIn(k, w) {
-    return Math.hypot(...this.solidAt(k, w)[1]);
+    const x = this.slope(k, 0, w), y = this.slope(k, 1, w), z = this.slope(k, 2, w);
+    return Math.sqrt(x * x + y * y + z * z);
   }
 
   /** @param {number} k @param {number} w @param {number} s @returns {any} */
   sample(k, w, s) {
-    const level = super.sample(k, w, s);
-    const [[, , z], d, dd] = this.solidAt(k, w);
-    const size = Math.hypot(...d) || 1e-9;
-    const across = Math.hypot(d[1] * dd[2] - d[2] * dd[1], d[2] * dd[0] - d[0] * dd[2], d[0] * dd[1] - d[1] * dd[0]);
-    const upright = Math.hypot(d[0], d[1]) < 1e-9 * size;
-    const yaw = this.yawAt(s);
-    return { ...level, z, heading: upright ? yaw : level.heading, curvature: size > 1e-6 ? across / size ** 3 : 0, climb: (level.speed * d[2]) / size, yaw };
+    const p = this.solid, i = 12 * k, v = 1 - w;
+    const b0 = v * v * v, b1 = 3 * v * v * w, b2 = 3 * v * w * w, b3 = w * w * w;
+    const bend = (/** @type {number} */ j) => 6 * (v * (p[j + 6] - 2 * p[j + 3] + p[j]) + w * (p[j + 9] - 2 * p[j + 6] + p[j + 3]));
+    const place = (/** @type {number} */ j) => b0 * p[j] + b1 * p[j + 3] + b2 * p[j + 6] + b3 * p[j + 9];
+    const dx = this.slope(k, 0, w), dy = this.slope(k, 1, w), dz = this.slope(k, 2, w);
+    const ex = bend(i), ey = bend(i + 1), ez = bend(i + 2);
+    const size = Math.sqrt(dx * dx + dy * dy + dz * dz) || 1e-9;
+    const cx = dy * ez - dz * ey, cy = dz * ex - dx * ez, cz = dx * ey - dy * ex;
+    const speed = this.speedAt(s), yaw = this.yawAt(s);
+    const isUpright = dx * dx + dy * dy < 1e-18 * size * size;
+    return {
+      x: place(i), y: place(i + 1), z: place(i + 2), s, heading: isUpright ? yaw : Math.atan2(dy, dx),
+      curvature: size > 1e-6 ? Math.sqrt(cx * cx + cy * cy + cz * cz) / size ** 3 : 0, speed, climb: (speed * dz) / size, yaw,
+    };
   }
 
   /** @param {number} s @returns {any} */

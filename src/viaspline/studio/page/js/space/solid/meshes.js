@@ -2,7 +2,28 @@
 
 import * as THREE from "../../../vendor/three.min.js";
 
+const KINDS = {
+  LineBasicMaterial: THREE.LineBasicMaterial, LineDashedMaterial: THREE.LineDashedMaterial, MeshBasicMaterial: THREE.MeshBasicMaterial,
+  MeshLambertMaterial: THREE.MeshLambertMaterial, SpriteMaterial: THREE.SpriteMaterial,
+};
 const AROUND = 6; // corners of a tube's section
+
+/** @type {Map<string, any>} */ const materials = new Map();
+
+/**
+ * A material, kept: one that is thrown away takes its program on the graphics card along, and the
+ * next picture waits until that is compiled again.
+ * @param {string} kind of three's materials @param {Record<string, any>} how @param {any} [map] its picture
+ */
+export function materialOf(kind, how, map = null) {
+  const key = [kind, JSON.stringify(how), map?.uuid].join();
+  const kept = materials.get(key);
+  if (kept) return kept;
+  const made = new (/** @type {any} */ (KINDS)[kind])(map ? { ...how, map } : how);
+  if (materials.size > 600) materials.clear();
+  materials.set(key, made);
+  return made;
+}
 
 /** Many geometries as one, so that they are drawn in one go. @param {any[]} list @param {boolean} hasNormals */
 export function merged(list, hasNormals) {
@@ -80,9 +101,7 @@ export function tubeOf(line, origin, radius, colourOf) {
 export function cleared(group) {
   for (const child of [...group.children]) {
     child.traverse((/** @type {any} */ one) => {
-      one.geometry?.dispose();
-      if (one.material?.map && !one.material.map.isKept) one.material.map.dispose();
-      one.material?.dispose();
+      if (!one.isSprite) one.geometry?.dispose(); // sprites have one geometry together
       one.dispose?.();
     });
     group.remove(child);

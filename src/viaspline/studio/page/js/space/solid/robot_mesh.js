@@ -2,7 +2,7 @@
 
 import * as THREE from "../../../vendor/three.min.js";
 import { viridis } from "../../draw/theme.js";
-import { tubeOf } from "./meshes.js";
+import { materialOf, tubeOf } from "./meshes.js";
 
 const LEAST_SHARE = 0.008; // of what is seen: a smaller body is drawn so large
 const MOST_TRAIL = 900;
@@ -22,8 +22,8 @@ export function robotOf(state, robot, origin, { colours, isFlying, size }) {
   const nose = new THREE.ConeGeometry(0.5 * radius, 1.5 * radius, 14);
   nose.rotateZ(-Math.PI / 2);
   nose.translate(1.5 * radius, 0, 0);
-  const material = new THREE.MeshLambertMaterial({ color: isFlying ? colours.robot : colours.path });
-  group.add(new THREE.Mesh(body, material), new THREE.Mesh(nose, material.clone()));
+  const material = materialOf("MeshLambertMaterial", { color: isFlying ? colours.robot : colours.path });
+  group.add(new THREE.Mesh(body, material), new THREE.Mesh(nose, material));
   group.position.set(state.x - origin[0], state.y - origin[1], state.z - origin[2]);
   group.rotation.z = state.yaw ?? state.heading;
   return group;
@@ -44,5 +44,5 @@ export function trailOf(drive, origin, colours, radius) {
   const top = Math.max(...speeds, 0.1);
   const shade = new THREE.Color();
   if (line.length < 2) return new THREE.Group();
-  return new THREE.Mesh(tubeOf(line, origin, 1.6 * radius, (i) => shade.setStyle(viridis(Math.round((speeds[i] / top) * 40) / 40)).toArray()), new THREE.MeshLambertMaterial({ vertexColors: true, emissive: colours.robot, emissiveIntensity: 0.25 }));
+  return new THREE.Mesh(tubeOf(line, origin, 1.6 * radius, (i) => shade.setStyle(viridis(Math.round((speeds[i] / top) * 40) / 40)).toArray()), materialOf("MeshLambertMaterial", { vertexColors: true, emissive: colours.robot, emissiveIntensity: 0.25 }));
 }

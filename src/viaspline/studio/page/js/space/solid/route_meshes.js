@@ -2,13 +2,14 @@
 
 import * as THREE from "../../../vendor/three.min.js";
 import { viridis } from "../../draw/theme.js";
-import { linesOf, tubeOf } from "./meshes.js";
+import { linesOf, materialOf, tubeOf } from "./meshes.js";
 
 /** @typedef {import("./colours.js").SolidColours} SolidColours */
 
 const MARK_PX = 22; // of a point of the route
 const TUBE_SHARE = 0.0028; // of what is seen: the radius of the path
-const MOST_SAMPLES = 1600;
+const MOST_SAMPLES = 700;
+const SHADES = 40; // of speed
 
 /** @type {Map<string, any>} */ const pictures = new Map();
 
@@ -24,12 +25,13 @@ export function pathOf({ store }, origin, size, colours) {
   if (store.plan?.ok === false || store.isLate) return dashed(line, origin, colours.stale, radius);
   const top = Number(doc.robot?.max_speed_mps ?? 2) || 1;
   const plain = new THREE.Color(colours.path);
-  const shade = new THREE.Color();
+  const shades = Array.from({ length: SHADES + 1 }, (_, k) => new THREE.Color(viridis(k / SHADES)).toArray());
+  const one = plain.toArray();
   const colourOf = (/** @type {number} */ i) => {
-    if (!show.speed) return plain.toArray();
-    return shade.setStyle(viridis(Math.round((some[i].speed / top) * 40) / 40)).toArray();
+    if (!show.speed) return one;
+    return shades[Math.min(Math.max(Math.round((some[i].speed / top) * SHADES), 0), SHADES)];
   };
-  return new THREE.Mesh(tubeOf(line, origin, radius, colourOf), new THREE.MeshLambertMaterial({ vertexColors: true }));
+  return new THREE.Mesh(tubeOf(line, origin, radius, colourOf), materialOf("MeshLambertMaterial", { vertexColors: true }));
 }
 
 /** @param {number[][]} line @param {number[]} origin @param {string} color @param {number} radius [m] */
@@ -37,7 +39,7 @@ export function dashed(line, origin, color, radius) {
   const places = line.flatMap((p) => [p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]]);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
-  const found = new THREE.Line(geometry, new THREE.LineDashedMaterial({ color, dashSize: 5 * radius, gapSize: 4 * radius }));
+  const found = new THREE.Line(geometry, materialOf("LineDashedMaterial", { color, dashSize: 5 * radius, gapSize: 4 * radius }));
   found.computeLineDistances();
   return found;
 }
@@ -97,7 +99,7 @@ function picture(label, fill, ink, edge, isSquare, isMarked) {
 
 /** @param {any} texture @param {number[]} at @param {number[]} origin @param {number} share of the height of the view */
 function sprite(texture, at, origin, share) {
-  const found = new THREE.Sprite(new THREE.SpriteMaterial({ map: texture, sizeAttenuation: false, depthTest: false, transparent: true }));
+  const found = new THREE.Sprite(materialOf("SpriteMaterial", { sizeAttenuation: false, depthTest: false, transparent: true }, texture));
   found.position.set(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
   found.scale.setScalar(share);
   found.renderOrder = 10;
@@ -121,7 +123,7 @@ export function pointsOf({ store }, points, groundAt, origin, colours, perPixel)
     const ground = groundAt(at[0], at[1]);
     if (ground !== null && at[2] - ground > 0.05) stems.push([at, [at[0], at[1], ground]]);
   });
-  if (stems.length) group.add(new THREE.LineSegments(linesOf(stems, origin), new THREE.LineBasicMaterial({ color: colours.muted, transparent: true, opacity: 0.7 })));
+  if (stems.length) group.add(new THREE.LineSegments(linesOf(stems, origin), materialOf("LineBasicMaterial", { color: colours.muted, transparent: true, opacity: 0.7 })));
   return group;
 }
 
@@ -145,9 +147,9 @@ export function gatesOf(doc, origin, colours) {
     pane.rotateX(Math.PI / 2);
     pane.rotateZ(angle + Math.PI / 2);
     pane.translate(x - origin[0], y - origin[1], z - origin[2]);
-    group.add(new THREE.Mesh(pane, new THREE.MeshBasicMaterial({ color: colours.corridor, transparent: true, opacity: 0.22, side: THREE.DoubleSide, depthWrite: false })));
+    group.add(new THREE.Mesh(pane, materialOf("MeshBasicMaterial", { color: colours.corridor, transparent: true, opacity: 0.22, side: THREE.DoubleSide, depthWrite: false })));
   }
-  if (lines.length) group.add(new THREE.LineSegments(linesOf(lines, origin), new THREE.LineBasicMaterial({ color: colours.corridor })));
+  if (lines.length) group.add(new THREE.LineSegments(linesOf(lines, origin), materialOf("LineBasicMaterial", { color: colours.corridor })));
   return group;
 }
 
@@ -166,7 +168,7 @@ export function looksOf(doc, points, origin, colours, radius) {
 /** The altitude band as faint sheets: even ones, or ones above the ground. @param {(number|null)[]} band @param {any} scene @param {number[][]} path @param {number[]} origin @param {SolidColours} colours */
 export function bandOf([low, high, aboveLeast, aboveMost], scene, path, origin, colours) {
   const group = new THREE.Group();
-  const material = () => new THREE.MeshBasicMaterial({ color: colours.band, transparent: true, opacity: 0.1, side: THREE.DoubleSide, depthWrite: false });
+  const material = () => materialOf("MeshBasicMaterial", { color: colours.band, transparent: true, opacity: 0.1, side: THREE.DoubleSide, depthWrite: false });
   const x = path.map((p) => p[0]), y = path.map((p) => p[1]);
   const box = scene.bounds ?? [Math.min(...x) - 10, Math.min(...y) - 10, Math.max(...x) + 10, Math.max(...y) + 10];
   for (const z of [low, high]) {
@@ -175,11 +177,11 @@ export function bandOf([low, high, aboveLeast, aboveMost], scene, path, origin, 
     sheet.translate((box[0] + box[2]) / 2 - origin[0], (box[1] + box[3]) / 2 - origin[1], z - origin[2]);
     group.add(new THREE.Mesh(sheet, material()));
     const rim = [[box[0], box[1], z], [box[2], box[1], z], [box[2], box[3], z], [box[0], box[3], z], [box[0], box[1], z]];
-    group.add(new THREE.LineSegments(linesOf([rim], origin), new THREE.LineBasicMaterial({ color: colours.band, transparent: true, opacity: 0.8 })));
+    group.add(new THREE.LineSegments(linesOf([rim], origin), materialOf("LineBasicMaterial", { color: colours.band, transparent: true, opacity: 0.8 })));
   }
   for (const above of [aboveLeast, aboveMost]) {
     if (above === null || !scene.terrain) continue;
-    group.add(new THREE.LineSegments(linesOf(draped(scene.terrain, above), origin), new THREE.LineBasicMaterial({ color: colours.band, transparent: true, opacity: 0.4 })));
+    group.add(new THREE.LineSegments(linesOf(draped(scene.terrain, above), origin), materialOf("LineBasicMaterial", { color: colours.band, transparent: true, opacity: 0.4 })));
   }
   return group;
 }

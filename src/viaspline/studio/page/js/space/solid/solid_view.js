@@ -44,6 +44,7 @@ export class SolidView {
     this.scene = null;
     this.isDue = false;
     this.isFitted = false;
+    this.band = ""; // in which heights it may fly
     /** What has to be made anew. */ this.stale = { world: true, route: true };
     this.drawn = 0; // pictures so far
     /** Of the newest picture, until the graphics card has it. @type {WebGLSync|null} */ this.fence = null;
@@ -52,7 +53,12 @@ export class SolidView {
     this.freeAt = 0; // when the next may begin [ms]
     this.pointer = new SolidPointer(this);
     const { store } = app;
-    const route = () => this.later("route");
+    const route = () => {
+      const band = String(store.goodPlan?.space?.band);
+      if (band !== this.band) this.stale.world = true;
+      this.band = band;
+      this.later("route");
+    };
     store.on("plan ledger document selection view profile scene", route);
     store.on("hover run", () => this.later());
     store.on("file", () => { this.isFitted = false; });
@@ -153,6 +159,8 @@ export class SolidView {
     const line = this.line;
     const heights = line.map((p) => p[2]);
     const floor = Math.min(this.scene.flat ?? Infinity, ...heights, ...(this.scene.terrain?.heights ?? []).filter((/** @type {number|null} */ z) => z !== null));
+    const { band } = this.app.store.goodPlan?.space ?? {};
+    if (band) this.world.add(bandOf(band, this.scene, line, this.origin, colours));
     this.world.add(worldOf(this.scene, { origin: this.origin, colours, floor, roof: Math.max(...heights) + 20, path: line }));
   }
 
@@ -173,7 +181,6 @@ export class SolidView {
     for (const line of space.provisional()) this.route.add(dashed(line, origin, colours.select, radius));
     if (store.show.losers && store.plan?.ok && !store.isLate) this.route.add(losersOf(store.ledger, origin, colours, radius));
     this.route.add(gatesOf(store.doc, origin, colours), looksOf(store.doc, points, origin, colours, radius));
-    if (this.scene && store.goodPlan?.space?.band) this.route.add(bandOf(store.goodPlan.space.band, this.scene, this.line, origin, colours));
     this.route.add(pointsOf(app, points, (x, y) => space.groundAt(x, y), origin, colours, this.perPixel));
   }
 

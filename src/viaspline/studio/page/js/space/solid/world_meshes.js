@@ -2,7 +2,7 @@
 
 import * as THREE from "../../../vendor/three.min.js";
 import { boxOf } from "../plan_layer.js";
-import { linesOf, merged } from "./meshes.js";
+import { linesOf, materialOf, merged } from "./meshes.js";
 
 /** @typedef {import("./colours.js").SolidColours} SolidColours */
 /** @typedef {{origin: number[], colours: SolidColours, floor: number, roof: number, path: number[][]}} Setting */
@@ -37,7 +37,7 @@ export function worldOf(scene, setting) {
 function bodyOf(kind, list, colours) {
   const [what, how] = kind.split(":");
   const isGhost = how === "ghost", isUnseen = what === "unseen";
-  const material = new THREE.MeshLambertMaterial({
+  const material = materialOf("MeshLambertMaterial", {
     color: colours[/** @type {"prism"|"cable"|"unseen"} */ (what)], side: THREE.DoubleSide,
     transparent: isGhost || isUnseen, opacity: isGhost ? GHOST_OPACITY : isUnseen ? 0.5 : 1, depthWrite: !isGhost && !isUnseen,
     polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
@@ -49,7 +49,7 @@ function bodyOf(kind, list, colours) {
 function edgeOf(kind, list, colours) {
   const [what, how] = kind.split(":");
   const color = what === "unseen" ? colours.unseen : what === "cable" ? colours.cable : colours.edge;
-  const material = new THREE.LineBasicMaterial({ color, transparent: true, opacity: how === "ghost" ? 0.35 : 0.9 });
+  const material = materialOf("LineBasicMaterial", { color, transparent: true, opacity: how === "ghost" ? 0.35 : 0.9 });
   return new THREE.LineSegments(merged(list, false), material);
 }
 
@@ -109,7 +109,7 @@ function terrainOf({ origin: from, cell, nx, ny, heights }, { origin, colours })
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
   geometry.setIndex(corners);
   geometry.computeVertexNormals();
-  const material = new THREE.MeshLambertMaterial({ color: colours.ground, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 });
+  const material = materialOf("MeshLambertMaterial", { color: colours.ground, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 });
   return new THREE.Mesh(geometry, material);
 }
 
@@ -119,7 +119,7 @@ function flatOf({ flat, bounds }, { origin, colours, path }) {
   const box = bounds ?? [Math.min(...x) - 20, Math.min(...y) - 20, Math.max(...x) + 20, Math.max(...y) + 20];
   const geometry = new THREE.PlaneGeometry(box[2] - box[0], box[3] - box[1]);
   geometry.translate((box[0] + box[2]) / 2 - origin[0], (box[1] + box[3]) / 2 - origin[1], flat - origin[2]);
-  const material = new THREE.MeshLambertMaterial({ color: colours.flat, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 });
+  const material = materialOf("MeshLambertMaterial", { color: colours.flat, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 });
   return new THREE.Mesh(geometry, material);
 }
 
@@ -130,7 +130,7 @@ function contoursOf(contours, { origin, colours }) {
     for (let i = 0; i < line.length; i += 2) places.push([line[i], line[i + 1], height + 0.05]);
     return places;
   });
-  return new THREE.LineSegments(linesOf(lines, origin), new THREE.LineBasicMaterial({ color: colours.contourText, transparent: true, opacity: 0.7 }));
+  return new THREE.LineSegments(linesOf(lines, origin), materialOf("LineBasicMaterial", { color: colours.contourText, transparent: true, opacity: 0.7 }));
 }
 
 /** @param {any} solid @param {Setting} setting */
@@ -139,7 +139,7 @@ function voxelsOf({ origin: from, cell, cubes, list }, { origin, colours }) {
   const indices = new Int16Array(bytes.buffer);
   const count = indices.length / 3;
   const isUnseen = list === "unseen";
-  const material = new THREE.MeshLambertMaterial({ color: "#ffffff", transparent: isUnseen, opacity: isUnseen ? 0.5 : 1 });
+  const material = materialOf("MeshLambertMaterial", { color: "#ffffff", transparent: isUnseen, opacity: isUnseen ? 0.5 : 1 });
   const mesh = new THREE.InstancedMesh(new THREE.BoxGeometry(cell, cell, cell), material, count);
   let most = 1;
   for (let i = 2; i < indices.length; i += 3) most = Math.max(most, indices[i]);
