@@ -261,7 +261,8 @@ export class Scene {
         avoid.push([hx - 7, hy - 7, hx + 7, hy + 7]);
       }
     }
-    avoid.push([0, camera.height - 40, 250, camera.height], this.tools);
+    avoid.push([0, camera.height - 40, 250, camera.height]);
+    avoid.push(this.tools, this.tools, this.tools); // what lies under them can't be read: worse than on something else
     const line = (store.curve?.samples ?? []).map((s) => camera.toScreen(s.x, s.y));
     if (store.show.names) {
       for (const point of points) {

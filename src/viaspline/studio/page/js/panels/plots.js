@@ -158,7 +158,7 @@ export class Plots {
     ctx.lineWidth = 1.2;
     ctx.stroke();
     const speed = this.app.drive.run ? this.app.drive.state().speed : at.speed;
-    const bend = bendOf(curve).of(this.app.drive.run?.samples.z ? this.app.drive.state() : at);
+    const bend = bendOf(curve).of(this.app.drive.run?.samples?.z ? this.app.drive.state() : at);
     const texts = [[bend.toFixed(curve.isSpatial ? 2 : 3).replace(/^-(0\.0+)$/, "$1"), TOP_PX + tall * (0.5 - bend / most / 2)], [`${speed.toFixed(2)} m/s`, TOP_PX + tall + GAP_PX + 10], [`${s.toFixed(1)} m · ${(this.app.drive.run ? this.app.drive.time : curve.timeAt(s)).toFixed(1)} s`, height - 9]];
     ctx.font = "600 11px Inter, system-ui, sans-serif";
     for (const [text, y] of /** @type {[string, number][]} */ (texts)) {

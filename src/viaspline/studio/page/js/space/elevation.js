@@ -215,7 +215,7 @@ export class Elevation {
     if (profile) this.around(profile, colours, profile.rev === store.plan?.rev ? 1 : 0.5);
     this.path(curve, colours, isStale);
     if (!drive.run) this.provisional(colours);
-    if (drive.run?.samples.z) this.flight(drive, colours);
+    if (drive.run?.samples?.z) this.flight(drive, colours);
     ctx.restore();
     this.tightest(colours, isStale);
     for (const point of this.points()) this.point(point, colours);
@@ -476,7 +476,7 @@ export class Elevation {
   cursor(curve, s, colours) {
     const { ctx, height, width } = this;
     const { drive } = this.app;
-    const state = drive.run?.samples.z ? drive.state() : curve.at(s);
+    const state = drive.run?.samples?.z ? drive.state() : curve.at(s);
     const [x, y] = [this.x(s), this.y(state.z)];
     ctx.beginPath();
     ctx.moveTo(x, TOP_PX);

@@ -46,8 +46,9 @@ export class Views {
     fill(this.bar, ...NAMES.filter(([name]) => isWide || name !== "both").map(([name, label]) => h("button", {
       type: "button", class: "view-button", "aria-pressed": String(name === open), "aria-label": `${label} view`, onclick: () => this.choose(name),
     }, label)));
-    this.note.textContent = this.failure;
-    this.note.hidden = !this.failure || !this.hasSolid;
+    const isWaiting = !this.failure && !space.solid?.drawn;
+    this.note.textContent = isWaiting ? "The 3-D view is being opened …" : this.failure;
+    this.note.hidden = (!this.failure && !isWaiting) || !this.hasSolid;
     space.solid?.later();
     app.scene.later();
   }

@@ -149,6 +149,7 @@ export class SolidView {
     this.buildMoving(colours);
     renderer.render(this.stage, camera);
     this.drawn += 1;
+    if (this.drawn === 1) this.space.views.show(); // it was said to be opened
   }
 
   /** @param {import("./colours.js").SolidColours} colours */
@@ -192,7 +193,7 @@ export class SolidView {
     const handle = this.handlePlace();
     if (handle) this.moving.add(handleOf(handle, origin, colours, this.perPixel));
     const state = drive.run ? drive.state() : store.cursor !== null ? store.curve.at(store.cursor) : preview.isOn && store.plan?.ok ? preview.state() : null;
-    if (drive.run?.samples.z) this.moving.add(trailOf(drive, origin, colours, this.size * 0.0022));
+    if (drive.run?.samples?.z) this.moving.add(trailOf(drive, origin, colours, this.size * 0.0022));
     if (state?.z !== undefined) this.moving.add(robotOf(state, store.doc.robot ?? {}, origin, { colours, isFlying: !!drive.run, size: this.size }));
   }
 
