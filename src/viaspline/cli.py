@@ -19,12 +19,12 @@ from viaspline.command_steps import (
     result_folder,
     say_written,
 )
-from viaspline.commands.warm_command import warm
 from viaspline.commands.download_command import download
 from viaspline.commands.drive_command import drive
 from viaspline.commands.export_command import export_command
-from viaspline.commands.upload_command import upload
 from viaspline.commands.identify_command import identify
+from viaspline.commands.upload_command import upload
+from viaspline.commands.warm_command import warm
 from viaspline.exit_codes import Commands
 from viaspline.report.terminal_lines import say
 

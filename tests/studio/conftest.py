@@ -208,6 +208,12 @@ class Page:
 
 
 @pytest.fixture
+def page_of() -> type[Page]:
+    """Makes a page of the studio of a browser's page and an address."""
+    return Page
+
+
+@pytest.fixture
 def visit(browser: Any, start: Start) -> Iterator[Callable[..., Page]]:
     """Opens pages, and finds no error in any of them at the end."""
     contexts, pages = [], []

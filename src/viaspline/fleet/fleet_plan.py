@@ -25,8 +25,8 @@ from viaspline.presentable.moving_value import MovingValue
 from viaspline.presentable.named_columns import Table, stacked_tables
 from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
-from viaspline.trajectory.path_samples import USUAL_STEP_M
 from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.trajectory.path_samples import USUAL_STEP_M
 
 
 @dataclass(frozen=True, eq=False)

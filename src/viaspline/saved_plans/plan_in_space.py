@@ -13,11 +13,11 @@ from viaspline.mission.model import Mission
 from viaspline.saved_plans.plan_file import PlanFile
 from viaspline.saved_plans.planar_plan import PROVEN_OFF_M, TIMED_OFF
 from viaspline.saved_plans.served_points import AskedPoint, check_served
-from viaspline.space.plan_spatial import headings_of, stops_of
 from viaspline.space.solve_route import whole_proof
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
+from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 
 

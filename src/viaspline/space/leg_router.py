@@ -107,6 +107,29 @@ class LegRouter:
             NoPathError: There is none, proven.
             GaveUpError: None was found.
         """
+        gates = self.gates(leg)
+        solid = self._in_the_way(laid)
+        cheapest = self._cheapest(leg, solid)
+        ways = [cheapest]
+        if solid is not None and not len(gates):
+            ways += self._on_other_sides(leg, solid, cheapest.side)
+        return _different([*ways, *self._with_room(leg, gates, cheapest.side)])
+
+    def cheapest(self, leg: int, laid: Floats) -> TautWay:
+        """The cheapest way of a leg alone: found soon, and compared with no other.
+
+        Args:
+            leg: Which one.
+            laid: The curve that isn't clear: spans [m], (m, 4, 3).
+
+        Raises:
+            NoPathError: There is none, proven.
+            GaveUpError: None was found.
+        """
+        return self._cheapest(leg, self._in_the_way(laid))
+
+    def _cheapest(self, leg: int, solid: Solid | None) -> TautWay:
+        """The cheapest way of a leg, named by its side of a solid."""
         first, last = self._ends(leg)
         gates = self.gates(leg)
         outcome = self._router.find(first, last, self.problem.required, self._norm, gates)
@@ -114,12 +137,7 @@ class LegRouter:
             raise self._refused(leg, outcome)
         if isinstance(outcome, SpaceGaveUp):
             raise self._gave_up(leg, outcome)
-        solid = self._in_the_way(laid)
-        taken = _side_past(solid, outcome.value)
-        ways = [TautWay(taken, outcome.value.points[1:-1])]
-        if solid is not None and not len(gates):
-            ways += self._on_other_sides(leg, solid, taken)
-        return _different([*ways, *self._with_room(leg, gates, taken)])
+        return TautWay(_side_past(solid, outcome.value), outcome.value.points[1:-1])
 
     def _ends(self, leg: int) -> tuple[Floats, Floats]:
         return self.problem.vias[leg].at, self.problem.vias[leg + 1].at

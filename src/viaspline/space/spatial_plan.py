@@ -19,8 +19,8 @@ from viaspline.presentable.saved_value import SavedValue
 from viaspline.presentable.shown_value import ShownValue
 from viaspline.space.timing.spatial_limits import SpatialLimits
 from viaspline.space.timing.yaw_profile import YawProfile
-from viaspline.trajectory.path_samples import USUAL_STEP_M, flight_samples
 from viaspline.trajectory.moving_certificate import MovingCertificate
+from viaspline.trajectory.path_samples import USUAL_STEP_M, flight_samples
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.waits import TrafficWait
 from viaspline.world.space.spatial_world import SpatialWorld

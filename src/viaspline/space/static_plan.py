@@ -19,6 +19,7 @@ from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.yaw_profile import YawProfile, yaw_profile
+from viaspline.space.weighed_ways import WaysPast
 from viaspline.trajectory.limits import Station
 
 
@@ -34,7 +35,22 @@ def static_plan(mission: Mission) -> SpatialPlan:
         GeometryError: When it asks for something that isn't planned in space.
     """
     problem = spatial_problem_of(mission)
-    found = solve_route(problem, LegRouter(problem, mission))
+    return static_plan_by(mission, problem, LegRouter(problem, mission))
+
+
+def static_plan_by(mission: Mission, problem: SpatialProblem, ways: WaysPast) -> SpatialPlan:
+    """Plan a mission in space as if nothing moved, by ways that somebody else finds.
+
+    Args:
+        mission: With its via points in the order in which they are served.
+        problem: What it asks for.
+        ways: Finds the ways past what stands on its legs.
+
+    Raises:
+        NoPathError: When there is no path, with the reason.
+        GaveUpError: When none was found.
+    """
+    found = solve_route(problem, ways)
     path = found.path
     yaw = headings_of(problem, path)
     stops = tuple(stops_of(problem, path))

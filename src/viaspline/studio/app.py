@@ -1,4 +1,4 @@
-"""The studio as an ASGI application: the page, the pictures of maps, and the connection.
+"""The studio as an ASGI application: the page, pictures of maps, scenes, and the connection.
 
 Tested through ``studio/test_server``.
 """
@@ -50,12 +50,19 @@ def application(
             return PlainTextResponse("there is no such map\n", 404)
         return Response(content, media_type="image/png")
 
+    async def scene(request: Request) -> Response:
+        content = engine.scene(request.path_params["name"])
+        if content is None:
+            return PlainTextResponse("there is no such scene\n", 404)
+        return Response(content, media_type="application/json")
+
     async def talk(socket: WebSocket) -> None:
         await Session(socket, engine, folder, name).talk()
 
     routes = [
         Route("/", page),
         Route("/grids/{name}.png", picture),
+        Route("/scenes/{name}.json", scene),
         WebSocketRoute("/talk", talk),
         Route("/page/{name:path}", page),
     ]

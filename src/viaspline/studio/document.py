@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
+from viaspline.mission.space.spatial_parts import has_spatial_keys
 from viaspline.studio.refused_error import RefusedError
 
 Step = str | int
@@ -34,6 +35,15 @@ def is_fleet(document: Document) -> bool:
     (True, False)
     """
     return "fleet" in document
+
+
+def is_spatial(document: Document) -> bool:
+    """Whether a document holds a mission in space, sound or not.
+
+    >>> is_spatial({"world": {"altitude": {"max_m": 60}}}), is_spatial(EMPTY_DOCUMENT)
+    (True, False)
+    """
+    return has_spatial_keys(document)
 
 
 def changed(document: Document, changes: Any) -> Document:

@@ -15,9 +15,9 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from threading import Event as Flag
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
-from viaspline.studio.document import EMPTY_DOCUMENT, Document, is_fleet
+from viaspline.studio.document import EMPTY_DOCUMENT, Document, is_fleet, is_spatial
 from viaspline.studio.folder import Folder
 from viaspline.studio.page_messages import encoded
 from viaspline.studio.stoppable_calls import Stoppable, StoppedCallError
@@ -29,10 +29,15 @@ if TYPE_CHECKING:
     from viaspline.mission.model import Mission
     from viaspline.planner import Plan
     from viaspline.robot.run import Run
+    from viaspline.space.spatial_plan import SpatialPlan
+    from viaspline.space.spatial_run import SpatialRun
+    from viaspline.studio.exports import AnyPlan, AnyRun
     from viaspline.studio.fleet.planned_fleet import PlannedFleet
     from viaspline.studio.fleet.simulated_fleet import SimulatedFleet
     from viaspline.studio.map_cache import MapCache
     from viaspline.studio.plan_document import PlannedDocument
+    from viaspline.studio.space.planned_spatial import PlannedSpatial
+    from viaspline.studio.space.spatial_engine import SpatialEngine
 
 STARTUP_SWITCH_INTERVAL_S: Final = 0.0005
 """How long a thread keeps Python's lock from another at first [s]."""
@@ -52,7 +57,8 @@ WARM_UP_FLEET: Final[Document] = {
 }
 """What is planned beside it where it is fleets that will be asked for."""
 
-Planned: TypeAlias = "PlannedDocument | PlannedFleet"
+Planned: TypeAlias = "PlannedDocument | PlannedFleet | PlannedSpatial"
+T = TypeVar("T")
 Hears = Callable[[str, int], None]
 Tells = Callable[[float], None]
 
@@ -71,6 +77,7 @@ class Engine:
         self._planner = Worker("planner")
         self._others = Worker("drives and files")
         self._maps: MapCache | None = None
+        self._space: SpatialEngine | None = None
         self._ledger_cost = 0.0
         self._pictures: dict[str, bytes] = {}
         self._compiled = 0
@@ -143,15 +150,13 @@ class Engine:
         def plan() -> tuple[Planned, str]:
             if is_fleet(document):
                 return self._planned_fleet(document, base, revision, before)
+            if is_spatial(document):
+                planned, text = self._spatial().planned(document, base, revision, before)
+                self._keep_pictures(planned)
+                return planned, text
             return self._planned(document, base, revision)
 
-        def work() -> tuple[Planned, str] | None:
-            try:
-                return running.run(plan)
-            except StoppedCallError:
-                return None
-
-        return await self._planner.run(work)
+        return await self._stoppably(plan, running)
 
     def _planned(
         self, document: Document, base: Path, revision: int
@@ -189,7 +194,46 @@ class Engine:
             whole = planned_fleet.wholly_planned(planned)
             return whole, encoded(fleet_page_messages.fleet_answer(whole, revision, planned))
 
-        def work() -> tuple[Planned, str] | None:
+        return await self._stoppably(plan, running)
+
+    async def whole_in_space(
+        self, planned: PlannedSpatial, revision: int, running: Stoppable
+    ) -> tuple[PlannedSpatial, str] | None:
+        """A plan in space with all ways past things weighed, and the answer as text.
+
+        Args:
+            planned: What the page was told of.
+            revision: What the page calls this state of the document.
+            running: Stops it; then there is no answer.
+        """
+        return await self._stoppably(lambda: self._spatial().whole(planned, revision), running)
+
+    async def around_in_space(self, planned: PlannedSpatial, revision: int) -> list[str]:
+        """The elevation and the ledger of a plan in space, each as text."""
+        return await self._planner.run(lambda: self._spatial().around(planned, revision))
+
+    @property
+    def elevations_are_cheap(self) -> bool:
+        """Whether the page can have one with every plan while something is dragged."""
+        return self._space is None or self._space.around_is_cheap
+
+    def scene(self, name: str) -> bytes | None:
+        """What stands in a world in space, by the name in a plan's answer."""
+        return None if self._space is None else self._space.scenes.content(name)
+
+    def _spatial(self) -> SpatialEngine:
+        from viaspline.studio.space.spatial_engine import SpatialEngine
+
+        if self._space is None:
+            self._space = SpatialEngine(self._map_cache())
+        return self._space
+
+    async def _stoppably(
+        self, plan: Callable[[], tuple[T, str]], running: Stoppable
+    ) -> tuple[T, str] | None:
+        """What comes of planning, or None where it is stopped."""
+
+        def work() -> tuple[T, str] | None:
             try:
                 return running.run(plan)
             except StoppedCallError:
@@ -313,7 +357,24 @@ class Engine:
 
         return await self._others.run(work)
 
-    async def plan_file(self, plan: Plan | FleetPlan, kind: str, name: str) -> bytes:
+    async def fly(self, plan: SpatialPlan, *, head: Mapping[str, Any]) -> tuple[SpatialRun, str]:
+        """Fly a plan in space; the flight and the answer as text.
+
+        Args:
+            plan: What is flown.
+            head: What the answer begins with.
+        """
+
+        def work() -> tuple[SpatialRun, str]:
+            from viaspline.space.online.fly import fly
+            from viaspline.studio.space import simulated_flight
+
+            run = fly(plan)
+            return run, encoded({**head, **simulated_flight.flown(run)})
+
+        return await self._others.run(work)
+
+    async def plan_file(self, plan: AnyPlan, kind: str, name: str) -> bytes:
         """One of the files of a plan, or of a fleet's."""
 
         def work() -> bytes:
@@ -335,7 +396,7 @@ class Engine:
 
         return await self._others.run(work)
 
-    async def run_file(self, run: Run | SimulatedFleet, kind: str, name: str, seed: int) -> bytes:
+    async def run_file(self, run: AnyRun, kind: str, name: str, seed: int) -> bytes:
         """One of the files of a run."""
 
         def work() -> bytes:

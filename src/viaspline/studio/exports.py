@@ -5,7 +5,7 @@ Tested through ``studio/test_server_files``.
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, TypeAlias
 
 from viaspline.errors import ViasplineError
 from viaspline.fleet.fleet_plan import FleetPlan
@@ -14,7 +14,10 @@ from viaspline.planner import Plan
 from viaspline.report.csv_tables import path_csv, run_csv, spacing
 from viaspline.report.plan_json import plan_json
 from viaspline.report.run_json import run_json
+from viaspline.report.space.spatial_results import spatial_plan_contents, spatial_run_contents
 from viaspline.robot.run import Run
+from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.space.spatial_run import SpatialRun
 from viaspline.studio.fleet.simulated_fleet import (
     FLEET_FILES,
     SimulatedFleet,
@@ -32,7 +35,11 @@ PATH_FILES: Final = (
 RUN_FILES: Final = ("run.json", "run.csv", "run.png")
 
 
-def plan_file(plan: Plan | FleetPlan, kind: str, name: str) -> bytes:
+AnyPlan: TypeAlias = Plan | FleetPlan | SpatialPlan
+AnyRun: TypeAlias = Run | SimulatedFleet | SpatialRun
+
+
+def plan_file(plan: AnyPlan, kind: str, name: str) -> bytes:
     """One of the files of a plan.
 
     Args:
@@ -43,6 +50,9 @@ def plan_file(plan: Plan | FleetPlan, kind: str, name: str) -> bytes:
     """
     if isinstance(plan, FleetPlan):
         return fleet_file(plan, kind, name)
+    if isinstance(plan, SpatialPlan):
+        content = spatial_plan_contents(plan, name)[kind]
+        return content.encode() if isinstance(content, str) else content
     if kind == "plan.json":
         return plan_json(plan, name, spacing=spacing(plan.path.length)).encode()
     if kind == "path.csv":
@@ -81,10 +91,16 @@ def path_file(
     return content, tuple(table.remarks())
 
 
-def run_file(run: Run | SimulatedFleet, kind: str, name: str, seed: int) -> bytes:
+def run_file(run: AnyRun, kind: str, name: str, seed: int) -> bytes:
     """One of the files of a run: ``run.json``, ``run.png``, and of one robot ``run.csv``."""
     if isinstance(run, SimulatedFleet):
         return fleet_run_file(run, kind, name, seed)
+    if isinstance(run, SpatialRun):
+        contents = spatial_run_contents(run, name)
+        if kind not in contents:
+            raise RefusedError(f"a flight has {' and '.join(contents)}")
+        content = contents[kind]
+        return content.encode() if isinstance(content, str) else content
     if kind == "run.json":
         return run_json(run, name, seed=seed).encode()
     if kind == "run.csv":

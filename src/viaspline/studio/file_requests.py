@@ -23,14 +23,12 @@ from viaspline.studio.refused_error import RefusedError
 from viaspline.studio.save_document import is_yaml, origin_from, waypoints_of
 
 if TYPE_CHECKING:
-    from viaspline.fleet.fleet_plan import FleetPlan
-    from viaspline.planner import Plan
-    from viaspline.robot.run import Run
-    from viaspline.studio.fleet.simulated_fleet import SimulatedFleet
+    from viaspline.studio.exports import AnyPlan, AnyRun
     from viaspline.studio.plan_document import PlannedDocument
+    from viaspline.studio.space.planned_spatial import PlannedSpatial
 
 Answer = dict[str, Any]
-Driven = tuple[Document, "Run | SimulatedFleet", int]
+Driven = tuple[Document, "AnyRun", int]
 
 
 def files(current: OpenMission) -> Answer:
@@ -57,7 +55,9 @@ def _opened(current: OpenMission, notes: tuple[str, ...]) -> Answer:
 
 
 async def save(
-    current: OpenMission, message: Message, planned: Callable[[], Awaitable[PlannedDocument]]
+    current: OpenMission,
+    message: Message,
+    planned: Callable[[], Awaitable[PlannedDocument | PlannedSpatial]],
 ) -> Answer:
     """Save the document, or ask before another file is replaced.
 
@@ -88,7 +88,7 @@ async def _save_waypoints(
     current: OpenMission,
     message: Message,
     path: Path,
-    planned: Callable[[], Awaitable[PlannedDocument]],
+    planned: Callable[[], Awaitable[PlannedDocument | PlannedSpatial]],
 ) -> Answer:
     """Save a file that may not hold the whole mission; then it is a copy of a part of it."""
     name, document, before = text_of(message, "name"), current.document, current.name
@@ -160,13 +160,13 @@ async def export(
     }  # fmt: skip
 
 
-def _plan_of(planned: Planned, kind: str, message: Message) -> Plan | FleetPlan:
+def _plan_of(planned: Planned, kind: str, message: Message) -> AnyPlan:
     """The plan that is to be exported: the mission's, the fleet's or that of the robot named."""
+    from viaspline.studio.fleet.planned_fleet import PlannedFleet
     from viaspline.studio.fleet.simulated_fleet import FLEET_FILES
-    from viaspline.studio.plan_document import PlannedDocument
 
-    found: Plan | FleetPlan | None
-    if isinstance(planned, PlannedDocument):
+    found: AnyPlan | None
+    if not isinstance(planned, PlannedFleet):
         if kind in FLEET_FILES:
             raise RefusedError(f"this is no fleet: it has no {kind}")
         found = planned.plan

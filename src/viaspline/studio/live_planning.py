@@ -22,6 +22,7 @@ from viaspline.studio.stoppable_calls import Stoppable
 if TYPE_CHECKING:
     from viaspline.studio.fleet.planned_fleet import PlannedFleet
     from viaspline.studio.plan_document import PlannedDocument
+    from viaspline.studio.space.planned_spatial import PlannedSpatial
 
 LEDGER_AFTER_S: Final = 0.1  # so long without an edit, and an expensive ledger is drawn up [s]
 OVERTAKEN_AFTER_S: Final = 0.25  # a plan that is done by then is drawn, overtaken or not [s]
@@ -87,7 +88,11 @@ class LivePlan:
         self._latest = planned
         await self._send(text)
         from viaspline.studio.plan_document import PlannedDocument
+        from viaspline.studio.space.planned_spatial import PlannedSpatial
 
+        if isinstance(planned, PlannedSpatial):
+            await self._in_space(planned, revision)
+            return
         if not isinstance(planned, PlannedDocument):
             await self._whole(planned, revision)
             return
@@ -112,6 +117,27 @@ class LivePlan:
         if found is not None:
             self._latest, text = found
             await self._send(text)
+
+    async def _in_space(self, planned: PlannedSpatial, revision: int) -> None:
+        """Tell what is round a path in space, and weigh all ways once nobody drags any more."""
+        if planned.plan is None:
+            return
+        if self._engine.elevations_are_cheap or await self._is_idle():
+            for text in await self._engine.around_in_space(planned, revision):
+                await self._send(text)
+        if planned.is_whole or not await self._is_idle():
+            return
+        self._running = running = Stoppable()
+        overtaking = asyncio.create_task(self._overtake(running))
+        try:
+            found = await self._engine.whole_in_space(planned, revision, running)
+        finally:
+            overtaking.cancel()
+        if found is not None:
+            whole, text = found
+            self._latest = whole
+            await self._send(text)
+            await self._in_space(whole, revision)
 
     async def _overtake(self, running: Stoppable) -> None:
         await asyncio.sleep(OVERTAKEN_AFTER_S)
@@ -138,16 +164,16 @@ class LivePlan:
         assert found is not None
         return found[0]
 
-    async def planned_mission(self) -> PlannedDocument:
+    async def planned_mission(self) -> PlannedDocument | PlannedSpatial:
         """The plan of the document as it is now, which has to be that of one robot.
 
         Raises:
             RefusedError: It is a fleet.
         """
-        from viaspline.studio.plan_document import PlannedDocument
+        from viaspline.studio.fleet.planned_fleet import PlannedFleet
 
         planned = await self.planned()
-        if not isinstance(planned, PlannedDocument):
+        if isinstance(planned, PlannedFleet):
             raise RefusedError("that is asked of one robot: this is a fleet")
         return planned
 

@@ -12,6 +12,9 @@ PAGE_FOLDER: Final = Path(__file__).parent / "page"
 PRELOAD_MARK: Final = b"<!-- modulepreload -->"
 """Where the page names its modules, so that a browser asks for all of them at once."""
 
+LATE_MODULES: Final = ("js/space/solid/", "vendor/")
+"""Modules that the page asks for only when it opens a mission in space."""
+
 MEDIA_TYPES: Final = {
     **types_map,
     ".js": "text/javascript",  # whatever this machine calls it: the page is served with nosniff
@@ -33,7 +36,8 @@ def page_files() -> Mapping[str, tuple[bytes, str]]:
         if path.is_file() and path.suffix in MEDIA_TYPES
     }
     page, kind = files["index.html"]
-    links = (_preload(name) for name in sorted(files) if name.endswith(".js"))
+    modules = (name for name in sorted(files) if name.endswith(".js"))
+    links = (_preload(name) for name in modules if not name.startswith(LATE_MODULES))
     return {**files, "index.html": (page.replace(PRELOAD_MARK, b"\n  ".join(links)), kind)}
 
 

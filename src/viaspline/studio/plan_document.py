@@ -6,24 +6,17 @@ Tested through ``studio/test_server``.
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from viaspline.errors import Change, GaveUpError, MissionError, PlanningError, ViasplineError
 from viaspline.mission.model import Mission
-from viaspline.mission.space.spatial_parts import has_spatial_keys
 from viaspline.mission.world_spec import WorldSpec
 from viaspline.planner import Plan, plan
 from viaspline.studio.document import Document
 from viaspline.studio.key_paths import Path as Keys
 from viaspline.studio.key_paths import path_of
 from viaspline.studio.map_cache import ExpandedDocument, MapCache
-
-IN_SPACE = (
-    "this mission says heights, and is planned in space: its path isn't drawn here",
-    "edit the file, and let `viaspline plan` draw it; or leave out what is for space",
-)
 
 
 @dataclass(frozen=True)
@@ -87,9 +80,6 @@ def planned(document: Document, maps: MapCache, base: Path) -> PlannedDocument:
     found: Plan | None = None
     problems: tuple[PlanFault, ...] = ()
     gave_up = False
-    if isinstance(document, Mapping) and has_spatial_keys(document):
-        fault = PlanFault(*IN_SPACE)
-        return PlannedDocument(document, None, None, None, (fault,), 0.0)
     try:
         unfolded = maps.unfold(document, base)
         mission = Mission.model_validate(unfolded.data)
@@ -97,7 +87,7 @@ def planned(document: Document, maps: MapCache, base: Path) -> PlannedDocument:
     except MissionError as error:
         problems = faults_of(error, unfolded)
     except PlanningError as error:
-        problems = (_blocked(error, unfolded, mission),)
+        problems = (blocked_fault(error, unfolded, mission),)
         gave_up = isinstance(error, GaveUpError)
     except ViasplineError as error:
         problems = (PlanFault(str(error)),)
@@ -118,9 +108,10 @@ def faults_of(error: MissionError, unfolded: ExpandedDocument | None) -> tuple[P
     )
 
 
-def _blocked(
+def blocked_fault(
     error: PlanningError, unfolded: ExpandedDocument | None, mission: Mission | None
 ) -> PlanFault:
+    """Why there is no path, or why none was found, each change with its place in the document."""
     changes = tuple(_as_given(change, error, mission) for change in error.changes)
     text = error.reason
     if isinstance(error, GaveUpError):

@@ -147,7 +147,7 @@ def server_of(address: Address, mission: Path | None) -> uvicorn.Server:
     import uvicorn
 
     from viaspline.studio.app import application
-    from viaspline.studio.document import is_fleet
+    from viaspline.studio.document import is_fleet, is_spatial
     from viaspline.studio.engine import WARM_UP_DOCUMENT, WARM_UP_FLEET, Engine
     from viaspline.studio.folder import Folder
     from viaspline.studio.load_document import opened
@@ -156,8 +156,11 @@ def server_of(address: Address, mission: Path | None) -> uvicorn.Server:
     root = Path() if mission is None else mission
     if mission is not None and not mission.is_dir():
         # what is wrong with it is said here, not in the page
-        if is_fleet(opened(mission).document):
+        document = opened(mission).document
+        if is_fleet(document):
             warm_up.append(WARM_UP_FLEET)
+        elif is_spatial(document):
+            warm_up.clear()  # what it needs is compiled for its own plan, and nothing before
         name, root = mission.name, mission.parent
     folder = Folder(root)
     if name is not None:

@@ -163,10 +163,13 @@ class Session:
         planned = await self._live.planned_mission()
         if planned.mission is None:
             raise RefusedError("the mission isn't sound")
+        if planned.mission.is_spatial:
+            raise RefusedError("no tension is suggested for missions in space; set spline.tension")
         await self._answer(message, await self._engine.advise(planned.mission))
 
     async def _drive(self, message: Message) -> None:
         from viaspline.fleet.fleet_plan import FleetPlan
+        from viaspline.space.spatial_plan import SpatialPlan
 
         seed, number = count_of(message, "seed"), message.get("id")
         self._stop.set()
@@ -174,6 +177,11 @@ class Session:
         planned = await self._live.planned()
         if planned.plan is None:
             raise RefusedError("there is no path to drive")
+        if isinstance(planned.plan, SpatialPlan):
+            flew, text = await self._engine.fly(planned.plan, head={"id": number})
+            self._driven = (planned.document, flew, seed)
+            await self._send_text(text)
+            return
         if isinstance(planned.plan, FleetPlan):
             head = {"id": number}
             drove, text = await self._engine.drive_fleet(planned.plan, head=head, seed=seed)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -45,14 +44,10 @@ def climb_speeds(
     up = math.inf if climb is None else climb
     down = math.inf if descent is None else descent
     found: list[Slow] = []
-    pieces = [
-        piece
-        for k, span in enumerate(path.spans)
-        for piece in _even_pieces(span, float(k), 1.0, up, down, top, MAX_HALVINGS)
-    ]
-    ends = np.asarray(path.distance(np.array([low + width for low, width, _ in pieces]))).tolist()
+    pieces, speeds = _even_pieces(np.asarray(path.spans), up, down, top)
+    ends = np.asarray(path.distance(pieces)).tolist()
     start = 0.0
-    for (_, _, speed), end in zip(pieces, ends, strict=True):
+    for speed, end in zip(speeds.tolist(), ends, strict=True):
         if speed < top and end > start:
             if found and found[-1].end == start and math.isclose(found[-1].speed, speed):
                 found[-1] = Slow(found[-1].start, end, min(speed, found[-1].speed))
@@ -62,56 +57,66 @@ def climb_speeds(
     return tuple(found)
 
 
-def _even_pieces(
-    span: Floats, low: float, width: float, up: float, down: float, top: float, halvings: int
-) -> Iterator[tuple[float, float, float]]:
-    """Pieces of a span [parameter, width, speed], halved until each is nearly even."""
-    slowest, fastest = _speeds(span, up, down, top)
-    if halvings == 0 or fastest <= NEARLY_EVEN * slowest:
-        yield low, width, slowest
-        return
-    a = 0.5 * (span[1:] + span[:-1])
-    b = 0.5 * (a[1:] + a[:-1])
-    middle = 0.5 * (b[0] + b[1])
-    half = 0.5 * width
-    first = np.stack((span[0], a[0], b[0], middle))
-    last = np.stack((middle, b[1], a[2], span[3]))
-    yield from _even_pieces(first, low, half, up, down, top, halvings - 1)
-    yield from _even_pieces(last, low + half, half, up, down, top, halvings - 1)
+def _even_pieces(spans: Floats, up: float, down: float, top: float) -> tuple[Floats, Floats]:
+    """Pieces of spans (n, 4, 3), halved until each is nearly even, in order along the path.
 
-
-def _speeds(span: Floats, up: float, down: float, top: float) -> tuple[float, float]:
-    """The speeds that the steepest and the flattest direction of a piece allow [m/s]."""
-    sides = np.diff(span, axis=0)
-    sizes = np.linalg.norm(sides, axis=1)
-    moving = sizes > 1e-12 * (1.0 + float(sizes.max(initial=0.0)))
-    if not moving.any():
-        return top, top
-    slopes = _slopes(sides[moving])
-    if slopes is None:
-        return min(top, up, down), top
-    allowed = [_allowed(slope, up, down, top) for slope in slopes]
-    return min(allowed), top if slopes[0] < 0.0 < slopes[1] else max(allowed)
-
-
-def _slopes(sides: Floats) -> tuple[float, float] | None:
-    """Angles of climb [rad] between which those of all positive sums of directions lie.
-
-    A sum's level part is no shorter than what its parts have along their mean; None where one of
-    them points away from that, so that a sum may be upright.
+    Returns:
+        (parameters at which they end, their speeds [m/s]), each of shape (p,).
     """
-    mean = sides[:, :2].sum(axis=0)
-    size = float(np.linalg.norm(mean))
-    ahead = sides[:, :2] @ (mean / size) if size > 0.0 else np.zeros(len(sides))
-    if (ahead < 0.0).any() or (size == 0.0 and bool(sides[:, :2].any())):
-        return None
-    slopes = np.arctan2(sides[:, 2], ahead)
-    return float(slopes.min()), float(slopes.max())
+    lows, width = np.arange(float(len(spans))), 1.0
+    ends: list[Floats] = []
+    speeds: list[Floats] = []
+    for halvings in range(MAX_HALVINGS, -1, -1):
+        slowest, fastest = _speeds(spans, up, down, top)
+        even = (fastest <= NEARLY_EVEN * slowest) | (halvings == 0)
+        ends.append(lows[even] + width)
+        speeds.append(slowest[even])
+        width *= 0.5
+        spans, lows = _halved(spans[~even]), np.repeat(lows[~even], 2)
+        lows[1::2] += width
+    every = np.concatenate(ends)
+    order = np.argsort(every, kind="stable")
+    return every[order], np.concatenate(speeds)[order]
 
 
-def _allowed(slope: float, up: float, down: float, top: float) -> float:
-    """The largest speed along a way that climbs at an angle [rad]."""
-    rise = math.sin(slope)
-    if rise > 0.0:
-        return min(top, up / rise)
-    return min(top, down / -rise) if rise < 0.0 else top
+def _halved(spans: Floats) -> Floats:
+    """Both halves of each of (n, 4, 3) spans, (2 n, 4, 3)."""
+    a = 0.5 * (spans[:, 1:] + spans[:, :-1])
+    b = 0.5 * (a[:, 1:] + a[:, :-1])
+    middle = 0.5 * (b[:, 0] + b[:, 1])
+    first = np.stack((spans[:, 0], a[:, 0], b[:, 0], middle), axis=1)
+    last = np.stack((middle, b[:, 1], a[:, 2], spans[:, 3]), axis=1)
+    return np.stack((first, last), axis=1).reshape(-1, 4, 3)
+
+
+def _speeds(spans: Floats, up: float, down: float, top: float) -> tuple[Floats, Floats]:
+    """The speeds [m/s] that the steepest and the flattest directions of spans (n, 4, 3) allow.
+
+    The angles of climb of all positive sums of a control polygon's sides lie between those of the
+    sides, each with as much of a level part as it has along their mean: a sum's level part is no
+    shorter. Where a side points away from that mean, a sum may be upright.
+    """
+    sides = np.diff(spans, axis=1)
+    sizes = np.linalg.norm(sides, axis=2)
+    moving = sizes > 1e-12 * (1.0 + sizes.max(axis=1, initial=0.0))[:, None]
+    level = np.where(moving[:, :, None], sides[:, :, :2], 0.0)
+    mean = level.sum(axis=1)
+    size = np.linalg.norm(mean, axis=1)
+    unit = mean / np.where(size > 0.0, size, 1.0)[:, None]
+    ahead = (level * unit[:, None]).sum(axis=2)
+    upright = (ahead < 0.0).any(axis=1) | ((size == 0.0) & level.any(axis=(1, 2)))
+    slopes = np.arctan2(sides[:, :, 2], ahead)
+    least = np.where(moving, slopes, np.inf).min(axis=1)
+    most = np.where(moving, slopes, -np.inf).max(axis=1)
+    allowed = np.stack([_allowed(slope, up, down, top) for slope in (least, most)])
+    slowest = np.where(upright, min(top, up, down), allowed.min(axis=0))
+    fastest = np.where(upright | ((least < 0.0) & (most > 0.0)), top, allowed.max(axis=0))
+    stays = ~moving.any(axis=1)
+    return np.where(stays, top, slowest), np.where(stays, top, fastest)
+
+
+def _allowed(slopes: Floats, up: float, down: float, top: float) -> Floats:
+    """The largest speeds [m/s] along ways that climb at angles [rad]."""
+    rises = np.sin(np.where(np.isfinite(slopes), slopes, 0.0))
+    limits = np.where(rises > 0.0, up, down)
+    return np.minimum(top, limits / np.maximum(np.abs(rises), 1e-300))

@@ -15,6 +15,7 @@ import { unpacked } from "./files/share.js";
 import { boxAll, boxOfInterest } from "./files/svg.js";
 import { Camera } from "./geometry/camera.js";
 import { Curve } from "./geometry/curve.js";
+import { SpatialCurve } from "./geometry/spatial_curve.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
 import { Inspector } from "./panels/inspector.js";
@@ -26,6 +27,7 @@ import { Summary } from "./panels/summary.js";
 import { Timeline } from "./panels/timeline.js";
 import { listenToBars } from "./panels/bars.js";
 import { h } from "./panels/dom.js";
+import { Space } from "./space/space.js";
 import { place } from "./units.js";
 
 /** @type {any} */
@@ -81,6 +83,8 @@ function hear(message) {
     if (message.rev === store.plan?.rev) putLedger(message.entries);
   } else if (message.type === "space_time") {
     if (message.rev === store.plan?.rev) putSpaceTime(message);
+  } else if (message.type === "profile") {
+    if (message.rev === store.plan?.rev) app.space.putProfile(message);
   } else if (message.type === "compiling") {
     summary.busy = message.done ? "" : `compiling the planner, once on this machine: ${message.count} parts so far`;
     store.tell("status");
@@ -140,7 +144,7 @@ function planned(answer) {
     store.plan = answer;
     if (answer.ok) {
       store.goodPlan = answer;
-      store.curve = new Curve(answer);
+      store.curve = answer.space ? new SpatialCurve(answer) : new Curve(answer);
       if (answer.ledger) putLedger(answer.ledger);
     }
   }
@@ -230,7 +234,9 @@ app.toggleUnseen = () => {
 app.fit = () => {
   const box = boxOfInterest(app.store);
   if (!box) return;
-  const narrow = app.camera.width < 700;
+  const narrow = document.body.clientWidth <= 760;
+  app.space?.solid?.fit();
+  app.space?.solid?.later("route");
   app.camera.fit(box, narrow ? { top: 70, right: 24, bottom: 40, left: 24 } : { top: 62, right: 40, bottom: 48, left: 76 });
   app.store.tell("view");
 };
@@ -266,6 +272,7 @@ app.openSheet = (name) => {
 // --- everything together
 
 app.fleet = new Fleet(app);
+app.space = new Space(app);
 app.pointer = new Pointer(app.store, app.camera, app.scene, app.say);
 app.files = new Files(app);
 app.lists = new Lists(app);

@@ -58,7 +58,8 @@ export class Drive extends Playback {
     const i = this.index(time), j = Math.min(i + 1, s.time.length - 1);
     const t = s.time[j] > s.time[i] ? Math.min(1, (time - s.time[i]) / (s.time[j] - s.time[i])) : 0;
     const mix = (/** @type {number[]} */ list) => list[i] + t * (list[j] - list[i]);
-    return { x: mix(s.x), y: mix(s.y), heading: mix(s.heading), speed: mix(s.speed) };
+    const state = { x: mix(s.x), y: mix(s.y), heading: mix(s.heading), speed: mix(s.speed) };
+    return s.z ? { ...state, z: mix(s.z), climb: mix(s.climb) } : state;
   }
 
   /** The look of a lidar that is nearest to now. */

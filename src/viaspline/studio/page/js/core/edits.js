@@ -1,6 +1,7 @@
 /** What can be done to a mission: each edit takes a document and gives another one. */
 
 import { tidy } from "../units.js";
+import { viaLike } from "./heights.js";
 import { isArea, isObstacle, isPoint, part, pathOf, placeOf, pointsOf, refOf, replaced, shapedAt, spanCount, tensionsOf } from "./mission.js";
 
 /** @typedef {any} Doc */
@@ -13,7 +14,8 @@ export function moveTo(doc, id, at) {
   if (isPoint(id)) {
     const old = placeOf(item);
     const place = [...at, ...(old?.slice(2) ?? [])];
-    return replaced(doc, Array.isArray(item) ? path : [...path, "at"], place);
+    const key = item?.gate && !item.at ? ["gate", "at"] : ["at"]; // of a gate: its middle
+    return replaced(doc, Array.isArray(item) ? path : [...path, ...key], place);
   }
   if (ref.kind === "bounds") return replaced(doc, path, withCorner(item, ref.vertex, at));
   return reshaped(doc, id, (shape, one) => (ref.vertex >= 0 ? shape.withVertex(one, ref.vertex, at) : shape.movedTo(one, at)));
@@ -62,8 +64,7 @@ export function setKey(doc, id, key, value) {
  */
 export function addVia(doc, index, at) {
   const via = doc.route?.via ?? [];
-  const height = placeOf(doc.route?.start)?.[2];
-  const place = height === undefined ? at : [...at, height];
+  const place = viaLike(doc, index, at);
   const next = replaced(doc, ["route", "via"], [...via.slice(0, index), place, ...via.slice(index)]);
   return withTensions(next, (list) => [...list.slice(0, index), list[index] ?? 0, ...list.slice(index)], doc);
 }
@@ -75,8 +76,8 @@ export function remove(doc, id) {
     const next = replaced(doc, pathOf(id), undefined);
     return withTensions(next, (list) => list.filter((_, i) => i !== ref.index), doc);
   }
-  if (ref.kind === "goal" && pointsOf(doc).length > 2) {
-    const next = replaced(doc, ["route", "goal"], undefined);
+  if ((ref.kind === "goal" || ref.kind === "land") && pointsOf(doc).length > 2) {
+    const next = replaced(doc, pathOf(id), undefined);
     return withTensions(next, (list) => list.slice(0, -1), doc);
   }
   if (ref.vertex >= 0) return reshaped(doc, id, (shape, item) => shape.withoutVertex(item, ref.vertex));

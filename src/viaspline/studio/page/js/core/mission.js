@@ -1,7 +1,7 @@
 /**
  * A mission document in the page's words: its points and obstacles, each with an id.
  *
- * Ids: `start`, `goal`, `via:2`, `known:0`, `unseen:1`, an obstacle's vertex `known:0:3`, the span
+ * Ids: `start`, `goal`, `land`, `via:2`, `known:0`, `unseen:1`, an obstacle's vertex `known:0:3`, the span
  * after the second point `span:1`, the bounds' corner `bounds:2`, a fence `fence:0`, a speed zone
  * `zone:1`, their corners `fence:0:1` and `zone:1:2`.
  * What is not understood here is left as it is.
@@ -22,7 +22,7 @@ export function refOf(id) {
 }
 
 /** Whether an id is a point of the route. @param {string|null} id */
-export const isPoint = (id) => id === "start" || id === "goal" || !!id?.startsWith("via:");
+export const isPoint = (id) => id === "start" || id === "goal" || id === "land" || !!id?.startsWith("via:");
 /** Whether an id is an obstacle or a vertex of one. @param {string|null} id */
 export const isObstacle = (id) => !!id && (id.startsWith("known:") || id.startsWith("unseen:"));
 /** Whether an id is a fence, a speed zone, or a corner of one. @param {string|null} id */
@@ -33,7 +33,7 @@ export const whole = (id) => id.split(":").slice(0, 2).join(":");
 /** Where in the document an id stands. @param {string} id @returns {Path} */
 export function pathOf(id) {
   const ref = /** @type {Ref} */ (refOf(id));
-  if (ref.kind === "start" || ref.kind === "goal") return ["route", ref.kind];
+  if (ref.kind === "start" || ref.kind === "goal" || ref.kind === "land") return ["route", ref.kind];
   if (ref.kind === "via") return ["route", "via", ref.index];
   if (ref.kind === "fence") return ["world", "fences", ref.index];
   if (ref.kind === "zone") return ["world", "speed_zones", ref.index];
@@ -67,7 +67,7 @@ export function shapedAt(doc, id) {
 export function idAt(path) {
   const [a, b, c, d] = path;
   const withVertex = (/** @type {string} */ owner, /** @type {number} */ vertex) => (vertex < 0 ? owner : `${owner}:${vertex}`);
-  if (a === "route" && (b === "start" || b === "goal")) return b;
+  if (a === "route" && (b === "start" || b === "goal" || b === "land")) return b;
   if (a === "route" && b === "via" && typeof c === "number") return `via:${c}`;
   if (a === "world" && (b === "known" || b === "unseen") && typeof c === "number") {
     return withVertex(`${b}:${c}`, vertexAt(path.slice(3)));
@@ -83,7 +83,7 @@ export function idAt(path) {
 
 /** @param {any} point @returns {number[]|null} */
 export function placeOf(point) {
-  const at = Array.isArray(point) ? point : point?.at;
+  const at = Array.isArray(point) ? point : point?.at ?? point?.gate?.at;
   return Array.isArray(at) && at.length >= 2 && at.every(Number.isFinite) ? at : null;
 }
 
@@ -98,6 +98,7 @@ export function pointsOf(doc) {
   const rows = [["start", route.start, "start"]];
   via.forEach((/** @type {any} */ item, /** @type {number} */ i) => rows.push([`via:${i}`, item, `via ${i + 1}`]));
   if (route.goal !== undefined && route.goal !== null) rows.push(["goal", route.goal, "goal"]);
+  else if (route.land !== undefined && route.land !== null) rows.push(["land", route.land, "landing"]);
   return rows.map(([id, point, usual]) => ({
     id,
     at: placeOf(point),

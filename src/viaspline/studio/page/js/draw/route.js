@@ -22,15 +22,16 @@ export function drawPoints(pen, points, { selection, hover }) {
     if (point.heading !== null) drawHeading(pen, x, y, point.heading, isSelected);
     ctx.beginPath();
     if (point.dwell > 0) ctx.roundRect(x - 9, y - 9, 18, 18, 4); // a station is square
-    else ctx.arc(x, y, point.id === "start" || point.id === "goal" ? 9 : 8, 0, 2 * Math.PI);
-    const fill = point.id === "start" ? colours.start : point.id === "goal" ? colours.goal : point.dwell > 0 ? colours.station : colours.paper;
+    else ctx.arc(x, y, point.id === "start" || point.id === "goal" || point.id === "land" ? 9 : 8, 0, 2 * Math.PI);
+    const isLast = point.id === "goal" || point.id === "land";
+    const fill = point.id === "start" ? colours.start : isLast ? colours.goal : point.dwell > 0 ? colours.station : colours.paper;
     pen.fill(fill);
     pen.stroke(isSelected ? colours.select : point.dwell > 0 ? "#5a5200" : colours.ink, isSelected ? 2.4 : 1.8);
     ctx.font = "600 10px Inter, system-ui, sans-serif";
     ctx.textAlign = "center";
     ctx.textBaseline = "middle";
-    ctx.fillStyle = point.id === "start" || point.id === "goal" ? colours.paper : point.dwell > 0 ? "#1b1f24" : colours.ink;
-    const letter = point.id === "start" ? "S" : point.id === "goal" ? "G" : String(i);
+    ctx.fillStyle = point.id === "start" || isLast ? colours.paper : point.dwell > 0 ? "#1b1f24" : colours.ink;
+    const letter = point.id === "start" ? "S" : point.id === "goal" ? "G" : point.id === "land" ? "L" : String(i);
     ctx.fillText(letter, x, y + 0.5);
   });
 }

@@ -41,6 +41,8 @@ export class Scene {
     this.fleet = new FleetLayer(store, preview, drive);
     this.isDue = false;
     this.patience = 0;
+    /** Where the tools cover the map [CSS pixel]. */ this.tools = [0, 0, 0, 0];
+    /** Heights on the map, of a mission in space. @type {import("../space/plan_layer.js").PlanLayer|null} */ this.space = null;
     /** @type {HTMLCanvasElement|undefined} */ this.still = undefined;
     /** @type {any} */ this.stillWorld = null;
     this.stillKey = "";
@@ -97,6 +99,7 @@ export class Scene {
   resize() {
     const { width, height } = this.canvas.getBoundingClientRect();
     const ratio = Math.min(devicePixelRatio || 1, 3);
+    this.tools = toolsBox(this.canvas);
     this.camera.width = width;
     this.camera.height = height;
     this.canvas.width = Math.max(1, Math.round(width * ratio));
@@ -113,7 +116,7 @@ export class Scene {
     const { doc, show } = store;
     const grids = (store.plan?.grids?.length ? store.plan : store.goodPlan)?.grids ?? [];
     const required = requiredOf(doc);
-    const view = [camera.x, camera.y, camera.scale, canvas.width, canvas.height, show.rings, show.grid, required, this.maps.count, colours.paper];
+    const view = [camera.x, camera.y, camera.scale, canvas.width, canvas.height, show.rings, show.grid, required, this.maps.count, colours.paper, this.space?.key];
     const named = grids.map((/** @type {any} */ g) => g.picture ?? g.item);
     const key = [...view, ...named].join();
     if (this.still && this.stillWorld === doc.world && this.stillKey === key) return this.still;
@@ -129,6 +132,7 @@ export class Scene {
     ctx.fillStyle = colours.paper;
     ctx.fillRect(0, 0, camera.width, camera.height);
     drawOutside(pen, doc);
+    this.space?.drawGround(pen);
     this.maps.draw(pen, grids, required, show.rings);
     const areas = grids.filter((/** @type {any} */ g) => g.rings && g.list === "known").map((/** @type {any} */ g) => ({ id: "", shape: polygon, item: { polygon: g.rings[0], holes: g.rings.slice(1) }, side: null }));
     const shapes = [...known, ...areas];
@@ -177,13 +181,14 @@ export class Scene {
     if (!isDriving && store.plan?.ok && !store.isLate) {
       drawTightest(pen, store.plan.certificate, known);
       drawTightestInTime(pen, store.plan.timing?.certificate);
-      drawRough(pen, store.plan.drivability.reasons);
+      drawRough(pen, store.plan.drivability?.reasons ?? []);
     }
     for (const problem of store.plan?.ok === false ? store.plan.problems : []) {
       const where = problem.where ?? this.placeOfProblem(problem);
       if (where) drawProblem(pen, where);
     }
     if (store.cursor !== null && store.curve && !isDriving) drawCursor(pen, store.curve.at(store.cursor), body);
+    if (!isDriving) this.space?.drawProvisional(pen);
     if (isDriving) drawRobot(pen, drive.state(), body, { colour: colours.robot, stop: drive.stay() });
     else if (store.fleetPlan) this.fleet.drawRobots(pen);
     else if (this.preview.isOn && !store.isLate && store.plan?.ok) this.drawPreviewed(pen, body);
@@ -201,7 +206,7 @@ export class Scene {
   /** The robot where the plan has it at the instant. @param {Pen} pen @param {import("./body.js").Body} body */
   drawPreviewed(pen, body) {
     const state = this.preview.state();
-    if (state) drawRobot(pen, state, body, { colour: pen.colours.path, stop: null });
+    if (state) drawRobot(pen, { ...state, heading: /** @type {any} */ (state).yaw ?? state.heading }, body, { colour: pen.colours.path, stop: null });
   }
 
   /** The body at the start, and where it comes closest. @param {Pen} pen @param {import("./body.js").Body} body */
@@ -257,6 +262,7 @@ export class Scene {
       }
     }
     avoid.push([0, camera.height - 40, 250, camera.height]);
+    avoid.push(this.tools, this.tools, this.tools); // what lies under them can't be read: worse than on something else
     const line = (store.curve?.samples ?? []).map((s) => camera.toScreen(s.x, s.y));
     if (store.show.names) {
       for (const point of points) {
@@ -288,6 +294,7 @@ export class Scene {
         labels.push({ text: wordsOf(area), x: x + 10 + 3.4 * wordsOf(area).length, y: y + 13, away: 0, colour: area.kind === "zone" ? colours.zone : colours.muted, rank: store.selection === area.id ? 0 : 2 });
       }
     }
+    if (store.show.names && this.space) labels.push(...this.space.labels(pen));
     const proof = store.plan?.ok && !store.isLate ? store.plan.certificate : null;
     if (proof && proof.clearance !== null && !isDriving) {
       const [x, y] = camera.toScreen(proof.at[0], proof.at[1]);
@@ -310,4 +317,10 @@ export class Scene {
     }
     drawLabels(pen, [...labels, ...this.fleet.labels(pen)], avoid, line);
   }
+}
+
+/** Where the tools lie over a canvas [CSS pixel]. @param {HTMLCanvasElement} canvas */
+function toolsBox(canvas) {
+  const box = document.querySelector("#tools")?.getBoundingClientRect(), own = canvas.getBoundingClientRect();
+  return box ? [box.left - own.left, box.top - own.top, box.right - own.left, box.bottom - own.top] : [0, 0, 0, 0];
 }

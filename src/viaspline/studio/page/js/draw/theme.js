@@ -14,6 +14,7 @@ const LIGHT = {
   problem: "#b3261e", driven: "#0072b2", zone: "#8a6200", zoneFill: "rgba(230,159,0,0.13)",
   corridor: "#00795a", corridorFill: "rgba(0,158,115,0.06)", swept: "rgba(0,114,178,0.13)",
   moving: "#c2410c", movingFill: "#f6c7a8", movingTube: "#fbe6d8",
+  contour: "rgba(138,115,80,0.5)", contourText: "#7a6540", ground: "rgba(205,185,143,0.5)",
 };
 
 const DARK = {
@@ -27,6 +28,7 @@ const DARK = {
   problem: "#ff8a80", driven: "#56b4e9", zone: "#f0b429", zoneFill: "rgba(240,180,41,0.12)",
   corridor: "#2ed3a2", corridorFill: "rgba(46,211,162,0.06)", swept: "rgba(86,180,233,0.15)",
   moving: "#ff9a5c", movingFill: "#7a3f1d", movingTube: "#3a2a20",
+  contour: "rgba(200,175,130,0.38)", contourText: "#c9b083", ground: "rgba(140,118,80,0.4)",
 };
 
 /** @typedef {typeof LIGHT} Theme */

@@ -25,7 +25,7 @@ export class Curve {
 
   /** The same path, driven otherwise. @param {any} law */
   timed(law) {
-    const next = new Curve({ ...this.plan, law });
+    const next = new /** @type {typeof Curve} */ (this.constructor)({ ...this.plan, law });
     next.earlier = this.cached ?? this.earlier;
     return next;
   }
@@ -43,6 +43,12 @@ export class Curve {
       a * p[i] + b * p[i + 2] + c * p[i + 4] + d * p[i + 6],
       a * p[i + 1] + b * p[i + 3] + c * p[i + 5] + d * p[i + 7],
     ];
+  }
+
+  /** How fast it runs by the parameter of a span [m]. @param {number} k @param {number} w */
+  speedIn(k, w) {
+    const [dx, dy] = this.derivatives(k, w);
+    return Math.hypot(dx, dy);
   }
 
   /** First and second derivative. @param {number} k @param {number} w */
@@ -65,8 +71,7 @@ export class Curve {
     for (let k = 0; k < this.count; k += 1) {
       const speeds = [];
       for (let j = 0; j <= per; j += 1) {
-        const [dx, dy] = this.derivatives(k, j / per);
-        speeds.push(Math.hypot(dx, dy));
+        speeds.push(this.speedIn(k, j / per));
       }
       const sums = [0];
       for (let j = 1; j <= per; j += 1) sums.push(sums[j - 1] + (speeds[j - 1] + speeds[j]) / 2);

@@ -52,6 +52,7 @@ function command(app, event, isTyping) {
 /** Keys that mean something on the map only. @param {any} app @param {KeyboardEvent} event */
 function onKey(app, event) {
   const { store, scene, pointer } = app;
+  if (event.key === "PageUp" || event.key === "PageDown") return !!store.selection && app.space.lift(store.selection, event.key === "PageUp" ? 1 : -1, event.shiftKey);
   if (event.key === "Tab") return next(app, event.shiftKey ? -1 : 1);
   if (event.key === "Enter") {
     if (scene.draft?.corners && !scene.cross) pointer.drawing.close();

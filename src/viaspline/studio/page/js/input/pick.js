@@ -35,7 +35,7 @@ export function pick(store, camera, px, py, reach, time) {
     if (!point.at) continue;
     const [x, y] = camera.toScreen(point.at[0], point.at[1]);
     const away = Math.hypot(x - px, y - py);
-    if (away < best) {
+    if (away < best || (point.id === store.selection && away === best)) { // two on one place: the one that is selected
       best = away;
       found = { kind: "item", id: point.id };
     }

@@ -2,6 +2,7 @@
 
 import { forceSide, moveTo, reshaped, setKey, setOnPoint, setTension } from "../core/edits.js";
 import { anchorOf, areasOf, isArea, isPoint, obstaclesOf, pointsOf, refOf, tensionsOf, whole } from "../core/mission.js";
+import { heightOf, isSpatial, withHeight } from "../core/heights.js";
 import { erase } from "../input/keyboard.js";
 import { metres } from "../units.js";
 import { motionFields } from "./motion.js";
@@ -64,15 +65,28 @@ export class Inspector {
     const point = all.find((p) => p.id === id);
     if (!point) return [];
     const isEnd = id === "start" || id === "goal";
+    if (id === "land") {
+      return [this.title("landing", "straight down to the ground"), point.at ? this.placeFields(id, point.at) : null, this.delete("Delete")];
+    }
     return [
-      this.title(point.name, isEnd ? (id === "start" ? "start of the route" : "goal of the route") : `via point ${all.indexOf(point)} of ${all.length - (store.doc.route?.goal ? 2 : 1)}`),
+      this.title(point.name, isEnd ? (id === "start" ? "start of the route" : "goal of the route") : `via point ${all.indexOf(point)} of ${store.doc.route?.via?.length ?? 0}`),
       textField({ label: "Name", value: point.given ?? "", placeholder: point.name, set: (value) => store.edit(setOnPoint(store.doc, id, "name", value || undefined)) }),
       point.at ? this.placeFields(id, point.at) : null,
+      this.height(id),
       h("div", { class: "pair" },
         numberField({ label: "Dwell", value: point.dwell || null, unit: "s", step: 1, min: 0, placeholder: "0", set: (value) => store.edit(setOnPoint(store.doc, id, "dwell_s", value || undefined), { merge: `dwell:${id}` }) }),
         isEnd ? numberField({ label: "Heading", value: point.heading, unit: "°", step: 5, placeholder: "free", set: (value) => store.edit(setOnPoint(store.doc, id, "heading_deg", value ?? undefined), { merge: `heading:${id}` }) }) : null),
       this.delete(id === "start" ? null : "Delete"),
     ];
+  }
+
+  /** How high a point is, by whatever it is counted from; null in the plane. @param {string} id */
+  height(id) {
+    const { store } = this.app;
+    const height = heightOf(store.doc, id);
+    if (!height) return null;
+    const label = { agl: "Height above ground", z: "Height", takeoff: "Takes off to, above ground" }[height.kind];
+    return numberField({ label, value: height.value, unit: "m", step: 0.5, set: (value) => value !== null && store.edit(withHeight(store.doc, id, value), { merge: `height:${id}` }) });
   }
 
   /** @param {string} id */
@@ -90,14 +104,33 @@ export class Inspector {
       textField({ label: "Name", value: one.given ?? "", placeholder: one.name, set: (value) => store.edit(setKey(store.doc, owner, "name", value || undefined)) }),
       at ? this.placeFields(id, at) : null,
       ...(shape?.fields(item) ?? []).map((field) => this.shapeField(owner, field)),
+      this.reach(owner, item),
       ...motionFields(app, owner, item.motion ? ref.vertex : -1),
       checkbox({ label: "Unseen: only the sensor finds it", value: isUnseen, set: () => app.toggleUnseen() }),
       !isUnseen && (shape?.hasSides ?? true) ? choice({
-        label: "Pass on", value: one.side ?? "", options: [["", "either side"], ["left", "left"], ["right", "right"]],
+        label: "Pass on", value: one.side ?? "", options: [["", isSpatial(store.doc) ? "any side" : "either side"], ["left", "left"], ["right", "right"], ...(isSpatial(store.doc) ? /** @type {[string, string][]} */ ([["over", "over"], ["under", "under"]]) : [])],
         set: (value) => store.edit(forceSide(store.doc, [one.index], value || null)),
       }) : null,
       this.delete(ref.vertex >= 0 ? `Delete ${shape?.vertexName}` : "Delete"),
     ];
+  }
+
+  /** From where to where a flat shape stands in space; null for others, and in the plane. @param {string} id @param {any} item */
+  reach(id, item) {
+    const { store } = this.app;
+    if (!isSpatial(store.doc) || item.ball || item.box || item.voxels || item.capsule?.from?.length === 3) return null;
+    const range = Array.isArray(item.height_m) ? item.height_m : null;
+    const put = (/** @type {number} */ end) => (/** @type {number|null} */ value) => {
+      if (value === null) store.edit(setKey(store.doc, id, "height_m", undefined));
+      else {
+        const next = range ? [...range] : end ? [0, value] : [value, value + 10];
+        next[end] = value;
+        store.edit(setKey(store.doc, id, "height_m", next), { merge: `reach:${id}` });
+      }
+    };
+    return h("div", { class: "pair" },
+      numberField({ label: "Floor", value: range?.[0] ?? null, unit: "m", step: 0.5, placeholder: "none", set: put(0) }),
+      numberField({ label: "Roof", value: range?.[1] ?? null, unit: "m", step: 0.5, placeholder: "none", set: put(1) }));
   }
 
   /** A field that a kind of obstacle has. @param {string} id @param {import("../shapes/shape.js").ShapeField} field */

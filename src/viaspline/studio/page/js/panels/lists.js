@@ -74,10 +74,10 @@ export class Lists {
     const { store } = app;
     const isSelected = store.selection === point.id;
     const ref = refOf(point.id);
-    const badge = point.id === "start" ? "S" : point.id === "goal" ? "G" : String(i);
+    const badge = point.id === "start" ? "S" : point.id === "goal" ? "G" : point.id === "land" ? "L" : String(i);
     const main = h(
       "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${point.name}${point.dwell ? `, stays ${point.dwell} seconds` : ""}`, onclick: () => store.select(point.id) },
-      h("span", { class: `badge ${point.id === "start" ? "is-start" : point.id === "goal" ? "is-goal" : point.dwell > 0 ? "is-station" : ""}` }, badge),
+      h("span", { class: `badge ${point.id === "start" ? "is-start" : point.id === "goal" || point.id === "land" ? "is-goal" : point.dwell > 0 ? "is-station" : ""}` }, badge),
       h("span", { class: "row-name" }, point.name),
       point.dwell > 0 ? h("span", { class: "row-note" }, `${point.dwell} s`) : null,
     );

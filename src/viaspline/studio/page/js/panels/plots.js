@@ -6,6 +6,9 @@ import { fitted, lazily } from "./dom.js";
 
 const LEFT_PX = 58, RIGHT_PX = 14, TOP_PX = 18, GAP_PX = 24, BOTTOM_PX = 20;
 
+/** What the upper strip shows: curvature, or in space how fast it climbs. @param {any} curve @returns {{name: string, unit: string, of: (p: any) => number}} */
+const bendOf = (curve) => (curve.isSpatial ? { name: "climb", unit: "m/s", of: (p) => p.climb } : { name: "curvature", unit: "1/m", of: (p) => p.curvature });
+
 export class Plots {
   /** @param {any} app */
   constructor(app) {
@@ -61,10 +64,11 @@ export class Plots {
     ctx.globalAlpha = store.plan?.ok === false ? 0.4 : 1;
     this.ticks(curve, x, colours);
     /** @type {import("../geometry/curve.js").Sample[]} */ const list = curve.samples;
-    const most = Math.max(...list.map((p) => Math.abs(p.curvature)).filter(Number.isFinite), 1e-3);
+    const bend = bendOf(curve);
+    const most = Math.max(...list.map((p) => Math.abs(bend.of(p))).filter(Number.isFinite), 1e-3);
     const top = Number(store.doc.robot?.max_speed_mps ?? 2) || 1;
-    this.strip("curvature", "1/m", [-most, most], TOP_PX, tall, colours);
-    this.line(list.map((p) => [x(p.s), TOP_PX + tall * (0.5 - p.curvature / most / 2)]), colours.comb);
+    this.strip(bend.name, bend.unit, [-most, most], TOP_PX, tall, colours);
+    this.line(list.map((p) => [x(p.s), TOP_PX + tall * (0.5 - bend.of(p) / most / 2)]), colours.comb);
     this.strip("speed", "m/s", [0, top], TOP_PX + tall + GAP_PX, tall, colours);
     const fast = TOP_PX + tall + GAP_PX;
     const even = Array.from({ length: Math.ceil(width) + 1 }, (_, i) => (i / Math.ceil(width)) * curve.length);
@@ -154,7 +158,8 @@ export class Plots {
     ctx.lineWidth = 1.2;
     ctx.stroke();
     const speed = this.app.drive.run ? this.app.drive.state().speed : at.speed;
-    const texts = [[at.curvature.toFixed(3).replace(/^-(0\.0+)$/, "$1"), TOP_PX + tall * (0.5 - at.curvature / most / 2)], [`${speed.toFixed(2)} m/s`, TOP_PX + tall + GAP_PX + 10], [`${s.toFixed(1)} m · ${(this.app.drive.run ? this.app.drive.time : curve.timeAt(s)).toFixed(1)} s`, height - 9]];
+    const bend = bendOf(curve).of(this.app.drive.run?.samples?.z ? this.app.drive.state() : at);
+    const texts = [[bend.toFixed(curve.isSpatial ? 2 : 3).replace(/^-(0\.0+)$/, "$1"), TOP_PX + tall * (0.5 - bend / most / 2)], [`${speed.toFixed(2)} m/s`, TOP_PX + tall + GAP_PX + 10], [`${s.toFixed(1)} m · ${(this.app.drive.run ? this.app.drive.time : curve.timeAt(s)).toFixed(1)} s`, height - 9]];
     ctx.font = "600 11px Inter, system-ui, sans-serif";
     for (const [text, y] of /** @type {[string, number][]} */ (texts)) {
       const w = ctx.measureText(text).width + 8;

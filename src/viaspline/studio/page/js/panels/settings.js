@@ -5,6 +5,8 @@ import { pointsOf, tensionsOf } from "../core/mission.js";
 import { Advice } from "./advice.js";
 import { checkbox, choice, fill, h, lazily, numberField, slider } from "./dom.js";
 import { robotFields } from "./robot.js";
+import { isSpatial } from "../core/heights.js";
+import { spaceFields } from "../space/space_fields.js";
 
 const MOST_PREFERRED_M = 3; // at the end of the slider
 
@@ -45,16 +47,17 @@ export class Settings {
     this.wasOk = this.app.store.plan?.ok;
     const { doc } = this.app.store;
     const { closed, order, laps, corridor, optimise, depart_s: depart, hold_s: hold } = doc.route ?? {};
-    const shown = [this.advice.given && doc, doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, optimise, depart, hold, this.app.preview.hasMotion, pointsOf(doc).length];
+    const shown = [this.advice.given && doc, doc.robot, doc.spline, doc.world?.bounds, closed, order, laps, corridor, optimise, depart, hold, doc.world?.altitude, doc.route?.yaw, isSpatial(doc), this.app.preview.hasMotion, pointsOf(doc).length];
     if (shown.every((value, i) => value === this.shown[i])) return;
     this.shown = shown;
     fill(
       this.panel,
       h("h3", {}, "Robot"),
       ...robotFields(doc, this.app.drives ?? [], (path, value) => this.set(path, value), this.preferred()),
+      ...spaceFields(doc, (path, value) => this.set(path, value)),
       h("h3", {}, "Curve"),
       this.tension(),
-      ...this.advice.rows(),
+      ...(isSpatial(doc) ? [] : this.advice.rows()),
       h("div", { class: "pair" },
         choice({ label: "Knots", value: doc.spline?.knots ?? "chordal", options: [["chordal", "chordal"], ["centripetal", "centripetal"], ["uniform", "uniform"]], set: (value) => this.set(["spline", "knots"], value) }),
         choice({ label: "Tangents", value: doc.spline?.tangents ?? "", options: [["", "as the robot needs"], ["cardinal", "cardinal"], ["continuous", "continuous curvature"]], set: (value) => this.set(["spline", "tangents"], value || undefined) })),

@@ -3,6 +3,7 @@
 import { forceSide, replaced } from "../core/edits.js";
 import { idAt, obstaclesOf, part, pointsOf } from "../core/mission.js";
 import { missionOf, robotName } from "../core/fleet.js";
+import { heightRows } from "../space/height_rows.js";
 import { timingRows } from "./timing.js";
 import { bend, down, metres, number, place, seconds } from "../units.js";
 import { fill, h, icon, lazily, sentence } from "./dom.js";
@@ -66,10 +67,11 @@ export class Summary {
         h("span", { class: "proof-figure" }, down(proof.clearance)),
         h("span", { class: "proof-words" }, proof.clearance === null ? "nothing to keep clear of" : `proven clear of everything (${metres(proof.required)} asked)`,
           proof.nearest ? h("button", { type: "button", class: "link", onclick: () => this.app.lookAtPlace(proof.at, proof.distance) }, `tightest at ${proof.nearest}`) : null)),
-      this.drives(plan.drivability),
+      plan.drivability ? this.drives(plan.drivability) : null,
       h("dl", { class: "figures" },
         ...row("Length", metres(plan.length, 1)), ...row("Duration", seconds(plan.duration)),
         ...row("Sharpest", bend(plan.curvature)), ...(this.app.store.robot !== null ? [] : row("Planned in", plan.ms < 1000 ? `${plan.ms.toFixed(1)} ms` : seconds(plan.ms / 1000)))),
+      ...heightRows(plan),
       ...timingRows(this.app, plan),
       ...this.groups(),
     ];
@@ -102,7 +104,8 @@ export class Summary {
     const shown = store.ledger.slice(0, 12);
     const more = store.ledger.length - shown.length;
     return [
-      h("h3", {}, "Either side"),
+      h("h3", {}, store.curve?.isSpatial ? "Ways past" : "Either side"),
+      store.plan?.space?.is_whole === false ? h("p", { class: "hint" }, "The other ways are weighed once nothing changes any more.") : null,
       h("ul", { class: "groups" }, ...shown.map((/** @type {any} */ entry) => this.group(entry))),
       more > 0 ? h("p", { class: "hint" }, `and ${more} more groups`) : null,
     ];
@@ -113,22 +116,24 @@ export class Summary {
     const { store, app } = { store: this.app.store, app: this.app };
     const name = entry.members.length > 2 ? `${entry.members[0]} and ${entry.members.length - 1} more` : entry.members.join(" and ");
     const { forced } = entry; // of the plan that is shown: what is being edited may ask for another
-    const side = (/** @type {"left"|"right"} */ which) => {
+    const side = (/** @type {string} */ which) => {
       const candidate = entry.candidates.find((/** @type {any} */ c) => c.side === which);
       const text = candidate?.length ? `${metres(candidate.length, 1)}, ${seconds(candidate.duration)}` : forced && forced !== which ? "forbidden" : candidate?.impossible ? "blocked" : "–";
+      const how = which === "over" || which === "under" || which === "straight" ? which : `on the ${which}`;
       return h("button", {
-        type: "button", class: "side", "aria-pressed": String(!!candidate?.chosen), disabled: !entry.forceable,
-        "aria-label": `pass ${name} on the ${which}, ${text}`, title: candidate?.impossible ?? candidate?.passedOver ?? `pass on the ${which}`,
+        type: "button", class: "side", "aria-pressed": String(!!candidate?.chosen), disabled: !entry.forceable || which === "straight",
+        "aria-label": `pass ${name} ${how}, ${text}`, title: candidate?.impossible ?? candidate?.passedOver ?? `pass ${how}`,
         onclick: () => {
           store.edit(forceSide(store.doc, entry.items, which));
-          app.say(`${name}: passed on the ${which}`);
+          app.say(`${name}: passed ${how}`);
         },
       }, h("span", { class: "side-name" }, which), h("span", {}, text));
     };
+    const sides = store.curve?.isSpatial ? entry.candidates.map((/** @type {any} */ c) => c.side) : ["left", "right"];
     return h("li", { class: "group" },
       h("div", { class: "group-name" }, h("span", {}, name),
         forced ? h("button", { type: "button", class: "link", onclick: () => store.edit(forceSide(store.doc, entry.items, null)) }, `forced ${forced} · free it`) : null),
-      h("div", { class: "sides" }, side("left"), side("right")));
+      h("div", { class: "sides" }, ...sides.map(side)));
   }
 
   /** @param {any} plan */
@@ -173,6 +178,7 @@ export class Summary {
   changeLabel({ path, value, robot }) {
     const last = path.at(-1);
     if (last === "at") return `Move ${this.nameOf(path, robot)} to ${place(value)}`;
+    if (last === "agl_m") return `Set the height of ${this.nameOf(path.slice(0, -1), robot)} to ${number(value)} m above ground`;
     if (last === "clearance_m") return `Set the clearance to ${number(value)} m`;
     if (last === "pass_on" || last === "never_pass_on") return `Let ${this.nameOf(path)} be passed on either side`;
     return `Set ${path.join(".")} to ${value}`;

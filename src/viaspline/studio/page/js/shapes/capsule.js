@@ -37,6 +37,15 @@ function outline({ capsule: { from, to, radius } }) {
 /** How far a place is from the line, and the line's nearest. @param {Place} p @param {Item} item */
 const toLine = (p, { capsule: { from, to } }) => toSegment(p, from, to);
 
+/** A place with the height that an end has, if it has one. @param {Place} at @param {Place} end @returns {Place} */
+const asHigh = (at, end) => [...at.slice(0, 2), ...end.slice(2)];
+
+/** The height of an end, if it has one. @param {Item} item @param {string} end @returns {import("./shape.js").ShapeField[]} */
+const heightField = (item, end) => (item.capsule[end].length < 3 ? [] : [{
+  type: "number", label: end === "from" ? "Height at its first end" : "Height at its last end", unit: "m", min: -10000, value: item.capsule[end][2],
+  put: (now, z) => ({ ...now, capsule: { ...now.capsule, [end]: [...now.capsule[end].slice(0, 2), z] } }),
+}]);
+
 /** @type {import("./shape.js").Shape} */
 export const capsule = {
   ...NO_VERTICES,
@@ -73,14 +82,14 @@ export const capsule = {
   anchor: ({ capsule: { from, to } }) => middle([from, to]),
   movedTo(item, at) {
     const from = middle([item.capsule.from, item.capsule.to]);
-    const move = (/** @type {Place} */ p) => [tidy(p[0] + at[0] - from[0]), tidy(p[1] + at[1] - from[1])];
+    const move = (/** @type {Place} */ p) => asHigh([tidy(p[0] + at[0] - from[0]), tidy(p[1] + at[1] - from[1])], p);
     return { ...item, capsule: { ...item.capsule, from: move(item.capsule.from), to: move(item.capsule.to) } };
   },
-  mapped: (item, move) => ({ ...item, capsule: { ...item.capsule, from: move(item.capsule.from), to: move(item.capsule.to) } }),
+  mapped: (item, move) => ({ ...item, capsule: { ...item.capsule, from: asHigh(move(item.capsule.from), item.capsule.from), to: asHigh(move(item.capsule.to), item.capsule.to) } }),
   reach: ({ capsule: { from, to, radius } }) => Math.max(Math.hypot(from[0], from[1]), Math.hypot(to[0], to[1])) + radius,
   vertices: ({ capsule: { from, to } }) => [from, to],
   vertexAt: ([key, end]) => (key === "capsule" ? ENDS.indexOf(String(end)) : -1),
-  withVertex: (item, vertex, at) => ({ ...item, capsule: { ...item.capsule, [ENDS[vertex]]: at } }),
+  withVertex: (item, vertex, at) => ({ ...item, capsule: { ...item.capsule, [ENDS[vertex]]: asHigh(at, item.capsule[ENDS[vertex]]) } }),
   handles({ capsule: { from, to, radius } }) {
     const [x, y] = middle([from, to]);
     const length = Math.hypot(to[0] - from[0], to[1] - from[1]) || 1e-9;
@@ -91,7 +100,7 @@ export const capsule = {
     ];
   },
   dragged: (item, _, at, snapped) => withRadius(item, snapped([toLine(at, item).away])[0]),
-  fields: (item) => [{
+  fields: (item) => [...heightField(item, "from"), ...heightField(item, "to"), {
     type: "number", label: "Radius", unit: "m", min: SMALLEST_M, value: item.capsule.radius,
     put: withRadius,
   }],

@@ -1,11 +1,14 @@
 /** The kinds of obstacles that the page knows, in the order of their tools. */
 
+import { ball } from "./ball.js";
+import { box } from "./box.js";
 import { capsule } from "./capsule.js";
 import { circle } from "./circle.js";
 import { map } from "./map.js";
 import { movingShape } from "./moving.js";
 import { polygon } from "./polygon.js";
 import { tracks } from "./tracks.js";
+import { voxels } from "./voxels.js";
 import { isMotion } from "../geometry/motion.js";
 
 /** @typedef {import("./shape.js").Shape} Shape */
@@ -15,6 +18,9 @@ export const SHAPES = [
   circle,
   capsule,
   polygon,
+  ball,
+  box,
+  voxels,
   map,
   tracks,
 ];

@@ -1,0 +1,87 @@
+"""The ways of legs that have been found already: a leg that nobody has moved isn't searched again.
+
+Tested through ``studio/space/test_leg_memory``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final, TypeAlias
+
+from viaspline.curve.certificate import certify
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.kernels.arrays import Floats
+from viaspline.space.leg_router import LegRouter
+from viaspline.space.weighed_ways import TautWay
+
+LegKey: TypeAlias = tuple[bytes, bytes, str | None]
+"""From where to where, and past what."""
+
+KnownWays: TypeAlias = Mapping[LegKey, Sequence[TautWay]]
+
+MAX_KNOWN_LEGS: Final = 2000
+
+
+class RememberedWays:
+    """All ways of the legs of a mission; those that are known aren't looked for again.
+
+    Args:
+        router: Finds the ways of others.
+        known: What was found before, in the same world for the same robot.
+    """
+
+    def __init__(self, router: LegRouter, known: KnownWays) -> None:
+        self._router = router
+        self.known = dict(known)
+
+    def gates(self, leg: int) -> Floats:
+        """What a leg has to pass on which sides, (g, 8)."""
+        return self._router.gates(leg)
+
+    def ways(self, leg: int, laid: Floats) -> Sequence[TautWay]:
+        """All ways of a leg; see `LegRouter.ways`.
+
+        Raises:
+            NoPathError: There is none, proven.
+            GaveUpError: None was found.
+        """
+        key = self._key(leg, laid)
+        if key not in self.known:
+            found = self._router.ways(leg, laid)
+            while len(self.known) >= MAX_KNOWN_LEGS:
+                del self.known[next(iter(self.known))]
+            self.known[key] = found
+        return self.known[key]
+
+    def _key(self, leg: int, laid: Floats) -> LegKey:
+        problem = self._router.problem
+        proof = certify(
+            PiecewiseCubic(laid), problem.world, problem.clearance, radius=problem.radius
+        )
+        first, last = problem.vias[leg], problem.vias[leg + 1]
+        return first.at.tobytes(), last.at.tobytes(), None if proof.holds else proof.obstacle
+
+
+class CheapestWays(RememberedWays):
+    """As that, but of a leg that isn't known yet only the cheapest way is looked for.
+
+    Attributes:
+        alone: How many legs have only their cheapest way.
+    """
+
+    def __init__(self, router: LegRouter, known: KnownWays) -> None:
+        super().__init__(router, known)
+        self.alone = 0
+
+    def ways(self, leg: int, laid: Floats) -> Sequence[TautWay]:
+        """All ways of a leg if they are known, else the cheapest.
+
+        Raises:
+            NoPathError: There is none, proven.
+            GaveUpError: None was found.
+        """
+        key = self._key(leg, laid)
+        if key in self.known:
+            return self.known[key]
+        self.alone += 1
+        return [self._router.cheapest(leg, laid)]
