@@ -385,7 +385,7 @@ class Engine:
         return await self._others.run(work)
 
     async def path_file(
-        self, plan: Plan, kind: str, name: str, origin: LatLon | None
+        self, plan: Plan | SpatialPlan, kind: str, name: str, origin: LatLon | None
     ) -> tuple[bytes, tuple[str, ...]]:
         """The path of a plan in a format of other people's, and what is to be said of it."""
 

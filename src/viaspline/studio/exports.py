@@ -63,7 +63,7 @@ def plan_file(plan: AnyPlan, kind: str, name: str) -> bytes:
 
 
 def path_file(
-    plan: Plan, kind: str, name: str, origin: LatLon | None
+    plan: Plan | SpatialPlan, kind: str, name: str, origin: LatLon | None
 ) -> tuple[bytes, tuple[str, ...]]:
     """The path of a plan in a format of other people's, and what is to be said of it.
 

@@ -19,7 +19,6 @@ from importlib import import_module
 from pathlib import Path
 from typing import Final
 
-import viaspline
 from viaspline.kernels import kernel_cache
 from viaspline.kernels.loaded_kernels import LoadedKernel, load_kernels, loaded_kernels
 from viaspline.warming.mission_kind import MissionKind
@@ -32,7 +31,7 @@ _PACKAGES: Final = ("viaspline", "numba", "numpy", "scipy", "shapely")
 
 def package_key() -> str:
     """A hash of all sources of viaspline."""
-    root = Path(viaspline.__file__).parent
+    root = Path(__file__).parents[1]
     digest = hashlib.sha256()
     for file in sorted(root.rglob("*.py")):
         digest.update(file.relative_to(root).as_posix().encode())

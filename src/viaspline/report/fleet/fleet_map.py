@@ -65,7 +65,7 @@ def draw_fleet_map(
 
 
 def draw_fleet_on(
-    sheet: Sheet, scene: Scene, plan: FleetPlan, timelines: Sequence[Timeline],
+    sheet: Sheet, scene: Scene | FlownScene, plan: FleetPlan, timelines: Sequence[Timeline],
     motion: FleetMotion, colours: FleetColours,
 ) -> list[Artist]:  # fmt: skip
     """Draw a fleet's plan on the map of a sheet, of which nothing else is touched.

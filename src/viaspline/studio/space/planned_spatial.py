@@ -18,6 +18,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.world_spec import WorldSpec
 from viaspline.space.leg_router import LegRouter
 from viaspline.space.plan_spatial import plan_by
+from viaspline.space.spatial_order import ordered_in_space
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
@@ -127,7 +128,8 @@ def _attempted(sound: PlannedSpatial, start: float, planning: _Planning) -> Plan
     problems: tuple[PlanFault, ...] = ()
     gave_up, is_whole, known = False, True, sound.known
     try:
-        plan, known, is_whole = planning(mission, spatial_problem_of(mission), sound.known)
+        asked = ordered_in_space(mission)
+        plan, known, is_whole = planning(asked, spatial_problem_of(asked), sound.known)
     except PlanningError as error:
         problems = (blocked_fault(error, sound.unfolded, mission),)
         gave_up = isinstance(error, GaveUpError)
