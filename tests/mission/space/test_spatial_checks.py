@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 
 from viaspline.errors import MissionError
 from viaspline.formats.load import load
@@ -265,8 +266,12 @@ route:
 
 def test_the_mission_of_the_documentation_is_sound(tmp_path: Path) -> None:
     page = Path(__file__).resolve().parents[3] / "docs" / "space.md"
-    (piece,) = re.findall(r"```yaml\n(.*?)```", page.read_text(), re.DOTALL)
+    piece, moving = re.findall(r"```yaml\n(.*?)```", page.read_text(), re.DOTALL)
     (tmp_path / "m.yaml").write_text(piece)
+    route = {"start": [0, 0, 5], "goal": [9, 0, 5]}
+    among = Mission.model_validate({"world": yaml.safe_load(moving), "route": route})
+    assert [one.name for one in among.world.moving] == ["hook", "airship"]
+    assert among.is_spatial
     mission = load(tmp_path / "m.yaml")
     assert isinstance(mission, Mission)
     assert mission.is_spatial

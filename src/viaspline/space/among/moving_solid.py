@@ -22,8 +22,8 @@ JUMP_S: Final = 1e-6
 """How long it isn't there while it jumps to where its loop begins [s]."""
 LONGEST_CELL_S: Final = 1.0
 """Of a motion of which it gets ever less certain where it is [s]."""
-MAX_ROUNDS: Final = 20_000
-"""How often a motion that goes on and on is repeated, at most."""
+MAX_ROUNDS: Final = 5_000
+"""How often a motion that goes on and on is repeated, at most; its way ends earlier then."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,7 @@ class MovingSolid:
 
     @classmethod
     def of(cls, obstacle: Obstacle, name: str, begin: float, end: float) -> MovingSolid:
-        """An obstacle with a motion, from one time to another [s].
+        """An obstacle with a motion, from one time to another [s], or until ``MAX_ROUNDS``.
 
         >>> lift = Obstacle(ball={"center": (0, 0, 0), "radius": 1},
         ...                 motion={"from": (5, 0, 2), "velocity_mps": (0, 0, 1)})

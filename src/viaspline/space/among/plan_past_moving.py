@@ -58,6 +58,7 @@ def plan_past_moving(static: SpatialPlan) -> SpatialPlan:
         MovingSolid.of(one, one.name or f"moving obstacle {k + 1}", law.start_time, until)
         for k, one in enumerate(mission.world.moving)
     ]
+    until = min([until, *(float(one.times[-1]) for one in moving)])
     first = _timed(static, moving, until)
     found = [] if isinstance(first, str) else [first]
     in_the_way = {first} if isinstance(first, str) else {one.obstacle for one in first.waits}
