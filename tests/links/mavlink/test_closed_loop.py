@@ -2,6 +2,7 @@
 
 import math
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -128,6 +129,35 @@ def test_a_station_is_served_standing() -> None:
     assert ended.reached
     near = [t for t, x, y, _ in vehicle.trace if math.dist((x, y), (8, 3)) < 0.2]
     assert near[-1] - near[0] > 4.0
+
+
+@pytest.mark.parametrize("knows_its_drive", [True, False])
+def test_a_corner_is_turned_on_the_spot(knows_its_drive: bool) -> None:
+    robot = {"radius_m": 0.4, "turn_on_spot": "vias", "max_speed_mps": 1.5}
+    if knows_its_drive:
+        robot["drive"] = {"differential": {"track_m": 0.5}, "lag_s": 0.2, "delay_s": 0.05}
+    route = {"start": {"at": [0, 0], "heading_deg": 0}, "via": [[5, 0]], "goal": [5, 5]}
+    vehicle, pilot = PymavlinkVehicle(), planar({"robot": robot, "route": route})
+    ended, _, _ = driven(vehicle, pilot)
+    assert ended.reached
+    assert math.dist((vehicle.x, vehicle.y), (5, 5)) < 0.25
+    assert off_path(vehicle, pilot.nav.path) < 0.25
+
+
+def test_laps_are_driven_one_after_the_other() -> None:
+    data = {
+        **ROUND_A_TANK, "world": {},
+        "route": {
+            "start": {"at": [0, 0], "heading_deg": 0}, "via": [[8, 0], [8, 6], [0, 6]],
+            "closed": True, "laps": 2,
+        },
+    }  # fmt: skip
+    vehicle, pilot = PymavlinkVehicle(), planar(data)
+    ended, drive, _ = driven(vehicle, pilot)
+    assert ended.reached
+    away = [math.dist((x, y), (8, 6)) < 0.3 for _, x, y, _ in vehicle.trace]
+    assert sum(b and not a for a, b in pairwise(away)) == 2
+    assert drive.farthest < 0.2
 
 
 IN_SPACE = {

@@ -9,9 +9,10 @@ import pytest
 from viaspline.links.mavlink.addresses import LinkAddress
 from viaspline.links.mavlink.common_messages import MissionItemInt
 from viaspline.links.mavlink.conversation import Conversation
-from viaspline.links.mavlink.mav_words import MISSION
-from viaspline.links.mavlink.mission_upload import MissionUpload
+from viaspline.links.mavlink.download_mission import download_mission
+from viaspline.links.mavlink.mav_words import FENCE, MISSION, RALLY
 from viaspline.links.mavlink.transport import open_transport
+from viaspline.links.mavlink.upload_mission import upload_mission
 
 mavsdk = pytest.importorskip("mavsdk", reason="mavsdk isn't installed")
 
@@ -42,22 +43,37 @@ def served(capfd: pytest.CaptureFixture[str]) -> Any:
     talk.close()
 
 
-def test_a_mission_arrives_at_mavsdk_as_it_was_sent(served: Any) -> None:
+def items_of(kind: int, command: int, count: int) -> tuple[MissionItemInt, ...]:
+    corners = float(count if kind == FENCE else 0)
+    return tuple(
+        MissionItemInt(
+            corners, 0.0, 0.0, 0.0, 471000000 + 100 * k, 82000000 - k, 5.0 + k, k, command, 0, 0,
+            0 if kind == FENCE else 3, 0, 1, kind,
+        )
+        for k in range(count)
+    )  # fmt: skip
+
+
+def test_all_lists_arrive_at_mavsdk_as_they_were_sent_and_come_back(served: Any) -> None:
     talk, come, plans = served
     vehicle, _ = talk.find(None, 10.0)
-    items = tuple(
-        MissionItemInt(
-            1.5 * k, 0.0, 0.0, 0.0, 471000000 + 100 * k, 82000000, 5.0 + k, k, 16, vehicle.system,
-            vehicle.component, 6, int(k == 0), 1, MISSION,
-        )
-        for k in range(23)
-    )  # fmt: skip
-    done = talk.carried_out(MissionUpload(vehicle, MISSION, items), vehicle)
-    assert done.is_done, done.failure
+    lists = {
+        MISSION: items_of(MISSION, 16, 23), FENCE: items_of(FENCE, 5001, 5),
+        RALLY: items_of(RALLY, 5100, 2),
+    }  # fmt: skip
+    done = upload_mission(talk, vehicle, lists, None)  # reads back and compares
+    assert done.counts == {FENCE: 5, RALLY: 2, MISSION: 23}
     assert come.wait(5.0)
-    ((_, plan),) = plans
+    _, plan = plans[-1]
     assert len(plan.mission_items) == 23
-    for sent, read in zip(items, plan.mission_items, strict=True):
+    for sent, read in zip(lists[MISSION], plan.mission_items, strict=True):
         assert (read.seq, read.command, read.frame) == (sent.seq, sent.command, sent.frame)
         assert (read.x, read.y, read.z) == (sent.x, sent.y, sent.z)
-        assert (read.param1, read.current) == (sent.param1, sent.current)
+
+
+def test_an_empty_fence_is_cleared_at_mavsdk(served: Any) -> None:
+    talk, _, _ = served
+    vehicle, _ = talk.find(None, 10.0)
+    upload_mission(talk, vehicle, {FENCE: items_of(FENCE, 5001, 4)}, None)
+    upload_mission(talk, vehicle, {FENCE: ()}, None)
+    assert download_mission(talk, vehicle).lists[FENCE] == ()

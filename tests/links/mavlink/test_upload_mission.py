@@ -1,5 +1,6 @@
 """A mission onto a vehicle that speaks through pymavlink, and what comes of bad days."""
 
+import errno
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -156,6 +157,17 @@ def test_nobody_answers() -> None:
     silent.beats = False
     with pytest.raises(LinkError, match="no autopilot was heard"):
         conversation_with(silent).find(None, 10.0)
+
+
+def test_no_network_is_said_so() -> None:
+    link = SimulatedLink()
+
+    def unreachable(data: bytes) -> None:
+        raise OSError(errno.ENETUNREACH, "Network is unreachable")
+
+    link.write = unreachable  # type: ignore[method-assign]
+    with pytest.raises(LinkError, match=r"the link broke \(network is unreachable\)"):
+        Conversation(link, "udpout:test", clock=link.now).find(None, 10.0)
 
 
 def test_two_autopilots_are_told_apart_or_refused_in_words() -> None:
