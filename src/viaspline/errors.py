@@ -8,6 +8,8 @@
     ├── OutputError         a result can't be written                          (exit code 2)
     ├── StudioError         the studio can't be served                         (exit code 2)
     ├── WorkersError        those who were to do the work can't, or are gone   (exit code 2)
+    ├── MessageError        bytes or values make no such message of ROS        (exit code 2)
+    ├── BagError            a log of a drive can't be read, or isn't one       (exit code 2)
     └── PlanningError       no path was laid: where, why, what would help
         ├── NoPathError     there is none: that is proven                      (exit code 3)
         └── GaveUpError     a budget ran out before it was known               (exit code 5)
@@ -106,6 +108,22 @@ class StudioError(ViasplineError):
 
 class WorkersError(ViasplineError):
     """Those who were to do pieces of the work can't be had, or died."""
+
+
+class MessageError(ViasplineError):
+    """Bytes or values make no such message of ROS, or its definition can't be read."""
+
+
+class BagError(ViasplineError):
+    """A log of a drive can't be read, is damaged, or holds nothing of what is asked.
+
+    Attributes:
+        path: The file or folder.
+    """
+
+    def __init__(self, path: object, problem: str) -> None:
+        self.path = str(path)
+        super().__init__(f"{self.path}: {problem}")
 
 
 class PlanningError(ViasplineError):
