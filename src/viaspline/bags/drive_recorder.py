@@ -1,4 +1,7 @@
-"""Records a drive: what others show of it, and exactly what its navigator was given and decided."""
+"""Records a drive: what others show of it, and exactly what its navigator was given and decided.
+
+Tested through ``bags/test_bag_file``.
+"""
 
 from __future__ import annotations
 
@@ -37,6 +40,8 @@ ABOUT: Final = "viaspline"
 PERIOD_KEY, REACTION_KEY, SEED_KEY, VERSION_KEY = "period_s", "reaction_s", "seed", "version"
 MOST_POSES: Final = 500
 """Poses of a path, at most."""
+LEFT_OUT_S: Final = 0.5
+"""From one pose to the next where a robot that follows exactly has left out steps [s]."""
 LEAST_SPACING_M: Final = 0.05
 MARGIN_M: Final = 2.0
 """What the map shows around the path where a mission has no bounds [m]."""
@@ -81,8 +86,10 @@ class DriveRecorder:
         )
         world, box = plan.world, _shown(plan)
         bag.write("/map", "nav_msgs/msg/OccupancyGrid", 0.0, occupancy(0.0, world, box))
-        laser = transforms(0.0, [FramePose(BASE_FRAME, LASER_FRAME)])
-        bag.write("/tf_static", "tf2_msgs/msg/TFMessage", 0.0, laser)
+        fixed = transforms(
+            0.0, [FramePose(MAP_FRAME, ODOM_FRAME), FramePose(BASE_FRAME, LASER_FRAME)]
+        )
+        bag.write("/tf_static", "tf2_msgs/msg/TFMessage", 0.0, fixed)
 
     def note(self, step: DrivenStep) -> None:
         """Write a step; to be called with every one, in order."""
@@ -113,10 +120,18 @@ class DriveRecorder:
         """The poses at the steps that a robot that follows exactly has left out."""
         if last.nav.controller is not None:
             return
-        first = math.floor(last.time / self._period + 1e-9) + 1
-        for tick in range(first, math.ceil(until / self._period - 1e-9)):
-            time = tick * self._period
-            self._pose(time, last.nav.reference(time))
+        count = math.ceil((until - last.time) / LEFT_OUT_S - 1e-9)
+        times = last.time + LEFT_OUT_S * np.arange(1, count)
+        if not len(times):
+            return
+        path, law = last.nav.path, last.nav.trajectory
+        distances = np.asarray(law.distance_at(times))
+        u = np.asarray(path.parameter(distances))
+        places, headings = np.asarray(path.evaluate(u)), np.asarray(path.heading(u))
+        speeds = np.asarray(law.speed_at(distances))
+        rows = zip(times.tolist(), places.tolist(), headings.tolist(), speeds.tolist(), strict=True)
+        for time, place, heading, speed in rows:
+            self._pose(time, RobotState(tuple(place), heading, speed))
 
     def _pose(self, time: float, state: RobotState) -> None:
         rate = 0.0
@@ -124,10 +139,7 @@ class DriveRecorder:
             before, heading = self._before
             rate = math.remainder(state.heading - heading, math.tau) / (time - before)
         self._before = time, state.heading
-        frames = [
-            FramePose(MAP_FRAME, ODOM_FRAME),
-            FramePose(ODOM_FRAME, BASE_FRAME, state.position, state.heading),
-        ]
+        frames = [FramePose(ODOM_FRAME, BASE_FRAME, state.position, state.heading)]
         self._bag.write("/tf", "tf2_msgs/msg/TFMessage", time, transforms(time, frames))
         self._bag.write("/odom", "nav_msgs/msg/Odometry", time, odometry(time, state, rate))
 

@@ -1,4 +1,7 @@
-"""Reads MCAP files from their beginning, as far as they are whole."""
+"""Reads MCAP files from their beginning, as far as they are whole.
+
+Tested through ``bags/test_replay``.
+"""
 
 from __future__ import annotations
 

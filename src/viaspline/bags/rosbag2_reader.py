@@ -1,4 +1,7 @@
-"""Reads bags of ROS 2: a folder with ``metadata.yaml`` and MCAP files or SQLite databases."""
+"""Reads bags of ROS 2: a folder with ``metadata.yaml`` and MCAP files or SQLite databases.
+
+Tested through ``bags/test_read_drive``.
+"""
 
 from __future__ import annotations
 

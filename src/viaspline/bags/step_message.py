@@ -1,4 +1,7 @@
-"""A step of a navigator as a message: what it was given, and what it decided."""
+"""A step of a navigator as a message: what it was given, and what it decided.
+
+Tested through ``bags/test_replay``.
+"""
 
 from __future__ import annotations
 

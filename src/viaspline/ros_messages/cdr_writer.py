@@ -55,9 +55,9 @@ def _align(buffer: bytearray, size: int) -> None:
 
 
 def _message(kind: MessageType, types: Mapping[str, MessageType]) -> _Put:
-    letters = [PRIMITIVES.get(one.base, "") if one.many == "one" else "" for one in kind.fields]
-    if len(letters) > 1 and letters[0] and len(set(letters)) == 1:  # all numbers of one kind
-        return _numbers(kind, letters)
+    letters = _letters(kind, types)
+    if letters is not None:
+        return _numbers(kind, types, letters)
     puts = [(one.name, _field(one, types)) for one in kind.fields]
 
     def put(buffer: bytearray, message: Any) -> None:
@@ -67,11 +67,24 @@ def _message(kind: MessageType, types: Mapping[str, MessageType]) -> _Put:
     return put
 
 
-def _numbers(kind: MessageType, letters: list[str]) -> _Put:
-    packer, values = (
-        struct.Struct("<" + "".join(letters)),
-        itemgetter(*(f.name for f in kind.fields)),
-    )
+def _letters(kind: MessageType, types: Mapping[str, MessageType]) -> str | None:
+    """The letters of a message that is nothing but numbers of one size; None: it is more."""
+    found = ""
+    for one in kind.fields:
+        if one.many != "one":
+            return None
+        inner = PRIMITIVES.get(one.base)
+        if inner is None and one.base in types:
+            inner = _letters(types[one.base], types)
+        if inner is None:
+            return None
+        found += inner
+    return found if len({struct.calcsize(letter) for letter in found}) == 1 else None
+
+
+def _numbers(kind: MessageType, types: Mapping[str, MessageType], letters: str) -> _Put:
+    """All numbers at once: between those of one size there is no padding."""
+    packer, values = struct.Struct("<" + letters), _values(kind, types)
     size = struct.calcsize(letters[0])
 
     def put(buffer: bytearray, message: Any) -> None:
@@ -79,6 +92,30 @@ def _numbers(kind: MessageType, letters: list[str]) -> _Put:
         buffer += packer.pack(*values(message))
 
     return put
+
+
+def _values(
+    kind: MessageType, types: Mapping[str, MessageType]
+) -> Callable[[Any], tuple[Any, ...]]:
+    """What takes the numbers out of a message that has nothing else."""
+    names = [one.name for one in kind.fields]
+    if all(one.base in PRIMITIVES for one in kind.fields):
+        if len(names) > 1:
+            return itemgetter(*names)
+        return lambda message: (message[names[0]],)
+    parts = [
+        (one.name, _values(types[one.base], types) if one.base in types else None)
+        for one in kind.fields
+    ]
+
+    def values(message: Any) -> tuple[Any, ...]:
+        found: tuple[Any, ...] = ()
+        for name, inner in parts:
+            value = message[name]
+            found += (value,) if inner is None else inner(value)
+        return found
+
+    return values
 
 
 def _field(field: MessageField, types: Mapping[str, MessageType]) -> _Put:
