@@ -19,6 +19,7 @@ from viaspline.command_steps import (
     result_folder,
     say_written,
 )
+from viaspline.commands.drive_command import drive
 from viaspline.commands.replay_command import replay
 from viaspline.exit_codes import Commands
 from viaspline.report.terminal_lines import say
@@ -312,4 +313,5 @@ def studio(mission: Path | None, port: int, host: str, token: str | None, no_bro
     serve(mission, host=host, port=port, token=token, browser=not no_browser, say=say)
 
 
+cli.add_command(drive)
 cli.add_command(replay)

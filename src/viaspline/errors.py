@@ -8,6 +8,7 @@
     ├── OutputError         a result can't be written                          (exit code 2)
     ├── StudioError         the studio can't be served                         (exit code 2)
     ├── WorkersError        those who were to do the work can't, or are gone   (exit code 2)
+    ├── LinkError           a machine can't be reached, or doesn't do as told  (exit code 2)
     ├── MessageError        bytes or values make no such message of ROS        (exit code 2)
     ├── BagError            a log of a drive can't be read, or isn't one       (exit code 2)
     └── PlanningError       no path was laid: where, why, what would help
@@ -108,6 +109,20 @@ class StudioError(ViasplineError):
 
 class WorkersError(ViasplineError):
     """Those who were to do pieces of the work can't be had, or died."""
+
+
+class LinkError(ViasplineError):
+    """A machine can't be reached, or doesn't do as it is told.
+
+    Attributes:
+        link: Its address, or its name.
+        problem: What is wrong.
+        remedy: What would help.
+    """
+
+    def __init__(self, link: object, problem: str, remedy: str) -> None:
+        self.link, self.problem, self.remedy = str(link), problem, remedy
+        super().__init__(f"{self.link}: {problem}; {remedy}")
 
 
 class MessageError(ViasplineError):
