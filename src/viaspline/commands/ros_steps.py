@@ -31,6 +31,7 @@ class RosOptions(NamedTuple):
     Attributes:
         connect: Address of the zenoh router.
         domain: Of ROS.
+        distro: Of the robot's ROS, such as ``jazzy``.
         rate: Steps in a second, where no scan comes sooner [Hz].
         from_here: Whether the path begins where it stands, however far from the mission's start.
         stays: Whether goals are waited for at the end.
@@ -38,6 +39,7 @@ class RosOptions(NamedTuple):
 
     connect: str
     domain: int
+    distro: str
     rate: float
     from_here: bool
     stays: bool
@@ -68,8 +70,9 @@ def drive_over_ros(file: Path, options: RosOptions, *, quiet: bool) -> None:
     planned(mission)  # is there a path at all; and all that steps need is compiled
     tell = _telling(quiet)
     link = ZenohLink(
-        options.connect, options.domain, bridge.listens_to(), bridge.says(), standard_book()
-    )
+        options.connect, options.domain, bridge.listens_to(), bridge.says(), standard_book(),
+        distro=options.distro.lower(),
+    )  # fmt: skip
     with closing(link):
         tell(f"listens on {options.connect}, domain {options.domain}")
         runner = RosRunner(

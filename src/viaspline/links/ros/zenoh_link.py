@@ -26,6 +26,7 @@ from viaspline.ros_messages.message_book import MessageBook
 ROUTER: Final = "tcp/localhost:7447"
 """Where rmw_zenoh's router listens."""
 NODE: Final = "viaspline"
+HASHLESS: Final = "humble"
 MOST_WAITING: Final = 1000
 """Messages that wait to be read; beyond that the oldest is dropped."""
 
@@ -66,6 +67,7 @@ class ZenohLink:
         hears: Topics with their types.
         says: Likewise.
         book: The types.
+        distro: Of the robot's ROS, in small letters; in Humble types have no hashes.
 
     Raises:
         LinkError: The extra isn't installed, or there is no router.
@@ -73,12 +75,13 @@ class ZenohLink:
 
     def __init__(
         self, endpoint: str, domain: int, hears: Mapping[str, str], says: Mapping[str, str],
-        book: MessageBook,
+        book: MessageBook, *, distro: str = "jazzy",
     ) -> None:  # fmt: skip
         check_zenoh()
         import zenoh
 
         self._book, self._hears, self._domain = book, dict(hears), domain
+        self._hash_of = book.hash if distro != HASHLESS else _no_hash
         self._waiting: queue.Queue[tuple[float, str, bytes]] = queue.Queue(MOST_WAITING)
         self.unread = 0
         config = zenoh.Config()
@@ -105,7 +108,7 @@ class ZenohLink:
 
     def _token(self, side: Side, topic: str, kind: str, qos: Qos) -> str:
         token = endpoint_token(
-            self._domain, self._id, NODE, self._numbers, side, topic, kind, self._book.hash(kind),
+            self._domain, self._id, NODE, self._numbers, side, topic, kind, self._hash_of(kind),
             qos,
         )  # fmt: skip
         self._numbers += 1
@@ -144,7 +147,7 @@ class ZenohLink:
         from zenoh import ext
 
         qos = qos_for(topic, kind)
-        key = topic_key(self._domain, topic, kind, self._book.hash(kind))
+        key = topic_key(self._domain, topic, kind, self._hash_of(kind))
         cache = ext.CacheConfig(qos.depth) if qos.stays else None
         publisher = ext.declare_advanced_publisher(
             self._session, key, cache=cache, publisher_detection=qos.stays or None
@@ -187,6 +190,11 @@ class ZenohLink:
     def close(self) -> None:
         """End the session; tokens and all go with it."""
         self._session.close()  # type: ignore[no-untyped-call]
+
+
+def _no_hash(kind: str) -> str:
+    """What stands in place of a type's hash in Humble."""
+    return "TypeHashNotSupported"
 
 
 def _brief(error: Exception) -> str:
