@@ -64,12 +64,12 @@ def clear(tmp_path: Path) -> Path:
 
 def test_every_help_has_an_example() -> None:
     assert "Example" in call("--help").stdout
-    for command in ("run", "plan", "check", "figures", "studio"):
+    for command in cli.commands:
         assert f"viaspline {command} " in call(command, "--help").stdout
 
 
 def test_commands_that_come_later_are_not_offered() -> None:
-    assert set(cli.commands) == {"run", "plan", "check", "figures", "tension", "studio"}
+    assert "sweep" not in cli.commands
 
 
 def test_the_version_is_told() -> None:
