@@ -23,6 +23,7 @@ from viaspline.commands.download_command import download
 from viaspline.commands.drive_command import drive
 from viaspline.commands.export_command import export_command
 from viaspline.commands.identify_command import identify
+from viaspline.commands.replay_command import replay
 from viaspline.commands.upload_command import upload
 from viaspline.commands.warm_command import warm
 from viaspline.exit_codes import Commands
@@ -75,6 +76,12 @@ QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all g
     "--animate", type=click.Path(path_type=Path), metavar="FILE", help="A .gif or .mp4 of the run."
 )
 @click.option(
+    "--bag",
+    type=click.Path(path_type=Path),
+    metavar="FILE.mcap",
+    help="A log of the drive for Foxglove, RViz and `viaspline replay`.",
+)
+@click.option(
     "--real-time",
     is_flag=True,
     help="Let re-plans take what they take here, by the clock: no two runs are the same then.",
@@ -82,7 +89,7 @@ QUIET = click.option("--quiet", "-q", is_flag=True, help="Say nothing when all g
 @QUIET
 def run(
     mission: Path, out: Path | None, improve: float, workers: int | None, scheduler: str | None,
-    seed: int, animate: Path | None, real_time: bool, quiet: bool,
+    seed: int, animate: Path | None, bag: Path | None, real_time: bool, quiet: bool,
 ) -> None:  # fmt: skip
     r"""Plan a mission, drive it and report: the main job.
 
@@ -102,6 +109,7 @@ def run(
     if isinstance(asked, Mission):
         check_of_fleets(improve, workers, scheduler)
         if asked.is_spatial:
+            check_no_bag(bag, "in space")
             from viaspline.space_steps import run_spatial_mission
 
             run_spatial_mission(asked, mission, out, animate=animate, quiet=quiet)
@@ -109,9 +117,11 @@ def run(
         from viaspline.mission_steps import run_mission
 
         run_mission(
-            asked, mission, out, seed=seed, animate=animate, real_time=real_time, quiet=quiet
-        )
+            asked, mission, out, seed=seed, animate=animate, bag=bag, real_time=real_time,
+            quiet=quiet,
+        )  # fmt: skip
         return
+    check_no_bag(bag, "of a fleet")
     if real_time:
         raise click.UsageError("--real-time is for the mission of one robot; this is a fleet")
     from viaspline.fleet_steps import LaidBy, run_fleet_file
@@ -163,6 +173,12 @@ def plan(
 
         laid_by = LaidBy(workers, scheduler)
         plan_fleet_file(asked, mission, out, improve=improve, laid_by=laid_by, quiet=quiet)
+
+
+def check_no_bag(bag: Path | None, which: str) -> None:
+    """Refuse the option where there is no navigator to log."""
+    if bag is not None:
+        raise click.UsageError(f"--bag is for one robot in the plane; this mission is one {which}")
 
 
 def check_of_fleets(improve: float, workers: int | None, scheduler: str | None) -> None:
@@ -309,3 +325,5 @@ cli.add_command(download)
 cli.add_command(drive)
 cli.add_command(export_command)
 cli.add_command(identify)
+cli.add_command(drive)
+cli.add_command(replay)

@@ -15,6 +15,7 @@ from viaspline.report.interrupts import undone_at_the_end
 from viaspline.report.terminal_lines import say, say_error
 
 if TYPE_CHECKING:
+    from viaspline.bags.bag_file import BagFile
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.model import Mission
     from viaspline.planner import Plan
@@ -71,6 +72,22 @@ def film_file(path: Path | None) -> Iterator[VideoFile | None]:
     except BaseException:
         if film is not None:
             film.folder.forget_if_empty()
+        raise
+
+
+@contextmanager
+def bag_file(path: Path | None) -> Iterator[BagFile | None]:
+    """The file of the log, tried before the work."""
+    if path is None:
+        yield None
+        return
+    from viaspline.bags.bag_file import BagFile
+
+    log = BagFile(path)
+    try:
+        yield log
+    except BaseException:
+        log.folder.forget_if_empty()
         raise
 
 

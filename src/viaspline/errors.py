@@ -10,6 +10,8 @@
     ├── StudioError         the studio can't be served                         (exit code 2)
     ├── WorkersError        those who were to do the work can't, or are gone   (exit code 2)
     ├── LinkError           a machine can't be reached, or doesn't do as told  (exit code 2)
+    ├── MessageError        bytes or values make no such message of ROS        (exit code 2)
+    ├── BagError            a log of a drive can't be read, or isn't one       (exit code 2)
     └── PlanningError       no path was laid: where, why, what would help
         ├── NoPathError     there is none: that is proven                      (exit code 3)
         └── GaveUpError     a budget ran out before it was known               (exit code 5)
@@ -151,6 +153,22 @@ class LinkError(ViasplineError):
     def __init__(self, link: object, problem: str, remedy: str) -> None:
         self.link, self.problem, self.remedy = str(link), problem, remedy
         super().__init__(f"{self.link}: {problem}; {remedy}")
+
+
+class MessageError(ViasplineError):
+    """Bytes or values make no such message of ROS, or its definition can't be read."""
+
+
+class BagError(ViasplineError):
+    """A log of a drive can't be read, is damaged, or holds nothing of what is asked.
+
+    Attributes:
+        path: The file or folder.
+    """
+
+    def __init__(self, path: object, problem: str) -> None:
+        self.path = str(path)
+        super().__init__(f"{self.path}: {problem}")
 
 
 class PlanningError(ViasplineError):

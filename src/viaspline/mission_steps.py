@@ -5,12 +5,14 @@ Tested through ``test_cli``.
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import click
 
 from viaspline.command_steps import (
+    bag_file,
     default_folder,
     film_file,
     progress_bar,
@@ -69,7 +71,7 @@ def plan_mission(asked: Mission, file: Path, out: Path | None, *, quiet: bool) -
 
 def run_mission(
     asked: Mission, file: Path, out: Path | None, *,
-    seed: int, animate: Path | None, real_time: bool, quiet: bool,
+    seed: int, animate: Path | None, bag: Path | None, real_time: bool, quiet: bool,
 ) -> None:  # fmt: skip
     """Plan a mission, drive it, write the files of both and say what came of it.
 
@@ -79,21 +81,31 @@ def run_mission(
         out: The folder for the results; None: the usual one.
         seed: Of what is random.
         animate: The file of a film; None: there is none.
+        bag: The file of a log; None: there is none.
         real_time: Whether re-plans take what they take here, by the clock.
         quiet: Say nothing when all goes well.
     """
     with (
         result_folder(out or default_folder(file), RUN_NAMES) as folder,
         film_file(animate) as film,
+        bag_file(bag) as log,
         progress_bar(quiet, asked) as watch,
     ):
         plan = watched_plan(asked, watch)
         with watch.stage("simulate", "driving"):
+            from viaspline.robot.simulation.driven_step import unwatched
             from viaspline.robot.simulation.pace import by_clock, by_work
             from viaspline.robot.simulator import simulate
 
             pace = by_clock if real_time else by_work
-            done = simulate(plan.mission, seed=seed, progress=watch.driven, plan=plan, pace=pace)
+            recording = (
+                nullcontext(unwatched) if log is None else log.recording(asked, plan, seed=seed)
+            )
+            with recording as step:
+                done = simulate(
+                    plan.mission, seed=seed, progress=watch.driven, plan=plan, pace=pace,
+                    watch=step,
+                )  # fmt: skip
         with watch.stage("report", "drawing and writing"):
             from viaspline.report import results
 
@@ -111,7 +123,7 @@ def run_mission(
 
         show(plan_tables(plan, file.stem), run_tables(done, file.stem))
         say_remarks(asked)
-        say_written([*files, *([] if film is None else [film.path])])
+        say_written([*files, *(one.path for one in (film, log) if one is not None)])
     if not done.reached:
         from viaspline.report.units import place, seconds
 

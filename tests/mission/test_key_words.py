@@ -15,7 +15,7 @@ RING = "at least three points [[x, y], [x, y], [x, y]] in metres"
 @pytest.mark.parametrize(
     ("path", "words"),
     [
-        ((), "a mapping with the keys world, robot, route and spline"),
+        ((), "a mapping with the keys world, robot, route, spline and ros"),
         (
             ("world",),
             "a mapping with the keys bounds, fences, known, unseen, speed_zones, altitude and "

@@ -12,15 +12,26 @@ from viaspline.commands.link_options import ADDRESSES, ORIGIN, QUIET, SYSTEM, WA
 @click.command()
 @click.argument("mission", type=click.Path(path_type=Path))
 @click.option("--mavlink", metavar="ADDRESS", help=f"An autopilot: {ADDRESSES}")
-@click.option("--arm", is_flag=True, help="Arm it; else a person has to.")
+@click.option("--ros", is_flag=True, help="A robot that speaks ROS 2, over rmw_zenoh.")
 @click.option("--from-here", is_flag=True, help="The path begins where the vehicle stands.")
+@click.option("--arm", is_flag=True, help="MAVLink: arm it; else a person has to.")
 @ORIGIN
 @SYSTEM
 @WAIT
+@click.option("--connect", default="tcp/localhost:7447", show_default=True, metavar="ENDPOINT",
+              help="ROS: the router of rmw_zenoh.")  # fmt: skip
+@click.option("--domain", type=click.IntRange(0, 232), default=0, show_default=True, metavar="N",
+              envvar="ROS_DOMAIN_ID", help="ROS: ROS_DOMAIN_ID.")  # fmt: skip
+@click.option("--distro", default="jazzy", show_default=True, metavar="NAME", envvar="ROS_DISTRO",
+              help="ROS: ROS_DISTRO of the robot.")  # fmt: skip
+@click.option("--rate", type=click.FloatRange(10.0, 200.0), default=20.0, show_default=True,
+              metavar="HZ", help="ROS: steps in a second, where no scan comes sooner.")  # fmt: skip
+@click.option("--stay", is_flag=True, help="ROS: wait for goals at the end, until Ctrl-C.")
 @QUIET
 def drive(
-    mission: Path, mavlink: str | None, arm: bool, from_here: bool, origin: str | None,
-    system: int | None, wait: float, quiet: bool,
+    mission: Path, mavlink: str | None, ros: bool, from_here: bool, arm: bool, origin: str | None,
+    system: int | None, wait: float, connect: str, domain: int, distro: str, rate: float,
+    stay: bool, quiet: bool,
 ) -> None:  # fmt: skip
     r"""Drive a mission with a real vehicle: its motors move.
 
@@ -28,13 +39,25 @@ def drive(
     end, on Ctrl-C and when the link is lost it is stopped and holds. Whoever changes its mode has
     it from then on.
 
+    Over ROS 2 it hears odometry, tf, scans, maps and goals, and says cmd_vel, the path and how it
+    goes; the mission's ros: says how they are called, Nav2's names are the defaults. It stands
+    while anything that it needs is older than 0.2 s, at the end, and on Ctrl-C. The robot's base
+    has to stop by itself when cmd_vel ceases.
+
     \b
     Example:
       viaspline drive patrol.yaml --mavlink udp:0.0.0.0:14550 --origin 47.1,8.2 --from-here
+      viaspline drive patrol.yaml --ros --from-here
     """
-    if mavlink is None:
-        raise click.UsageError("say how the vehicle is reached: --mavlink ADDRESS")
-    from viaspline.commands.mavlink_steps import MavlinkLink, drive_over_mavlink
+    if (mavlink is None) != ros:
+        raise click.UsageError("say how the vehicle is reached: --mavlink ADDRESS or --ros")
+    if mavlink is not None:
+        from viaspline.commands.mavlink_steps import MavlinkLink, drive_over_mavlink
 
-    link = MavlinkLink(mavlink, system, origin, arm, from_here, wait)
-    drive_over_mavlink(mission, link, quiet=quiet)
+        link = MavlinkLink(mavlink, system, origin, arm, from_here, wait)
+        drive_over_mavlink(mission, link, quiet=quiet)
+        return
+    from viaspline.commands.ros_steps import RosOptions, drive_over_ros
+
+    options = RosOptions(connect, domain, distro, rate, from_here, stay)
+    drive_over_ros(mission, options, quiet=quiet)

@@ -9,6 +9,7 @@ Tested through ``mission/test_model``.
 from __future__ import annotations
 
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.mission.ros_spec import RosSpec
 from viaspline.mission.route_spec import Route
 from viaspline.mission.spline_spec import SplineSpec, Tangents
 from viaspline.mission.value import Value
@@ -23,12 +24,14 @@ class MissionParts(Value):
         robot: The robot's body, limits and sensor.
         route: The points that the path runs through.
         spline: The curve's shape.
+        ros: How the robot's ROS 2 calls its topics and frames.
     """
 
     world: WorldSpec = WorldSpec()
     robot: RobotSpec = RobotSpec()
     route: Route
     spline: SplineSpec = SplineSpec()
+    ros: RosSpec = RosSpec()
 
     @property
     def is_spatial(self) -> bool:

@@ -24,6 +24,7 @@ class Mission(ShownValue, MissionParts):
         robot: The robot's body, limits and sensor.
         route: The points that the path runs through.
         spline: The curve's shape.
+        ros: How the robot's ROS 2 calls its topics and frames.
 
     >>> mission = Mission.model_validate({"route": {"start": [0, 0], "goal": [9, 0]}})
     >>> mission.route.goal.at

@@ -10,6 +10,7 @@ from viaspline.handed_in import check_callable, seed_from, time_from
 from viaspline.planner import Plan
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Run
+from viaspline.robot.simulation.driven_step import StepWatcher, unwatched
 from viaspline.robot.simulation.exact_drive import drive_exactly
 from viaspline.robot.simulation.exact_run import run_of_exact
 from viaspline.robot.simulation.machine_drive import drive_machine
@@ -27,14 +28,28 @@ MAX_DELAY_S = 600.0
 """and this much longer [s]."""
 
 
+STEP_S = 0.05
+"""Time between two looks of the sensor, if nobody says [s]."""
+
+
+def longest_step(step: float) -> float:
+    """The longest time between two steps that a simulated navigator reckons with [s].
+
+    >>> longest_step(0.02) >= 0.02
+    True
+    """
+    return max(step, REACTION_S)
+
+
 def simulate(
     mission: AskedMission,
     *,
     seed: int = 0,
-    step: float = 0.05,
+    step: float = STEP_S,
     progress: ProgressCallback | None = None,
     plan: Plan | None = None,
     pace: Pace = by_work,
+    watch: StepWatcher = unwatched,
 ) -> Run:
     """Drive a mission in the world as it is, with what is not on the map.
 
@@ -54,6 +69,8 @@ def simulate(
         plan: The mission's plan, if there is one already.
         pace: How much of the world's time passes while the robot searches for a new path:
             ``by_work``, the same on every machine, or ``by_clock``, what it takes here.
+        watch: Called with every step of the navigator that is made: a robot that follows exactly
+            leaves out those in which nothing can change.
 
     Returns:
         What was driven, whether the robot reached its goal or not: see ``Run.reached``.
@@ -80,10 +97,11 @@ def simulate(
         raise GeometryError("the mission is one in space; give fly(plan(mission))")
     step, seed = time_from("step", step), seed_from("seed", seed)
     check_callable("pace", pace, "give by_work or by_clock")
+    check_callable("watch", watch, "give a function of a step")
     if progress is not None:
         check_callable("progress", progress, "give a function of a time and two lengths")
     world = World.everything(mission)
-    nav = Navigator(mission, plan, reaction=max(step, REACTION_S), period=step, warm=False)
+    nav = Navigator(mission, plan, reaction=longest_step(step), period=step, warm=False)
     limit = MAX_DURATION_RATIO * nav.plan.trajectory.duration + MAX_DELAY_S
 
     def tell(time: float, nav: Navigator) -> None:
@@ -92,5 +110,7 @@ def simulate(
             progress(time, nav.driven + nav.distance, length)
 
     if nav.controller is None:
-        return run_of_exact(drive_exactly(nav, world, step, seed, tell, limit, pace), world, step)
-    return run_of_machine(drive_machine(nav, world, step, seed, tell, limit, pace), world, step)
+        driven = drive_exactly(nav, world, step, seed, tell, limit, pace, watch)
+        return run_of_exact(driven, world, step)
+    moved = drive_machine(nav, world, step, seed, tell, limit, pace, watch)
+    return run_of_machine(moved, world, step)

@@ -15,6 +15,7 @@ from viaspline.robot.perception.range_sensor import RangeSensor
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
 from viaspline.robot.simulation.driven_motion import DrivenMotion
+from viaspline.robot.simulation.driven_step import DrivenStep, StepWatcher, unwatched
 from viaspline.robot.simulation.machine_drive import Tell
 from viaspline.robot.simulation.pace import Pace, by_work, steps_taken
 from viaspline.robot.simulation.sensors import senses_of
@@ -57,6 +58,7 @@ def drive_exactly(
     tell: Tell,
     limit: float,
     pace: Pace = by_work,
+    watch: StepWatcher = unwatched,
 ) -> ExactDrive:
     """Drive until the navigator has finished; the robot is always where it should be.
 
@@ -68,6 +70,7 @@ def drive_exactly(
         tell: Called with the time and the navigator at every step that is not left out.
         limit: The drive is broken off at this time [s].
         pace: How long a search keeps the robot from looking again.
+        watch: Called with every step that is not left out.
     """
     senses = senses_of(nav.mission, world, seed)
     sensor = senses.standing
@@ -82,8 +85,9 @@ def drive_exactly(
         sensed = senses.at(state.position, state.heading, tick, time)
         if not isinstance(sensed, Scan):
             known = known.union(one for one in sensed if isinstance(one, Obstacle))
-        _, nav = nav.step(state, sensed, time)
+        command, nav = nav.step(state, sensed, time)
         book.note(nav)
+        watch(DrivenStep(time, state, sensed, command, nav))
         if nav.trajectory is not last:
             last = nav.trajectory
             trajectories.append((time, last.moved(nav.driven)))

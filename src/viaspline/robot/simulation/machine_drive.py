@@ -28,6 +28,7 @@ from viaspline.robot.logbook import Logbook
 from viaspline.robot.navigator import Navigator
 from viaspline.robot.run import Event
 from viaspline.robot.simulation.contact import first_contact
+from viaspline.robot.simulation.driven_step import DrivenStep, StepWatcher, unwatched
 from viaspline.robot.simulation.pace import Pace, by_work, steps_taken
 from viaspline.robot.simulation.sensors import senses_of
 from viaspline.robot.state import RobotState
@@ -73,6 +74,7 @@ def drive_machine(
     tell: Tell,
     limit: float,
     pace: Pace = by_work,
+    watch: StepWatcher = unwatched,
 ) -> MachineDrive:
     """Drive until the navigator has finished and the robot stands.
 
@@ -84,6 +86,7 @@ def drive_machine(
         tell: Called with the time and the navigator at every step.
         limit: The drive is broken off at this time [s].
         pace: How long a search keeps the robot from looking again.
+        watch: Called with every step.
     """
     controller = nav.controller
     assert controller is not None
@@ -99,8 +102,10 @@ def drive_machine(
         x, y, heading = (state[: HEADING + 1] + faults.measured(1)[0]).tolist()
         believed = RobotState((x, y), heading, float(state[ALONG]), float(state[ACROSS]))
         place = float(state[X]), float(state[Y])
-        _, nav = nav.step(believed, senses.at(place, float(state[HEADING]), tick, time), time)
+        sensed = senses.at(place, float(state[HEADING]), tick, time)
+        command, nav = nav.step(believed, sensed, time)
         book.note(nav)
+        watch(DrivenStep(time, believed, sensed, command, nav))
         controller = nav.controller
         assert controller is not None
         notes.append(controller.note)

@@ -1,0 +1,1 @@
+"""Logs of drives that others open, and logs of others: MCAP and rosbag2."""
