@@ -26,7 +26,7 @@ OWN_DEFINITIONS: Mapping[str, str] = MappingProxyType(
         ),
         "viaspline_msgs/msg/ExactScan": (
             "float64[] position\nfloat64 heading\nfloat64 angle_min\nfloat64 angle_increment\n"
-            "float64 range_max\nfloat64[] ranges"
+            "float64 range_max\nfloat64[] ranges\nfloat64[<=1] stamp"
         ),
         "viaspline_msgs/msg/Command": (
             "float64 speed\nfloat64 acceleration\nfloat64 curvature\nfloat64 yaw_rate\n"
@@ -38,7 +38,7 @@ OWN_DEFINITIONS: Mapping[str, str] = MappingProxyType(
         ),
         STEP: (
             "float64 time\nfloat64[] position\nfloat64 heading\nfloat64 speed\n"
-            "float64 speed_across\nviaspline_msgs/ExactScan[<=1] scan\nuint32[] told\n"
+            "float64 speed_across\nfloat64[<=1] stamp\nviaspline_msgs/ExactScan[<=1] scan\nuint32[] told\n"
             "viaspline_msgs/Moving[] moving\nviaspline_msgs/Command command\n"
             "viaspline_msgs/Event[] events\nfloat64 path_length\nfloat64 end_time"
         ),

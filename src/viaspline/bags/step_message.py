@@ -68,6 +68,7 @@ def _given(step: DrivenStep, number_of: Callable[[Obstacle], int]) -> dict[str, 
         "heading": state.heading,
         "speed": state.speed,
         "speed_across": state.speed_across,
+        "stamp": _perhaps(state.stamp),
         "scan": scans,
         "told": told,
         "moving": moving,
@@ -76,7 +77,16 @@ def _given(step: DrivenStep, number_of: Callable[[Obstacle], int]) -> dict[str, 
 
 def _scan(scan: Scan) -> dict[str, Any]:
     names = ("position", "heading", "angle_min", "angle_increment", "range_max", "ranges")
-    return {name: getattr(scan, name) for name in names}
+    return {name: getattr(scan, name) for name in names} | {"stamp": _perhaps(scan.stamp)}
+
+
+def _perhaps(stamp: float | None) -> list[float]:
+    """An instant that need not be said, as a list of one or none."""
+    return [] if stamp is None else [stamp]
+
+
+def _said(stamps: Any) -> float | None:
+    return float(stamps[0]) if len(stamps) else None
 
 
 def _moving(seen: MovingSighting, number: int) -> dict[str, Any]:
@@ -131,10 +141,11 @@ def given_from(message: Mapping[str, Any], obstacles: Mapping[int, Obstacle]) ->
         message["heading"],
         message["speed"],
         message["speed_across"],
+        _said(message["stamp"]),
     )
     if message["scan"]:
         (scan,) = message["scan"]
-        return Given(message["time"], state, Scan(**scan))
+        return Given(message["time"], state, Scan(**{**scan, "stamp": _said(scan["stamp"])}))
     told = [obstacles[number] for number in message["told"].tolist()]
     moving = [
         MovingSighting(
