@@ -28,8 +28,8 @@ def cut(planned: Plan, chord_error: float, acceptance: float = 0.0) -> ClearPoly
     path = planned.path
     fixed = np.unique([0.0, *(via.u for via in path.vias if via.kind == "user"), path.domain[1]])
     return clear_polyline(
-        path, LineProver.of(planned), fixed, np.empty(0), chord_error=chord_error, acceptance=acceptance,
-        may_join=lambda a, b: True, most=2000, known={},
+        path, LineProver.of(planned), fixed, np.empty(0), chord_error=chord_error,
+        acceptance=acceptance, may_join=lambda a, b: True, most=2000, known={},
     )  # fmt: skip
 
 
