@@ -22,6 +22,15 @@ INTERRUPTED, TERMINATED = 130, 143
 class Commands(click.Group):
     """The commands; every error that they raise becomes a message and an exit code."""
 
+    def __init__(self, *arguments: Any, **keys: Any) -> None:
+        super().__init__(*arguments, **keys)
+        self.help = _with_its_lines(self.help)
+
+    def add_command(self, cmd: click.Command, name: str | None = None) -> None:
+        """Add a command, whose examples keep their lines."""
+        cmd.help = _with_its_lines(cmd.help)
+        super().add_command(cmd, name)
+
     def invoke(self, ctx: click.Context) -> Any:
         """Run a command."""
         try:
@@ -31,6 +40,11 @@ class Commands(click.Group):
             raise
         except (Exception, KeyboardInterrupt, Terminated) as error:
             ctx.exit(told(error))
+
+
+def _with_its_lines(text: str | None) -> str | None:
+    r"""A help text in which ``\b`` is the character by which click keeps the lines after it."""
+    return None if text is None else text.replace("\\b\n", "\b\n")
 
 
 def told(error: BaseException) -> int:
