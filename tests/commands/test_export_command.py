@@ -65,4 +65,12 @@ def test_what_can_not_be_exported_is_refused_in_words_before_the_work(
 
 
 def test_its_help_has_examples() -> None:
-    assert "viaspline export examples/fence-survey.plan survey.kml" in call("--help").output
+    lines = [line.strip() for line in call("--help").output.splitlines()]
+    assert "viaspline export examples/fence-survey.plan survey.kml" in lines
+
+
+@pytest.mark.parametrize("command", ["", "run", "plan", "check", "export"])
+def test_examples_in_a_help_keep_their_lines(command: str) -> None:
+    shown = CliRunner().invoke(cli, [*command.split(), "--help"]).output
+    assert "\\b" not in shown
+    assert any(line.strip().startswith("viaspline ") for line in shown.splitlines())

@@ -9,7 +9,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from viaspline.errors import PlanningError
-from viaspline.exports.clear_polyline import EXPORT_SLACK_M, ClearPolyline, clear_polyline
+from viaspline.exports.clear_polyline import (
+    EXPORT_SLACK_M,
+    ClearPolyline,
+    clear_polyline,
+    polyline_proof,
+)
 from viaspline.exports.line_proof import LineProver
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
@@ -23,8 +28,8 @@ def cut(planned: Plan, chord_error: float, acceptance: float = 0.0) -> ClearPoly
     path = planned.path
     fixed = np.unique([0.0, *(via.u for via in path.vias if via.kind == "user"), path.domain[1]])
     return clear_polyline(
-        path, LineProver.of(planned), fixed, chord_error=chord_error, acceptance=acceptance,
-        may_join=lambda a, b: True, most=2000, known={},
+        path, LineProver.of(planned), fixed, np.empty(0), chord_error=chord_error,
+        acceptance=acceptance, may_join=lambda a, b: True, most=2000, known={},
     )  # fmt: skip
 
 
@@ -110,3 +115,14 @@ def test_a_robot_in_a_gap_that_just_fits_gets_lines_that_fit_as_well() -> None:
     drawn = shapely.LineString(lines.points)
     walls = [shapely.Polygon(one["polygon"]) for one in known]
     assert min(drawn.distance(wall) for wall in walls) == pytest.approx(1.0, abs=2e-4)
+
+
+def test_rows_of_short_lines_are_proven_as_each_of_them_is() -> None:
+    planned = planned_among([(30, 2, 5)])
+    path, prover = planned.path, LineProver.of(planned)
+    u = np.linspace(0, path.domain[1], 200)
+    points = np.asarray(path.evaluate(u))
+    found = polyline_proof(path, prover, u, points, 0.0)
+    each = [prover.proof(points[k : k + 2], 1.0).clearance for k in range(199)]
+    assert (found.clearances <= np.array(each) + 1e-3).all()
+    assert found.clearances.min() == pytest.approx(min(each), abs=2e-3)

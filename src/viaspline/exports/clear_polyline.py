@@ -7,7 +7,7 @@ where that isn't enough, the lines are made shorter.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
@@ -18,13 +18,16 @@ from viaspline.exports.chord_bound import chord_bound
 from viaspline.exports.corner_cut import corner_strays
 from viaspline.exports.line_proof import LineProof, LineProver
 from viaspline.exports.sparse_vertices import sparse_parameters
-from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.arrays import Flags, Floats, Ints
 
 EXPORT_SLACK_M: Final = 2e-5
 """What the lines may lack of the required clearance: the digits of a file are not endless [m]."""
 
 _MARGIN_M: Final = 2e-6
 """By which corners are moved farther than they have to be [m]."""
+
+_ROW: Final = 32
+"""So many lines are proven at once."""
 
 _MAX_MOVES: Final = 16
 _MAX_ROUNDS: Final = 10
@@ -75,6 +78,7 @@ class _Cutting:
     chord_error: float
     acceptance: float
     fixed: Floats
+    breaks: Floats
     known: dict[bytes, LineProof]
 
     def bounds(self, u: Floats, points: Floats) -> Floats:
@@ -88,18 +92,30 @@ class _Cutting:
 
     def judged(self, u: Floats, points: Floats) -> _Judged:
         """What is proven of lines."""
+        strays = corner_strays(points, self.acceptance, self.prover.outer)
         distances = np.asarray(self.path.distance(u))
         middles = 0.5 * (distances[:-1] + distances[1:])
-        proofs = []
-        for i, middle in enumerate(middles.tolist()):
-            corners = points[i : i + 3]
-            key = corners.tobytes() + np.float64(middle).tobytes()
-            if key not in self.known:
-                self.known[key] = self.prover.proof(corners, middle)
-            proofs.append(self.known[key])
-        strays = corner_strays(points, self.acceptance, self.prover.outer)
+        enough = self.prover.required + _MARGIN_M
+        proofs: list[LineProof] = []
+        # Where no corners are cut many lines are far from everything: rows are proven at once.
+        size = 1 if self.acceptance > 0.0 else _ROW
+        for first, last in _rows(self.prover.part_at(middles), size):
+            whole = self._proof(points, first, last, middles)
+            if whole.clearance - float(strays[first:last].max()) >= enough or last == first + 1:
+                proofs += [whole] * (last - first)
+            else:
+                proofs += [self._proof(points, k, k + 1, middles) for k in range(first, last)]
         cleared = np.array([proof.clearance for proof in proofs]) - strays
-        return _Judged(tuple(proofs), strays, self.prover.required + _MARGIN_M - cleared)
+        return _Judged(tuple(proofs), strays, enough - cleared)
+
+    def _proof(self, points: Floats, first: int, last: int, middles: Floats) -> LineProof:
+        """What is proven of the lines from the first one to before the last one."""
+        turns = self.prover.footprint is not None  # at the end of the last one
+        corners = points[first : last + (2 if turns else 1)]
+        key = corners.tobytes() + np.float64(middles[first]).tobytes()
+        if key not in self.known:
+            self.known[key] = self.prover.proof(corners, float(middles[first]))
+        return self.known[key]
 
     def whole(self, u: Floats, points: Floats) -> ClearPolyline:
         """Lines with all that is proven of them."""
@@ -107,6 +123,15 @@ class _Cutting:
         error = float(self.bounds(u, points).max())
         required = self.prover.required
         return ClearPolyline(u, points, error, found.proofs, found.strays, required)
+
+
+def _rows(parts: Ints, size: int) -> Iterator[tuple[int, int]]:
+    """Lines in rows of no more than so many, all in one part of the path: from, and to before."""
+    first = 0
+    for k in range(1, len(parts) + 1):
+        if k == len(parts) or k - first == size or parts[k] != parts[first]:
+            yield first, k
+            first = k
 
 
 class _Judged(NamedTuple):
@@ -129,13 +154,14 @@ def polyline_proof(
         points: The corners [m], shape (n, d).
         acceptance: How near to a corner the vehicle turns to the next one [m].
     """
-    return _Cutting(path, prover, 0.0, acceptance, u, {}).whole(u, points)
+    return _Cutting(path, prover, 0.0, acceptance, u, u, {}).whole(u, points)
 
 
 def clear_polyline(
     path: PiecewiseCubic,
     prover: LineProver,
     fixed: Floats,
+    breaks: Floats,
     *,
     chord_error: float,
     acceptance: float,
@@ -149,6 +175,7 @@ def clear_polyline(
         path: The proven path.
         prover: What it is proven against.
         fixed: Parameters of places that the lines have to run through, the ends among them.
+        breaks: Parameters where lines end, which may be moved away from the path.
         chord_error: How far from the path they may be [m].
         acceptance: How near to a corner the vehicle turns to the next one [m].
         may_join: What else is asked of each line, by its parameters.
@@ -158,7 +185,7 @@ def clear_polyline(
     Returns:
         The lines; if they don't hold, the last ones that were tried.
     """
-    cutting = _Cutting(path, prover, chord_error, acceptance, fixed, known)
+    cutting = _Cutting(path, prover, chord_error, acceptance, fixed, breaks, known)
     for start in _STARTS:
         found, is_whole = _cut(cutting, start * chord_error, may_join, most)
         if is_whole or len(found.points) > most:
@@ -180,7 +207,7 @@ def _cut(
 
         return allowed
 
-    u = np.array(sparse_parameters(cutting.fixed.tolist(), near(error)))
+    u = np.array(sparse_parameters(_ends(cutting), near(error)))
     errors = np.full(len(u) - 1, error)
     for _ in range(_MAX_ROUNDS):
         found = _moved(cutting, u)
@@ -202,6 +229,14 @@ def _cut(
             kept += [error] * (len(ends) - 1)
         u, errors = np.concatenate(parts), np.array(kept)
     return found, False
+
+
+def _ends(cutting: _Cutting) -> list[float]:
+    """Parameters where lines end whatever else: no two of them at one place."""
+    found = np.union1d(cutting.fixed, cutting.breaks)
+    nearest = np.abs(found[:, None] - cutting.fixed[None, :]).min(axis=1)
+    return [u for u, apart in zip(found.tolist(), nearest.tolist(), strict=True)
+            if apart == 0.0 or apart > 1e-6]  # fmt: skip
 
 
 def _failing(cutting: _Cutting, found: ClearPolyline) -> Flags:

@@ -6,11 +6,13 @@ Tested through ``exports/test_export_path``.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
 
-from viaspline.errors import OutputError
+from viaspline.curve.piecewise import PiecewiseCubic
+from viaspline.errors import GeometryError, OutputError
 from viaspline.exports.clear_polyline import ClearPolyline, clear_polyline
 from viaspline.exports.export_options import ExportOptions
 from viaspline.exports.line_proof import LineProof, LineProver
@@ -40,18 +42,19 @@ def cut_plan(
     error = options.chord_error or _usual_error(plan.mission.robot.clearance_m)
 
     def may_join(a: float, b: float) -> bool:
+        if not kind.is_driven:
+            return True
         first, last = np.asarray(path.distance([a, b])).tolist()
-        if last - first > spacing:
-            return False
-        return not kind.is_driven or last - first < 20.0 * error or settable.may_be_one(first, last)
+        return last - first < 20.0 * error or settable.may_be_one(first, last)
 
     known: dict[bytes, LineProof] = {}
     prover, fixed = LineProver.of(plan), _fixed(plan)
+    breaks = _breaks(path, fixed, spacing)
 
     def cut(acceptance: float, most: int) -> ClearPolyline:
         return clear_polyline(
-            path, prover, fixed, chord_error=error, acceptance=acceptance, may_join=may_join,
-            most=most, known=known,
+            path, prover, fixed, breaks, chord_error=error, acceptance=acceptance,
+            may_join=may_join, most=most, known=known,
         )  # fmt: skip
 
     if not kind.is_driven or options.acceptance is not None:
@@ -110,6 +113,21 @@ def _fixed(plan: Plan | SpatialPlan) -> Floats:
     snapped = np.where(near.min(axis=1) < 1e-6, known[near.argmin(axis=1)], found)
     kept = np.unique(snapped)
     return np.asarray(kept[np.r_[True, np.diff(kept) > _SAME_PLACE]])
+
+
+def _breaks(path: PiecewiseCubic, fixed: Floats, spacing: float) -> Floats:
+    """Parameters of places no farther apart along the path than a spacing [m], evenly."""
+    if not math.isfinite(spacing):
+        return np.empty(0)
+    ends = np.asarray(path.distance(fixed))
+    counts = np.maximum(np.ceil(np.diff(ends) / spacing - 1e-9), 1).astype(int)
+    if counts.sum() > MOST_POINTS:
+        problem = f"lines of {spacing:g} m make {counts.sum()} points of {path.length:.0f} m"
+        raise GeometryError(f"{problem}, more than {MOST_POINTS}; give a larger spacing")
+    at = np.concatenate(
+        [np.linspace(a, b, n + 1) for (a, b), n in zip(pairwise(ends), counts, strict=True)]
+    )
+    return np.asarray(path.parameter(np.clip(at, 0.0, path.length)))
 
 
 def _usual_error(clearance: float) -> float:

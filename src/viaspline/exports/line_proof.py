@@ -11,7 +11,7 @@ import numpy as np
 from viaspline.curve.certificate import Certificate, certify
 from viaspline.curve.height_certificate import certify_heights
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.kernels.arrays import Floats
+from viaspline.kernels.arrays import Floats, Ints
 from viaspline.planner import Plan
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.without_ground import without_ground
@@ -73,16 +73,23 @@ class LineProver:
         radius = robot.radius_m if robot.half_height_m is None else 0.0
         return cls(worlds, required, radius, None, 0.0)
 
+    def part_at(self, distances: Floats) -> Ints:
+        """Which of the worlds counts at distances along the path [m]."""
+        ends = np.array([until for until, _ in self.worlds])
+        return np.asarray(np.searchsorted(ends, distances))
+
     def proof(self, corners: Floats, distance: float) -> LineProof:
-        """What is proven of the line from the first corner to the second.
+        """What is proven of all lines of a row but the last one, of that where it begins.
 
         Args:
-            corners: Two or three places [m], shape (2 or 3, d); a polygonal body turns at the
-                second one to go on to the third.
-            distance: Of the line's middle along the path [m].
+            corners: The row [m], shape (n, d), n >= 2. A polygonal body turns at the last but one
+                corner to go on to the last one; at the end of a path there is none to go on to,
+                and the last line counts.
+            distance: Of a place on the lines along the path [m]; none of them leads out of the
+                part of the path in which the same things count.
         """
-        world = next(world for until, world in self.worlds if distance <= until)
-        curve = polyline_curve(corners if self.footprint is not None else corners[:2])
+        world = self.worlds[int(self.part_at(np.array(distance)))][1]
+        curve = polyline_curve(corners)
         proof: Certificate
         if self.footprint is not None:
             proof = certify(curve, world, self.required, footprint=self.footprint)

@@ -127,6 +127,7 @@ class PathTable:
         clear = down(max(proof.clearance, known))
         clear = f"proven {clear} clear" if np.isfinite(proof.clearance) else NOTHING
         near = f"at most {np.ceil(1e3 * proof.chord_error) / 1e3:.3f} m beside the exact curve"
+        near = "on the exact curve" if proof.chord_error < 1e-6 else near
         cuts = (
             f", for vehicles that turn {proof.acceptance:g} m before a point or later"
             if proof.acceptance is not None
