@@ -11,9 +11,9 @@ from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.state import RobotState
 from viaspline.robot.watching.measured_motion import noise_of
+from viaspline.robot.watching.set_beside import SETTLED, is_way_back_clear, room_on, way_back
 from viaspline.robot.watching.true_place import TruePlace
 from viaspline.robot.watching.watch import Excuse, Watch
-from viaspline.robot.watching.way_back import SETTLED, is_way_back_clear, room_on, way_back
 from viaspline.trajectory.slow_zones import Slow
 
 BESIDE_M = 0.005
