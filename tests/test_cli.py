@@ -69,7 +69,8 @@ def test_every_help_has_an_example() -> None:
 
 
 def test_commands_that_come_later_are_not_offered() -> None:
-    assert set(cli.commands) == {"run", "plan", "check", "figures", "tension", "studio"}
+    made = {"run", "plan", "check", "figures", "tension", "studio", "identify"}
+    assert set(cli.commands) == made
 
 
 def test_the_version_is_told() -> None:
