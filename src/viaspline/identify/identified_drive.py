@@ -1,4 +1,7 @@
-"""A drive as a log shows it: each figure with its spread; and as keys of a mission to paste."""
+"""A drive as a log shows it: each figure with its spread; and as keys of a mission to paste.
+
+Tested through ``identify/test_fit_drive`` and ``commands/test_identify_command``.
+"""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from viaspline.mission.robot_parts import RobotSpec
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
-from viaspline.robot.watching.watch import Mark, Watch
+from viaspline.robot.watching.watch import TrailMark, Watch
 
 JUMP_M, JUMP_RAD = 0.1, 0.2
 """What a pose moves at once beyond what the robot can drive, for it to be a jump [m], [rad];"""
@@ -125,7 +125,7 @@ def slipping(
         watch: With where the robot is now, and what it was meant to have driven.
         where: That place [m], shape (d,).
     """
-    now = Mark(watch.time, watch.place, watch.meant)
+    now = TrailMark(watch.time, watch.place, watch.meant)
     first = next((mark for mark in reversed(watch.trail) if mark.time <= now.time - SLIP_S), None)
     kept = tuple(mark for mark in watch.trail if first is None or mark.time >= first.time)
     if not kept or now.time - kept[-1].time >= MARK_S - 1e-9:

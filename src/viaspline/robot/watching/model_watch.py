@@ -114,8 +114,8 @@ def told_of_lag(
     waited = motion.waited
     if progress.controller is not None:
         waited = progress.controller.late
-    elif progress.along_track < 0.0:  # it got a new time law, from where it is
-        waited += -progress.along_track / max(watch.speed, LEAST_SPEED_MPS)
+    elif progress.along_track != 0.0:  # it got a new time law, from where it is
+        waited -= progress.along_track / max(watch.speed, LEAST_SPEED_MPS)
     return lagging(watch, waited, schedule.place(motion.place.distance), behind)
 
 

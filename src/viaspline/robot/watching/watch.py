@@ -14,7 +14,7 @@ from typing import NamedTuple
 from viaspline.robot.state import RobotState
 
 
-class Mark(NamedTuple):
+class TrailMark(NamedTuple):
     """Where a robot was at a time [s], and where its commands should have brought it.
 
     Attributes:
@@ -84,7 +84,7 @@ class Watch:
     meant: float = 0.0
     place: float = 0.0
     off: float = 0.0
-    trail: tuple[Mark, ...] = ()
+    trail: tuple[TrailMark, ...] = ()
     behind: float = 0.0
     excuse: Excuse | None = None
     renewals: int = 0
