@@ -126,3 +126,21 @@ def random_edits(page: Any, source: random.Random, count: int) -> None:
     script = (Path(__file__).parents[2] / "benchmarks" / "studio_fuzz.js").read_text()
     page.js(script)
     page.js("([seed, count]) => studioFuzz(seed, count)", [source.randrange(2**31), count])
+
+
+def test_what_was_proven_of_the_file_before_is_not_shown_for_the_next_one(
+    visit: Visit, patrol: Path
+) -> None:
+    patrol.with_name("other.yaml").write_text("route: {start: [0, 0], goal: [9, 0]}\n")
+    page = visit(patrol)
+    assert page.page.locator("#summary .proof-figure").count() == 1
+    seen = page.js(
+        """async () => {
+          const answer = await studio.link.ask({type: "open", name: "other.yaml"});
+          studio.opened(answer);
+          return document.querySelector("#summary").innerText;
+        }"""
+    )
+    assert "once it is planned" in seen
+    page.settle()
+    assert "nothing to keep clear of" in page.page.locator("#summary").inner_text()

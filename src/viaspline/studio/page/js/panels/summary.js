@@ -19,6 +19,7 @@ export class Summary {
     this.isOpen = false; // the reasons why a path doesn't drive well
     const render = lazily(() => this.render(), 80);
     app.store.on("plan ledger status", render);
+    app.store.on("file", () => this.render()); // what was proven of the file before isn't of this one
     app.store.on("plan", () => this.announce());
   }
 
@@ -39,8 +40,9 @@ export class Summary {
     else if (plan.ok) this.pill("is-good", "check", `proven clear · ${metres(plan.length, 1)} · ${seconds(plan.duration)}`);
     else if (plan.gave_up) this.pill("is-bad", "warn", plan.problems[0]?.text ?? "gave up");
     else this.pill("is-bad", "warn", `no path: ${plan.problems[0]?.text ?? ""}`);
-    if (!plan) return;
-    if (plan.ok) fill(this.panel, ...this.good(plan));
+    this.panel.classList.toggle("is-late", store.isLate);
+    if (!plan) fill(this.panel, h("p", { class: "hint" }, "What is proven is said here once it is planned."));
+    else if (plan.ok) fill(this.panel, ...this.good(plan));
     else fill(this.panel, ...this.bad(plan));
   }
 
