@@ -144,3 +144,5 @@ def test_what_was_proven_of_the_file_before_is_not_shown_for_the_next_one(
     assert "once it is planned" in seen
     page.settle()
     assert "nothing to keep clear of" in page.page.locator("#summary").inner_text()
+    assert "nothing to keep clear of" in page.page.locator("#status").inner_text()
+    assert "unlimited" not in page.page.locator("#summary").inner_text()
