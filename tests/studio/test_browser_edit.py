@@ -149,9 +149,17 @@ def test_while_a_slow_plan_is_made_the_old_path_is_shown_as_such_and_the_newest_
     page.js(move, 99)
     page.until("studio.store.isLate")
     page.until("document.querySelector('.status-text').textContent === 'planning'")
+    page.until("document.querySelector('#summary').classList.contains('is-late')")
+    colours = page.js(
+        """['.proof-figure', '.hint'].map(
+          one => getComputedStyle(document.querySelector(`#right ${one}`)).color
+        )"""
+    )
+    assert colours[0] == colours[1]  # grey: it was proven of another document
     page.js(move, 91)
     page.settle()
     assert not page.js("studio.store.isLate")
+    page.until("!document.querySelector('#summary').classList.contains('is-late')")
     assert page.plan["vias"][1][1:3] == [91, 330]
     assert "proven clear" in page.page.locator("#status").inner_text()
 

@@ -141,3 +141,23 @@ def test_the_path_is_taken_in_formats_of_others_and_what_is_proven_is_shown(
     assert caught.value.suggested_filename == f"{patrol.stem}-path.kml"
     page.page.get_by_text("not carried: speeds").wait_for()
     page.page.get_by_role("button", name="OK").click()
+
+
+def test_what_was_proven_of_the_file_before_is_not_shown_for_the_next_one(
+    visit: Visit, patrol: Path
+) -> None:
+    patrol.with_name("other.yaml").write_text("route: {start: [0, 0], goal: [9, 0]}\n")
+    page = visit(patrol)
+    assert page.page.locator("#summary .proof-figure").count() == 1
+    seen = page.js(
+        """async () => {
+          const answer = await studio.link.ask({type: "open", name: "other.yaml"});
+          studio.opened(answer);
+          return document.querySelector("#summary").innerText;
+        }"""
+    )
+    assert "once it is planned" in seen
+    page.settle()
+    assert "nothing to keep clear of" in page.page.locator("#summary").inner_text()
+    assert "nothing to keep clear of" in page.page.locator("#status").inner_text()
+    assert "unlimited" not in page.page.locator("#summary").inner_text()

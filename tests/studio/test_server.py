@@ -115,20 +115,6 @@ def test_a_wall_gives_a_remedy_for_the_clearance_that_serves(start: START, tmp_p
         assert client.edit([change["path"], change["value"]])["ok"]
 
 
-def test_a_mission_in_space_is_said_to_be_one(start: START, tmp_path: Path) -> None:
-    file = tmp_path / "tower.yaml"
-    file.write_text(
-        "world:\n  known:\n    - {name: lamp, ball: {center: [5, 5, 5], radius: 1}}\n"
-        "route: {start: [0, 0, 5], goal: [9, 0, 5]}\n"
-    )
-    with start(file).client() as client:
-        answer = client.edit()
-        assert not answer["ok"]
-        (problem,) = answer["problems"]
-        assert "in space" in problem["text"]
-        assert "viaspline plan" in problem["remedy"]
-
-
 def test_a_side_that_can_not_be_had_is_freed_by_its_remedy(start: START, tmp_path: Path) -> None:
     file = tmp_path / "side.yaml"
     file.write_text(

@@ -21,15 +21,15 @@ from viaspline.mission.world_spec import WorldSpec
 
 
 def world_data(world: WorldSpec, data: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """The world's data with maps named, without the bounds and the fence that they bring."""
+    """The world's data, or a part of it, with files named, without the bounds that maps bring."""
     edge = edge_of([item.grid for item in world.known if item.grid is not None])
     written = dict(data)
     for key, items in (("known", world.known), ("unseen", world.unseen)):
-        if items:
+        if items and key in data:
             pairs = zip(data[key], items, strict=True)
             written[key] = [_obstacle(plain, item, folder) for plain, item in pairs]
     if world.bounds is not None and world.bounds == edge.bounds:
-        del written["bounds"]
+        written.pop("bounds", None)
     if world.bounds is None and edge.fence in world.fences:
         written["fences"] = [ring for ring in world.fences if ring != edge.fence]
     if world.ground is not None and world.ground.terrain is not None:

@@ -201,8 +201,17 @@ def _moved(document: Document, old: Path, new: Path) -> Document:
     for key in ("known", "unseen"):
         items = world.get(key)
         if isinstance(items, list):
-            world[key] = [_renamed(item, old, new, "map") for item in items]
+            world[key] = [_named_from(item, old, new) for item in items]
+    if "ground" in world:
+        world["ground"] = _renamed(world["ground"], old, new, "terrain")
     return {**document, "world": world} if "world" in document else document
+
+
+def _named_from(item: Any, old: Path, new: Path) -> Any:
+    """An obstacle whose file, if it has one, is named from another folder."""
+    if isinstance(item, dict) and isinstance(item.get("voxels"), dict):
+        return {**item, "voxels": _renamed(item["voxels"], old, new, "file")}
+    return _renamed(item, old, new, "map")
 
 
 def _maps_in(document: Document) -> list[str]:

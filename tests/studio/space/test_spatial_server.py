@@ -281,3 +281,36 @@ def test_voxels_and_terrain_are_drawn_from_their_own_numbers() -> None:
     for contour in scene["contours"]:  # the slope rises 1 m in a metre
         x = np.reshape(contour["line"], (-1, 2))[:, 0]
         assert np.allclose(x + 5, contour["height"], atol=0.02)
+
+
+def test_in_another_folder_voxels_and_terrain_are_named_from_there(
+    start: Start, file: Path
+) -> None:
+    (file.parent / "maps").mkdir()
+    (file.parent / "maps" / "deep").mkdir()
+    grid = "ncols 3\nnrows 3\nxllcorner -100\nyllcorner -100\ncellsize 150\n"
+    (file.parent / "maps" / "even.asc").write_text(grid + "0 0 0\n" * 3)
+    (file.parent / "maps" / "one.3dmap").write_text("voxel 4 4 4\n1 1 1\n")
+    with start(file).client() as client:
+        client.edit()
+        voxels = {"voxels": {"file": "maps/one.3dmap", "cell_m": 0.5, "origin_m": [50, -20, 0]}}
+        answer = client.edit(
+            [["world", "ground"], {"terrain": "maps/even.asc"}],
+            [["world", "known", 2], voxels],
+        )
+        assert answer["ok"], answer["problems"]
+        saved = client.ask("save", "saved", name="maps/deep/tower.yaml")
+        again = client.edit([["route", "land", "at", 1], 1])
+    assert again["ok"], again["problems"]
+    assert saved["document"]["world"]["ground"] == {"terrain": "../even.asc"}
+    assert saved["document"]["world"]["known"][2]["voxels"]["file"] == "../one.3dmap"
+    assert planned(file.parent / "maps" / "deep" / "tower.yaml").certificate.holds
+
+
+def test_way_points_are_saved_with_their_heights(start: Start, file: Path) -> None:
+    with start(file).client() as client:
+        client.edit()
+        saved = client.ask("save", "saved", name="tower.plan", origin="47.1, 8.5")
+    assert saved["name"] == "tower.plan"
+    items = json.loads((file.parent / "tower.plan").read_text())["mission"]["items"]
+    assert 12 in [item.get("Altitude") for item in items]

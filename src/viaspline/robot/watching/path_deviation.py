@@ -10,7 +10,6 @@ from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.robot.state import RobotState
-from viaspline.robot.watching.set_beside import SETTLED, is_way_back_clear, room_on, way_back
 from viaspline.robot.watching.measured_motion import noise_of
 from viaspline.robot.watching.set_beside import SETTLED, is_way_back_clear, room_on, way_back
 from viaspline.robot.watching.true_place import TruePlace

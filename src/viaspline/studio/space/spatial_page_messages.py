@@ -6,6 +6,7 @@ Tested through ``studio/space/test_spatial_server``.
 from __future__ import annotations
 
 import math
+import re
 from typing import Any, Final
 
 import numpy as np
@@ -19,6 +20,7 @@ from viaspline.studio.plan_messages import grids, law_data, problem_data
 from viaspline.studio.space.planned_spatial import PlannedSpatial
 
 MAX_SIDES_TOLD: Final = 4
+_NAMELESS: Final = re.compile(r"world\.known\[(\d+)\]")
 
 
 def spatial_answer(planned: PlannedSpatial, revision: int, scene: str | None) -> dict[str, Any]:
@@ -35,13 +37,25 @@ def spatial_answer(planned: PlannedSpatial, revision: int, scene: str | None) ->
     }  # fmt: skip
     plan = planned.plan
     if plan is None:
-        problems = [problem_data(problem) for problem in planned.problems]
+        problems = [
+            {**problem_data(problem), "text": as_listed(problem.text)}
+            for problem in planned.problems
+        ]
         space: dict[str, Any] = {"scene": scene}
         return {
             **head, "ok": False, "gave_up": planned.gave_up, "problems": problems, "space": space,
         }  # fmt: skip
     space = {"scene": scene, "is_whole": planned.is_whole, **_in_space(plan)}
     return {**head, "ok": True, **_from_above(plan), **law_data(plan.trajectory), "space": space}
+
+
+def as_listed(text: str) -> str:
+    """A text with obstacles that have no name called as the page's list calls them.
+
+    >>> as_listed("tightest at world.known[3]")
+    'tightest at obstacle 4'
+    """
+    return _NAMELESS.sub(lambda found: f"obstacle {int(found[1]) + 1}", text)
 
 
 def _from_above(plan: SpatialPlan) -> dict[str, Any]:
@@ -68,7 +82,7 @@ def _from_above(plan: SpatialPlan) -> dict[str, Any]:
             "holds": proof.holds,
             "at": proof.tightest_at[:2],
             "distance": finite(proof.tightest_distance),
-            "nearest": proof.obstacle,
+            "nearest": None if proof.obstacle is None else as_listed(proof.obstacle),
         },
         "drivability": None,
         "order": [via.name for via in path.vias if via.kind == "user"],
@@ -130,7 +144,7 @@ def spatial_ledger(planned: PlannedSpatial, revision: int) -> dict[str, Any]:
         members = [items[name] for name in entry.members if name in items]
         places = [unfolded.original(("world", "known", item))[2] for item in members]
         entries.append({
-            "members": entry.members,
+            "members": [as_listed(name) for name in entry.members],
             "items": sorted(set(places)),
             "leg": entry.leg,
             "forceable": bool(members),

@@ -11,13 +11,19 @@ export class FleetProof {
   constructor(app) {
     this.app = app;
     this.panel = /** @type {HTMLElement} */ (document.querySelector("#fleet-proof"));
-    app.store.on("plan robot file", lazily(() => this.render(), 80));
+    app.store.on("plan robot status", lazily(() => this.render(), 80));
+    app.store.on("file", () => this.render());
   }
 
   render() {
     const { store } = this.app;
     const plan = store.fleetPlan;
-    if (!isFleet(store.file) || !plan?.answer) return;
+    this.panel.classList.toggle("is-late", store.isLate);
+    if (!isFleet(store.file)) return;
+    if (!plan?.answer) {
+      fill(this.panel, h("p", { class: "hint" }, "What is proven is said here once it is planned."));
+      return;
+    }
     fill(this.panel, ...(plan.certificate ? [...this.separation(plan.certificate), ...this.figures(plan)] : []), ...this.missing(plan), ...this.waits(plan));
   }
 

@@ -19,6 +19,7 @@ export class Summary {
     this.isOpen = false; // the reasons why a path doesn't drive well
     const render = lazily(() => this.render(), 80);
     app.store.on("plan ledger status", render);
+    app.store.on("file", () => this.render()); // what was proven of the file before isn't of this one
     app.store.on("plan", () => this.announce());
   }
 
@@ -36,11 +37,12 @@ export class Summary {
     if (this.busy) this.pill("is-busy", "…", this.busy);
     else if (!plan) this.pill("is-busy", "…", "planning");
     else if (store.fleetPlan?.answer.ok) this.fleetPill(store.fleetPlan);
-    else if (plan.ok) this.pill("is-good", "check", `proven clear · ${metres(plan.length, 1)} · ${seconds(plan.duration)}`);
+    else if (plan.ok) this.pill("is-good", "check", `${plan.certificate.clearance === null ? "nothing to keep clear of" : "proven clear"} · ${metres(plan.length, 1)} · ${seconds(plan.duration)}`);
     else if (plan.gave_up) this.pill("is-bad", "warn", plan.problems[0]?.text ?? "gave up");
     else this.pill("is-bad", "warn", `no path: ${plan.problems[0]?.text ?? ""}`);
-    if (!plan) return;
-    if (plan.ok) fill(this.panel, ...this.good(plan));
+    this.panel.classList.toggle("is-late", store.isLate);
+    if (!plan) fill(this.panel, h("p", { class: "hint" }, "What is proven is said here once it is planned."));
+    else if (plan.ok) fill(this.panel, ...this.good(plan));
     else fill(this.panel, ...this.bad(plan));
   }
 
@@ -64,7 +66,7 @@ export class Summary {
     const row = (/** @type {string} */ name, /** @type {string} */ value) => [h("dt", {}, name), h("dd", {}, value)];
     return [
       h("div", { class: "proof" },
-        h("span", { class: "proof-figure" }, down(proof.clearance)),
+        proof.clearance === null ? null : h("span", { class: "proof-figure" }, down(proof.clearance)),
         h("span", { class: "proof-words" }, proof.clearance === null ? "nothing to keep clear of" : `proven clear of everything (${metres(proof.required)} asked)`,
           proof.nearest ? h("button", { type: "button", class: "link", onclick: () => this.app.lookAtPlace(proof.at, proof.distance) }, `tightest at ${proof.nearest}`) : null)),
       plan.drivability ? this.drives(plan.drivability) : null,

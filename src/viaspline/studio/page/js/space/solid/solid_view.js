@@ -11,6 +11,7 @@ import { worldOf } from "./world_meshes.js";
 
 const LENS_DEG = 42;
 const IDLE_SHARE = 3; // of the time that a picture takes: how long none is drawn after it
+const LONGEST_PAUSE_MS = 300;
 const SLOW_MS = 40; // a picture that takes longer is drawn with one pixel for each of the page
 const HANDLE_PX = 46; // from the selected point up to the handle that lifts it
 
@@ -104,7 +105,7 @@ export class SolidView {
     if (!this.space.views.hasSolid) return;
     const gl = /** @type {WebGL2RenderingContext} */ (this.renderer.getContext());
     this.begunAt = performance.now();
-    this.draw();
+    if (!this.draw()) return;
     this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
   }
@@ -119,7 +120,7 @@ export class SolidView {
       gl.deleteSync(this.fence);
       this.fence = null;
       this.lasted = now - this.begunAt;
-      this.freeAt = this.lasted > SLOW_MS ? now + IDLE_SHARE * this.lasted : now;
+      this.freeAt = this.lasted > SLOW_MS ? now + Math.min(IDLE_SHARE * this.lasted, LONGEST_PAUSE_MS) : now;
     }
     return now >= this.freeAt;
   }
@@ -130,10 +131,11 @@ export class SolidView {
     return list.filter((/** @type {any} */ _, /** @type {number} */ i) => i % 5 === 0).map((/** @type {any} */ p) => [p.x, p.y, p.z]);
   }
 
+  /** Draw now; false if there is nothing to draw yet. */
   draw() {
     const { canvas, camera, renderer } = this;
     const { clientWidth: width, clientHeight: height } = canvas;
-    if (!width || !height || !this.app.store.curve?.isSpatial) return;
+    if (!width || !height || !this.app.store.curve?.isSpatial) return false;
     const ratio = this.lasted > SLOW_MS ? 1 : Math.min(devicePixelRatio || 1, 2);
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
       renderer.setPixelRatio(ratio);
@@ -150,6 +152,7 @@ export class SolidView {
     renderer.render(this.stage, camera);
     this.drawn += 1;
     if (this.drawn === 1) this.space.views.show(); // it was said to be opened
+    return true;
   }
 
   /** @param {import("./colours.js").SolidColours} colours */
