@@ -30,8 +30,6 @@ PLAIN, LIDAR = MissionKind(), MissionKind(("lidar",))
     "kind",
     [
         "untold",
-        "differential",
-        "lidar+skid_steer",
         "lidar+ackermann+footprint+turning",
         "lidar+passive",
         "omnidirectional+footprint",
