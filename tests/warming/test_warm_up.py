@@ -32,7 +32,7 @@ PLAIN, LIDAR = MissionKind(), MissionKind(("lidar",))
         "untold",
         "lidar+ackermann+footprint+turning",
         "lidar+passive",
-        "omnidirectional+footprint",
+        "differential",
     ],
 )
 def test_no_step_compiles_loads_or_imports_anything(kind: str) -> None:
