@@ -30,6 +30,14 @@ TURNING: Final = (*PARTS[1:5], "localization", "footprint", "turning")
 """With these a mission needs the search among poses."""
 
 
+LONGEST_S: Final = 40.0
+"""A drive is broken off after so long: what it hasn't met by then, it won't [s]."""
+
+
+class _EnoughError(Exception):
+    """A drive has lasted long enough."""
+
+
 def jobs_of_kind(kind: MissionKind) -> tuple[Job, ...]:
     """What of a kind of mission is compiled by itself, and so by another process if there is one.
 
@@ -66,5 +74,11 @@ def _drive_missions(kind: MissionKind) -> None:
     for name in IMPORTED_LATE:
         import_module(name)
     for _, mission in missions_of(kind):
-        with suppress(ViasplineError):
-            simulate(mission, plan=plan(mission))
+        with suppress(ViasplineError, _EnoughError):
+            simulate(mission, plan=plan(mission), progress=_enough)
+
+
+def _enough(time: float, distance: float, length: float) -> None:
+    del distance, length
+    if time > LONGEST_S:
+        raise _EnoughError
