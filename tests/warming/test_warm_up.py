@@ -30,11 +30,9 @@ PLAIN, LIDAR = MissionKind(), MissionKind(("lidar",))
     "kind",
     [
         "untold",
-        "differential",
-        "lidar+skid_steer",
         "lidar+ackermann+footprint+turning",
         "lidar+passive",
-        "omnidirectional+footprint",
+        "differential",
     ],
 )
 def test_no_step_compiles_loads_or_imports_anything(kind: str) -> None:

@@ -2,6 +2,8 @@
 
 A kernel is loaded from disk, or compiled, when it is first called. Who must not wait then has it
 loaded before. A kernel is named by its module, its name and the types that it was compiled for.
+
+Tested through ``warming/test_warm_up``.
 """
 
 from __future__ import annotations

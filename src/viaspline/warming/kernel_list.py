@@ -3,6 +3,8 @@
 A list is good for the sources that it was made from: all of viaspline's, for it is the Python code
 that calls the kernels. With a list a process loads in a second what it would come across one by
 one, in the middle of a drive.
+
+Tested through ``warming/test_warm_up``.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 
 from viaspline.kernels.compile_events import compile_progress
 from viaspline.precompile import Job, second_compiler
-from viaspline.warming.drives_of_kind import drive_kind, jobs_of_kind
+from viaspline.warming.driven_kinds import drive_kind, jobs_of_kind
 from viaspline.warming.kernel_list import KernelList, package_key
 from viaspline.warming.mission_kind import MissionKind, kind_named
 

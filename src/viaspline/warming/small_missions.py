@@ -2,6 +2,8 @@
 
 Each is planned and driven for what it compiles: a round among known shapes with unseen ones in the
 way, a pocket that is deeper than the sensor sees, a field of posts, a way that is closed.
+
+Tested through ``warming/test_warm_up``.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@ import ast
 from pathlib import Path
 
 import viaspline
-from viaspline.warming.drives_of_kind import IMPORTED_LATE, TURNING
+from viaspline.warming.driven_kinds import IMPORTED_LATE, TURNING
 from viaspline.warming.mission_kind import PARTS
 
 SOURCE = Path(viaspline.__file__).parent
