@@ -1,5 +1,6 @@
 """A navigator that is given the same decides the same; what it isn't given is said."""
 
+import math
 import shutil
 from collections.abc import Callable
 from pathlib import Path

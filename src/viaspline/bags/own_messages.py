@@ -38,7 +38,8 @@ OWN_DEFINITIONS: Mapping[str, str] = MappingProxyType(
         ),
         STEP: (
             "float64 time\nfloat64[] position\nfloat64 heading\nfloat64 speed\n"
-            "float64 speed_across\nfloat64[<=1] stamp\nviaspline_msgs/ExactScan[<=1] scan\nuint32[] told\n"
+            "float64 speed_across\nfloat64[<=1] stamp\nviaspline_msgs/ExactScan[<=1] scan\n"
+            "uint32[] told\n"
             "viaspline_msgs/Moving[] moving\nviaspline_msgs/Command command\n"
             "viaspline_msgs/Event[] events\nfloat64 path_length\nfloat64 end_time"
         ),

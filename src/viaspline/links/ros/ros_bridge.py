@@ -52,7 +52,7 @@ def pose_of(state: RobotState) -> PlanarPose:
     return PlanarPose(state.position[0], state.position[1], state.heading)
 
 
-class Heard(NamedTuple):
+class HeardOfRobot(NamedTuple):
     """A message, and when it was heard [s]."""
 
     at: float
@@ -81,9 +81,9 @@ class RosBridge:
     start_within: float = START_WITHIN_M
     nav: Navigator | None = None
     frames: FrameTree = field(default_factory=FrameTree)
-    odometry: Heard | None = None
-    scan: Heard | None = None
-    chart: Heard | None = None
+    odometry: HeardOfRobot | None = None
+    scan: HeardOfRobot | None = None
+    chart: HeardOfRobot | None = None
     wanted: Mission | None = None
     refusal: str | None = None
 
@@ -150,11 +150,11 @@ class RosBridge:
             numbers = (*state.position, state.heading, state.speed, state.speed_across)
             if not all(math.isfinite(value) for value in numbers):
                 return self  # as if it hadn't come: it gets stale
-            return replace(self, odometry=Heard(now, message))
+            return replace(self, odometry=HeardOfRobot(now, message))
         if topic == names.scan_topic:
-            return replace(self, scan=Heard(now, message))
+            return replace(self, scan=HeardOfRobot(now, message))
         if topic == names.map_topic:
-            return replace(self, chart=Heard(now, message))
+            return replace(self, chart=HeardOfRobot(now, message))
         if topic == names.initial_pose_topic:
             return self._placed(pose_from(message["pose"]["pose"]))
         if topic == names.goal_topic:
