@@ -15,15 +15,16 @@ class SavedValue:
 
     __slots__ = ()
 
-    def save(self, path: str | Path) -> list[Path]:
+    def save(self, path: str | Path, *, origin: tuple[float, float] | None = None) -> list[Path]:
         """Write it: into a folder the files that the command line writes.
 
         A plan goes into a single file as well, by its ending: ``.plan``, ``.waypoints``,
-        ``.geojson``, ``.kml``, ``.gpx``, ``.csv``, ``.json``, ``.yaml`` or ``.mcap``, proven again
-        as it is written.
+        ``.geojson``, ``.kml``, ``.gpx``, ``.csv``, ``.json``, ``.path.yaml`` or ``.mcap``, proven
+        again as it is written: see ``vs.export``, which also says what is proven of it.
 
         Args:
             path: The folder, which is made if it isn't there; or the file.
+            origin: Latitude and longitude of the mission's 0, 0 [deg], for files that have them.
 
         Returns:
             What was written.
@@ -31,5 +32,5 @@ class SavedValue:
         Raises:
             OutputError: It can't be written, or there is nobody who writes such a file.
         """
-        written: list[Path] = opened("save")(self, path)
+        written: list[Path] = opened("save")(self, path, origin)
         return written

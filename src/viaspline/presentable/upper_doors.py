@@ -62,6 +62,7 @@ DOORS: Final = MappingProxyType(
         "picture": "report.notebook.notebook_picture:picture",
         "plot": "report.notebook.plain_axes:plot",
         "save": "report.notebook.saved_results:save",
+        "export": "exports.export_path:export",
     }
 )
 """What is behind each door: ``module:function``, the module named from ``viaspline`` on."""

@@ -95,18 +95,10 @@ def test_a_single_file_is_for_those_who_write_such_files(
             with pytest.raises(vs.OutputError, match="isn't written as such a file; give a folder"):
                 value.save(tmp_path / "patrol.kml")
 
-    def without_the_room(door: str) -> Any:
-        raise ImportError(door)
-
-    monkeypatch.setattr("viaspline.report.notebook.saved_results.opened", without_the_room)
-    with pytest.raises(vs.OutputError, match=r"nothing that writes \.geojson; give a folder"):
-        PLAN.save(tmp_path / "patrol.geojson")
-    told: list[Any] = []
-    monkeypatch.setattr(
-        "viaspline.report.notebook.saved_results.opened",
-        lambda door: lambda *given: told.append(given),
-    )
-    assert PLAN.save(tmp_path / "patrol.plan") == [tmp_path / "patrol.plan"]
-    assert told == [(PLAN, tmp_path / "patrol.plan")]
+    with pytest.raises(vs.OutputError, match="origin"):
+        PLAN.save(tmp_path / "patrol.kml")
+    for name in ("patrol.plan", "patrol.geojson", "patrol.csv", "patrol.path.yaml"):
+        (written,) = PLAN.save(tmp_path / name, origin=(47.4, 8.5))
+        assert written.stat().st_size > 200
     (tmp_path / "old.csv").mkdir()  # a folder, whatever it is called
     assert PLAN.save(tmp_path / "old.csv")

@@ -30,18 +30,31 @@ from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_run import SpatialRun
 
 SINGLE_FILES: Final = frozenset(
-    {".plan", ".waypoints", ".geojson", ".kml", ".gpx", ".csv", ".json", ".yaml", ".yml", ".mcap"}
+    {
+        ".plan",
+        ".waypoints",
+        ".geojson",
+        ".kml",
+        ".gpx",
+        ".csv",
+        ".json",
+        ".txt",
+        ".yaml",
+        ".yml",
+        ".mcap",
+    }
 )
 """Endings of files that are written alone: what an autopilot or a map takes."""
 
 
-def save(value: object, path: str | Path) -> list[Path]:
+def save(value: object, path: str | Path, origin: tuple[float, float] | None = None) -> list[Path]:
     """Write a plan or a run.
 
     Args:
         value: It.
         path: The folder, which is made if it isn't there; its name is that of the mission. With one
             of the endings of ``SINGLE_FILES`` it is a file, which the exports write.
+        origin: Latitude and longitude of the mission's 0, 0 [deg], for files that have them.
 
     Returns:
         What was written.
@@ -56,22 +69,17 @@ def save(value: object, path: str | Path) -> list[Path]:
     check_kind("path", path, (str, Path), "give the path of a folder")
     target = Path(path)
     if target.suffix.lower() in SINGLE_FILES and not target.is_dir():
-        return _exported(value, target)
+        return _exported(value, target, origin)
     found: list[Path] = opened_for("files", value)(value, target)
     return found
 
 
-def _exported(value: object, target: Path) -> list[Path]:
+def _exported(value: object, target: Path, origin: tuple[float, float] | None) -> list[Path]:
     """What the exports write into a file of their own."""
     if not isinstance(value, Plan | SpatialPlan):
         kind = type(value).__name__
         raise OutputError(target, f"a {kind} isn't written as such a file; give a folder")
-    try:
-        export = opened("export")
-    except ImportError:
-        problem = f"this installation has nothing that writes {target.suffix}"
-        raise OutputError(target, f"{problem}; give a folder") from None
-    export(value, target)
+    opened("export")(value, target, origin=origin)
     return [target]
 
 
