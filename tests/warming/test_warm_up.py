@@ -31,7 +31,7 @@ PLAIN, LIDAR = MissionKind(), MissionKind(("lidar",))
     [
         "untold",
         "lidar+ackermann+footprint+turning",
-        "lidar+passive",
+        "lidar",
         "differential",
     ],
 )
