@@ -70,3 +70,20 @@ def test_what_makes_no_sense_is_refused(
     done = run(*arguments)
     assert done.exit_code == code
     assert said in done.output
+
+
+def test_a_recorded_drive_is_identified_from_its_bag(tmp_path: Path) -> None:
+    pytest.importorskip("mcap")
+    mission = tmp_path / "cart.yaml"
+    mission.write_text(
+        "robot: {radius_m: 0.3, clearance_m: 0.3, max_speed_mps: 1, max_accel_mps2: 1,\n"
+        "        drive: {differential: {track_m: 0.4}, delay_s: 0.1, lag_s: 0.2}}\n"
+        "route: {start: [0, 0], via: [{at: [6, 1], dwell_s: 2}, [9, 6], {at: [3, 9], dwell_s: 2},"
+        " [-2, 5]], goal: [0, -4]}\n"
+    )
+    bag = tmp_path / "drive.mcap"
+    out = ["--out", str(tmp_path / "out"), "--quiet"]
+    assert CliRunner().invoke(cli, ["run", str(mission), "--bag", str(bag), *out]).exit_code == 0
+    result = CliRunner().invoke(cli, ["identify", str(bag), "--track", "0.4"])
+    assert result.exit_code == 0, result.output
+    assert "delay_s:" in result.output

@@ -10,8 +10,10 @@ import click
 from viaspline.report.terminal_lines import say
 
 if TYPE_CHECKING:
+    from viaspline.identify.drive_log import DriveLog
     from viaspline.mission.robot_parts import RobotSpec
 
+BAGS = (".mcap", ".db3")
 ABOVE_0 = click.FloatRange(min=0.0, max=1e4, min_open=True)
 
 
@@ -39,13 +41,15 @@ def identify(
     """Fit delay, lag, limits, noise and slip of a robot's drive to a log of it.
 
     LOG is a CSV file with the columns time_s, x_m, y_m, heading_rad (or heading_deg),
-    speed_command_mps and yaw_rate_command_radps, a command from its row to the next. Prints the
-    keys robot.drive and the like, each with its spread, to paste into a mission.
+    speed_command_mps and yaw_rate_command_radps, a command from its row to the next; or a log of
+    ROS 2 with odometry and cmd_vel (.mcap, .db3, a folder of rosbag2). Prints the keys robot.drive
+    and the like, each with its spread, to paste into a mission.
 
     \b
     Examples:
       viaspline identify --drive commands.csv --max-speed 1.5     what the robot is to drive
       viaspline identify drive.csv --track 0.42                   what its log shows
+      viaspline identify drive.mcap --track 0.42
       viaspline identify --drive log.csv --on examples/depot-cart.yaml    in simulation
     """  # noqa: D301  (click looks for the character, not for a backslash)
     if drive is not None:
@@ -61,17 +65,29 @@ def identify(
     if log is None:
         raise click.UsageError("give the LOG of a drive, or --drive OUT for one that shows enough")
     from viaspline.formats.whole_file import write_whole
-    from viaspline.identify.drive_log import read_drive_csv
     from viaspline.identify.fit_drive import fit_drive
     from viaspline.identify.identified_drive import drive_block
 
-    found = fit_drive(read_drive_csv(log))
+    found = fit_drive(_read(log))
     block = f"# fitted to {found.seconds:.0f} s of {log.name}\n{drive_block(found, track)}"
     if out is None:
         say(block.rstrip("\n"))
     else:
         write_whole(out, block)
         say(f"delay {found.delay} s, lag {found.lag} s", f"wrote {out}")
+
+
+def _read(log: Path) -> DriveLog:
+    """A log in any of the formats that are understood."""
+    if log.is_dir() or log.suffix.lower() in BAGS:
+        from viaspline.bags.read_drive import read_drive
+        from viaspline.identify.merged_log import merged_log
+
+        found = read_drive(log)
+        return merged_log(found.times, found.poses, found.command_times, found.commands[:, [0, 2]])
+    from viaspline.identify.drive_log import read_drive_csv
+
+    return read_drive_csv(log)
 
 
 def _write_commands(
