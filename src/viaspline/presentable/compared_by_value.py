@@ -8,9 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Mapping
 from dataclasses import fields, is_dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
+
+
+HASH: Final = "_hash_of_value"
 
 
 class ComparedByValue:
@@ -46,7 +49,21 @@ class ComparedByValue:
         return is_same(self._said(), other._said())
 
     def __hash__(self) -> int:
-        return hash((type(self).__name__, hashed(self._said())))
+        """Reckoned once: searches keep what they have found by the world that it was found in."""
+        known = getattr(self, "__dict__", None)
+        if known is None:
+            return hash((type(self).__name__, hashed(self._said())))
+        if HASH not in known:
+            known[HASH] = hash((type(self).__name__, hashed(self._said())))
+        found: int = known[HASH]
+        return found
+
+    def __getstate__(self) -> Any:
+        """Without the hash: another process has another one."""
+        state: Any = object.__getstate__(self)
+        if isinstance(state, dict):
+            return {name: value for name, value in state.items() if name != HASH}
+        return state
 
 
 def is_same(one: object, other: object) -> bool:

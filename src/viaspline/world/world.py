@@ -191,6 +191,10 @@ class World(ShownValue, ComparedByValue):
     def _said(self) -> tuple[object, ...]:
         return self.obstacles, self.bounds, self.fences, self.corridor, self._listed
 
+    def __hash__(self) -> int:
+        """Of little: searches keep what they have found by their world, and make many worlds."""
+        return hash((len(self.obstacles), self.bounds))
+
     def __len__(self) -> int:
         return len(self.obstacles)
 
