@@ -12,7 +12,6 @@ from typing import Any, Final
 
 import numpy as np
 
-
 HASH: Final = "_hash_of_value"
 
 
