@@ -1,7 +1,9 @@
 import copy
 import math
 import pickle
+import tempfile
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -61,6 +63,8 @@ DRIVEN = vs.simulate(
         }
     )
 )
+with tempfile.TemporaryDirectory() as folder:
+    EXPORTED = vs.export(PLAN, Path(folder) / "patrol.csv")
 MADE: dict[str, Any] = {
     "CardinalSpline": vs.CardinalSpline([(0, 0), (3, 1), (5, 0)], tension=0.2),
     "Certificate": PLAN.certificate,
@@ -68,6 +72,8 @@ MADE: dict[str, Any] = {
     "Delays": vs.Delays(slowed=0.3),
     "Fleet": PAIR,
     "FleetCommand": vs.FleetNavigator(FLEET_PLAN).step([], 0.0)[0]["a"],
+    "ExportOptions": vs.ExportOptions(origin=(47.4, 8.5)),
+    "Exported": EXPORTED,
     "FleetMember": PAIR.members[0],
     "FleetPlan": FLEET_PLAN,
     "FleetRun": vs.simulate_fleet(PAIR, plan=FLEET_PLAN),
