@@ -48,7 +48,7 @@ def state_from(message: Mapping[str, Any]) -> RobotState:
     """The state that a message of odometry tells; its pose is in the message's frame.
 
     >>> state_from(odometry(0.0, RobotState((1.0, 2.0), 0.5, 0.25), 0.1))
-    RobotState(position=(1.0, 2.0), heading=0.5, speed=0.25, speed_across=0.0)
+    RobotState(position=(1.0, 2.0), heading=0.5, speed=0.25, speed_across=0.0, stamp=None)
     """
     where, linear = message["pose"]["pose"], message["twist"]["twist"]["linear"]
     place = where["position"]

@@ -53,7 +53,7 @@ class Drive(
         """The one that is given.
 
         >>> Drive(differential={"track_m": 0.5}, delay_s=0.1).kind
-        Differential(track_m=0.5, max_wheel_speed_mps=None)
+        Differential(track_m=0.5)
         """
         given = (getattr(self, key) for key in DRIVE_KINDS)
         kind: DriveKind = next(kind for kind in given if kind is not None)

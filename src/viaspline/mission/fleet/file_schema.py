@@ -18,7 +18,7 @@ def file_schema() -> dict[str, Any]:
 
     >>> schema = file_schema()
     >>> list(schema["properties"])
-    ['world', 'robot', 'route', 'spline', 'separation_m', 'robots', 'fleet']
+    ['world', 'robot', 'route', 'spline', 'ros', 'separation_m', 'robots', 'fleet']
     >>> schema["then"]["required"], schema["else"]["required"]
     (['fleet'], ['route'])
     """
