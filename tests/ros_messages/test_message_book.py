@@ -32,6 +32,8 @@ def values(base: str) -> st.SearchStrategy[Any]:
         return st.booleans()
     if base in ("float32", "float64"):
         return st.floats(width=32 if base == "float32" else 64)
+    if base == "byte":
+        return st.integers(0, 127)  # rosbags takes it for one with a sign
     if base in PRIMITIVES:
         letter = PRIMITIVES[base]
         bits = RANGES[letter]
