@@ -161,9 +161,12 @@ def test_the_3d_view_shows_the_world_and_points_are_dragged_in_it(visit: Visit, 
 
 def test_the_view_turns_zooms_and_is_fitted_again(visit: Visit, file: Path) -> None:
     page = visit(file)
-    x, y = solid_place(page, "[20, 30, 0]")
     eye = "studio.space.solid.camera.position.toArray()"
+    page.until("studio.space.solid?.drawn > 0")
+    page.js("studio.space.solid.canvas.focus()")
+    page.press("f")  # the panels round it may have settled after the first picture
     before = page.js(eye)
+    x, y = solid_place(page, "[20, 30, 0]")
     pull(page, (x, y), (60, 10))
     turned = page.js(eye)
     assert turned != before
