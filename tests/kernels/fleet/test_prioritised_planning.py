@@ -3,6 +3,7 @@ from collections import deque
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
@@ -120,6 +121,7 @@ def test_ways_that_are_spaced_out_keep_a_step_apart(problem):
     assert keeps_a_step_apart(spaced[:, :count])
 
 
+@pytest.mark.long_without_jit
 def test_a_better_set_of_paths_is_still_one():
     neighbours = lattice_of(np.random.default_rng(3).random((12, 12)) > 0.1)
     rng = np.random.default_rng(4)

@@ -64,6 +64,7 @@ def test_where_no_path_passes_a_rest_all_are_served_and_stay_apart(seed: int, co
     assert nearest_two(courses, laws) >= 2.0 * REACH
 
 
+@pytest.mark.long_without_jit
 @given(seed=st.integers(0, 10_000))
 @settings(max_examples=25, deadline=None)
 def test_laws_keep_speeds_and_accelerations_and_are_never_earlier_than_alone(seed: int) -> None:

@@ -53,6 +53,7 @@ def test_between_walls_gaps_are_as_wide_as_that(width: float) -> None:
     assert np.median([*map(size, gaps)]) == pytest.approx(width, abs=0.01)
 
 
+@pytest.mark.long_without_jit
 @pytest.mark.parametrize("width", [2.0, 2.0001, 2.5, 30.0])
 def test_where_there_is_room_no_gap_is_told_of(width: float) -> None:
     world = World([wall(0.5 * width), wall(-0.5 * width)])

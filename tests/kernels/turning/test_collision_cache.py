@@ -1,4 +1,5 @@
 import numpy as np
+import pytest
 
 from viaspline.kernels.turning.collision_cache import CollisionCache, is_clear
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -18,6 +19,7 @@ def cache(world, discs, pace=0.02, barriers=NO_BARRIERS):
     )
 
 
+@pytest.mark.long_without_jit
 def test_a_clear_chain_is_clear_by_brute_force_and_a_chain_with_room_to_spare_is_clear(chained):
     rng = np.random.default_rng(5)
     discs = [(0.0, 0.0, 0.6), (1.0, 0.0, 0.5), (1.0, 0.4, 0.3)]

@@ -81,6 +81,7 @@ def test_a_free_heading_comes_straight(s1):
     assert driven((0, 0, 0.4), segments)[:2] == pytest.approx((20, 7), abs=1e-9)
 
 
+@pytest.mark.long_without_jit
 @settings(max_examples=100, deadline=None)
 @given(places, places, angles, angles, sides, sides)
 def test_its_spans_have_continuous_curvature_below_that_of_the_circle(x, y, start, goal, s1, s2):

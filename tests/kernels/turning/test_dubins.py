@@ -59,6 +59,7 @@ def test_it_is_the_same_driven_backwards_or_in_a_mirror(x, y, start, goal):
     assert length >= math.hypot(x, y) - 1e-9
 
 
+@pytest.mark.long_without_jit
 def test_the_best_heading_at_a_place_gives_the_length_to_it():
     headings = np.linspace(-math.pi, math.pi, 20001)
     for x, y in [(8, 1), (1, 1), (0.5, 0.2), (-3, 0.1), (0, 4), (0.1, -1.5), (2, 2), (-1, -5)]:

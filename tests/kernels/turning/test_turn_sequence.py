@@ -61,6 +61,7 @@ def test_a_ramp_is_the_integral_of_its_heading(sharpness, distance):
     assert y == pytest.approx(quad(lambda s: math.sin(sharpness * s * s / 2), 0, distance)[0])
 
 
+@pytest.mark.long_without_jit
 @pytest.mark.parametrize("closed", [False, True])
 def test_random_swings_pass_their_points_without_jumps_or_sharper_turns(closed):
     rng = np.random.default_rng(7)

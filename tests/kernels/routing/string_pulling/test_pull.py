@@ -215,6 +215,7 @@ def visibility_length(shapes: list[Any], start: Any, goal: Any, more: float, cut
     return float(best[1])
 
 
+@pytest.mark.long_without_jit
 @settings(max_examples=10)
 @given(seeds)
 def test_strings_of_guides_through_lattices_are_the_shortest_ways(seed: int) -> None:

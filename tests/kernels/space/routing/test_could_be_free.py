@@ -1,6 +1,7 @@
 """Proofs that two places are apart, against floods of voxels and fine samples."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import ndimage
@@ -27,6 +28,7 @@ def test_cubes_themselves_are_exact_cells(seed: int, share: float) -> None:
     assert are_apart(block, lattice, first + 0.5, last + 0.5, 0.45, 10**6)[0] == expected
 
 
+@pytest.mark.long_without_jit
 @settings(max_examples=40)
 @given(st.integers(0, 2**32), st.sampled_from([0.3, 0.7, 1.2]), st.sampled_from([0.2, 0.4]))
 def test_what_samples_connect_is_never_called_apart(seed: int, radius: float, step: float) -> None:
