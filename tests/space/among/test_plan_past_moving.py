@@ -116,6 +116,19 @@ def test_a_lift_that_goes_up_and_down_is_passed_when_it_is_away() -> None:
     assert plan.trajectory.end_time < 60
 
 
+def test_the_goal_is_taken_when_it_stays_free_for_as_long_as_is_asked() -> None:
+    frames = [[0.0, 40.0, 5.0, 10.0], [20.0, 40.0, 5.0, 10.0], [24.0, 40.0, 0.0, 10.0],
+              [30.0, 40.0, 30.0, 10.0]]  # fmt: skip
+    assert planned(ball("kite", 1.0, frames)).trajectory.end_time < 15
+    plan = planned(ball("kite", 1.0, frames), hold_s=12)
+    assert plan.moving is not None
+    assert plan.moving.holds
+    assert plan.trajectory.end_time > 24
+    after = plan.trajectory.end_time + np.arange(0, 12, 0.01)
+    off = np.array([40.0, 0.0, 10.0]) - places_of(frames, after, "stay")
+    assert np.hypot(off[:, 0], off[:, 1]).min() >= 1.0 + RADIUS + CLEARANCE - 1e-6
+
+
 @settings(max_examples=20)
 @given(seed=st.integers(0, 100_000))
 def test_plans_keep_clear_of_all_that_moves_and_keep_their_limits(seed: int) -> None:
@@ -194,11 +207,6 @@ def test_what_comes_over_the_start_is_given_up_in_words() -> None:
              "motion": {"keyframes": [[0, -1, 0], [5, 0, 0]], "after": "stay"}}  # fmt: skip
     with pytest.raises(GaveUpError, match="no time law past 'crane'"):
         planned(crane)
-
-
-def test_the_goal_is_not_kept_free_in_space_and_that_is_said() -> None:
-    with pytest.raises(GeometryError, match="hold_s"):
-        planned(ball("kite", 1.0, CROSSING), hold_s=5)
 
 
 def test_unseen_things_that_move_are_refused_in_words() -> None:

@@ -86,3 +86,14 @@ def test_what_stands_on_a_via_point_ends_the_flight_before_it_with_the_reason() 
     assert "tent" in run.reason
     assert run.clearance >= 1.0 - 1e-6
     assert run.speeds[-1] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_until_it_brakes_a_robot_has_flown_as_was_planned() -> None:
+    unseen = [{"name": "tent", "ball": {"center": [120, 30, 14], "radius": 3}}]
+    run = fly(plan_spatial(mission(unseen)))
+    law = run.plan.trajectory
+    before = run.times <= run.replans[-1].seen_at
+    said = np.asarray(run.plan.path.at_distance(law.distance_at(run.times[before])))
+    assert np.allclose(run.positions[before], said, atol=1e-9)
+    steps = np.linalg.norm(np.diff(run.positions, axis=0), axis=1) / np.diff(run.times)
+    assert steps.max() <= 5 * (1 + 1e-6)

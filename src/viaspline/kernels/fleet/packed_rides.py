@@ -21,7 +21,7 @@ class PackedRides(NamedTuple):
         brake: By how much it may slow down [m/s²], (n,).
         depart: When it may set out [s], (n,).
         keeps_pace: Whether it can't slow down on the way: it waits where it stands anyway, (n,).
-        vanishes: Whether it leaves the world when it arrives, (n,).
+        vanishes: Whether it leaves the world when it has arrived and stood there, (n,).
     """
 
     square: Floats

@@ -85,7 +85,8 @@ def set_times(ride: Ride, courses: PackedCourses, rides: PackedRides, start: int
     for k in range(start, end):
         ride.leave[k] = ride.arrive[k] + rides.stays[ride.first + k] + ride.waits[k]
         ride.arrive[k + 1] = ride.leave[k] + cell_lasts(ride, courses, rides, k)
-    ride.leave[end] = ride.arrive[end] if rides.vanishes[ride.robot] else np.inf
+    stays = rides.stays[ride.first + end] if rides.vanishes[ride.robot] else np.inf
+    ride.leave[end] = ride.arrive[end] + stays
 
 
 @inner

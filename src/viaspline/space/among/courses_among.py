@@ -57,20 +57,22 @@ def courses_among(
 
 
 def laws_among(
-    courses: SpatialCourses, law: Trajectory, moving: Sequence[MovingSolid], *, is_timed: bool
-) -> PackedLaws:
+    courses: SpatialCourses, law: Trajectory, hold: float, moving: Sequence[MovingSolid], *,
+    is_timed: bool,
+) -> PackedLaws:  # fmt: skip
     """When the robot and what moves are where on their courses.
 
     Args:
         courses: Of them.
         law: The robot's.
+        hold: How long it stays where it arrives [s].
         moving: What moves.
         is_timed: Whether the robot has this law already, or is to get one.
     """
     packed = courses.packed
     count = int(packed.first[1])
     arrive, leave, speed = law_at_nodes(law, packed.distance[:count])
-    leave[-1] = arrive[-1]
+    leave[-1] = arrive[-1] + hold
     clocks = np.concatenate([np.empty(0), *(one.times for one in moving)])
     timed = np.ones(len(courses.names), np.bool_)
     timed[ROBOT] = is_timed

@@ -58,14 +58,15 @@ class LawPast:
 
 
 def law_past_moving(
-    path: Path, static: Trajectory, limits: SpatialLimits, body: tuple[float, float, float],
-    moving: Sequence[MovingSolid],
+    path: Path, static: Trajectory, hold: float, limits: SpatialLimits,
+    body: tuple[float, float, float], moving: Sequence[MovingSolid],
 ) -> LawPast | str:  # fmt: skip
     """The law of a path past what moves.
 
     Args:
         path: In space.
         static: The fastest law along it if nothing moved.
+        hold: How long the goal stays free after that [s].
         limits: Of the drive.
         body: Radius and half height of the robot's cylinder, and what is kept about it [m].
         moving: What moves, from the law's beginning on.
@@ -78,7 +79,7 @@ def law_past_moving(
     """
     courses = courses_among(path, static, body, moving)
     crossings = spatial_crossings(courses, np.array([ROBOT], np.int64), MAX_BOXES)
-    laws = laws_among(courses, static, moving, is_timed=False)
+    laws = laws_among(courses, static, hold, moving, is_timed=False)
     rides = _rides(courses, laws, limits, path.dimension)
     passages = passages_of(courses.packed, crossings)
     (box,) = timed_in_order(
@@ -97,7 +98,7 @@ def _rides(
     first, count = courses.packed.first, len(courses.names)
     ends = first[1:] - 1
     stays = laws.leave - laws.arrive
-    stays[ends] = 0.0
+    stays[ends[ROBOT + 1 :]] = 0.0
     lasts = np.append(laws.arrive[1:] - laws.leave[:-1], 0.0)
     lasts[ends] = 0.0
     along = along_limits(limits)
@@ -157,7 +158,7 @@ def _waits(
 
 
 def proven_past_moving(
-    path: Path, law: Trajectory, body: tuple[float, float, float], clearance: float,
+    path: Path, law: Trajectory, hold: float, body: tuple[float, float, float], clearance: float,
     moving: Sequence[MovingSolid],
 ) -> MovingCertificate:  # fmt: skip
     """Prove how far a robot stays from what moves, over continuous time.
@@ -165,14 +166,15 @@ def proven_past_moving(
     Args:
         path: In space.
         law: The time law along it.
+        hold: How long the robot stays at its goal after that [s].
         body: Radius and half height of its cylinder, and the margin about it without any clearance
             [m].
         clearance: That is asked for [m].
-        moving: What moves, until the law's end at least.
+        moving: What moves, until the end of that at least.
     """
     kept = (body[0], body[1], body[2] + clearance)
     courses = courses_among(path, law, kept, moving)
-    laws = laws_among(courses, law, moving, is_timed=True)
+    laws = laws_among(courses, law, hold, moving, is_timed=True)
     found = nearest_in_space(courses, laws, only=ROBOT)
     if found.pair[0] < 0:
         start = tuple(path.evaluate(0.0).tolist())

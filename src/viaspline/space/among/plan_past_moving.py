@@ -15,20 +15,14 @@ from typing import Final
 
 import numpy as np
 
-from viaspline.errors import GaveUpError, GeometryError, PlanningError
-from viaspline.mission.model import Mission
+from viaspline.errors import GaveUpError, PlanningError
 from viaspline.mission.shapes.capsule import Capsule
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.mission.space.flying_body import FlyingBody
-from viaspline.space.among.law_past_moving import law_past_moving, proven_past_moving
 from viaspline.space.among.moving_solid import HIGH_M, MovingSolid
+from viaspline.space.among.timed_past import solids_beside, timed_past
 from viaspline.space.laid_round import laid_round
 from viaspline.space.spatial_plan import SpatialPlan
 
-WATCHED_SHARE: Final = 4.0
-WATCHED_S: Final = 300.0
-"""What moves is looked at for so many times as long as the robot would fly, and for so long more
-[s]; who hasn't arrived by then has no law."""
 WORTH_S: Final = 1.0
 """What has to be lost by waiting before another path is looked for [s]."""
 MAX_LINES: Final = 60
@@ -49,21 +43,14 @@ def plan_past_moving(static: SpatialPlan) -> SpatialPlan:
 
     Raises:
         GaveUpError: None was found.
-        GeometryError: It asks for something that isn't planned in space.
     """
     mission, law = static.mission, static.trajectory
-    _refuse_what_is_not_planned(mission)
-    until = law.start_time + WATCHED_SHARE * law.duration + WATCHED_S
-    moving = [
-        MovingSolid.of(one, one.name or f"moving obstacle {k + 1}", law.start_time, until)
-        for k, one in enumerate(mission.world.moving)
-    ]
-    until = min([until, *(float(one.times[-1]) for one in moving)])
-    first = _timed(static, moving, until)
+    moving = solids_beside(mission, law, mission.route.hold_s)
+    first = _timed(static, moving)
     found = [] if isinstance(first, str) else [first]
     in_the_way = {first} if isinstance(first, str) else {one.obstacle for one in first.waits}
     if isinstance(first, str) or first.trajectory.end_time > law.end_time + WORTH_S:
-        found += _led_round(static, moving, in_the_way, until)
+        found += _led_round(static, moving, in_the_way)
     if not found:
         raise GaveUpError(
             f"no time law past {' and '.join(repr(name) for name in sorted(in_the_way))} was found "
@@ -77,35 +64,16 @@ def plan_past_moving(static: SpatialPlan) -> SpatialPlan:
     return min(found, key=lambda one: one.trajectory.end_time)
 
 
-def _refuse_what_is_not_planned(mission: Mission) -> None:
-    """Say what isn't planned among things that move, rather than leave it out."""
-    if mission.world.unseen_standing:
-        raise GeometryError(
-            "obstacles that aren't on the map and ones that move aren't flown round together in "
-            "space; leave out one of the two"
-        )
-    if mission.route.hold_s > 0.0:
-        raise GeometryError("in space the goal isn't kept free after arrival; leave out hold_s")
-
-
-def _timed(plan: SpatialPlan, moving: Sequence[MovingSolid], until: float) -> SpatialPlan | str:
+def _timed(plan: SpatialPlan, moving: Sequence[MovingSolid]) -> SpatialPlan | str:
     """A plan with its law past what moves, proven; or the name of what it can't let pass."""
-    robot = plan.mission.robot
-    body = FlyingBody.of(robot)
-    kept = (body.radius, body.half_height, body.margin + robot.clearance_m)
-    past = law_past_moving(plan.path, plan.trajectory, plan.limits, kept, moving)
+    past = timed_past(plan.path, plan.trajectory, plan.limits, plan.mission, moving)
     if isinstance(past, str):
         return past
-    law = past.trajectory
-    bare = (body.radius, body.half_height, body.margin)
-    proof = proven_past_moving(plan.path, law, bare, robot.clearance_m, moving)
-    if law.end_time > until or not proof.holds:
-        return proof.obstacle or moving[0].name
-    return replace(plan, trajectory=law, moving=proof, waits=past.waits)
+    return replace(plan, trajectory=past.trajectory, moving=past.proof, waits=past.waits)
 
 
 def _led_round(
-    static: SpatialPlan, moving: Sequence[MovingSolid], in_the_way: set[str], until: float
+    static: SpatialPlan, moving: Sequence[MovingSolid], in_the_way: set[str]
 ) -> list[SpatialPlan]:
     """Plans on paths round the whole way of what is met, and of what these meet then."""
     round_them = set(in_the_way)
@@ -116,7 +84,7 @@ def _led_round(
         if not obstacles:
             return []
         try:
-            timed = _timed(laid_round(static, obstacles), moving, until)
+            timed = _timed(laid_round(static, obstacles), moving)
         except PlanningError:
             return []
         if not isinstance(timed, str):

@@ -12,6 +12,7 @@ import numpy as np
 from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
 from viaspline.space.timing.yaw_profile import YawProfile
+from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.trajectory.trajectory import Trajectory
 
 
@@ -24,12 +25,14 @@ class FlownLeg:
         law: When it is where on it.
         yaw: Where it looks.
         until: When something else takes its place [s].
+        moving: How far it stays from what moves; None where nothing does.
     """
 
     path: Path
     law: Trajectory
     yaw: YawProfile
     until: float
+    moving: MovingCertificate | None = None
 
     def states(self, times: Floats) -> tuple[Floats, Floats, Floats, Floats]:
         """Positions (n, 3) [m], headings [rad], speeds and climbs [m/s] at times [s], (n,)."""

@@ -20,6 +20,7 @@ from viaspline.formats.asked_for import AskedMission, asked_mission
 from viaspline.handed_in import check_kind, time_from
 from viaspline.mission.model import Mission
 from viaspline.mission.space.flight_places import flight_places
+from viaspline.space.among.timed_past import proven_beside, solids_beside
 from viaspline.space.online.flown_leg import FlownLeg
 from viaspline.space.online.recorded_flight import recorded
 from viaspline.space.online.replan_in_space import NewLeg, replan_in_space
@@ -47,8 +48,8 @@ class _Flight:
     """A flight so far.
 
     Attributes:
-        legs: What was flown, and at last what is.
-        problem: What the last leg solves, in the world as it is known.
+        legs: What was flown, and at last what is, or is to be as soon as its law begins.
+        problems: What each of them solves; the last one in the world as it is known.
         known: The mission with all that was seen on its map.
         unseen: What nobody has seen yet.
         replans: Where the path was changed.
@@ -56,11 +57,30 @@ class _Flight:
     """
 
     legs: tuple[FlownLeg, ...]
-    problem: SpatialProblem
+    problems: tuple[SpatialProblem, ...]
     known: Mission
     unseen: tuple[UnseenSolid, ...]
     replans: tuple[SpatialReplan, ...] = ()
     reason: str = ""
+
+    @property
+    def problem(self) -> SpatialProblem:
+        """What the last leg solves."""
+        return self.problems[-1]
+
+    def ahead_of(self, now: float) -> tuple[FlownLeg, ...]:
+        """What is flown from a time on [s], the leg that is under way first."""
+        return self.legs[-1:] if self.legs[-1].law.start_time <= now else self.legs[-2:]
+
+    def without_pending(self, now: float) -> _Flight:
+        """It without a leg that was to begin after a time [s]."""
+        if len(self.ahead_of(now)) == 1:
+            return self
+        under_way = replace(self.legs[-2], until=np.inf)
+        return replace(
+            self, legs=(*self.legs[:-2], under_way), problems=self.problems[:-1],
+            replans=self.replans[:-1],
+        )  # fmt: skip
 
 
 def fly(plan: SpatialPlan | AskedMission, step: float = STEP_S) -> SpatialRun:
@@ -80,15 +100,15 @@ def fly(plan: SpatialPlan | AskedMission, step: float = STEP_S) -> SpatialRun:
     step = time_from("step", step)
     mission = plan.mission
     flight = _Flight(
-        (FlownLeg(plan.path, plan.trajectory, plan.yaw, np.inf),),
-        _unrolled(spatial_problem_of(mission)), mission, _unseen(mission, plan.world),
+        (FlownLeg(plan.path, plan.trajectory, plan.yaw, np.inf, plan.moving),),
+        (_unrolled(spatial_problem_of(mission)),), mission, _unseen(mission, plan.world),
     )  # fmt: skip
     if flight.unseen and mission.robot.sensor is None:
         raise GeometryError("there are unseen obstacles and no sensor; give robot.sensor.range_m")
     reach = 0.0 if mission.robot.sensor is None else mission.robot.sensor.reach
     now = plan.trajectory.start_time
     for _ in range(MAX_REPLANS):
-        now, seen = first_sighting(flight.legs[-1], flight.unseen, reach, now, step)
+        now, seen = first_sighting(flight.ahead_of(now), flight.unseen, reach, now, step)
         if not seen:
             break
         flight = _reacted(flight, now, seen)
@@ -137,22 +157,33 @@ def _unseen(mission: Mission, world: SpatialWorld) -> tuple[UnseenSolid, ...]:
 def _reacted(flight: _Flight, now: float, seen: Sequence[UnseenSolid]) -> _Flight:
     """A flight in which something was seen: with another path, if it is in the way."""
     known = _with_seen(flight.known, seen)
-    problem = replace(flight.problem, world=spatial_world_of(known, flight_places(known)))
     unseen = tuple(one for one in flight.unseen if one not in seen)
-    flight = replace(flight, known=known, unseen=unseen, problem=problem)
+    flight = replace(flight, known=known, unseen=unseen)
     if all(_is_passed_clear(flight, now, one) for one in seen):
         return flight
-    brake = problem.limits.along.brake
     names = tuple(one.name for one in seen)
-    leg = flight.legs[-1]
+    if len(flight.ahead_of(now)) > 1:  # a path that is given up before it began
+        names = (*flight.replans[-1].obstacles, *names)
+        flight = flight.without_pending(now)
+    problem = replace(flight.problem, world=spatial_world_of(known, flight_places(known)))
+    return _led_past(replace(flight, problems=(*flight.problems[:-1], problem)), now, names)
+
+
+def _led_past(flight: _Flight, now: float, names: tuple[str, ...]) -> _Flight:
+    """A flight on another path from where it can take it up; else one that ends where it stops."""
+    known, problem, leg = flight.known, flight.problem, flight.legs[-1]
+    brake = problem.limits.along.brake
     braked = (braked_takeover(leg, now, brake, share) for share in SPEED_SHARES)
     for begins in (smooth_takeover(leg, now, brake), *braked):
         ahead = _still_ahead(flight, begins)
         if not ahead:
             continue
+        old = _ended(leg, begins, brake, known)
+        if old.moving is not None and not old.moving.holds:
+            continue
         found = replan_in_space(known, problem, leg, ahead, begins)
         if isinstance(found, NewLeg):
-            return _taken_over(flight, now, begins, found, names)
+            return _taken_over(flight, now, begins, old, found, names)
     return _stopped(flight, now, names)
 
 
@@ -171,15 +202,20 @@ def _with_seen(known: Mission, seen: Sequence[UnseenSolid]) -> Mission:
 
 
 def _is_passed_clear(flight: _Flight, now: float, one: UnseenSolid) -> bool:
-    """Whether the rest of the path is clear of something."""
-    leg, problem = flight.legs[-1], flight.problem
-    distance = min(float(leg.law.distance_at(now)), leg.path.length)
-    u = float(np.asarray(leg.path.parameter(distance)))
-    end = leg.path.domain[1]
-    if u >= end:
-        return True
-    rest = leg.path.section(u, end)
-    return certify(rest, one.world, problem.clearance, radius=problem.radius).holds
+    """Whether all that is still to be flown is clear of something."""
+    problem = flight.problem
+    for leg in flight.ahead_of(now):
+        first, last = (
+            leg.law.distance_at(time) for time in (now, min(leg.until, leg.law.end_time))
+        )
+        span = np.minimum([float(first), float(last)], leg.path.length)
+        u, end = np.asarray(leg.path.parameter(span)).tolist()
+        if u >= end:
+            continue
+        rest = leg.path.section(u, end)
+        if not certify(rest, one.world, problem.clearance, radius=problem.radius).holds:
+            return False
+    return True
 
 
 def _still_ahead(flight: _Flight, begins: Takeover) -> tuple[SpatialVia, ...]:
@@ -193,23 +229,28 @@ def _still_ahead(flight: _Flight, begins: Takeover) -> tuple[SpatialVia, ...]:
 
 
 def _taken_over(
-    flight: _Flight, now: float, begins: Takeover, found: NewLeg, names: tuple[str, ...]
-) -> _Flight:
-    old = _ended(flight.legs[-1], begins, flight.problem.limits.along.brake)
+    flight: _Flight, now: float, begins: Takeover, old: FlownLeg, found: NewLeg,
+    names: tuple[str, ...],
+) -> _Flight:  # fmt: skip
     replan = SpatialReplan(now, begins.time, names, found.leg.path, begins.speed == 0.0)
     return replace(
-        flight, legs=(*flight.legs[:-1], old, found.leg), problem=found.problem,
-        replans=(*flight.replans, replan),
+        flight, legs=(*flight.legs[:-1], old, found.leg),
+        problems=(*flight.problems, found.problem), replans=(*flight.replans, replan),
     )  # fmt: skip
 
 
-def _ended(leg: FlownLeg, begins: Takeover, brake: float) -> FlownLeg:
-    """A leg as it is flown until another one begins."""
+def _ended(leg: FlownLeg, begins: Takeover, brake: float, known: Mission) -> FlownLeg:
+    """A leg as it is flown until another one begins; where it brakes, proven again."""
     if begins.since >= begins.time or begins.time >= leg.law.end_time:
         return replace(leg, until=begins.time)
     distance, speed, _ = (float(value) for value in leg.law.state_at(begins.since))
     stop = braking(distance, speed, brake, begins.since)
-    return replace(leg, law=leg.law.followed_by(stop, begins.since), until=begins.time)
+    law = leg.law.followed_by(stop, leg.law.start_time)
+    braked = replace(leg, law=law, until=begins.time)
+    if not known.world.moving:
+        return braked
+    moving = solids_beside(known, braked.law, 0.0)
+    return replace(braked, moving=proven_beside(leg.path, braked.law, 0.0, known, moving))
 
 
 def _stopped(flight: _Flight, now: float, names: tuple[str, ...]) -> _Flight:
@@ -217,7 +258,7 @@ def _stopped(flight: _Flight, now: float, names: tuple[str, ...]) -> _Flight:
     brake = flight.problem.limits.along.brake
     leg = flight.legs[-1]
     begins = braked_takeover(leg, now, brake, 0.0)
-    old = _ended(leg, begins, brake)
+    old = _ended(leg, begins, brake, flight.known)
     replan = SpatialReplan(now, begins.time, names, None, True)
     reason = f"it found no way past {' and '.join(names)}, and hovers before it"
     return replace(

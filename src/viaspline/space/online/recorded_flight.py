@@ -42,8 +42,8 @@ def recorded(
         np.concatenate(column) for column in zip(*parts, strict=True)
     )
     clearance = _clearance(plan, legs, not reason, world)
-    if plan.moving is not None:
-        clearance = min(clearance, plan.moving.clearance)
+    moving = (leg.moving.clearance for leg in legs if leg.moving is not None)
+    clearance = min([clearance, *moving])
     return SpatialRun(
         plan, times, positions, headings, speeds, climbs, replans, clearance, not reason, reason
     )

@@ -12,6 +12,7 @@ import numpy as np
 
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.mission.model import Mission
+from viaspline.space.among.timed_past import solids_beside, timed_past
 from viaspline.space.leg_router import LegRouter
 from viaspline.space.online.flown_leg import FlownLeg
 from viaspline.space.online.takeover import Takeover
@@ -82,4 +83,23 @@ def replan_in_space(
         return problem_found
     if law.over_limit_until is not None:
         return GeometryError("the robot is too fast for the new path where it begins")
-    return NewLeg(FlownLeg(found.path, law, yaw, float("inf")), asked)
+    leg = FlownLeg(found.path, law, yaw, float("inf"))
+    if mission.world.moving:
+        return _past_moving(NewLeg(leg, asked), mission)
+    return NewLeg(leg, asked)
+
+
+def _past_moving(found: NewLeg, mission: Mission) -> NewLeg | PlanningError | GeometryError:
+    """What is flown from a take-over on past what moves, at the speed that the robot has there."""
+    leg, law = found.leg, found.leg.law
+    moving = solids_beside(mission, law, mission.route.hold_s)
+    try:
+        past = timed_past(leg.path, law, found.problem.limits, mission, moving)
+    except PlanningError as problem_found:
+        return problem_found
+    if isinstance(past, str):
+        return GeometryError(f"it can't let {past!r} pass on the new path")
+    begins = past.trajectory
+    if law.speeds[0] > 0.0 and (begins.speeds[0] != law.speeds[0] or begins.distances[1] == 0.0):
+        return GeometryError("the robot is too fast to let what moves pass on the new path")
+    return replace(found, leg=replace(leg, law=begins, moving=past.proof))

@@ -31,12 +31,12 @@ class UnseenSolid:
 
 
 def first_sighting(
-    leg: FlownLeg, unseen: Sequence[UnseenSolid], reach: float, now: float, step: float
+    legs: Sequence[FlownLeg], unseen: Sequence[UnseenSolid], reach: float, now: float, step: float
 ) -> tuple[float, tuple[UnseenSolid, ...]]:
-    """When something is first seen on a leg, and all that is seen then.
+    """When something is first seen on legs, and all that is seen then.
 
     Args:
-        leg: What is flown.
+        legs: What is flown, each until the next one begins.
         unseen: What nobody has seen yet.
         reach: Of the sensor, from the reference point [m].
         now: From when on [s].
@@ -45,9 +45,10 @@ def first_sighting(
     Returns:
         (time [s], what): infinite and nothing if nothing is seen any more.
     """
-    end = min(leg.until, leg.law.end_time)
-    times = np.arange(now, end + step, step)
-    places = leg.states(np.minimum(times, end))[0]
+    end = min(legs[-1].until, legs[-1].law.end_time)
+    times = np.minimum(np.arange(now, end + step, step), end)
+    owner = np.searchsorted([leg.until for leg in legs[:-1]], times, side="right")
+    places = np.concatenate([leg.states(times[owner == k])[0] for k, leg in enumerate(legs)])
     near = [np.asarray(one.world.distance(places)) <= reach for one in unseen]
     when = [int(np.argmax(seen)) if seen.any() else len(times) for seen in near]
     first = min(when, default=len(times))
