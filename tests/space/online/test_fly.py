@@ -97,3 +97,32 @@ def test_until_it_brakes_a_robot_has_flown_as_was_planned() -> None:
     assert np.allclose(run.positions[before], said, atol=1e-9)
     steps = np.linalg.norm(np.diff(run.positions, axis=0), axis=1) / np.diff(run.times)
     assert steps.max() <= 5 * (1 + 1e-6)
+
+
+def test_what_is_seen_too_late_to_stop_before_it_is_said_with_the_distances() -> None:
+    wall = {"name": "wall", "box": {"min": [40, -80, 0], "max": [42, 80, 60]}}
+    asked = mission([wall], max_speed_mps=8, sensor={"range_m": 6})
+    run = fly(plan_spatial(asked))
+    assert not run.reached
+    assert "m/s it takes 4.9 m to stop, and its sensor sees 6 m" in run.reason
+    assert run.clearance < 1.0
+    slow = fly(plan_spatial(mission([wall], max_speed_mps=2, sensor={"range_m": 6})))
+    assert slow.reached
+    assert slow.clearance >= 1.0
+
+
+def test_a_body_turns_where_it_stands_and_from_one_path_to_the_next_within_its_rate() -> None:
+    data = mission([{"ball": {"center": [35, 0, 10], "radius": 2}}], max_yaw_rate_dps=60)
+    data = data.model_copy(update={"route": data.route.model_validate({
+        "start": [0, 0, 10], "goal": [1, 0, 10], "yaw": {"to": [60, 40, 0]},
+        "via": [{"at": [70, 0, 10], "look_at": [70, -30, 0]}],
+    })})  # fmt: skip
+    run = fly(plan_spatial(data))
+    assert run.reached
+    assert run.replans
+    assert not run.replans[0].stopped
+    turned = np.abs(np.angle(np.exp(1j * np.diff(run.headings)))) / np.diff(run.times)
+    assert np.rad2deg(turned.max()) <= 60 * 1.01
+    there_and_back = fly(plan_spatial(data.model_copy(update={"world": mission([]).world})))
+    turned = np.abs(np.angle(np.exp(1j * np.diff(there_and_back.headings))))
+    assert np.rad2deg((turned / np.diff(there_and_back.times)).max()) <= 60 * 1.01

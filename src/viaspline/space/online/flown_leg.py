@@ -6,6 +6,7 @@ Tested through ``space/online/test_fly``.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from viaspline.kernels.arrays import Floats
 from viaspline.space.timing.yaw_profile import YawProfile
 from viaspline.trajectory.moving_certificate import MovingCertificate
 from viaspline.trajectory.trajectory import Trajectory
+
+STANDS_M: Final = 1e-6
+"""How far from the place of a turn a law may stand for it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,4 +44,18 @@ class FlownLeg:
         distances = np.clip(distances, 0.0, self.path.length)
         u = np.asarray(self.path.parameter(distances))
         climbs = speeds * self.path.tangent(u)[:, 2]
-        return self.path.evaluate(u), self.yaw.at(distances), speeds, climbs
+        return self.path.evaluate(u), self._headings(times, distances), speeds, climbs
+
+    def _headings(self, times: Floats, distances: Floats) -> Floats:
+        """Of the body: [rad], (n,); it turns on the spot evenly for as long as it stands there."""
+        headings = self.yaw.at(distances)
+        law = self.law
+        for place, by in self.yaw.turns:
+            stands = np.flatnonzero(np.abs(law.distances - place) <= STANDS_M)
+            if not len(stands):
+                continue
+            begin, end = law.times[stands[[0, -1]]].tolist()
+            at = (times >= begin) & (times < end)
+            first = float(self.yaw.at(np.nextafter(place, -np.inf)))
+            headings[at] = first + by * (times[at] - begin) / (end - begin)
+        return headings

@@ -261,6 +261,26 @@ def _stopped(flight: _Flight, now: float, names: tuple[str, ...]) -> _Flight:
     old = _ended(leg, begins, brake, flight.known)
     replan = SpatialReplan(now, begins.time, names, None, True)
     reason = f"it found no way past {' and '.join(names)}, and hovers before it"
+    reason += _too_late(flight, now, begins)
     return replace(
         flight, legs=(*flight.legs[:-1], old), replans=(*flight.replans, replan), reason=reason
+    )
+
+
+def _too_late(flight: _Flight, now: float, begins: Takeover) -> str:
+    """That it saw something too late to stop with the clearance that is asked for, if it did."""
+    problem, leg, sensor = flight.problem, flight.legs[-1], flight.known.robot.sensor
+    here = float(leg.law.distance_at(now))
+    first, last = np.minimum([here, begins.distance], leg.path.length).tolist()
+    if last <= first or sensor is None:
+        return ""
+    part = leg.path.section(*np.asarray(leg.path.parameter([first, last])).tolist())
+    proof = certify(part, problem.world, problem.clearance, radius=problem.radius)
+    if proof.holds:
+        return ""
+    speed = float(leg.law.speed_at(here))
+    return (
+        f"; it comes as near as {max(proof.clearance, 0.0):.2f} m, for from {speed:.1f} m/s it "
+        f"takes {last - first:.1f} m to stop, and its sensor sees {sensor.reach:g} m: fly slower, "
+        "or give it a longer range_m"
     )

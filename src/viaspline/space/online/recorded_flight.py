@@ -54,6 +54,7 @@ def _clearance(
 ) -> float:
     """The proven free space on all that was flown [m]."""
     radius = plan.mission.robot.radius_m if plan.mission.robot.half_height_m is None else 0.0
+    asked = plan.mission.robot.clearance_m  # near what is asked for the proof is the finest
     least = np.inf
     for k, leg in enumerate(legs):
         takes_off = k == 0 and plan.mission.route.takeoff is not None
@@ -61,7 +62,7 @@ def _clearance(
         for first, last, on_ground in _stretches(leg, takes_off, lands):
             part = leg.path.section(*np.asarray(leg.path.parameter([first, last])).tolist())
             here = without_ground(world) if on_ground else world
-            least = min(least, certify(part, here, 0.0, radius=radius).clearance)
+            least = min(least, certify(part, here, asked, radius=radius).clearance)
     return float(least)
 
 

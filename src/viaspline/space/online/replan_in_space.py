@@ -5,11 +5,13 @@ Tested through ``space/online/test_fly``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
 from viaspline.mission.model import Mission
 from viaspline.space.among.timed_past import solids_beside, timed_past
@@ -20,6 +22,7 @@ from viaspline.space.solve_route import solve_route
 from viaspline.space.spatial_problem import SpatialProblem, SpatialVia
 from viaspline.space.static_plan import headings_of, stops_of
 from viaspline.space.timing.retime_in_space import retime_in_space
+from viaspline.space.timing.yaw_profile import YawProfile
 
 HERE = "take-over"
 """What the place is called from which on another path is flown."""
@@ -68,7 +71,7 @@ def replan_in_space(
         found = solve_route(asked, LegRouter(asked, mission))
         if not found.certificate.holds:
             return GeometryError("the path to the landing isn't clear")
-        yaw = headings_of(asked, found.path)
+        yaw = _turned_from(old, begins, headings_of(asked, found.path), found.path)
         stops = tuple(stops_of(asked, found.path))
         law = retime_in_space(
             found.path,
@@ -87,6 +90,14 @@ def replan_in_space(
     if mission.world.moving:
         return _past_moving(NewLeg(leg, asked), mission)
     return NewLeg(leg, asked)
+
+
+def _turned_from(old: FlownLeg, begins: Takeover, yaw: YawProfile, path: Path) -> YawProfile:
+    """Headings that begin with the old ones, and turn to the new ones by the next stop."""
+    by = math.remainder(float(old.yaw.at(begins.distance) - yaw.at(0.0)), 2.0 * math.pi)
+    until = min((at for _, at in path.stops if at > 0.0), default=path.length)
+    left = np.clip(1.0 - yaw.distances / until, 0.0, 1.0)
+    return YawProfile(yaw.distances, yaw.headings + by * left)
 
 
 def _past_moving(found: NewLeg, mission: Mission) -> NewLeg | PlanningError | GeometryError:
