@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from viaspline.cli import FIGURE_NAMES
+from viaspline.commands.figures_command import FIGURE_NAMES
 from viaspline.formats.load import load
 from viaspline.mission.model import Mission
 from viaspline.report.figures import FIGURES

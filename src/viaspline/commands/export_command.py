@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viaspline.command_steps import load_asked, progress_bar, result_folder
+from viaspline.commands.command_steps import load_asked, progress_bar, result_folder
 from viaspline.report.terminal_lines import say
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def _planned(asked: Mission | Fleet, watch: ProgressBar) -> Plan | SpatialPlan |
             from viaspline.plan_mission import plan
 
             return plan(asked)
-    from viaspline.fleet_steps import LaidBy, watched_fleet_plan
+    from viaspline.commands.fleet_steps import LaidBy, watched_fleet_plan
 
     return watched_fleet_plan(asked, watch, 0.0, LaidBy())
 
@@ -118,7 +118,7 @@ def _end_unserved(planned: Plan | SpatialPlan | FleetPlan) -> None:
     from viaspline.fleet.fleet_plan import FleetPlan
 
     if isinstance(planned, FleetPlan):
-        from viaspline.fleet_steps import end_unserved
+        from viaspline.commands.fleet_steps import end_unserved
 
         end_unserved(planned)
 

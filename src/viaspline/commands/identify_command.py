@@ -119,7 +119,7 @@ def _write_commands(
 
 
 def _robot_of(path: Path) -> RobotSpec:
-    from viaspline.command_steps import load_asked
+    from viaspline.commands.command_steps import load_asked
     from viaspline.mission.model import Mission
 
     asked = load_asked(path)

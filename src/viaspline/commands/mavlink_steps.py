@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import click
 
-from viaspline.command_steps import load_asked, progress_bar, watched_plan
+from viaspline.commands.command_steps import load_asked, progress_bar, watched_plan
 from viaspline.commands.link_options import talking_to, telling
 from viaspline.errors import LinkError
 from viaspline.exit_codes import NOT_REACHED

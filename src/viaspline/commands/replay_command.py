@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from viaspline.command_steps import progress_bar
+from viaspline.commands.command_steps import progress_bar
 from viaspline.exit_codes import NOT_REACHED
 from viaspline.report.terminal_lines import say, say_error
 

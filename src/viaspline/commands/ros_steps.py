@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from viaspline.command_steps import load_asked, progress_bar, watched_plan
+from viaspline.commands.command_steps import load_asked, progress_bar, watched_plan
 from viaspline.exit_codes import NOT_REACHED
 from viaspline.report.interrupts import undone_at_the_end
 from viaspline.report.terminal_lines import say, say_error

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viaspline.command_steps import load_asked, progress_bar, watched_plan
+from viaspline.commands.command_steps import load_asked, progress_bar, watched_plan
 from viaspline.commands.link_options import (
     ADDRESSES,
     ORIGIN,

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viaspline.command_steps import load_asked
+from viaspline.commands.command_steps import load_asked
 from viaspline.errors import OutputError
 from viaspline.report.terminal_lines import say
 

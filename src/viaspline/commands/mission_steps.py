@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
-from viaspline.command_steps import (
+from viaspline.commands.command_steps import (
     bag_file,
     default_folder,
     film_file,

@@ -1,6 +1,6 @@
 """What the commands do with a mission in space, and what they write of it.
 
-Tested through ``test_space_steps``.
+Tested through ``commands/test_space_steps``.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from viaspline.command_steps import (
+from viaspline.commands.command_steps import (
     default_folder,
     film_file,
     progress_bar,

@@ -1,6 +1,6 @@
 """What the commands do with a fleet: check, plan and drive it, and write what comes of it.
 
-Tested through ``test_fleet_steps``.
+Tested through ``commands/test_fleet_steps``.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
-from viaspline.command_steps import (
+from viaspline.commands.command_steps import (
     default_folder,
     film_file,
     progress_bar,

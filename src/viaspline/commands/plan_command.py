@@ -1,0 +1,62 @@
+"""``viaspline plan``: the path, its proof and what it was chosen from.
+
+Tested through ``test_cli``.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from viaspline.commands.command_steps import load_asked
+from viaspline.commands.common_options import MISSION, OUT, QUIET
+from viaspline.commands.fleet_options import (
+    IMPROVE,
+    SCHEDULER,
+    WORKERS,
+    check_of_fleets,
+    check_workers,
+)
+
+
+@click.command()
+@MISSION
+@OUT
+@IMPROVE
+@WORKERS
+@SCHEDULER
+@QUIET
+def plan(
+    mission: Path, out: Path | None, improve: float, workers: int | None, scheduler: str | None,
+    quiet: bool,
+) -> None:  # fmt: skip
+    r"""Plan a mission: the path, its proof and what it was chosen from.
+
+    Writes plan.json, path.csv, plan.png, planned-mission.yaml (with which load_plan in Python reads
+    the plan again) and timing.json; of a fleet fleet.json, fleet.png and timing.json, and for each
+    robot a folder with its plan.json and path.csv.
+
+    \b
+    Example:
+      viaspline plan examples/fig7-obstacles.yaml --out detour
+    """
+    check_workers(workers, scheduler)
+    asked = load_asked(mission)
+    from viaspline.mission.model import Mission
+
+    if isinstance(asked, Mission):
+        check_of_fleets(improve, workers, scheduler)
+        if asked.is_spatial:
+            from viaspline.commands.space_steps import plan_spatial_mission
+
+            plan_spatial_mission(asked, mission, out, quiet=quiet)
+            return
+        from viaspline.commands.mission_steps import plan_mission
+
+        plan_mission(asked, mission, out, quiet=quiet)
+    else:
+        from viaspline.commands.fleet_steps import LaidBy, plan_fleet_file
+
+        laid_by = LaidBy(workers, scheduler)
+        plan_fleet_file(asked, mission, out, improve=improve, laid_by=laid_by, quiet=quiet)

@@ -1,0 +1,92 @@
+"""``viaspline run``: plan a mission, drive it and report.
+
+Tested through ``test_cli``.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from viaspline.commands.command_steps import load_asked
+from viaspline.commands.common_options import MISSION, OUT, QUIET
+from viaspline.commands.fleet_options import (
+    IMPROVE,
+    SCHEDULER,
+    WORKERS,
+    check_of_fleets,
+    check_workers,
+)
+
+
+@click.command()
+@MISSION
+@OUT
+@IMPROVE
+@WORKERS
+@SCHEDULER
+@click.option("--seed", type=int, default=0, show_default=True, help="Of what is random.")
+@click.option(
+    "--animate", type=click.Path(path_type=Path), metavar="FILE", help="A .gif or .mp4 of the run."
+)
+@click.option(
+    "--bag",
+    type=click.Path(path_type=Path),
+    metavar="FILE.mcap",
+    help="A log of the drive for Foxglove, RViz and `viaspline replay`.",
+)
+@click.option(
+    "--real-time",
+    is_flag=True,
+    help="Let re-plans take what they take here, by the clock: no two runs are the same then.",
+)
+@QUIET
+def run(
+    mission: Path, out: Path | None, improve: float, workers: int | None, scheduler: str | None,
+    seed: int, animate: Path | None, bag: Path | None, real_time: bool, quiet: bool,
+) -> None:  # fmt: skip
+    r"""Plan a mission, drive it and report: the main job.
+
+    Writes plan.json, path.csv, plan.png, planned-mission.yaml, run.json, run.csv, run.png and
+    timing.json; of a fleet fleet.json, fleet.png, run.json, run.png and timing.json, and for each
+    robot a folder with its plan.json and path.csv.
+
+    \b
+    Example:
+      viaspline run examples/fig8-patrol.yaml --out patrol --animate patrol/run.gif
+    """
+    check_workers(workers, scheduler)
+    asked = load_asked(mission)
+    from viaspline.mission.model import Mission
+
+    if isinstance(asked, Mission):
+        check_of_fleets(improve, workers, scheduler)
+        if asked.is_spatial:
+            check_no_bag(bag, "in space")
+            from viaspline.commands.space_steps import run_spatial_mission
+
+            run_spatial_mission(asked, mission, out, animate=animate, quiet=quiet)
+            return
+        from viaspline.commands.mission_steps import run_mission
+
+        run_mission(
+            asked, mission, out, seed=seed, animate=animate, bag=bag, real_time=real_time,
+            quiet=quiet,
+        )  # fmt: skip
+        return
+    check_no_bag(bag, "of a fleet")
+    if real_time:
+        raise click.UsageError("--real-time is for the mission of one robot; this is a fleet")
+    from viaspline.commands.fleet_steps import LaidBy, run_fleet_file
+
+    run_fleet_file(
+        asked, mission, out, improve=improve, laid_by=LaidBy(workers, scheduler), seed=seed,
+        animate=animate, quiet=quiet,
+    )  # fmt: skip
+
+
+def check_no_bag(bag: Path | None, which: str) -> None:
+    """Refuse the option where there is no navigator to log."""
+    if bag is not None:
+        raise click.UsageError(f"--bag is for one robot in the plane; this mission is one {which}")

@@ -1,0 +1,34 @@
+"""``viaspline studio``: missions laid out in the browser.
+
+Tested through ``studio/test_launch``.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from viaspline.report.terminal_lines import say
+
+
+@click.command()
+@click.argument("mission", type=click.Path(path_type=Path), required=False)
+@click.option("--port", type=click.IntRange(0, 65535), default=8474, show_default=True,
+              help="0 takes any that is free.")  # fmt: skip
+@click.option("--host", default="127.0.0.1", show_default=True,
+              help="Another address lets others in, with a token.")  # fmt: skip
+@click.option("--token", help="What the page's address has to hold.  [default: made up for --host]")
+@click.option("--no-browser", is_flag=True, help="Only say where the page is.")
+def studio(mission: Path | None, port: int, host: str, token: str | None, no_browser: bool) -> None:
+    r"""Lay out a mission or a fleet in the browser, planned live and driven.
+
+    MISSION is the file of either, or a folder of them; only that folder is read and written.
+
+    \b
+    Example:
+      viaspline studio examples/fig8-patrol.yaml
+    """
+    from viaspline.studio.serve import serve
+
+    serve(mission, host=host, port=port, token=token, browser=not no_browser, say=say)

@@ -1,0 +1,62 @@
+"""``viaspline tension``: which tension to take, and what each does.
+
+Tested through ``test_cli``.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from viaspline.commands.command_steps import (
+    default_folder,
+    load_asked,
+    progress_bar,
+    result_folder,
+    say_written,
+)
+from viaspline.commands.common_options import MISSION, OUT, QUIET
+
+
+@click.command()
+@MISSION
+@OUT
+@QUIET
+def tension(mission: Path, out: Path | None, quiet: bool) -> None:
+    r"""Advise a tension: plan with many of them, and say what each does and which to take.
+
+    Compared are whole plans, in time first, then in peak curvature. What is suggested is no worse
+    than -0.5, 0 or 0.5 for all spans, nor than what stands in the mission; where tension makes no
+    difference, that is what it says. Writes tension.png. In a mission, spline: {tension: auto}
+    takes what is suggested.
+
+    \b
+    Example:
+      viaspline tension examples/fig8-patrol.yaml --out advice
+    """
+    asked = load_asked(mission)
+    from viaspline.mission.model import Mission
+
+    if not isinstance(asked, Mission):
+        raise click.UsageError("a tension is advised for the mission of one robot; this is a fleet")
+    with (
+        result_folder(out or default_folder(mission), ("tension.png",)) as folder,
+        progress_bar(quiet, asked) as watch,
+    ):
+        with watch.stage("advise", "trying tensions"):
+            from viaspline.advice import advise_tension
+            from viaspline.whole_plan import in_order
+
+            served, world = in_order(asked)
+            advice = advise_tension(served, world=world)
+        with watch.stage("report", "drawing and writing"):
+            from viaspline.report.tension_picture import tension_picture
+
+            file = folder.write("tension.png", tension_picture(advice, mission.stem))
+    if not quiet:
+        from viaspline.report.advice_tables import advice_tables
+        from viaspline.report.terminal_tables import show
+
+        show(advice_tables(advice, mission.stem))
+        say_written([file])
