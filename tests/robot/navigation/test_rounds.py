@@ -192,7 +192,7 @@ def test_what_is_kept_grows_with_what_is_known_and_not_with_the_drive() -> None:
     mission = patrol(60, radius_m=0.05, clearance_m=0.05, sensor={"range_m": 8.0})
     nav, replans, tick, kept = Navigator(mission), 0, 0, []
     tracemalloc.start()
-    for found in range(160):
+    for found in range(80):
         at = nav.distance + 10.0
         place = nav.path.at_distance(at if at < nav.path.length else at - nav.path.length)
         if np.hypot(*(np.array(SQUARE) - place).T).min() > 1.0:
@@ -203,13 +203,13 @@ def test_what_is_kept_grows_with_what_is_known_and_not_with_the_drive() -> None:
                 replans, tick = replans + len(nav.replans), tick + 1
         tick += 1
         _, nav = nav.step(nav.reference(float(tick)), [], float(tick))
-        if found in (79, 159):
+        if found in (39, 79):
             gc.collect()  # what is left over of searches that were stopped isn't kept
             kept.append(tracemalloc.get_traced_memory()[0])
     tracemalloc.stop()
     assert nav.reason is None
-    assert replans > 130
-    growth = (kept[1] - kept[0]) / 80
+    assert replans > 60
+    growth = (kept[1] - kept[0]) / 40
     assert growth < 24_000  # bytes for each thing: itself, its place in the world, its detour
 
 
@@ -245,7 +245,7 @@ def test_a_search_that_has_no_time_on_a_round_keeps_the_side_that_is_asked_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     for side, sense in (("left", 1.0), ("right", -1.0)):
-        for y in (-0.5 * sense, 0.0, sense * 1.8):  # the last is only passed on the wrong side
+        for y in (-0.5 * sense, sense * 1.8):  # the last is only passed on the wrong side
             rock = {**disc(30, y, 1.0, "rock"), "pass_on": side}
             straight = patrol(4, [rock]).model_copy(update={"spline": SplineSpec(tension=0.95)})
             for limit in (1e-3, 0.1):
@@ -262,7 +262,7 @@ def test_a_search_that_has_no_time_on_a_round_keeps_the_side_that_is_asked_for(
 
 def test_on_a_round_the_jerk_keeps_its_limit_from_part_to_part() -> None:
     jerk = 1.5
-    nav, states = Navigator(patrol(4, max_jerk_mps3=jerk)), []
+    nav, states = Navigator(patrol(3, max_jerk_mps3=jerk)), []
     while not nav.finished:
         time = 0.05 * len(states)
         states.append([float(x) for x in nav.trajectory.state_at(time)[1:]])
