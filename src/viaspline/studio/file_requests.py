@@ -50,7 +50,7 @@ def new(current: OpenMission) -> Answer:
 def _opened(current: OpenMission, notes: tuple[str, ...]) -> Answer:
     return {
         "type": "opened", "name": current.name, "document": current.document,
-        "warnings": notes, "origin": current.origin,
+        "warnings": notes, "origin": current.origin, "says_origin": current.says_its_origin,
     }  # fmt: skip
 
 
@@ -113,6 +113,7 @@ async def _save_waypoints(
 def _saved(name: str, document: Document, lost: tuple[str, ...], current: OpenMission) -> Answer:
     return {
         "type": "saved", "name": name, "document": document, "lost": lost, "origin": current.origin,
+        "says_origin": current.says_its_origin,
     }  # fmt: skip
 
 

@@ -16,6 +16,7 @@ MISSION_SUFFIXES: Final = tuple(
     dict.fromkeys(ending for each in formats() for ending in each.endings)
 )
 MAP_SUFFIXES: Final = (".map", ".svg", ".geojson")
+PICTURE_SUFFIXES: Final = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 MAX_FOLDER_LEVELS: Final = 3
 MAX_FILES_LISTED: Final = 500
 SKIPPED_FOLDERS: Final = ("node_modules", "__pycache__", "viaspline-out")
@@ -108,19 +109,23 @@ class Folder:
         found = (path for path in self._files() if path.suffix.lower() in MISSION_SUFFIXES)
         return [self.name_of(path) for path in found if not is_map(path)]
 
+    def pictures(self) -> list[str]:
+        """Names of the files that are pictures, in order."""
+        return [self.name_of(path) for path in self._files(PICTURE_SUFFIXES)]
+
     def maps(self) -> list[str]:
         """Names of the files that are maps, in order."""
         return [self.name_of(path) for path in self._files() if is_map(path)]
 
-    def _files(self) -> list[Path]:
+    def _files(self, endings: tuple[str, ...] = MISSION_SUFFIXES + MAP_SUFFIXES) -> list[Path]:
         found: list[Path] = []
-        for path in self._walk(self.root, MAX_FOLDER_LEVELS):
+        for path in self._walk(self.root, MAX_FOLDER_LEVELS, endings):
             if len(found) >= MAX_FILES_LISTED:
                 break
             found.append(path)
         return sorted(found)
 
-    def _walk(self, folder: Path, depth: int) -> Iterator[Path]:
+    def _walk(self, folder: Path, depth: int, endings: tuple[str, ...]) -> Iterator[Path]:
         try:
             entries = sorted(folder.iterdir())
         except OSError:
@@ -128,10 +133,10 @@ class Folder:
         for path in entries:
             if path.name.startswith(".") or not self._holds(path):
                 continue
-            if path.is_file() and path.suffix.lower() in MISSION_SUFFIXES + MAP_SUFFIXES:
+            if path.is_file() and path.suffix.lower() in endings:
                 yield path
             elif depth > 1 and path.is_dir() and path.name not in SKIPPED_FOLDERS:
-                yield from self._walk(path, depth - 1)
+                yield from self._walk(path, depth - 1, endings)
 
 
 def is_map(path: Path) -> bool:
