@@ -50,7 +50,7 @@ def new(current: OpenMission) -> Answer:
 def _opened(current: OpenMission, notes: tuple[str, ...]) -> Answer:
     return {
         "type": "opened", "name": current.name, "document": current.document,
-        "warnings": notes, "origin": current.origin, "says_origin": current.says_its_origin,
+        "warnings": notes, "origin": current.origin,
     }  # fmt: skip
 
 
@@ -93,7 +93,10 @@ async def _save_waypoints(
     """Save a file that may not hold the whole mission; then it is a copy of a part of it."""
     name, document, before = text_of(message, "name"), current.document, current.name
     origin = origin_from(text_of(message, "origin", "")) or current.origin
-    there = (*_not_understood(path), *current.would_lose(name, path)) if path.exists() else ()
+    there: tuple[str, ...] = ()
+    if path.exists():
+        unread = map(current.folder.told, _not_understood(path))
+        there = (*unread, *current.would_lose(name, path))
     if path.exists() and (name != current.name or there) and message.get("replace") is not True:
         return {"type": "exists", "name": name, "lost": there}
     mission = (await planned()).mission
@@ -113,7 +116,7 @@ async def _save_waypoints(
 def _saved(name: str, document: Document, lost: tuple[str, ...], current: OpenMission) -> Answer:
     return {
         "type": "saved", "name": name, "document": document, "lost": lost, "origin": current.origin,
-        "says_origin": current.says_its_origin,
+       
     }  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
@@ -92,6 +93,10 @@ class Folder:
     def name_of(self, path: Path) -> str:
         """What a file within is called by the page."""
         return path.relative_to(self.root).as_posix()
+
+    def told(self, text: str) -> str:
+        """A text for the page: files are named from the folder, not from the root of the disk."""
+        return text.replace(f"{self.root.as_posix()}/", "").replace(f"{self.root}{os.sep}", "")
 
     def save(self, path: Path, text: str) -> None:
         """Write a whole file, or leave what was there.

@@ -67,7 +67,7 @@ class OpenMission:
         self.settings, notes = read_settings(self.folder, name)
         if found.origin is None:
             self.origin = self.settings.origin
-        return (*found.warnings, *notes)
+        return tuple(map(self.folder.told, (*found.warnings, *notes)))
 
     def remember(self, settings: StudioSettings) -> None:
         """Keep something beside the file; of a new mission when that is saved.

@@ -87,7 +87,7 @@ class Session:
             try:
                 notes = current.open(current.name)
             except ViasplineError as error:
-                problem = str(error)
+                problem = current.folder.told(str(error))
         await self._send(
             type="hello",
             version=__version__,
@@ -99,7 +99,6 @@ class Session:
             drives=drive_forms(),
             problem=problem,
             warnings=notes,
-            says_origin=current.says_its_origin,
         )
         self._show_background()
         if not self._engine.ready and self._engine.compiling is not None:
@@ -138,7 +137,7 @@ class Session:
     async def _refuse(self, error: Exception, number: Any, kind: str | None) -> None:
         if isinstance(error, WebSocketDisconnect):
             raise error
-        words = str(error)
+        words = self._current.folder.told(str(error))
         if not isinstance(error, ViasplineError):
             if os.environ.get("VIASPLINE_DEBUG"):
                 traceback.print_exception(error)
@@ -246,10 +245,12 @@ class Session:
         await self._answer(message, answer)
 
     def _show_background(self) -> None:
-        """Tell of the picture under the mission, once it is unpacked."""
+        """Tell of the picture under the mission: first that it isn't the one before."""
         name = self._current.name
 
         async def show() -> None:
+            if self._current.settings.background is not None:
+                await self._send(type="background", background=None)
             found = await background_requests.shown(self._current, self._backgrounds)
             if self._current.name == name:  # nothing else was opened meanwhile
                 await self._send(type="background", **found)
