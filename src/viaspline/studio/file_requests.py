@@ -116,7 +116,6 @@ async def _save_waypoints(
 def _saved(name: str, document: Document, lost: tuple[str, ...], current: OpenMission) -> Answer:
     return {
         "type": "saved", "name": name, "document": document, "lost": lost, "origin": current.origin,
-       
     }  # fmt: skip
 
 

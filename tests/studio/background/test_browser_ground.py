@@ -137,9 +137,7 @@ def test_a_picture_lies_where_its_world_file_says_and_no_plan_knows(
     page.until("!!studio.background.image")
     slider = page.page.get_by_role("slider", name="Opacity of the picture")
     slider.fill("1")
-    page.until(
-        "!document.querySelector('#ground-fields').matches(':has(input[type=range]:active)')"
-    )
+    page.until("studio.background.shown.opacity === 1 && studio.link.waiting.size === 0")
     page.js("studio.store.show.grid = false")
     page.js("studio.store.show.losers = false")
     for column, row, name in ((9, 7, "red"), (71, 7, "green"), (9, 33, "blue"), (73, 37, "grey")):
