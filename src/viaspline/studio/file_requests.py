@@ -107,7 +107,7 @@ async def _save_waypoints(
         lost = (*lost, f"maps, of which the file holds polygons only: {', '.join(maps)}")
     current.folder.save(path, text)
     if current.name == before:  # nothing else was opened meanwhile
-        current.origin = origin
+        current.lies_at(origin)
         if not lost:
             current.saved_as(name)
     return {**_saved(name, document, lost, current), "origin": origin}

@@ -81,6 +81,17 @@ class OpenMission:
             self.origin = settings.origin
         self.settings = settings
 
+    def lies_at(self, origin: LatLon | None) -> None:
+        """Take up where 0, 0 is, and keep it where the file can't say so.
+
+        Raises:
+            RefusedError: It can't be written.
+        """
+        if self.says_its_origin:
+            self.origin = origin
+        else:
+            self.remember(replace(self.settings, origin=origin))
+
     def saved_as(self, name: str) -> None:
         """Note that the document has just been written to a file.
 

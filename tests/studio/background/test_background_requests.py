@@ -105,3 +105,27 @@ def test_a_picture_that_has_gone_is_told_of_and_the_mission_opens(client: Any, s
         pass
     problem = told["problem"]
     assert problem.startswith("site.png: there is no such file")
+
+
+def test_an_origin_that_was_typed_to_save_a_copy_is_kept(client: Any, site: Path) -> None:
+    client.ask("save", "saved", name="a.plan", origin="47, 8")  # it becomes the mission's file
+    client.ask("open", "opened", name="a.yaml")
+    named = [["route", "goal"], {"at": [90, 0], "name": "quay"}]  # which a plan can't carry
+    assert client.edit(named)["ok"]
+    assert client.ask("save", "saved", name="b.plan", origin="46, 7")["lost"]
+    wanted = {"picture": "site.png", "corners": [[0, 0], [10, 5]]}
+    assert client.ask("remember", "remembered", background=wanted)["origin"] == [46, 7]
+    assert client.ask("open", "opened", name="a.yaml")["origin"] == [46, 7]
+
+
+def test_what_lies_under_a_new_mission_is_kept_when_that_is_saved(client: Any, site: Path) -> None:
+    client.ask("new", "opened")
+    corners = [[0, 0], [10, 5]]
+    wanted = {"picture": "site.png", "corners": corners}
+    client.ask("remember", "remembered", background=wanted, origin="47, 8")
+    assert not list(site.glob(f"*{ENDING}"))
+    client.ask("save", "saved", name="rounds/new.yaml")
+    kept = json.loads((site / "rounds" / f"new.yaml{ENDING}").read_text())
+    assert (kept["origin"], kept["background"]["picture"]) == ([47, 8], "../site.png")
+    client.ask("remember", "remembered", background=None, origin="")
+    assert json.loads((site / "rounds" / f"new.yaml{ENDING}").read_text()) == {}

@@ -71,7 +71,7 @@ export class Background {
     ctx.globalAlpha = this.shown.opacity;
     ctx.transform((b * camera.scale) / width, (-e * camera.scale) / width, (c * camera.scale) / height, (-f * camera.scale) / height, px, py);
     ctx.imageSmoothingEnabled = Math.hypot(b, e) * camera.scale < 3 * width; // pixels are seen when they are large
-    ctx.imageSmoothingQuality = "high";
+    ctx.imageSmoothingQuality = "medium";
     ctx.drawImage(this.image, 0, 0);
     ctx.restore();
   }
