@@ -277,13 +277,13 @@ app.openSheet = (name) => {
 
 app.fleet = new Fleet(app);
 app.space = new Space(app);
-app.earth = new Earth(app);
-app.background = app.scene.background = new Background(app);
 app.pointer = new Pointer(app.store, app.camera, app.scene, app.say);
 app.files = new Files(app);
 app.lists = new Lists(app);
 app.inspector = new Inspector(app);
 app.settings = new Settings(app);
+app.earth = new Earth(app);
+app.background = app.scene.background = new Background(app);
 app.ground = new GroundPanel(app);
 app.summary = new Summary(app);
 app.plots = new Plots(app);
