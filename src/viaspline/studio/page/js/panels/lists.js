@@ -58,7 +58,7 @@ export class Lists {
     ]);
     if (signature === this.signature) return;
     this.signature = signature;
-    fill(this.route, ...points.map((point, i) => withHeight(this.pointRow(point, i), this.app, point)));
+    fill(this.route, ...points.map((point, i) => this.pointRow(point, i)));
     fill(
       this.obstacles,
       ...(obstacles.length ? obstacles.map((one) => withKey(this.obstacleRow(one), one)) : [h("li", { class: "empty" }, `None yet: draw ${DRAWING_WORDS}.`)]),
@@ -94,7 +94,7 @@ export class Lists {
       }
       this.draggable(row, main, ref.index);
     }
-    return row;
+    return withHeight(row, app, point);
   }
 
   /** Rows are dragged into another order. @param {HTMLElement} row @param {HTMLElement} grip @param {number} index */
