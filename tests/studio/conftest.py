@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import shutil
 import time
@@ -90,9 +91,12 @@ def running(
     while not server.started:
         time.sleep(0.005)
     root = Path() if mission is None else mission if mission.is_dir() else mission.parent
+    # A planner may be stopped in the midst of a callback that hypothesis has left behind.
+    callbacks, gc.callbacks[:] = gc.callbacks[:], []
     try:
         yield Studio(address, root)
     finally:
+        gc.callbacks[:] = callbacks
         server.should_exit = True
         thread.join(10)
         address.listener.close()

@@ -66,3 +66,8 @@ def test_files_within_are_opened_and_listed(folder: Folder) -> None:
         assert folder.to_save(name).name == Path(name).name
     assert folder.missions() == ["a.yaml", "inner.yaml"]
     assert folder.maps() == ["maps/depot.yaml"]
+
+
+def test_what_is_told_names_files_from_the_folder(folder: Folder) -> None:
+    text = f"{folder.root}/maps/depot.yaml: there is no picture {folder.root}/maps/depot.png"
+    assert folder.told(text) == "maps/depot.yaml: there is no picture maps/depot.png"

@@ -12,6 +12,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
+from viaspline.studio.background.background_pictures import BackgroundPictures
 from viaspline.studio.engine import Engine
 from viaspline.studio.folder import Folder
 from viaspline.studio.guard import Guard
@@ -37,6 +38,7 @@ def application(
         token: See `Guard`.
     """
     files = page_files()
+    backgrounds = BackgroundPictures(folder)
 
     async def page(request: Request) -> Response:
         found = files.get(request.path_params.get("name", "index.html"))
@@ -50,6 +52,12 @@ def application(
             return PlainTextResponse("there is no such map\n", 404)
         return Response(content, media_type="image/png")
 
+    async def background(request: Request) -> Response:
+        found = backgrounds.content(request.path_params["name"])
+        if found is None:
+            return PlainTextResponse("there is no such picture\n", 404)
+        return Response(found.data, media_type=found.media_type)
+
     async def scene(request: Request) -> Response:
         content = engine.scene(request.path_params["name"])
         if content is None:
@@ -57,11 +65,12 @@ def application(
         return Response(content, media_type="application/json")
 
     async def talk(socket: WebSocket) -> None:
-        await Session(socket, engine, folder, name).talk()
+        await Session(socket, engine, folder, name, backgrounds).talk()
 
     routes = [
         Route("/", page),
         Route("/grids/{name}.png", picture),
+        Route("/backgrounds/{name}", background),
         Route("/scenes/{name}.json", scene),
         WebSocketRoute("/talk", talk),
         Route("/page/{name:path}", page),

@@ -93,7 +93,10 @@ async def _save_waypoints(
     """Save a file that may not hold the whole mission; then it is a copy of a part of it."""
     name, document, before = text_of(message, "name"), current.document, current.name
     origin = origin_from(text_of(message, "origin", "")) or current.origin
-    there = (*_not_understood(path), *current.would_lose(name, path)) if path.exists() else ()
+    there: tuple[str, ...] = ()
+    if path.exists():
+        unread = map(current.folder.told, _not_understood(path))
+        there = (*unread, *current.would_lose(name, path))
     if path.exists() and (name != current.name or there) and message.get("replace") is not True:
         return {"type": "exists", "name": name, "lost": there}
     mission = (await planned()).mission
@@ -104,7 +107,7 @@ async def _save_waypoints(
         lost = (*lost, f"maps, of which the file holds polygons only: {', '.join(maps)}")
     current.folder.save(path, text)
     if current.name == before:  # nothing else was opened meanwhile
-        current.origin = origin
+        current.lies_at(origin)
         if not lost:
             current.saved_as(name)
     return {**_saved(name, document, lost, current), "origin": origin}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
@@ -16,6 +17,7 @@ MISSION_SUFFIXES: Final = tuple(
     dict.fromkeys(ending for each in formats() for ending in each.endings)
 )
 MAP_SUFFIXES: Final = (".map", ".svg", ".geojson")
+PICTURE_SUFFIXES: Final = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 MAX_FOLDER_LEVELS: Final = 3
 MAX_FILES_LISTED: Final = 500
 SKIPPED_FOLDERS: Final = ("node_modules", "__pycache__", "viaspline-out")
@@ -92,6 +94,10 @@ class Folder:
         """What a file within is called by the page."""
         return path.relative_to(self.root).as_posix()
 
+    def told(self, text: str) -> str:
+        """A text for the page: files are named from the folder, not from the root of the disk."""
+        return text.replace(f"{self.root.as_posix()}/", "").replace(f"{self.root}{os.sep}", "")
+
     def save(self, path: Path, text: str) -> None:
         """Write a whole file, or leave what was there.
 
@@ -108,19 +114,23 @@ class Folder:
         found = (path for path in self._files() if path.suffix.lower() in MISSION_SUFFIXES)
         return [self.name_of(path) for path in found if not is_map(path)]
 
+    def pictures(self) -> list[str]:
+        """Names of the files that are pictures, in order."""
+        return [self.name_of(path) for path in self._files(PICTURE_SUFFIXES)]
+
     def maps(self) -> list[str]:
         """Names of the files that are maps, in order."""
         return [self.name_of(path) for path in self._files() if is_map(path)]
 
-    def _files(self) -> list[Path]:
+    def _files(self, endings: tuple[str, ...] = MISSION_SUFFIXES + MAP_SUFFIXES) -> list[Path]:
         found: list[Path] = []
-        for path in self._walk(self.root, MAX_FOLDER_LEVELS):
+        for path in self._walk(self.root, MAX_FOLDER_LEVELS, endings):
             if len(found) >= MAX_FILES_LISTED:
                 break
             found.append(path)
         return sorted(found)
 
-    def _walk(self, folder: Path, depth: int) -> Iterator[Path]:
+    def _walk(self, folder: Path, depth: int, endings: tuple[str, ...]) -> Iterator[Path]:
         try:
             entries = sorted(folder.iterdir())
         except OSError:
@@ -128,10 +138,10 @@ class Folder:
         for path in entries:
             if path.name.startswith(".") or not self._holds(path):
                 continue
-            if path.is_file() and path.suffix.lower() in MISSION_SUFFIXES + MAP_SUFFIXES:
+            if path.is_file() and path.suffix.lower() in endings:
                 yield path
             elif depth > 1 and path.is_dir() and path.name not in SKIPPED_FOLDERS:
-                yield from self._walk(path, depth - 1)
+                yield from self._walk(path, depth - 1, endings)
 
 
 def is_map(path: Path) -> bool:

@@ -6,14 +6,20 @@ Tested through ``studio/test_server_files``.
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from viaspline.bounded_file import MISSION_FILE, read_bytes
 from viaspline.formats.items import LatLon
+from viaspline.studio.background.studio_settings import (
+    StudioSettings,
+    read_settings,
+    write_settings,
+)
 from viaspline.studio.document import EMPTY_DOCUMENT, Document
 from viaspline.studio.folder import Folder
 from viaspline.studio.load_document import opened
+from viaspline.studio.save_document import is_yaml
 
 
 @dataclass
@@ -26,6 +32,7 @@ class OpenMission:
         document: As it is on the screen.
         origin: Latitude and longitude of its 0, 0 [deg], if they are known.
         digest: Of what its file held when it was opened or saved here; None where there is none.
+        settings: What the studio keeps beside the file.
     """
 
     folder: Folder
@@ -33,6 +40,12 @@ class OpenMission:
     document: Document = field(default_factory=lambda: EMPTY_DOCUMENT)
     origin: LatLon | None = None
     digest: str | None = None
+    settings: StudioSettings = field(default_factory=StudioSettings)
+
+    @property
+    def says_its_origin(self) -> bool:
+        """Whether the file itself says where its 0, 0 is."""
+        return self.name is not None and not is_yaml(Path(self.name)) and self.origin is not None
 
     @property
     def base(self) -> Path:
@@ -51,11 +64,45 @@ class OpenMission:
         found = opened(self.folder.to_open(name))
         self.document, self.name, self.origin = found.document, name, found.origin
         self.digest = _digest(self.folder.to_open(name))
-        return found.warnings
+        self.settings, notes = read_settings(self.folder, name)
+        if found.origin is None:
+            self.origin = self.settings.origin
+        return tuple(map(self.folder.told, (*found.warnings, *notes)))
+
+    def remember(self, settings: StudioSettings) -> None:
+        """Keep something beside the file; of a new mission when that is saved.
+
+        Raises:
+            RefusedError: It can't be written.
+        """
+        if self.name is not None:
+            write_settings(self.folder, self.name, settings)
+        if not self.says_its_origin:
+            self.origin = settings.origin
+        self.settings = settings
+
+    def lies_at(self, origin: LatLon | None) -> None:
+        """Take up where 0, 0 is, and keep it where the file can't say so.
+
+        Raises:
+            RefusedError: It can't be written.
+        """
+        if self.says_its_origin:
+            self.origin = origin
+        else:
+            self.remember(replace(self.settings, origin=origin))
 
     def saved_as(self, name: str) -> None:
-        """Note that the document has just been written to a file."""
+        """Note that the document has just been written to a file.
+
+        Raises:
+            RefusedError: What is kept beside it can't be written.
+        """
+        before = self.base
         self.name, self.digest = name, _digest(self.folder.to_open(name))
+        kept = self.origin if is_yaml(Path(name)) else None
+        self.settings = replace(self.settings.moved(before, self.base), origin=kept)
+        write_settings(self.folder, name, self.settings)
 
     def would_lose(self, name: str, path: Path) -> tuple[str, ...]:
         """What saving to a file that is there would drop, if it is the mission's own.
@@ -69,7 +116,7 @@ class OpenMission:
     def clear(self) -> None:
         """Begin a new mission."""
         self.document, self.name, self.origin = EMPTY_DOCUMENT, None, None
-        self.digest = None
+        self.digest, self.settings = None, StudioSettings()
 
 
 def _digest(path: Path) -> str:

@@ -17,6 +17,8 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from viaspline import __version__
 from viaspline.errors import ViasplineError
 from viaspline.studio import file_requests
+from viaspline.studio.background import background_requests
+from viaspline.studio.background.background_pictures import BackgroundPictures
 from viaspline.studio.document import EMPTY_DOCUMENT, changed
 from viaspline.studio.drive_forms import drive_forms
 from viaspline.studio.engine import Engine
@@ -37,10 +39,19 @@ class Session:
         engine: Plans and drives.
         folder: Where missions are opened and saved.
         name: The mission that the studio was started with.
+        backgrounds: Opens the pictures under missions.
     """
 
-    def __init__(self, socket: WebSocket, engine: Engine, folder: Folder, name: str | None) -> None:
+    def __init__(
+        self,
+        socket: WebSocket,
+        engine: Engine,
+        folder: Folder,
+        name: str | None,
+        backgrounds: BackgroundPictures,
+    ) -> None:
         self._socket = socket
+        self._backgrounds = backgrounds
         self._engine = engine
         self._current = OpenMission(folder, name)
         self._live = LivePlan(engine, self._current, self._send_text, self._refuse_edit)
@@ -76,7 +87,7 @@ class Session:
             try:
                 notes = current.open(current.name)
             except ViasplineError as error:
-                problem = str(error)
+                problem = current.folder.told(str(error))
         await self._send(
             type="hello",
             version=__version__,
@@ -89,6 +100,7 @@ class Session:
             problem=problem,
             warnings=notes,
         )
+        self._show_background()
         if not self._engine.ready and self._engine.compiling is not None:
             self._compiling(*self._engine.compiling)
 
@@ -125,7 +137,7 @@ class Session:
     async def _refuse(self, error: Exception, number: Any, kind: str | None) -> None:
         if isinstance(error, WebSocketDisconnect):
             raise error
-        words = str(error)
+        words = self._current.folder.told(str(error))
         if not isinstance(error, ViasplineError):
             if os.environ.get("VIASPLINE_DEBUG"):
                 traceback.print_exception(error)
@@ -214,10 +226,12 @@ class Session:
         answer = file_requests.open_file(self._current, message)
         self._live.forget()
         await self._answer(message, answer)
+        self._show_background()
 
     async def _new(self, message: Message) -> None:
         self._live.forget()
         await self._answer(message, file_requests.new(self._current))
+        self._show_background()
 
     async def _save(self, message: Message) -> None:
         await self._answer(
@@ -228,6 +242,30 @@ class Session:
         answer = await file_requests.export(
             self._current, message, self._engine, self._live.planned, self._driven
         )
+        await self._answer(message, answer)
+
+    def _show_background(self) -> None:
+        """Tell of the picture under the mission: first that it isn't the one before."""
+        name = self._current.name
+
+        async def show() -> None:
+            if self._current.settings.background is not None:
+                await self._send(type="background", background=None)
+            found = await background_requests.shown(self._current, self._backgrounds)
+            if self._current.name == name:  # nothing else was opened meanwhile
+                await self._send(type="background", **found)
+
+        self._spawn(show(), None, "background")
+
+    async def _pictures(self, message: Message) -> None:
+        await self._answer(message, background_requests.pictures(self._current))
+
+    async def _picture(self, message: Message) -> None:
+        answer = await background_requests.picture(self._current, message, self._backgrounds)
+        await self._answer(message, answer)
+
+    async def _remember(self, message: Message) -> None:
+        answer = await background_requests.remember(self._current, message, self._backgrounds)
         await self._answer(message, answer)
 
     async def _answer(self, message: Message, answer: file_requests.Answer) -> None:
@@ -244,4 +282,7 @@ _HANDLERS: Final[dict[str, Callable[[Session, Message], Coroutine[Any, Any, None
     "new": Session._new,
     "save": Session._save,
     "export": Session._export,
+    "pictures": Session._pictures,
+    "picture": Session._picture,
+    "remember": Session._remember,
 }

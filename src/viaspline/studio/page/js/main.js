@@ -10,6 +10,9 @@ import { onTheme } from "./draw/theme.js";
 import { Scene } from "./draw/scene.js";
 import { Files } from "./files/files.js";
 import { Fleet } from "./fleet/fleet.js";
+import { Background } from "./geo/background.js";
+import { Earth } from "./geo/earth.js";
+import { GroundPanel } from "./geo/ground_panel.js";
 import { keepSaving, kept } from "./files/autosave.js";
 import { unpacked } from "./files/share.js";
 import { boxAll, boxOfInterest } from "./files/svg.js";
@@ -26,9 +29,9 @@ import { Settings } from "./panels/settings.js";
 import { Summary } from "./panels/summary.js";
 import { Timeline } from "./panels/timeline.js";
 import { listenToBars } from "./panels/bars.js";
+import { listenToEdges } from "./panels/edges.js";
 import { h } from "./panels/dom.js";
 import { Space } from "./space/space.js";
-import { place } from "./units.js";
 
 /** @type {any} */
 const app = {};
@@ -63,7 +66,7 @@ app.toast = (text, kind = "", button = undefined) => {
 app.describe = (id) => {
   const { doc } = app.store;
   const point = pointsOf(doc).find((p) => p.id === id);
-  if (point) return `${point.name} at ${place(/** @type {number[]} */ (point.at))}`;
+  if (point) return `${point.name} at ${app.earth.words(point.at)}`;
   const one = [...obstaclesOf(doc), ...areasOf(doc)].find((o) => o.id === whole(id));
   const ref = refOf(id);
   const corner = ref && ref.vertex >= 0 ? `, ${shapedAt(doc, id)?.shape.vertexName} ${ref.vertex + 1}` : "";
@@ -88,7 +91,8 @@ function hear(message) {
   } else if (message.type === "compiling") {
     summary.busy = message.done ? "" : `compiling the planner, once on this machine: ${message.count} parts so far`;
     store.tell("status");
-  } else if (message.type === "driving") app.timeline.progress(message.done);
+  } else if (message.type === "background") app.background.take(message.background);
+  else if (message.type === "driving") app.timeline.progress(message.done);
   else if (message.type === "closed") {
     summary.busy = "the studio has gone; waiting for it";
     store.tell("status");
@@ -278,12 +282,16 @@ app.files = new Files(app);
 app.lists = new Lists(app);
 app.inspector = new Inspector(app);
 app.settings = new Settings(app);
+app.earth = new Earth(app);
+app.background = app.scene.background = new Background(app);
+app.ground = new GroundPanel(app);
 app.summary = new Summary(app);
 app.plots = new Plots(app);
 app.spaceTime = new SpaceTimePanel(app);
 app.timeline = new Timeline(app);
 listenToKeys(app);
 listenToBars(app);
+listenToEdges();
 keepSaving(app.store);
 
 let asked = -1; // the newest revision that the server was told of

@@ -1,6 +1,6 @@
 /** Heights in a mission document: whether it says any, that of each point of the route, how it is changed. */
 
-import { tidy } from "../units.js";
+import { number, tidy } from "../units.js";
 import { part, replaced } from "./diff.js";
 import { isPoint, pathOf, placeOf } from "./mission.js";
 
@@ -47,6 +47,14 @@ export function heightOf(doc, id) {
   if (at?.length !== 3) return null;
   const there = Array.isArray(point) ? path : point.gate && !point.at ? [...path, "gate", "at"] : [...path, "at"];
   return { kind: "z", value: at[2], path: [...there, 2] };
+}
+
+/** How high a point is, for a list; null where heights mean nothing. @param {any} doc @param {string} id */
+export function heightWords(doc, id) {
+  const height = heightOf(doc, id);
+  if (!height) return null;
+  const value = number(height.value, 1);
+  return height.kind === "z" ? { short: `${value} m`, whole: `height ${value} m` } : { short: `${value} m AGL`, whole: `${value} m above the ground` };
 }
 
 /** The document with another height of a point, counted as it is there. @param {any} doc @param {string} id @param {number} value [m] */

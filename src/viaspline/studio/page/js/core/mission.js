@@ -116,6 +116,7 @@ export function pointsOf(doc) {
  * @property {"known"|"unseen"} list
  * @property {number} index
  * @property {string} name
+ * @property {string|null} [key] where it stands in the file, if nothing else names it
  * @property {string|null} given the name that the document gives it
  * @property {import("../shapes/shape.js").Shape|null} shape
  * @property {import("../shapes/shape.js").Item} item
@@ -135,7 +136,9 @@ export function obstaclesOf(doc) {
     items.forEach((item, index) => {
       number += 1;
       const shape = shapeOf(item);
+      const isNamed = !!(item?.name ?? shape?.usualName(item));
       found.push({
+        key: isNamed ? null : `world.${list}[${index}]`,
         id: `${list}:${index}`, list, index,
         name: item?.name ?? shape?.usualName(item) ?? `obstacle ${number}`,
         given: item?.name ?? null,

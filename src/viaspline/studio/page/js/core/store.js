@@ -4,7 +4,8 @@
  * What is edited is a mission: all of the file, or of a fleet's that of the robot that is chosen.
  *
  * Whoever wants to know of changes listens for a topic: `document`, `selection`, `plan`, `ledger`,
- * `space-time`, `run`, `view`, `file`, `tool`, `hover`, `status`, `robot`, `elsewhere`.
+ * `space-time`, `run`, `view`, `file`, `tool`, `hover`, `status`, `robot`, `elsewhere`, `origin`,
+ * `background`.
  */
 
 import { isFleet, membersOf, missionOf, withMission } from "./fleet.js";
@@ -25,7 +26,7 @@ export class Store {
     /** @type {Record<string, any>} */ this.missions = {}; // what stands in the files of a fleet's robots
     /** @type {string|null} */ this.name = null;
     this.folder = "";
-    /** @type {number[]|null} */ this.origin = null; // latitude and longitude of 0, 0, if known
+    /** @type {number[]|null} */ this.place = null;
     /** @type {any} */ this.savedFile = null;
     /** @type {string|null} */ this.selection = null;
     this.revision = 0;
@@ -59,6 +60,17 @@ export class Store {
   /** @param {string} topic */
   tell(topic) {
     this.listeners.get(topic)?.forEach((listener) => listener());
+  }
+
+  /** Latitude and longitude of 0, 0 [deg]; null if nobody knows. */
+  get origin() {
+    return this.place;
+  }
+
+  set origin(pair) {
+    if (String(pair) === String(this.place)) return;
+    this.place = pair;
+    this.tell("origin");
   }
 
   get dirty() {

@@ -42,6 +42,7 @@ export class Scene {
     this.isDue = false;
     this.patience = 0;
     /** Where the tools cover the map [CSS pixel]. */ this.tools = [0, 0, 0, 0];
+    /** The picture under everything. @type {import("../geo/background.js").Background|null} */ this.background = null;
     /** Heights on the map, of a mission in space. @type {import("../space/plan_layer.js").PlanLayer|null} */ this.space = null;
     /** @type {HTMLCanvasElement|undefined} */ this.still = undefined;
     /** @type {any} */ this.stillWorld = null;
@@ -116,7 +117,7 @@ export class Scene {
     const { doc, show } = store;
     const grids = (store.plan?.grids?.length ? store.plan : store.goodPlan)?.grids ?? [];
     const required = requiredOf(doc);
-    const view = [camera.x, camera.y, camera.scale, canvas.width, canvas.height, show.rings, show.grid, required, this.maps.count, colours.paper, this.space?.key];
+    const view = [camera.x, camera.y, camera.scale, canvas.width, canvas.height, show.rings, show.grid, required, this.maps.count, colours.paper, this.space?.key, this.background?.key];
     const named = grids.map((/** @type {any} */ g) => g.picture ?? g.item);
     const key = [...view, ...named].join();
     if (this.still && this.stillWorld === doc.world && this.stillKey === key) return this.still;
@@ -132,6 +133,7 @@ export class Scene {
     ctx.fillStyle = colours.paper;
     ctx.fillRect(0, 0, camera.width, camera.height);
     drawOutside(pen, doc);
+    this.background?.draw(pen);
     this.space?.drawGround(pen);
     this.maps.draw(pen, grids, required, show.rings);
     const areas = grids.filter((/** @type {any} */ g) => g.rings && g.list === "known").map((/** @type {any} */ g) => ({ id: "", shape: polygon, item: { polygon: g.rings[0], holes: g.rings.slice(1) }, side: null }));

@@ -3,7 +3,6 @@
 import { TOOLS, makes } from "../input/tools.js";
 import { DRAWN } from "../shapes/registry.js";
 import { fill, h, icon } from "./dom.js";
-import { place } from "../units.js";
 
 const LAYERS = [
   ["rings", "Clearance rings", "R"], ["losers", "Sides not taken", "L"], ["speed", "Speed as colour", "X"],
@@ -46,10 +45,6 @@ export function listenToBars(app) {
     /** @type {HTMLButtonElement} */ (find("#redo")).disabled = !store.future.length;
   };
   store.on("document file", file);
-  store.on("place", () => {
-    const { at } = app.pointer;
-    find("#where").textContent = at ? place(at) : "";
-  });
   find("#tabs").addEventListener("click", (event) => {
     const name = /** @type {HTMLElement} */ (event.target).closest("button")?.getAttribute("data-sheet");
     if (name) app.openSheet(document.body.dataset.sheet === name ? "none" : name);

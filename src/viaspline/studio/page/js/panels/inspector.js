@@ -20,7 +20,7 @@ export class Inspector {
       if (target instanceof HTMLInputElement) target.defaultValue = target.value;
     });
     this.panel.addEventListener("focusout", () => { if (this.isOwed) render(); });
-    app.store.on("document selection", render);
+    app.store.on("document selection origin", render);
     app.store.on("plan", () => { if (app.store.selection?.startsWith("span:")) render(); });
   }
 
@@ -53,9 +53,11 @@ export class Inspector {
       now[axis] = value;
       store.edit(moveTo(store.doc, id, now), { merge: `place:${id}` });
     };
-    return h("div", { class: "pair" },
-      numberField({ label: `${what}x`, value: at[0], unit: "m", set: put(0) }),
-      numberField({ label: `${what}y`, value: at[1], unit: "m", set: put(1) }));
+    return h("div", {},
+      h("div", { class: "pair" },
+        numberField({ label: `${what}x`, value: at[0], unit: "m", set: put(0) }),
+        numberField({ label: `${what}y`, value: at[1], unit: "m", set: put(1) })),
+      this.app.earth.field(id, at));
   }
 
   /** @param {string} id */

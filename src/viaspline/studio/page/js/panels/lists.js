@@ -1,8 +1,10 @@
 /** The list of the route's points and of the obstacles: select, put in another order, delete. */
 
+import { heightOf } from "../core/heights.js";
 import { moveVia } from "../core/edits.js";
 import { areasOf, obstaclesOf, pointsOf, refOf, whole } from "../core/mission.js";
 import { erase, reorder } from "../input/keyboard.js";
+import { withHeight, withKey } from "../geo/row_words.js";
 import { DRAWN } from "../shapes/registry.js";
 import { fill, h, icon, iconButton, lazily } from "./dom.js";
 
@@ -52,13 +54,14 @@ export class Lists {
     const signature = JSON.stringify([
       store.selection, store.doc.route?.order, points.map((p) => [p.id, p.name, p.dwell]),
       obstacles.map((o) => [o.id, o.name, o.side, o.shape?.key, !!o.item?.motion]), areas.map((a) => [a.id, a.name, a.speed]),
+      points.map((p) => heightOf(store.doc, p.id)?.value),
     ]);
     if (signature === this.signature) return;
     this.signature = signature;
     fill(this.route, ...points.map((point, i) => this.pointRow(point, i)));
     fill(
       this.obstacles,
-      ...(obstacles.length ? obstacles.map((one) => this.obstacleRow(one)) : [h("li", { class: "empty" }, `None yet: draw ${DRAWING_WORDS}.`)]),
+      ...(obstacles.length ? obstacles.map((one) => withKey(this.obstacleRow(one), one)) : [h("li", { class: "empty" }, `None yet: draw ${DRAWING_WORDS}.`)]),
     );
     fill(this.areas, ...areas.map((one) => this.areaRow(one)));
     /** @type {HTMLElement} */ (document.querySelector("#area-section")).hidden = !areas.length;
@@ -91,7 +94,7 @@ export class Lists {
       }
       this.draggable(row, main, ref.index);
     }
-    return row;
+    return withHeight(row, app, point);
   }
 
   /** Rows are dragged into another order. @param {HTMLElement} row @param {HTMLElement} grip @param {number} index */
