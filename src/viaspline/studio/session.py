@@ -24,6 +24,7 @@ from viaspline.studio.folder import Folder
 from viaspline.studio.live_planning import LivePlan
 from viaspline.studio.open_mission import OpenMission
 from viaspline.studio.page_messages import Message, count_of, decoded, encoded
+from viaspline.studio.pasted_parts import pasted_parts
 from viaspline.studio.refused_error import RefusedError
 
 MAX_RUNNING_JOBS: Final = 32
@@ -230,6 +231,10 @@ class Session:
         )
         await self._answer(message, answer)
 
+    async def _paste(self, message: Message) -> None:
+        parts = await asyncio.to_thread(pasted_parts, message.get("text"))
+        await self._answer(message, {"type": "pasted", "parts": parts})
+
     async def _answer(self, message: Message, answer: file_requests.Answer) -> None:
         await self._send(id=message.get("id"), **answer)
 
@@ -244,4 +249,5 @@ _HANDLERS: Final[dict[str, Callable[[Session, Message], Coroutine[Any, Any, None
     "new": Session._new,
     "save": Session._save,
     "export": Session._export,
+    "paste": Session._paste,
 }

@@ -18,6 +18,8 @@ import { Curve } from "./geometry/curve.js";
 import { SpatialCurve } from "./geometry/spatial_curve.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
+import { Measure } from "./measure/measure.js";
+import { ContextMenu } from "./menu/context_menu.js";
 import { Inspector } from "./panels/inspector.js";
 import { Lists } from "./panels/lists.js";
 import { Plots } from "./panels/plots.js";
@@ -27,6 +29,9 @@ import { Summary } from "./panels/summary.js";
 import { Timeline } from "./panels/timeline.js";
 import { listenToBars } from "./panels/bars.js";
 import { h } from "./panels/dom.js";
+import { Clipboard } from "./select/clipboard.js";
+import { Selecting } from "./select/selecting.js";
+import { Snap } from "./snap/snap.js";
 import { Space } from "./space/space.js";
 import { place } from "./units.js";
 
@@ -273,7 +278,12 @@ app.openSheet = (name) => {
 
 app.fleet = new Fleet(app);
 app.space = new Space(app);
-app.pointer = new Pointer(app.store, app.camera, app.scene, app.say);
+app.snap = new Snap(app);
+app.selecting = new Selecting(app);
+app.clipboard = new Clipboard(app);
+app.measure = new Measure(app);
+app.menu = new ContextMenu(app);
+app.pointer = new Pointer(app.store, app.camera, app.scene, app.say, app);
 app.files = new Files(app);
 app.lists = new Lists(app);
 app.inspector = new Inspector(app);
