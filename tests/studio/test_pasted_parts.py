@@ -54,9 +54,14 @@ def test_the_server_reads_what_is_pasted(start: START, patrol: Path) -> None:
 VALUES = st.recursive(
     st.none() | st.booleans() | st.integers(-(10**9), 10**9) | st.text(max_size=8)
     | st.floats(-1e6, 1e6, allow_nan=False),
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=6), inner, max_size=3),
+    lambda inner: st.lists(inner, max_size=3)
+    | st.dictionaries(st.text(max_size=6), inner, max_size=3),
     max_leaves=8,
 )  # fmt: skip
+WRITE = """
+import {yamlOf} from %s;
+process.stdout.write(yamlOf(JSON.parse(process.argv[1])));
+"""
 
 
 @pytest.mark.skipif(which("node") is None, reason="node isn't installed")
@@ -64,7 +69,7 @@ VALUES = st.recursive(
 @given(st.lists(st.dictionaries(st.text(max_size=6), VALUES, max_size=4), min_size=1, max_size=40))
 def test_the_yaml_that_the_page_writes_reads_as_what_was_copied(items: list[Any]) -> None:
     module = (PAGE_FOLDER / "js/select/yaml.js").as_uri()
-    script = f"import {{yamlOf}} from {json.dumps(module)}; process.stdout.write(yamlOf(JSON.parse(process.argv[1])));"
+    script = WRITE % json.dumps(module)
     parts = {"world": {"known": items}}
     done = subprocess.run(
         ["node", "--input-type=module", "-e", script, json.dumps(parts)],

@@ -27,5 +27,5 @@ function flow(value) {
 function text(words) {
   if (PLAIN.test(words) && !NO_TEXT.test(words)) return words;
   // What JSON leaves as it is, and YAML doesn't take, or folds.
-  return JSON.stringify(words).replace(/[\u007f-\u00a0\u2028\u2029\ufeff\ud800-\udfff\ufffe\uffff]/g, (one) => `\\u${one.charCodeAt(0).toString(16).padStart(4, "0")}`);
+  return JSON.stringify(words).replace(/[\u007f-\u00a0\u2028\u2029\ufeff\ufffe\uffff]/g, (one) => `\\u${one.charCodeAt(0).toString(16).padStart(4, "0")}`);
 }
