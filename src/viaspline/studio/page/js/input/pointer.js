@@ -215,8 +215,8 @@ export class Pointer {
         const drag = selecting.dragged(whole(id), at);
         return { ...drag, end: (moved) => { if (!moved) selecting.toggle(id); } };
       }
-      if (!id) return selecting.boxed(at);
-      return { move: () => {}, end: (moved) => { if (!moved) selecting.toggle(id); } };
+      const box = selecting.boxed(at);
+      return id ? { ...box, end: (moved, to) => (moved ? box.end?.(true, to) : selecting.toggle(id)) } : box;
     }
     if (store.tool === "via" && found?.kind !== "item" && found?.kind !== "handle" && found?.kind !== "robot") {
       const id = this.dragging.addVia(at, found?.kind === "path" ? found.leg : null);

@@ -15,7 +15,7 @@ export class ContextMenu {
     this.app = app;
     this.menu = h("div", { class: "menu", id: "context-menu", role: "menu", hidden: true });
     /** @type {HTMLElement} */ (document.querySelector("#shown")).after(this.menu);
-    /** What has the focus when it is closed. @type {HTMLElement} */ this.back = app.scene.canvas;
+    /** What gets the focus when it is closed. @type {() => HTMLElement|null} */ this.back = () => app.scene.canvas;
     this.menu.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this.key(event));
     this.menu.addEventListener("contextmenu", (/** @type {Event} */ event) => event.preventDefault());
     addEventListener("pointerdown", (event) => {
@@ -38,7 +38,7 @@ export class ContextMenu {
     const found = pick(app.store, app.camera, px, py, isTouch ? TOUCH_REACH_PX : REACH_PX, app.scene.time);
     const box = app.scene.canvas.getBoundingClientRect();
     this.take(found);
-    this.open(`Menu of ${this.words(found)}`, entriesOf(app, found, app.camera.toWorld(px, py)), box.left + px, box.top + py, app.scene.canvas);
+    this.open(`Menu of ${this.words(found)}`, entriesOf(app, found, app.camera.toWorld(px, py)), box.left + px, box.top + py, () => app.scene.canvas);
   }
 
   /** By the keyboard: of what is selected, of a row of the lists, or of the map. */
@@ -55,7 +55,7 @@ export class ContextMenu {
     const [px, py] = at ? camera.toScreen(at[0], at[1]) : [camera.width / 2, camera.height / 2];
     const found = scene.cross || !store.selection ? null : { kind: "item", id: store.selection };
     const box = scene.canvas.getBoundingClientRect();
-    this.open(`Menu of ${this.words(found)}`, entriesOf(app, found, camera.toWorld(px, py)), box.left + Math.min(Math.max(px, 0), camera.width), box.top + Math.min(Math.max(py, 0), camera.height), scene.canvas);
+    this.open(`Menu of ${this.words(found)}`, entriesOf(app, found, camera.toWorld(px, py)), box.left + Math.min(Math.max(px, 0), camera.width), box.top + Math.min(Math.max(py, 0), camera.height), () => scene.canvas);
   }
 
   /** @param {MouseEvent} event */
@@ -68,9 +68,10 @@ export class ContextMenu {
 
   /** @param {HTMLElement} row @param {number} x @param {number} y */
   ofRow(row, x, y) {
-    const found = { kind: "item", id: /** @type {string} */ (row.dataset.id) };
+    const id = /** @type {string} */ (row.dataset.id);
+    const found = { kind: "item", id };
     this.take(found);
-    this.open(`Menu of ${this.words(found)}`, entriesOf(this.app, found, null), x, y, row.querySelector("button") ?? this.app.scene.canvas);
+    this.open(`Menu of ${this.words(found)}`, entriesOf(this.app, found, null), x, y, () => document.querySelector(`#left [data-id="${id}"] button`)); // rows are made anew
   }
 
   /** What the menu is about is selected, unless it belongs to what is selected already. @param {any} found */
@@ -88,7 +89,7 @@ export class ContextMenu {
     return found?.kind === "path" ? "the path" : found?.kind === "handle" ? this.app.describe(found.handle.id) : "the map";
   }
 
-  /** @param {string} label @param {MenuEntry[]} entries @param {number} x @param {number} y [CSS pixel of the page] @param {HTMLElement} back */
+  /** @param {string} label @param {MenuEntry[]} entries @param {number} x @param {number} y [CSS pixel of the page] @param {() => HTMLElement|null} back */
   open(label, entries, x, y, back) {
     const { menu } = this;
     document.querySelectorAll(".menu").forEach((other) => { /** @type {HTMLElement} */ (other).hidden = true; });
@@ -117,7 +118,7 @@ export class ContextMenu {
   close(isFocused) {
     if (!this.isOpen) return;
     this.menu.hidden = true;
-    if (isFocused) (this.back.isConnected ? this.back : this.app.scene.canvas).focus({ preventScroll: true });
+    if (isFocused) (this.back() ?? this.app.scene.canvas).focus({ preventScroll: true });
   }
 
   /** @param {KeyboardEvent} event */
