@@ -84,7 +84,7 @@ def test_a_planar_mission_is_read_whatever_is_open(visit: Visit, tmp_path: Path)
     assert found(page) == []
     page.press("Escape")
     page.page.set_viewport_size({"width": 390, "height": 800})
-    page.js("studio.openSheet('settings')")
+    page.page.get_by_role("tab", name="Mission").click()
     assert found(page) == []
 
 

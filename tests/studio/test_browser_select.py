@@ -174,8 +174,9 @@ def test_lengths_and_bearings_are_measured_and_snap_to_points(visit: Visit, smal
     assert page.js("studio.store.tool") == "select"
     assert not page.page.locator("#measured").is_visible()
     before = page.doc
-    x, y = page.place([100, 0])
-    ex, ey = page.place([70, 40])  # a corner of the hut
+    page.click([65, 46])
+    x, y = page.place([70, 40])  # a corner of the hut
+    ex, ey = page.place([60, 20])
     mouse = page.page.mouse
     for free in (True, False):
         mouse.move(x, y)
@@ -187,15 +188,19 @@ def test_lengths_and_bearings_are_measured_and_snap_to_points(visit: Visit, smal
         if free:
             assert page.js("studio.snap.shown") is None
         else:
-            assert page.js("studio.snap.shown.name") == "hut, corner 2"
+            assert page.js("studio.snap.shown.name") == "via 2"
         mouse.up()
         page.page.keyboard.up("Alt")
         page.settle()
-        assert (page.doc["route"]["goal"] == [70, 40]) is not free
+        assert (page.doc["world"]["known"][1]["polygon"][1] == [60, 20]) is not free
         page.press("Control+z")
         assert page.doc == before
     assert page.js("studio.snap.shown") is None
-    page.press("s", "j")  # the grid, and no points
+    page.drag([40, 10], [70.3, 40.3])  # points of the route keep off corners
+    assert page.doc["route"]["via"][0]["at"] != [70, 40]
+    page.drag(page.doc["route"]["via"][0]["at"], [60.5, 20.4])
+    assert page.doc["route"]["via"][0]["at"] == [60, 20]
+    page.press("Control+z", "Control+z", "s", "j")  # the grid, and no points
     page.drag([40, 10], [52.3, 21.7])
     step = page.js("studio.camera.step(28)")
     assert all(abs(v / step - round(v / step)) < 1e-6 for v in page.doc["route"]["via"][0]["at"])

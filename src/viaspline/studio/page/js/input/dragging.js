@@ -102,6 +102,7 @@ export class Dragging {
     const count = (store.doc.route?.via ?? []).length;
     const index = leg === null || store.doc.route?.order === "shortest" ? count : Math.min(leg, count);
     const id = `via:${index}`;
+    this.begin([]);
     store.edit(withVia(store.doc, index, this.snapped(at)), { select: id, merge: `drag:${this.count}` });
     return id;
   }

@@ -93,6 +93,7 @@ export class Pointer {
       return;
     }
     if (this.pointers.size > 2) return;
+    this.snap.end();
     this.snap.isPointing = true;
     this.snap.isFree = isFree(event);
     this.start = [px, py];

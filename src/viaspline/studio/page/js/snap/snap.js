@@ -3,10 +3,10 @@
  * What it has snapped to is shown with its name.
  */
 
-import { anchorOf, areasOf, movingOf, obstaclesOf, outlined, pointsOf, shapedAt, whole } from "../core/mission.js";
+import { anchorOf, areasOf, isPoint, movingOf, obstaclesOf, outlined, pointsOf, shapedAt, whole } from "../core/mission.js";
 import { theme } from "../draw/theme.js";
 
-const REACH_PX = 9;
+const REACH_PX = 8;
 const GRID_PX = 28; // at least between two lines of the grid
 
 /** @typedef {{at: number[], name: string}} Target */
@@ -18,21 +18,24 @@ export class Snap {
     this.isFree = false; // a key is held that lets it
     this.isPointing = false; // by mouse or finger: steps of the keyboard don't stick to points
     /** @type {readonly string[]} */ this.moving = []; // what is dragged doesn't snap to itself
+    this.isRoute = false; // points of the route keep away from corners: they snap to other points of it
     /** @type {any} */ this.doc = null;
     /** @type {Target[]} */ this.targets = [];
     /** @type {{at: number[], name: string|null}|null} */ this.shown = null;
     app.scene.overlays.push((/** @type {import("../draw/pen.js").Pen} */ pen) => this.draw(pen));
   }
 
-  /** Something is dragged from now on. @param {readonly string[]} ids */
+  /** Something is dragged from now on; without ids, a point of the route that is yet to be made. @param {readonly string[]} ids */
   begin(ids) {
     this.moving = ids.map(whole);
+    this.isRoute = ids.every(isPoint);
     this.doc = null;
   }
 
   /** Nothing is dragged any more. */
   end() {
     this.moving = [];
+    this.isRoute = false;
     this.doc = null;
     this.forget();
   }
@@ -76,7 +79,7 @@ export class Snap {
     const isHeld = this.moving.length > 0 && this.doc !== null; // none of the others moves meanwhile
     if (isHeld || this.doc === store.doc) return this.targets;
     this.doc = store.doc;
-    this.targets = targetsOf(store.doc).filter(({ id }) => !this.moving.includes(id));
+    this.targets = targetsOf(store.doc).filter(({ id }) => !this.moving.includes(id) && (!this.isRoute || isPoint(id)));
     return this.targets;
   }
 

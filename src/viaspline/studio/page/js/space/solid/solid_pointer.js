@@ -72,6 +72,7 @@ export class SolidPointer {
     if (kind === "height" && !heightOf(store.doc, found.id)) return;
     event.stopImmediatePropagation();
     event.preventDefault();
+    this.app.snap.isPointing = false; // not on the map
     this.view.canvas.setPointerCapture(event.pointerId);
     this.count += 1;
     const from = kind === "plan" ? this.onLevel(px, py, point.at[2]) : this.upright(px, py, point.at);
