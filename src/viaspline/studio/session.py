@@ -205,6 +205,10 @@ class Session:
         self._driven = (planned.document, run, seed)
         await self._send_text(text)
 
+    async def _paste(self, message: Message) -> None:
+        parts = await asyncio.to_thread(pasted_parts, message.get("text"))
+        await self._answer(message, {"type": "pasted", "parts": parts})
+
     async def _halt(self, message: Message) -> None:
         self._stop.set()
 
@@ -231,10 +235,6 @@ class Session:
         )
         await self._answer(message, answer)
 
-    async def _paste(self, message: Message) -> None:
-        parts = await asyncio.to_thread(pasted_parts, message.get("text"))
-        await self._answer(message, {"type": "pasted", "parts": parts})
-
     async def _answer(self, message: Message, answer: file_requests.Answer) -> None:
         await self._send(id=message.get("id"), **answer)
 
@@ -244,10 +244,10 @@ _HANDLERS: Final[dict[str, Callable[[Session, Message], Coroutine[Any, Any, None
     "advise": Session._advise,
     "drive": Session._drive,
     "halt": Session._halt,
+    "paste": Session._paste,
     "files": Session._files,
     "open": Session._open,
     "new": Session._new,
     "save": Session._save,
     "export": Session._export,
-    "paste": Session._paste,
 }

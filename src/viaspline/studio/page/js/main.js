@@ -276,13 +276,13 @@ app.openSheet = (name) => {
 
 // --- everything together
 
-app.fleet = new Fleet(app);
-app.space = new Space(app);
 app.snap = new Snap(app);
 app.selecting = new Selecting(app);
 app.clipboard = new Clipboard(app);
 app.measure = new Measure(app);
 app.menu = new ContextMenu(app);
+app.fleet = new Fleet(app);
+app.space = new Space(app);
 app.pointer = new Pointer(app.store, app.camera, app.scene, app.say, app);
 app.files = new Files(app);
 app.lists = new Lists(app);
