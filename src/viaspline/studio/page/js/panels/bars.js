@@ -8,7 +8,7 @@ import { place } from "../units.js";
 const LAYERS = [
   ["rings", "Clearance rings", "R"], ["losers", "Sides not taken", "L"], ["speed", "Speed as colour", "X"],
   ["comb", "Curvature comb", "K"], ["detours", "Detour points", "D"], ["grid", "Grid", "G"],
-  ["snap", "Snap to the grid", "S"], ["points", "Snap to points and corners", "J"], ["body", "Body and what it sweeps", "O"], ["names", "Names", ""],
+  ["snap", "Snap to the grid", "S"], ["points", "Snap to points", "J"], ["body", "Body and what it sweeps", "O"], ["names", "Names", ""],
 ];
 
 /** @param {any} app */
