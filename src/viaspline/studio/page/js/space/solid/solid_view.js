@@ -142,6 +142,7 @@ export class SolidView {
       renderer.setSize(width, height, false);
       camera.aspect = width / height;
       camera.updateProjectionMatrix();
+      if (!this.pointer.isTurned) this.isFitted = false; // as it is laid out, it gets its size late
     }
     const colours = solidColours();
     renderer.setClearColor(colours.sky);
@@ -240,6 +241,7 @@ export class SolidView {
     this.pointer.controls.maxDistance = this.size * 12;
     this.pointer.controls.update();
     this.isFitted = true;
+    this.pointer.isTurned = false;
     this.stale.world = this.stale.route = true;
   }
 }
