@@ -122,7 +122,9 @@ def test_every_tool_and_entry_is_reached_by_tab_with_a_focus_that_is_seen(
                 const look = each && getComputedStyle(each);
                 return look && look.outlineStyle !== 'none' && parseFloat(look.outlineWidth) > 0;
               });
-              return [one.getAttribute('aria-label') ?? one.textContent.trim(), marked];
+              const bar = getComputedStyle(one, '::after');
+              const isBar = bar.content !== 'none' && bar.backgroundColor !== 'rgba(0, 0, 0, 0)';
+              return [one.getAttribute('aria-label') ?? one.textContent.trim(), marked || isBar];
             }"""
         )
         assert is_marked, label

@@ -60,7 +60,7 @@ def test_what_is_selected_together_is_moved_and_deleted_as_one_step(
     shift_click(page, [20, 30])
     shift_click(page, [65, 46])
     assert chosen(page) == ["via:0", "known:0", "known:1"]
-    assert "1 point, 2 obstacles" in page.page.locator("#inspector").inner_text()
+    page.until("document.querySelector('#inspector').innerText.includes('1 point, 2 obstacles')")
     page.drag([20, 30], [25, 36])
     doc = page.doc
     assert near(doc["route"]["via"][0]["at"], [45, 16])
@@ -110,7 +110,7 @@ def test_a_box_and_the_keyboard_select_several(visit: Visit, small: Path) -> Non
     page.page.locator("#left [data-id='via:0'] button").focus()
     page.press("Shift+Enter")
     assert chosen(page) == ["known:1", "via:0"]
-    assert page.page.locator("#left .row.is-selected").count() == 2
+    page.until("document.querySelectorAll('#left .row.is-selected').length === 2")
 
 
 def test_copies_are_text_of_the_mission_and_go_into_another_mission(

@@ -109,7 +109,9 @@ export class Clipboard {
     const places = ids.map((id) => anchorOf(doc, id)).filter((place) => place !== null);
     if (places.length) doc = movedBy(doc, ids, this.way(places, at, store.doc));
     store.edit(doc, { select: null });
-    ids = ids.filter((id) => exists(store.doc, id)); // of a fleet, a route may stand in another file: that was told
+    const asked = ids.length;
+    ids = ids.filter((id) => exists(store.doc, id));
+    if (ids.length < asked) toast("The route of this robot stands in another file: no points were put into it.");
     if (!ids.length) return;
     store.select(/** @type {string} */ (ids.at(-1)), ids);
     this.intoView(camera, ids);

@@ -128,7 +128,10 @@ export class Selecting {
       say("that can't be deleted");
       return;
     }
-    store.edit(doc, { select: null });
+    const { revision } = store;
+    store.edit(doc);
+    if (store.revision === revision) return; // it stands in another file: that was told
+    store.select(null);
     say(`${countWords(chosen.filter((id) => !left.includes(id)))} deleted${left.length ? "; the rest is needed" : ""}`);
   }
 
