@@ -26,6 +26,7 @@ from viaspline.studio.folder import Folder
 from viaspline.studio.live_planning import LivePlan
 from viaspline.studio.open_mission import OpenMission
 from viaspline.studio.page_messages import Message, count_of, decoded, encoded
+from viaspline.studio.pasted_parts import pasted_parts
 from viaspline.studio.refused_error import RefusedError
 
 MAX_RUNNING_JOBS: Final = 32
@@ -216,6 +217,10 @@ class Session:
         self._driven = (planned.document, run, seed)
         await self._send_text(text)
 
+    async def _paste(self, message: Message) -> None:
+        parts = await asyncio.to_thread(pasted_parts, message.get("text"))
+        await self._answer(message, {"type": "pasted", "parts": parts})
+
     async def _halt(self, message: Message) -> None:
         self._stop.set()
 
@@ -277,6 +282,7 @@ _HANDLERS: Final[dict[str, Callable[[Session, Message], Coroutine[Any, Any, None
     "advise": Session._advise,
     "drive": Session._drive,
     "halt": Session._halt,
+    "paste": Session._paste,
     "files": Session._files,
     "open": Session._open,
     "new": Session._new,

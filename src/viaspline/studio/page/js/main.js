@@ -21,6 +21,8 @@ import { Curve } from "./geometry/curve.js";
 import { SpatialCurve } from "./geometry/spatial_curve.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
+import { Measure } from "./measure/measure.js";
+import { ContextMenu } from "./menu/context_menu.js";
 import { Inspector } from "./panels/inspector.js";
 import { Lists } from "./panels/lists.js";
 import { Plots } from "./panels/plots.js";
@@ -31,6 +33,9 @@ import { Timeline } from "./panels/timeline.js";
 import { listenToBars } from "./panels/bars.js";
 import { listenToEdges } from "./panels/edges.js";
 import { h } from "./panels/dom.js";
+import { Clipboard } from "./select/clipboard.js";
+import { Selecting } from "./select/selecting.js";
+import { Snap } from "./snap/snap.js";
 import { Space } from "./space/space.js";
 
 /** @type {any} */
@@ -275,9 +280,14 @@ app.openSheet = (name) => {
 
 // --- everything together
 
+app.snap = new Snap(app);
+app.selecting = new Selecting(app);
+app.clipboard = new Clipboard(app);
+app.measure = new Measure(app);
+app.menu = new ContextMenu(app);
 app.fleet = new Fleet(app);
 app.space = new Space(app);
-app.pointer = new Pointer(app.store, app.camera, app.scene, app.say);
+app.pointer = new Pointer(app.store, app.camera, app.scene, app.say, app);
 app.files = new Files(app);
 app.lists = new Lists(app);
 app.inspector = new Inspector(app);

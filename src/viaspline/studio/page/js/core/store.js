@@ -11,7 +11,7 @@
 import { isFleet, membersOf, missionOf, withMission } from "./fleet.js";
 import { exists } from "./mission.js";
 
-/** @typedef {{file: any, robot: number|null, selection: string|null, merge: string|null, time: number}} Entry */
+/** @typedef {{file: any, robot: number|null, selection: string|null, others: readonly string[], merge: string|null, time: number}} Entry */
 
 const MAX_UNDO_STEPS = 500;
 const MERGE_MS = 900;
@@ -29,6 +29,7 @@ export class Store {
     /** @type {number[]|null} */ this.place = null;
     /** @type {any} */ this.savedFile = null;
     /** @type {string|null} */ this.selection = null;
+    /** What is selected besides: points, obstacles and areas. @type {readonly string[]} */ this.others = [];
     this.revision = 0;
     /** When the newest input came that the document follows [ms]. */ this.inputAt = 0;
     /** @type {Entry[]} */ this.past = [];
@@ -45,7 +46,7 @@ export class Store {
     /** @type {string|null} */ this.hover = null;
     this.tool = "select";
     this.show = {
-      rings: true, losers: true, comb: false, speed: true, grid: true, snap: false, detours: true, names: true, body: true,
+      rings: true, losers: true, comb: false, speed: true, grid: true, snap: false, points: true, detours: true, names: true, body: true,
     };
   }
 
@@ -85,7 +86,7 @@ export class Store {
   /**
    * Change the mission that is edited.
    * @param {any} doc
-   * @param {{merge?: string|null, select?: string|null, inputAt?: number}} [options] edits in a row
+   * @param {{merge?: string|null, select?: string|null, others?: readonly string[], inputAt?: number}} [options] edits in a row
    *   with the same `merge` are undone together
    */
   edit(doc, options = {}) {
@@ -97,9 +98,9 @@ export class Store {
   /**
    * Change what the file holds.
    * @param {any} file
-   * @param {{merge?: string|null, select?: string|null, inputAt?: number, robot?: number|null}} [options] `robot` is chosen
+   * @param {{merge?: string|null, select?: string|null, others?: readonly string[], inputAt?: number, robot?: number|null}} [options] `robot` is chosen
    */
-  editFile(file, { merge = null, select, inputAt, robot } = {}) {
+  editFile(file, { merge = null, select, others, inputAt, robot } = {}) {
     if (file === this.file && (select === undefined || select === this.selection)) return;
     if (file !== this.file) {
       const now = performance.now();
@@ -113,11 +114,11 @@ export class Store {
       this.future = [];
       this.put(file, inputAt, robot);
     }
-    if (select !== undefined) this.select(select);
+    if (select !== undefined) this.select(select, others);
   }
 
   get now() {
-    return { file: this.file, robot: this.robot, selection: this.selection };
+    return { file: this.file, robot: this.robot, selection: this.selection, others: this.others };
   }
 
   /** @param {any} file @param {number} [inputAt] @param {number|null} [robot] the one that is edited from now on */
@@ -132,7 +133,9 @@ export class Store {
       this.run = null; // it was driven on another mission
       this.tell("run");
     }
-    if (this.selection && !exists(this.doc, this.selection)) this.select(null);
+    const others = this.others.filter((id) => exists(this.doc, id));
+    if (this.selection && !exists(this.doc, this.selection)) this.select(others.at(-1) ?? null, others);
+    else if (others.length < this.others.length) this.select(this.selection, others);
     this.tell("document");
     if (this.robot !== before) this.tell("robot");
   }
@@ -159,7 +162,8 @@ export class Store {
     if (!entry) return false;
     to.push({ ...this.now, merge: null, time: 0 });
     this.put(entry.file, undefined, entry.robot);
-    this.select(exists(this.doc, entry.selection) ? entry.selection : null);
+    const isThere = exists(this.doc, entry.selection);
+    this.select(isThere ? entry.selection : null, isThere ? entry.others.filter((id) => exists(this.doc, id)) : []);
     return true;
   }
 
@@ -181,6 +185,7 @@ export class Store {
     this.missions = {};
     this.fleetPlan = null;
     this.selection = null;
+    this.others = [];
     this.goodPlan = this.plan = this.curve = null;
     this.ledger = [];
     this.spaceTime = null;
@@ -190,11 +195,18 @@ export class Store {
     this.tell("file");
   }
 
-  /** @param {string|null} id */
-  select(id) {
-    if (id === this.selection) return;
+  /** @param {string|null} id @param {readonly string[]} [others] what is selected besides */
+  select(id, others = []) {
+    if (id === this.selection && others.join() === this.others.join()) return;
     this.selection = id;
+    this.others = others;
     this.tell("selection");
+  }
+
+  /** All that is selected, each once; what the fields show stands last. @returns {string[]} */
+  get chosen() {
+    const besides = this.others.filter((id) => id !== this.selection);
+    return this.selection ? [...besides, this.selection] : besides;
   }
 
   /** @param {string} tool */

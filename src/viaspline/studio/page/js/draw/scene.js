@@ -50,6 +50,7 @@ export class Scene {
     /** @type {any} */ this.draft = null; // what a tool is about to make
     /** @type {number[]|null} */ this.cross = null; // the keyboard's cursor [m]
     /** @type {any} */ this.hoveredSide = null;
+    /** What tools draw over everything else. @type {((pen: Pen) => void)[]} */ this.overlays = [];
     /** @type {((time: number) => void)[]} */ this.drawn = []; // told once, after the next drawing
   }
 
@@ -198,6 +199,7 @@ export class Scene {
     if (this.cross) drawCross(pen, this.cross);
     this.drawNames(pen, points, obstacles, isDriving, moving);
     drawScale(pen, 16, 16, show.speed ? maxSpeed : null);
+    for (const draw of this.overlays) draw(pen);
   }
 
   /** The instant that is drawn, by the mission's clock [s]. */

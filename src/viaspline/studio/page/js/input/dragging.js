@@ -10,11 +10,13 @@ export class Dragging {
    * @param {import("../core/store.js").Store} store
    * @param {HTMLCanvasElement} canvas
    * @param {(at: number[]) => number[]} snapped
+   * @param {(ids: readonly string[]) => void} begin told what is dragged
    */
-  constructor(store, canvas, snapped) {
+  constructor(store, canvas, snapped, begin) {
     this.store = store;
     this.canvas = canvas;
     this.snapped = snapped;
+    this.begin = begin;
     this.count = 0; // of gestures: the edits of one are undone together
   }
 
@@ -24,6 +26,7 @@ export class Dragging {
     const anchor = anchorOf(store.doc, id);
     const merge = `drag:${this.count}`;
     if (!anchor) return { move: () => {} };
+    this.begin([id]);
     this.canvas.style.cursor = "grabbing";
     const [dx, dy] = [anchor[0] - from[0], anchor[1] - from[1]];
     return {
@@ -40,6 +43,7 @@ export class Dragging {
     const merge = `drag:${this.count}`;
     const center = /** @type {number[]} */ (anchorOf(store.doc, handle.id));
     let { id } = handle;
+    this.begin([id]);
     if (handle.role === "corner") {
       store.select(id);
       return this.item(id, from);
@@ -98,6 +102,7 @@ export class Dragging {
     const count = (store.doc.route?.via ?? []).length;
     const index = leg === null || store.doc.route?.order === "shortest" ? count : Math.min(leg, count);
     const id = `via:${index}`;
+    this.begin([]);
     store.edit(withVia(store.doc, index, this.snapped(at)), { select: id, merge: `drag:${this.count}` });
     return id;
   }

@@ -4,7 +4,7 @@ import { moveTo, moveVia, remove, setTension } from "../core/edits.js";
 import { anchorOf, idsOf, isObstacle, refOf, tensionsOf } from "../core/mission.js";
 import { TOOLS, goesByCorners, makes, shapeToolOf } from "./tools.js";
 
-const LAYERS = { g: "grid", s: "snap", l: "losers", r: "rings", k: "comb", d: "detours", x: "speed", o: "body" };
+const LAYERS = { g: "grid", s: "snap", j: "points", l: "losers", r: "rings", k: "comb", d: "detours", x: "speed", o: "body" };
 const ARROW_STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /** @param {any} app */
@@ -12,6 +12,14 @@ export function listenToKeys(app) {
   const { scene } = app;
   addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;
+    app.pointer.snap.isPointing = false;
+    if (event.key === "ContextMenu" || (event.key === "F10" && event.shiftKey)) {
+      if (!(event.target instanceof HTMLInputElement)) {
+        app.menu.byKey();
+        event.preventDefault();
+      }
+      return;
+    }
     const isTyping = event.target instanceof HTMLElement && event.target.matches("input:not([type=range]):not([type=checkbox]), select, textarea");
     if (event.ctrlKey || event.metaKey) {
       if (command(app, event, isTyping)) event.preventDefault();
@@ -45,6 +53,8 @@ function command(app, event, isTyping) {
   else if (isTyping) return false;
   else if (key === "z") event.shiftKey ? app.redo() : app.undo();
   else if (key === "y") app.redo();
+  else if (key === "a") app.selecting.all();
+  else if (key === "d") app.clipboard.duplicate();
   else return false;
   return true;
 }
@@ -55,13 +65,15 @@ function onKey(app, event) {
   if (event.key === "PageUp" || event.key === "PageDown") return !!store.selection && app.space.lift(store.selection, event.key === "PageUp" ? 1 : -1, event.shiftKey);
   if (event.key === "Tab") return next(app, event.shiftKey ? -1 : 1);
   if (event.key === "Enter") {
-    if (scene.draft?.corners && !scene.cross) pointer.drawing.close();
+    if (store.tool === "measure" && !scene.cross) app.measure.close();
+    else if (scene.draft?.corners && !scene.cross) pointer.drawing.close();
     else if (scene.cross) place(app);
     else if (store.selection) app.inspector.focus();
     else return false;
     return true;
   }
   if (event.key === "Delete" || event.key === "Backspace") {
+    if (store.tool === "measure" && app.measure.back()) return true;
     if (scene.draft?.corners?.length) {
       scene.draft = { corners: scene.draft.corners.slice(0, -1), at: null };
       scene.later();
@@ -72,7 +84,11 @@ function onKey(app, event) {
 }
 
 /** Take out what is selected. @param {any} app */
-export function erase({ store, say }) {
+export function erase({ store, say, selecting }) {
+  if (selecting.isGroup) {
+    selecting.erase();
+    return;
+  }
   if (!store.selection || store.selection.startsWith("span:")) return;
   const doc = remove(store.doc, store.selection);
   if (doc === store.doc) {
@@ -91,7 +107,7 @@ function single(app, event, onSlider) {
   const isButton = event.target instanceof HTMLButtonElement || event.target instanceof HTMLInputElement;
   if (event.key === "?") app.help();
   else if (event.key === "Escape") {
-    if (!pointer.drawing.drop()) {
+    if (!pointer.drawing.drop() && !app.measure.drop()) {
       if (scene.cross) scene.cross = null;
       else if (store.tool !== "select") store.setTool("select");
       else store.select(null);
@@ -106,6 +122,7 @@ function single(app, event, onSlider) {
     scene.canvas.focus();
     if (makes(store.tool)) showCross(app);
   } else if (key in LAYERS) store.toggle(/** @type {any} */ (LAYERS)[key]);
+  else if (key === "e" && store.selection) app.selecting.pin();
   else if (key === "u" && isObstacle(store.selection)) app.toggleUnseen();
   else if (key === "n" && store.selection) app.inspector.focus();
   else if (key === "f") app.fit();
@@ -131,10 +148,10 @@ function next({ store, say, describe, camera }, way) {
   const at = store.selection ? ids.indexOf(store.selection) : way > 0 ? -1 : ids.length;
   const id = ids[at + way];
   if (!id) {
-    store.select(null);
+    if (!store.others.length) store.select(null);
     return false;
   }
-  store.select(id);
+  store.select(id, store.others);
   const anchor = anchorOf(store.doc, id);
   if (anchor) {
     const [x, y] = camera.toScreen(anchor[0], anchor[1]);
@@ -148,13 +165,18 @@ function next({ store, say, describe, camera }, way) {
 }
 
 /** Move what is selected, the cross, or the map. @param {any} app @param {number[]} way @param {boolean} far */
-function arrow({ store, scene, camera, pointer, say }, way, far) {
+function arrow({ store, scene, camera, pointer, say, selecting, measure }, way, far) {
   const step = store.show.snap ? camera.step(28) : camera.step(5);
   const [dx, dy] = way.map((part) => part * step * (far ? 10 : 1));
   if (scene.cross) {
     scene.cross = pointer.snapped([scene.cross[0] + dx * 2, scene.cross[1] + dy * 2]);
     if (scene.draft?.corners) scene.draft = { ...scene.draft, at: scene.cross };
+    if (store.tool === "measure") measure.hover(scene.cross);
     scene.later();
+    return;
+  }
+  if (selecting.isGroup) {
+    selecting.nudge([dx, dy]);
     return;
   }
   const id = store.selection;
@@ -183,6 +205,10 @@ function place(app) {
     pointer.dragging.count += 1;
     pointer.dragging.addVia(scene.cross, null);
     app.say("via point added");
+  } else if (store.tool === "measure") {
+    const last = app.measure.places.at(-1);
+    if (!app.measure.isDone && last && last[0] === scene.cross[0] && last[1] === scene.cross[1]) app.measure.close();
+    else app.measure.add([...scene.cross]);
   } else if (goesByCorners(store.tool)) {
     const corners = scene.draft?.corners ?? [];
     const [x, y] = pointer.snapped(scene.cross);

@@ -11,6 +11,8 @@ export const TOOLS = [
   ...DRAWN.map(({ shape, tool }) => ({ name: shape.key, label: tool.label, key: tool.key })),
   { name: "zone", label: "Draw a speed zone", key: "Z" },
   { name: "fence", label: "Draw a fence to stay inside of", key: "B" },
+  { name: "several", label: "Select several by a box", key: "Q" },
+  { name: "measure", label: "Measure", key: "M" },
   { name: "pan", label: "Move the map", key: "H" },
 ];
 
@@ -20,5 +22,5 @@ export const shapeToolOf = (name) => DRAWN.find(({ shape }) => shape.key === nam
 /** Whether a tool puts corner after corner. @param {string} name */
 export const goesByCorners = (name) => name === "zone" || name === "fence" || !!shapeToolOf(name)?.close;
 
-/** Whether a tool makes something where the map is pressed. @param {string} name */
-export const makes = (name) => name !== "select" && name !== "pan";
+/** Whether a tool sets something where the map is pressed. @param {string} name */
+export const makes = (name) => name !== "select" && name !== "pan" && name !== "several";

@@ -7,7 +7,7 @@ import { fill, h, icon } from "./dom.js";
 const LAYERS = [
   ["rings", "Clearance rings", "R"], ["losers", "Sides not taken", "L"], ["speed", "Speed as colour", "X"],
   ["comb", "Curvature comb", "K"], ["detours", "Detour points", "D"], ["grid", "Grid", "G"],
-  ["snap", "Snap to the grid", "S"], ["body", "Body and what it sweeps", "O"], ["names", "Names", ""],
+  ["snap", "Snap to the grid", "S"], ["points", "Snap to points", "J"], ["body", "Body and what it sweeps", "O"], ["names", "Names", ""],
 ];
 
 /** @param {any} app */

@@ -5,6 +5,7 @@ import { anchorOf, areasOf, isArea, isPoint, obstaclesOf, pointsOf, refOf, tensi
 import { heightOf, isSpatial, withHeight } from "../core/heights.js";
 import { erase } from "../input/keyboard.js";
 import { metres } from "../units.js";
+import { groupFields } from "../select/group_fields.js";
 import { motionFields } from "./motion.js";
 import { checkbox, choice, fill, h, icon, isTypedInto, lazily, numberField, slider, textField } from "./dom.js";
 
@@ -38,6 +39,7 @@ export class Inspector {
     const { store } = this.app;
     const id = store.selection;
     if (!id) fill(this.panel, h("p", { class: "hint" }, "Nothing is selected. Click a point, an obstacle or a span of the path; or press Tab on the map."));
+    else if (this.app.selecting.isGroup) fill(this.panel, ...groupFields(this.app));
     else if (id.startsWith("span:")) fill(this.panel, ...this.span(Number(id.slice(5))));
     else if (isPoint(id)) fill(this.panel, ...this.point(id));
     else if (isArea(id)) fill(this.panel, ...this.area(id));

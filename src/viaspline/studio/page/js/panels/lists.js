@@ -44,6 +44,18 @@ export class Lists {
     event.key === "ArrowDown" || event.key === "ArrowUp" ? event.stopPropagation() : null;
   }
 
+  /** With Shift or Ctrl besides what is selected. @param {MouseEvent} event @param {string} id */
+  pick(event, id) {
+    const { store, selecting } = this.app;
+    if (event.shiftKey || event.ctrlKey || event.metaKey) selecting.toggle(id);
+    else store.select(id);
+  }
+
+  /** @param {string} id of a row */
+  isChosen(id) {
+    return this.app.store.chosen.some((/** @type {string} */ one) => whole(one) === id);
+  }
+
   render() {
     if (this.dragged !== null) return;
     const { store } = this.app;
@@ -52,7 +64,7 @@ export class Lists {
     const areas = areasOf(store.doc);
     // Rows say nothing of places, so while something is dragged they stay as they are.
     const signature = JSON.stringify([
-      store.selection, store.doc.route?.order, points.map((p) => [p.id, p.name, p.dwell]),
+      store.chosen, store.doc.route?.order, points.map((p) => [p.id, p.name, p.dwell]),
       obstacles.map((o) => [o.id, o.name, o.side, o.shape?.key, !!o.item?.motion]), areas.map((a) => [a.id, a.name, a.speed]),
       points.map((p) => heightOf(store.doc, p.id)?.value),
     ]);
@@ -75,18 +87,18 @@ export class Lists {
   pointRow(point, i) {
     const { app } = this;
     const { store } = app;
-    const isSelected = store.selection === point.id;
+    const isSelected = this.isChosen(point.id);
     const ref = refOf(point.id);
     const badge = point.id === "start" ? "S" : point.id === "goal" ? "G" : point.id === "land" ? "L" : String(i);
     const main = h(
-      "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${point.name}${point.dwell ? `, stays ${point.dwell} seconds` : ""}`, onclick: () => store.select(point.id) },
+      "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${point.name}${point.dwell ? `, stays ${point.dwell} seconds` : ""}`, onclick: (/** @type {MouseEvent} */ event) => this.pick(event, point.id) },
       h("span", { class: `badge ${point.id === "start" ? "is-start" : point.id === "goal" || point.id === "land" ? "is-goal" : point.dwell > 0 ? "is-station" : ""}` }, badge),
       h("span", { class: "row-name" }, point.name),
       point.dwell > 0 ? h("span", { class: "row-note" }, `${point.dwell} s`) : null,
     );
     const row = h("li", { class: `row${isSelected ? " is-selected" : ""}`, "data-id": point.id }, main);
     if (ref?.kind === "via" && store.doc.route?.order !== "shortest") {
-      if (isSelected) {
+      if (store.selection === point.id) {
         row.append(
           iconButton("up", `${point.name}: earlier`, () => reorder(app, -1), { class: "icon-button small" }),
           iconButton("down", `${point.name}: later`, () => reorder(app, 1), { class: "icon-button small" }),
@@ -130,12 +142,12 @@ export class Lists {
   /** @param {any} one */
   areaRow(one) {
     const { store } = this.app;
-    const isSelected = store.selection !== null && whole(store.selection) === one.id;
+    const isSelected = this.isChosen(one.id);
     const speed = one.speed === null ? null : `≤ ${Number(one.speed.toFixed(2))} m/s`;
     return h(
-      "li", { class: `row${isSelected ? " is-selected" : ""}` },
+      "li", { class: `row${isSelected ? " is-selected" : ""}`, "data-id": one.id },
       h(
-        "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${one.kind === "zone" ? `speed zone, ${speed ?? "no speed"}` : "the robot stays inside"}`, onclick: () => store.select(one.id) },
+        "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${one.kind === "zone" ? `speed zone, ${speed ?? "no speed"}` : "the robot stays inside"}`, onclick: (/** @type {MouseEvent} */ event) => this.pick(event, one.id) },
         h("span", { class: "glyph" }, icon(one.kind, 16)),
         h("span", { class: "row-name" }, one.name),
         speed ? h("span", { class: "row-note" }, speed) : null,
@@ -147,12 +159,12 @@ export class Lists {
   obstacleRow(one) {
     const { app } = this;
     const { store } = app;
-    const isSelected = store.selection !== null && whole(store.selection) === one.id;
+    const isSelected = this.isChosen(one.id);
     const isUnseen = one.list === "unseen";
     return h(
-      "li", { class: `row${isSelected ? " is-selected" : ""}` },
+      "li", { class: `row${isSelected ? " is-selected" : ""}`, "data-id": one.id },
       h(
-        "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${one.shape?.name ?? "no shape"}${isUnseen ? ", unseen" : ""}`, onclick: () => store.select(one.id) },
+        "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${one.shape?.name ?? "no shape"}${isUnseen ? ", unseen" : ""}`, onclick: (/** @type {MouseEvent} */ event) => this.pick(event, one.id) },
         h("span", { class: `glyph${isUnseen ? " is-unseen" : ""}` }, icon(one.shape?.key ?? "warn", 16)),
         h("span", { class: "row-name" }, one.name),
         one.item?.motion ? h("span", { class: "row-note" }, "moves") : null,

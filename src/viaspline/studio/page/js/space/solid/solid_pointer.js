@@ -29,6 +29,8 @@ export class SolidPointer {
     this.controls.screenSpacePanning = true;
     this.controls.maxPolarAngle = 0.98 * Math.PI;
     this.controls.addEventListener("change", () => view.later());
+    this.isTurned = false; // by hand, since it was fitted
+    this.controls.addEventListener("start", () => { this.isTurned = true; });
   }
 
   /** @param {PointerEvent} event @returns {[number, number]} */
@@ -72,6 +74,7 @@ export class SolidPointer {
     if (kind === "height" && !heightOf(store.doc, found.id)) return;
     event.stopImmediatePropagation();
     event.preventDefault();
+    this.app.snap.isPointing = false; // not on the map
     this.view.canvas.setPointerCapture(event.pointerId);
     this.count += 1;
     const from = kind === "plan" ? this.onLevel(px, py, point.at[2]) : this.upright(px, py, point.at);
@@ -156,6 +159,7 @@ export class SolidPointer {
       arm.set(arm.x * share, arm.y * share, length * Math.sin(tilt));
     }
     if (zoom) arm.multiplyScalar(zoom);
+    this.isTurned = true;
     camera.position.copy(this.controls.target).add(arm);
     this.controls.update();
     this.view.later();

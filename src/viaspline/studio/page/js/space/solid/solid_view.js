@@ -45,8 +45,6 @@ export class SolidView {
     this.scene = null;
     this.isDue = false;
     this.isFitted = false;
-    /** Where the eye stood when it was fitted last. @type {import("three").Vector3|null} */
-    this.fittedEye = null;
     this.band = ""; // in which heights it may fly
     /** What has to be made anew. */ this.stale = { world: true, route: true };
     this.drawn = 0; // pictures so far
@@ -144,7 +142,7 @@ export class SolidView {
       renderer.setSize(width, height, false);
       camera.aspect = width / height;
       camera.updateProjectionMatrix();
-      if (this.fittedEye?.equals(camera.position)) this.fit(); // nobody has turned it: keep it whole
+      if (!this.pointer.isTurned) this.isFitted = false; // as it is laid out, it gets its size late
     }
     const colours = solidColours();
     renderer.setClearColor(colours.sky);
@@ -243,7 +241,7 @@ export class SolidView {
     this.pointer.controls.maxDistance = this.size * 12;
     this.pointer.controls.update();
     this.isFitted = true;
-    this.fittedEye = this.camera.position.clone();
+    this.pointer.isTurned = false;
     this.stale.world = this.stale.route = true;
   }
 }
