@@ -5,6 +5,7 @@ import { Link } from "./core/link.js";
 import { areasOf, exists, isObstacle, obstaclesOf, pointsOf, refOf, shapedAt, whole } from "./core/mission.js";
 import { Store } from "./core/store.js";
 import { Preview } from "./preview.js";
+import { EarlyPath } from "./early_path.js";
 import { Drive } from "./replay.js";
 import { onTheme } from "./draw/theme.js";
 import { Scene } from "./draw/scene.js";
@@ -39,6 +40,7 @@ app.camera = new Camera();
 app.drive = new Drive(app.store);
 app.preview = new Preview(app.store);
 app.scene = new Scene(/** @type {HTMLCanvasElement} */ (document.querySelector("#map")), app.store, app.camera, app.drive, app.preview);
+app.early = app.scene.early = new EarlyPath(app.store);
 /** How long each drag took from the hand to the screen [ms]. @type {number[]} */ app.latencies = [];
 app.ready = false;
 
@@ -79,6 +81,7 @@ function hear(message) {
   const { store, summary } = app;
   if (message.type === "hello") greet(message);
   else if (message.type === "planned") planned(message);
+  else if (message.type === "provisional") early(message);
   else if (message.type === "ledger") {
     if (message.rev === store.plan?.rev) putLedger(message.entries);
   } else if (message.type === "space_time") {
@@ -154,12 +157,7 @@ function planned(answer) {
     app.fitWhenPlanned = false;
     app.fit();
   }
-  if (answer.inputAt !== undefined) {
-    app.scene.drawn.push((/** @type {number} */ now) => {
-      app.latencies.push(now - answer.inputAt);
-      if (app.latencies.length > 5000) app.latencies.shift();
-    });
-  }
+  measured(answer.inputAt);
   if (!app.ready) {
     app.scene.drawn.push(() => {
       app.ready = true;
@@ -169,6 +167,26 @@ function planned(answer) {
   }
   app.scene.now();
   store.tell("plan");
+}
+
+/** A path that isn't proven, while its plan is made: what is drawn besides is of an older document. @param {any} message */
+function early(message) {
+  app.early.take(message);
+  if (!app.early.shown) return;
+  app.store.isLate = true;
+  app.summary.busy = app.early.words;
+  measured(message.inputAt);
+  app.scene.now();
+  app.store.tell("status");
+}
+
+/** Note how long it took from the hand to the screen. @param {number|undefined} inputAt [ms] */
+function measured(inputAt) {
+  if (inputAt === undefined) return;
+  app.scene.drawn.push((/** @type {number} */ now) => {
+    app.latencies.push(now - inputAt);
+    if (app.latencies.length > 5000) app.latencies.shift();
+  });
 }
 
 /** @param {any[]} entries */

@@ -56,6 +56,14 @@ export class Link {
         this.pump();
       }
     }
+    if (message.type === "provisional") { // the next edit needn't wait for the plan
+      message.inputAt = this.inputs.get(message.rev);
+      this.inputs.delete(message.rev);
+      if (message.rev === this.underway) {
+        this.underway = null;
+        this.pump();
+      }
+    }
     if (message.type === "refused" && message.about === "edit") {
       this.underway = null;
       this.sent = undefined; // next time the whole document is sent
