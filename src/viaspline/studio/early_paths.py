@@ -35,8 +35,11 @@ def is_wanted(document: Document, before: object) -> bool:
 
     if is_fleet(document) or is_spatial(document):
         return False  # which have early answers of their own
-    if isinstance(before, PlannedDocument) and before.mission is not None:
-        return before.seconds > SLOW_PLAN_S
+    if isinstance(before, PlannedDocument):
+        if before.seconds > SLOW_PLAN_S:
+            return True
+        if before.plan is not None:
+            return False
     robot = document.get("robot")
     return isinstance(robot, dict) and ("drive" in robot or "footprint" in robot)
 

@@ -1,6 +1,7 @@
 /** Puts the page together: state, connection, map, panels. */
 
 import { replaced, toggleUnseen } from "./core/edits.js";
+import { Compare } from "./compare/compare.js";
 import { Link } from "./core/link.js";
 import { areasOf, exists, isObstacle, obstaclesOf, pointsOf, refOf, shapedAt, whole } from "./core/mission.js";
 import { Store } from "./core/store.js";
@@ -82,6 +83,7 @@ function hear(message) {
   if (message.type === "hello") greet(message);
   else if (message.type === "planned") planned(message);
   else if (message.type === "provisional") early(message);
+  else if (message.type === "variant") app.compare.take(message);
   else if (message.type === "ledger") {
     if (message.rev === store.plan?.rev) putLedger(message.entries);
   } else if (message.type === "space_time") {
@@ -255,7 +257,7 @@ app.fit = () => {
   const narrow = document.body.clientWidth <= 760;
   app.space?.solid?.fit();
   app.space?.solid?.later("route");
-  app.camera.fit(box, narrow ? { top: 70, right: 24, bottom: 40, left: 24 } : { top: 62, right: 40, bottom: 48, left: 76 });
+  app.camera.fit(box, narrow ? { top: 70, right: 24, bottom: 40 + app.compare.card.covers, left: 24 } : { top: 62, right: 40, bottom: 48, left: 76 });
   app.store.tell("view");
 };
 app.fitSoon = () => {
@@ -300,6 +302,7 @@ app.summary = new Summary(app);
 app.plots = new Plots(app);
 app.spaceTime = new SpaceTimePanel(app);
 app.timeline = new Timeline(app);
+app.compare = app.scene.compare = new Compare(app);
 listenToKeys(app);
 listenToBars(app);
 keepSaving(app.store);

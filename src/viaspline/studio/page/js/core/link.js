@@ -102,6 +102,11 @@ export class Link {
     this.send({ type: "edit", rev: revision, changes });
   }
 
+  /** Wait until the server has been told of every edit. @returns {Promise<void>} */
+  async told() {
+    while (this.wanted) await new Promise((resolve) => setTimeout(resolve, 10));
+  }
+
   /** @param {any} message */
   send(message) {
     this.socket?.send(JSON.stringify(message));

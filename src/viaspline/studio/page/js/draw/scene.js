@@ -40,6 +40,7 @@ export class Scene {
     this.maps = new MapPictures(() => this.later());
     this.fleet = new FleetLayer(store, preview, drive);
     /** @type {import("../early_path.js").EarlyPath|null} */ this.early = null;
+    /** @type {import("../compare/compare.js").Compare|null} */ this.compare = null;
     this.isDue = false;
     this.patience = 0;
     /** Where the tools cover the map [CSS pixel]. */ this.tools = [0, 0, 0, 0];
@@ -169,6 +170,7 @@ export class Scene {
     drawUnseen(pen, unseen, ({ index }) => isDriving && drive.hasSeen(index), store.hover);
     this.fleet.drawRoutes(pen);
     this.drawWays(pen, isDriving, maxSpeed);
+    if (!isDriving) this.compare?.draw(pen);
     if (!isDriving) this.early?.draw(pen);
     drawMoving(pen, moving, {
       time: this.time, required: show.rings ? requiredOf(doc) : null, marked: [store.hover, store.selection].map((id) => id && whole(id)),
@@ -297,7 +299,7 @@ export class Scene {
       }
     }
     if (store.show.names && this.space) labels.push(...this.space.labels(pen));
-    if (this.early && !isDriving) labels.push(...this.early.labels(pen));
+    if (!isDriving) labels.push(...(this.early?.labels(pen) ?? []), ...(this.compare?.labels(pen) ?? []));
     const proof = store.plan?.ok && !store.isLate ? store.plan.certificate : null;
     if (proof && proof.clearance !== null && !isDriving) {
       const [x, y] = camera.toScreen(proof.at[0], proof.at[1]);
