@@ -61,17 +61,18 @@ def test_an_edit_of_a_slow_mission_is_answered_by_a_path_and_then_by_its_plan(
 def test_while_a_point_is_dragged_the_path_follows_and_says_that_it_is_provisional(
     visit: Visit, tmp_path: Path
 ) -> None:
-    page = visit(Path(shutil.copy(EXAMPLES / "yard-rover.yaml", tmp_path)))
+    shutil.copytree(EXAMPLES / "maps", tmp_path / "maps")
+    page = visit(Path(shutil.copy(EXAMPLES / "depot-cart.yaml", tmp_path)))
     page.js("() => { studio.latencies.length = 0; }")
     old = page.js("studio.store.plan.rev")
-    x, y = page.place([14, 20])
+    x, y = page.place([7.6, 13.4])
     mouse = page.page.mouse
     mouse.move(x, y)
     mouse.down()
     for k in range(1, 9):
-        mouse.move(x + 3 * k, y + k)
+        mouse.move(x + k, y + k)
         page.until("studio.early.newest?.rev === studio.store.revision")
-    at = page.doc["route"]["via"][1]["at"]
+    at = page.doc["route"]["via"][0]
     assert page.js("studio.store.plan.rev") == old
     assert page.js("studio.store.isLate")
     spans = np.reshape(page.js("studio.early.shown.spans"), (-1, 2))

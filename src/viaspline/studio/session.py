@@ -17,7 +17,6 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from viaspline import __version__
 from viaspline.errors import ViasplineError
 from viaspline.studio import file_requests
-from viaspline.studio.comparison import Comparison
 from viaspline.studio.document import EMPTY_DOCUMENT, changed
 from viaspline.studio.drive_forms import drive_forms
 from viaspline.studio.engine import Engine
@@ -26,6 +25,7 @@ from viaspline.studio.live_planning import LivePlan
 from viaspline.studio.open_mission import OpenMission
 from viaspline.studio.page_messages import Message, count_of, decoded, encoded
 from viaspline.studio.refused_error import RefusedError
+from viaspline.studio.variant_comparison import VariantComparison
 
 MAX_RUNNING_JOBS: Final = 32
 
@@ -45,7 +45,7 @@ class Session:
         self._engine = engine
         self._current = OpenMission(folder, name)
         self._live = LivePlan(engine, self._current, self._send_text, self._refuse_edit)
-        self._comparison = Comparison(engine.variants, self._current, self._send_text)
+        self._comparison = VariantComparison(engine.variants, self._current, self._send_text)
         self._driven: file_requests.Driven | None = None
         self._sending = asyncio.Lock()
         self._stop = Flag()

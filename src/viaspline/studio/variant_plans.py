@@ -2,7 +2,7 @@
 
 What is on the screen is planned meanwhile.
 
-Tested through ``studio/test_comparison``.
+Tested through ``studio/test_variant_comparison``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What a table of variants says of one of them: its figures, or in words why it has none.
 
-Tested through ``studio/test_comparison``.
+Tested through ``studio/test_variant_comparison``.
 """
 
 from __future__ import annotations

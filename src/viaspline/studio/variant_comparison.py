@@ -18,7 +18,7 @@ STOP_RETRY_S: Final = 0.02
 """Between two attempts to break a plan off [s]."""
 
 
-class Comparison:
+class VariantComparison:
     """Compares variants of the document that is open, one comparison at a time.
 
     Args:
