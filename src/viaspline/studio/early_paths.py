@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 SLOW_PLAN_S: Final = 0.05
 """A plan that takes less is shown as it is [s]."""
 
+SLOW_KEYS: Final = frozenset({"drive", "footprint", "localization", "min_turn_radius_m"})
+"""What makes the plan of a robot take long."""
+
 
 def is_wanted(document: Document, before: object) -> bool:
     """Whether the plan of a document will keep a page waiting.
@@ -35,13 +38,12 @@ def is_wanted(document: Document, before: object) -> bool:
 
     if is_fleet(document) or is_spatial(document):
         return False  # which have early answers of their own
-    if isinstance(before, PlannedDocument):
-        if before.seconds > SLOW_PLAN_S:
-            return True
-        if before.plan is not None:
-            return False
     robot = document.get("robot")
-    return isinstance(robot, dict) and ("drive" in robot or "footprint" in robot)
+    if not isinstance(robot, dict) or not SLOW_KEYS.intersection(robot):
+        return False
+    if isinstance(before, PlannedDocument) and before.plan is not None:
+        return before.seconds > SLOW_PLAN_S
+    return True
 
 
 class EarlyPaths:

@@ -15,9 +15,8 @@ from viaspline.machine.robot_model import is_driven
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.strip import has_line
-from viaspline.planning.methods.ordered import PathMethod
+from viaspline.planning.methods.ordered import SPLINE_METHODS, PathMethod
 from viaspline.planning.methods.spline_as_is import SplineAsItIs
-from viaspline.planning.methods.spline_led_round import SplineLedRound
 from viaspline.planning.methods.turns_on_shortest import TurnsOnShortest
 from viaspline.planning.plan_path import lay_path
 from viaspline.planning.problem.requirements import Requirements
@@ -29,7 +28,6 @@ MOST_WORK_S = 0.04
 """What each attempt may cost [s of the reference machine]."""
 
 TURNS: tuple[PathMethod, ...] = (SplineAsItIs(), TurnsOnShortest())
-SPLINE: tuple[PathMethod, ...] = (SplineLedRound(),)
 
 
 @dataclass(frozen=True)
@@ -73,7 +71,7 @@ def provisional_path(mission: Mission, tracking_error: float = 0.0) -> Provision
     disc = _disc(mission.robot)
     for robot, methods, error in (
         (disc, TURNS, tracking_error),
-        (_free(disc), SPLINE, 0.0),
+        (_free(disc), SPLINE_METHODS, 0.0),
     ):
         try:
             spans = _spans(_simple(mission, robot), methods, error)
@@ -100,6 +98,8 @@ def _spans(mission: Mission, methods: tuple[PathMethod, ...], error: float) -> F
     """The spans of a path, laid by the first of some methods that finds one."""
     served, world = in_order(mission)
     requirements = replace(Requirements.of(served, error), budget=WorkBudget(MOST_WORK_S))
+    if requirements.is_cardinal:
+        methods = SPLINE_METHODS  # the paper's curve has no turns beside it
     spline_path, _ = lay_path(via_sequence_of(served), world, requirements, methods)
     return spline_path.spans[:, :, :2]
 

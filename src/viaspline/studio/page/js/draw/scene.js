@@ -16,10 +16,12 @@ import { drawArrows, drawComb, drawLeg, drawLosers, drawPath } from "./path.js";
 import { Pen } from "./pen.js";
 import { drawDetours, drawHandles, drawPoints } from "./route.js";
 import { theme } from "./theme.js";
+import { thinned } from "./thinned.js";
 
 /** @typedef {import("../core/mission.js").Outlined} Outlined */
 
 const PATIENCE_MS = 30;
+const FEW_POINTS = 40; // each of which is named, come what may
 const MOST_NAMED = 12; // things that move with their names beside them
 
 export class Scene {
@@ -180,7 +182,8 @@ export class Scene {
     const body = bodyOf(doc);
     if (show.body && store.curve && store.plan?.ok && !store.isLate && !isDriving) this.drawBodies(pen, body);
     const points = pointsOf(doc);
-    drawPoints(pen, points, { selection: store.selection, hover: store.hover });
+    const shown = thinned(points, camera, [store.selection, store.hover]);
+    drawPoints(pen, points, { selection: store.selection, hover: store.hover, shown });
     drawHandles(pen, doc, store.selection);
     if (!isDriving && store.plan?.ok && !store.isLate) {
       drawTightest(pen, store.plan.certificate, known);
@@ -198,7 +201,7 @@ export class Scene {
     else if (this.preview.isOn && !store.isLate && store.plan?.ok) this.drawPreviewed(pen, body);
     if (this.draft) drawDraft(pen, this.draft);
     if (this.cross) drawCross(pen, this.cross);
-    this.drawNames(pen, points, obstacles, isDriving, moving);
+    this.drawNames(pen, points.filter((point) => shown.has(point.id)), obstacles, isDriving, moving);
     drawScale(pen, 16, 16, show.speed ? maxSpeed : null);
   }
 
@@ -273,7 +276,7 @@ export class Scene {
         if (!point.at || (!point.given && store.selection !== point.id)) continue;
         const [x, y] = camera.toScreen(point.at[0], point.at[1]);
         const dwell = point.dwell > 0 ? ` · ${point.dwell} s` : "";
-        labels.push({ text: point.name + dwell, x, y, away: 13, colour: colours.label, bold: true, rank: store.selection === point.id ? 0 : 1 });
+        labels.push({ text: point.name + dwell, x, y, away: 13, colour: colours.label, bold: true, rank: store.selection === point.id ? 0 : 1, yields: points.length > FEW_POINTS && store.selection !== point.id });
       }
       for (const obstacle of outlined(obstacles)) {
         if (!obstacle.given) continue;
