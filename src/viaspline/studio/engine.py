@@ -1,4 +1,4 @@
-"""Plans and drives in threads of their own, so that the page is served meanwhile.
+"""Plans in threads of their own, so that the page is served meanwhile.
 
 Kernels let go of Python's lock. Whatever needs them is imported by the threads as well: the page
 is there before numba is.
@@ -11,29 +11,22 @@ from __future__ import annotations
 import gc
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from threading import Event as Flag
-from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Final, TypeAlias, TypeVar
 
 from viaspline.studio.document import EMPTY_DOCUMENT, Document, is_fleet, is_spatial
+from viaspline.studio.drives_and_files import DrivesAndFiles
+from viaspline.studio.early_paths import EarlyPaths
 from viaspline.studio.folder import Folder
 from viaspline.studio.page_messages import encoded
 from viaspline.studio.stoppable_calls import Stoppable, StoppedCallError
+from viaspline.studio.variant_plans import VariantPlans
 from viaspline.studio.worker import Worker
 
 if TYPE_CHECKING:
-    from viaspline.fleet.fleet_plan import FleetPlan
-    from viaspline.formats.items import LatLon
-    from viaspline.mission.model import Mission
-    from viaspline.planner import Plan
-    from viaspline.robot.run import Run
-    from viaspline.space.spatial_plan import SpatialPlan
-    from viaspline.space.spatial_run import SpatialRun
-    from viaspline.studio.exports import AnyPlan, AnyRun
     from viaspline.studio.fleet.planned_fleet import PlannedFleet
-    from viaspline.studio.fleet.simulated_fleet import SimulatedFleet
     from viaspline.studio.map_cache import MapCache
     from viaspline.studio.plan_document import PlannedDocument
     from viaspline.studio.space.planned_spatial import PlannedSpatial
@@ -60,28 +53,37 @@ WARM_UP_FLEET: Final[Document] = {
 Planned: TypeAlias = "PlannedDocument | PlannedFleet | PlannedSpatial"
 T = TypeVar("T")
 Hears = Callable[[str, int], None]
-Tells = Callable[[float], None]
 
 
 class Engine:
-    """Plans, drives and everything else that takes its time.
+    """Plans what is on the screen, and has what else takes its time done.
 
     Args:
         folder: Where maps are read.
         warm_up: What is planned before anybody asks.
+
+    Attributes:
+        early: Paths that are there before a plan is.
+        variants: Plans of other missions than the one on the screen.
+        others: Advice, drives and files.
+        listeners: Hear of kernels that are compiled.
+        compiling: The newest of them, and how many there were.
+        ready: Whether all that is needed is there.
     """
 
     def __init__(self, folder: Folder, warm_up: Sequence[Document] = (WARM_UP_DOCUMENT,)) -> None:
         self._folder = folder
         self._warm_up = warm_up
         self._planner = Worker("planner")
-        self._others = Worker("drives and files")
         self._maps: MapCache | None = None
         self._space: SpatialEngine | None = None
         self._ledger_cost = 0.0
         self._pictures: dict[str, bytes] = {}
         self._compiled = 0
         self._listening = ExitStack()
+        self.early = EarlyPaths(folder)
+        self.variants = VariantPlans(folder)
+        self.others = DrivesAndFiles()
         self.listeners: set[Hears] = set()
         self.compiling: tuple[str, int] | None = None
         self.ready = False
@@ -276,27 +278,6 @@ class Engine:
 
         return await self._planner.run(work)
 
-    async def advise(self, mission: Mission) -> dict[str, Any]:
-        """Which tension a mission is suggested, and why.
-
-        Raises:
-            ViasplineError: There is no plan to compare.
-        """
-
-        def work() -> dict[str, Any]:
-            from viaspline.advice import advise_tension
-            from viaspline.report.advice_words import advice_words
-
-            advice = advise_tension(mission)
-            return {
-                "type": "advised",
-                "words": advice_words(advice),
-                "tension": advice.suggested,
-                "is_new": advice.matters and advice.chosen is not advice.stands,
-            }
-
-        return await self._others.run(work)
-
     def _keep_pictures(self, planned: Planned) -> None:
         from viaspline.studio.map_cache import grid_name, grid_png
 
@@ -313,95 +294,3 @@ class Engine:
     def picture(self, name: str) -> bytes | None:
         """The picture of a map of squares, by the name in a plan's answer."""
         return self._pictures.get(name)
-
-    async def drive(
-        self, plan: Plan, *, head: Mapping[str, Any], seed: int, stop: Flag, tell: Tells
-    ) -> tuple[Run, str] | None:
-        """Drive a plan; the run and the answer as text, or None if it was broken off.
-
-        Args:
-            plan: What is driven.
-            head: What the answer begins with.
-            seed: For the noise of a lidar.
-            stop: Set to break it off.
-            tell: Hears how much is done, from 0 to 1.
-        """
-
-        def work() -> tuple[Run, str] | None:
-            from viaspline.studio import simulated_drive
-
-            try:
-                run = simulated_drive.drive(plan, seed=seed, stop=stop, tell=tell)
-            except simulated_drive.StoppedError:
-                return None
-            return run, encoded({**head, **simulated_drive.driven(run)})
-
-        return await self._others.run(work)
-
-    async def drive_fleet(
-        self, plan: FleetPlan, *, head: Mapping[str, Any], seed: int
-    ) -> tuple[SimulatedFleet, str]:
-        """Drive the plan of a fleet; what was driven and the answer as text.
-
-        Args:
-            plan: What is driven.
-            head: What the answer begins with.
-            seed: Of what is random.
-        """
-
-        def work() -> tuple[SimulatedFleet, str]:
-            from viaspline.studio.fleet import simulated_fleet
-
-            found = simulated_fleet.simulated_fleet(plan, seed)
-            return found, encoded({**head, **simulated_fleet.driven_fleet_answer(found)})
-
-        return await self._others.run(work)
-
-    async def fly(self, plan: SpatialPlan, *, head: Mapping[str, Any]) -> tuple[SpatialRun, str]:
-        """Fly a plan in space; the flight and the answer as text.
-
-        Args:
-            plan: What is flown.
-            head: What the answer begins with.
-        """
-
-        def work() -> tuple[SpatialRun, str]:
-            from viaspline.space.online.fly import fly
-            from viaspline.studio.space import simulated_flight
-
-            run = fly(plan)
-            return run, encoded({**head, **simulated_flight.flown(run)})
-
-        return await self._others.run(work)
-
-    async def plan_file(self, plan: AnyPlan, kind: str, name: str) -> bytes:
-        """One of the files of a plan, or of a fleet's."""
-
-        def work() -> bytes:
-            from viaspline.studio.exports import plan_file
-
-            return plan_file(plan, kind, name)
-
-        return await self._others.run(work)
-
-    async def path_file(
-        self, plan: Plan | SpatialPlan, kind: str, name: str, origin: LatLon | None
-    ) -> tuple[bytes, tuple[str, ...]]:
-        """The path of a plan in a format of other people's, and what is to be said of it."""
-
-        def work() -> tuple[bytes, tuple[str, ...]]:
-            from viaspline.studio.exports import path_file
-
-            return path_file(plan, kind, name, origin)
-
-        return await self._others.run(work)
-
-    async def run_file(self, run: AnyRun, kind: str, name: str, seed: int) -> bytes:
-        """One of the files of a run."""
-
-        def work() -> bytes:
-            from viaspline.studio.exports import run_file
-
-            return run_file(run, kind, name, seed)
-
-        return await self._others.run(work)

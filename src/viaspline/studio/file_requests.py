@@ -147,16 +147,16 @@ async def export(
             raise RefusedError("drive the mission first; it has changed since")
         if kind == "run.csv" and is_fleet(current.document):
             raise RefusedError("a fleet's drive has run.json and run.png")
-        content = await engine.run_file(driven[1], kind, stem, driven[2])
+        content = await engine.others.run_file(driven[1], kind, stem, driven[2])
     else:
         plan = _plan_of(await planned(), kind, message)
         stem = f"{stem}-{message['robot']}" if "robot" in message else stem
         if kind in PATH_FILES:
             assert not isinstance(plan, FleetPlan)  # which has files of its own
             origin = origin_from(text_of(message, "origin", "")) or current.origin
-            content, told = await engine.path_file(plan, kind, stem, origin)
+            content, told = await engine.others.path_file(plan, kind, stem, origin)
         else:
-            content = await engine.plan_file(plan, kind, stem)
+            content = await engine.others.plan_file(plan, kind, stem)
     data = base64.b64encode(content).decode()
     return {
         "type": "exported", "name": f"{stem}-{kind}", "kind": kind, "data": data, "told": told,

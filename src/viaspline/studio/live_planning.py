@@ -1,7 +1,8 @@
 """The plan of what is on the screen: the newest document, and none that was overtaken.
 
 While a document is planned, newer ones replace each other; only the newest is planned next. A plan
-that takes long is broken off as soon as a newer document is there.
+that takes long is broken off as soon as a newer document is there; of one that will take long the
+page is told a provisional path first, and as long as somebody drags nothing else.
 
 Tested through ``studio/test_server``.
 """
@@ -10,10 +11,11 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from starlette.websockets import WebSocketDisconnect
 
+from viaspline.studio.early_paths import is_wanted
 from viaspline.studio.engine import Engine, Planned
 from viaspline.studio.open_mission import OpenMission
 from viaspline.studio.refused_error import RefusedError
@@ -74,14 +76,22 @@ class LivePlan:
                 await self._refuse(error)
 
     async def _once(self, revision: int) -> None:
+        is_early = await self._tell_early(revision)
+        if is_early and not await self._is_idle():
+            return  # the newest document has its provisional path first
         self._running = running = Stoppable()
-        overtaking = asyncio.create_task(self._overtake(running))
-        try:
-            found = await self._engine.plan(
+        planning = asyncio.ensure_future(
+            self._engine.plan(
                 self._current.document, self._current.base, revision, running, self._latest
             )
-        finally:
-            overtaking.cancel()
+        )
+        patience = 0.0 if is_early else OVERTAKEN_AFTER_S
+        overtaking = asyncio.create_task(self._overtake(running, patience))
+        planning.add_done_callback(lambda _: overtaking.cancel())
+        if is_early and not await self._ends_before_an_edit(planning):
+            planning.add_done_callback(_read)
+            return  # a kernel may hold its end up: nobody waits for that
+        found = await planning
         if found is None:
             return  # overtaken
         planned, text = found
@@ -103,6 +113,22 @@ class LivePlan:
         await self._send(await self._engine.ledger(planned, revision))
         if planned.plan.timed is not None:
             await self._send(await self._engine.space_time(planned, revision))
+
+    async def _tell_early(self, revision: int) -> bool:
+        """Tell the page where the path will about run, if the plan of it will take long."""
+        current = self._current
+        if not self._engine.ready or not is_wanted(current.document, self._latest):
+            return False
+        text = await self._engine.early.told(current.document, current.base, revision, self._latest)
+        if text is not None:
+            await self._send(text)
+        return text is not None
+
+    async def _ends_before_an_edit(self, planning: asyncio.Future[Any]) -> bool:
+        edited = asyncio.create_task(self._wanted.wait())
+        await asyncio.wait({planning, edited}, return_when=asyncio.FIRST_COMPLETED)
+        edited.cancel()
+        return planning.done()
 
     async def _whole(self, planned: PlannedFleet, revision: int) -> None:
         """Try everything for a fleet of which not all are served, once nobody drags any more."""
@@ -139,8 +165,8 @@ class LivePlan:
             await self._send(text)
             await self._in_space(whole, revision)
 
-    async def _overtake(self, running: Stoppable) -> None:
-        await asyncio.sleep(OVERTAKEN_AFTER_S)
+    async def _overtake(self, running: Stoppable, patience: float = OVERTAKEN_AFTER_S) -> None:
+        await asyncio.sleep(patience)
         await self._wanted.wait()
         while True:
             running.stop()
@@ -180,3 +206,9 @@ class LivePlan:
     def forget(self) -> None:
         """Another document has been opened."""
         self._latest = None
+
+
+def _read(planning: asyncio.Future[Any]) -> None:
+    """Take note of how a plan ended that nobody waits for."""
+    if not planning.cancelled():
+        planning.exception()

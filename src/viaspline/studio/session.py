@@ -28,6 +28,7 @@ from viaspline.studio.open_mission import OpenMission
 from viaspline.studio.page_messages import Message, count_of, decoded, encoded
 from viaspline.studio.pasted_parts import pasted_parts
 from viaspline.studio.refused_error import RefusedError
+from viaspline.studio.variant_comparison import VariantComparison
 
 MAX_RUNNING_JOBS: Final = 32
 
@@ -56,6 +57,7 @@ class Session:
         self._engine = engine
         self._current = OpenMission(folder, name)
         self._live = LivePlan(engine, self._current, self._send_text, self._refuse_edit)
+        self._comparison = VariantComparison(engine.variants, self._current, self._send_text)
         self._driven: file_requests.Driven | None = None
         self._sending = asyncio.Lock()
         self._stop = Flag()
@@ -77,6 +79,7 @@ class Session:
             self._engine.listeners.discard(self._compiling)
             self._stop.set()
             self._live.close()
+            self._comparison.stop()
             for task in (planning, *self._jobs):
                 task.cancel()
 
@@ -178,7 +181,13 @@ class Session:
             raise RefusedError("the mission isn't sound")
         if planned.mission.is_spatial:
             raise RefusedError("no tension is suggested for missions in space; set spline.tension")
-        await self._answer(message, await self._engine.advise(planned.mission))
+        await self._answer(message, await self._engine.others.advise(planned.mission))
+
+    async def _compare(self, message: Message) -> None:
+        await self._answer(message, await self._comparison.compare(message))
+
+    async def _stop_comparing(self, message: Message) -> None:
+        self._comparison.stop()
 
     async def _drive(self, message: Message) -> None:
         from viaspline.fleet.fleet_plan import FleetPlan
@@ -191,13 +200,13 @@ class Session:
         if planned.plan is None:
             raise RefusedError("there is no path to drive")
         if isinstance(planned.plan, SpatialPlan):
-            flew, text = await self._engine.fly(planned.plan, head={"id": number})
+            flew, text = await self._engine.others.fly(planned.plan, head={"id": number})
             self._driven = (planned.document, flew, seed)
             await self._send_text(text)
             return
         if isinstance(planned.plan, FleetPlan):
             head = {"id": number}
-            drove, text = await self._engine.drive_fleet(planned.plan, head=head, seed=seed)
+            drove, text = await self._engine.others.drive_fleet(planned.plan, head=head, seed=seed)
             self._driven = (planned.document, drove, seed)
             await self._send_text(text)
             return
@@ -207,7 +216,7 @@ class Session:
                 lambda: self._spawn(self._send(type="driving", done=done), None, "drive")
             )
 
-        driven = await self._engine.drive(
+        driven = await self._engine.others.drive(
             planned.plan, head={"id": number}, seed=seed, stop=stop, tell=tell
         )
         if driven is None:
@@ -280,6 +289,8 @@ class Session:
 _HANDLERS: Final[dict[str, Callable[[Session, Message], Coroutine[Any, Any, None]]]] = {
     "edit": Session._edit,
     "advise": Session._advise,
+    "compare": Session._compare,
+    "stop_comparing": Session._stop_comparing,
     "drive": Session._drive,
     "halt": Session._halt,
     "paste": Session._paste,

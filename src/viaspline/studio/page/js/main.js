@@ -1,10 +1,12 @@
 /** Puts the page together: state, connection, map, panels. */
 
 import { replaced, toggleUnseen } from "./core/edits.js";
+import { Compare } from "./compare/compare.js";
 import { Link } from "./core/link.js";
 import { areasOf, exists, isObstacle, obstaclesOf, pointsOf, refOf, shapedAt, whole } from "./core/mission.js";
 import { Store } from "./core/store.js";
 import { Preview } from "./preview.js";
+import { EarlyPath } from "./early_path.js";
 import { Drive } from "./replay.js";
 import { onTheme } from "./draw/theme.js";
 import { Scene } from "./draw/scene.js";
@@ -47,6 +49,7 @@ app.camera = new Camera();
 app.drive = new Drive(app.store);
 app.preview = new Preview(app.store);
 app.scene = new Scene(/** @type {HTMLCanvasElement} */ (document.querySelector("#map")), app.store, app.camera, app.drive, app.preview);
+app.early = app.scene.early = new EarlyPath(app.store);
 /** How long each drag took from the hand to the screen [ms]. @type {number[]} */ app.latencies = [];
 app.ready = false;
 
@@ -87,6 +90,8 @@ function hear(message) {
   const { store, summary } = app;
   if (message.type === "hello") greet(message);
   else if (message.type === "planned") planned(message);
+  else if (message.type === "provisional") early(message);
+  else if (message.type === "variant") app.compare.take(message);
   else if (message.type === "ledger") {
     if (message.rev === store.plan?.rev) putLedger(message.entries);
   } else if (message.type === "space_time") {
@@ -163,12 +168,7 @@ function planned(answer) {
     app.fitWhenPlanned = false;
     app.fit();
   }
-  if (answer.inputAt !== undefined) {
-    app.scene.drawn.push((/** @type {number} */ now) => {
-      app.latencies.push(now - answer.inputAt);
-      if (app.latencies.length > 5000) app.latencies.shift();
-    });
-  }
+  measured(answer.inputAt);
   if (!app.ready) {
     app.scene.drawn.push(() => {
       app.ready = true;
@@ -178,6 +178,26 @@ function planned(answer) {
   }
   app.scene.now();
   store.tell("plan");
+}
+
+/** A path that isn't proven, while its plan is made: what is drawn besides is of an older document. @param {any} message */
+function early(message) {
+  app.early.take(message);
+  if (!app.early.shown) return;
+  app.store.isLate = true;
+  app.summary.busy = app.early.words;
+  measured(message.inputAt);
+  app.scene.now();
+  app.store.tell("status");
+}
+
+/** Note how long it took from the hand to the screen. @param {number|undefined} inputAt [ms] */
+function measured(inputAt) {
+  if (inputAt === undefined) return;
+  app.scene.drawn.push((/** @type {number} */ now) => {
+    app.latencies.push(now - inputAt);
+    if (app.latencies.length > 5000) app.latencies.shift();
+  });
 }
 
 /** @param {any[]} entries */
@@ -246,7 +266,7 @@ app.fit = () => {
   const narrow = document.body.clientWidth <= 760;
   app.space?.solid?.fit();
   app.space?.solid?.later("route");
-  app.camera.fit(box, narrow ? { top: 70, right: 24, bottom: 40, left: 24 } : { top: 62, right: 40, bottom: 48, left: 76 });
+  app.camera.fit(box, narrow ? { top: 70, right: 24, bottom: 40 + app.compare.card.covers, left: 24 } : { top: 62, right: 40, bottom: 48, left: 76 });
   app.store.tell("view");
 };
 app.fitSoon = () => {
@@ -299,6 +319,7 @@ app.summary = new Summary(app);
 app.plots = new Plots(app);
 app.spaceTime = new SpaceTimePanel(app);
 app.timeline = new Timeline(app);
+app.compare = app.scene.compare = new Compare(app);
 listenToKeys(app);
 listenToBars(app);
 listenToEdges();

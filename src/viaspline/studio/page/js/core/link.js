@@ -56,6 +56,14 @@ export class Link {
         this.pump();
       }
     }
+    if (message.type === "provisional") { // the next edit needn't wait for the plan
+      message.inputAt = this.inputs.get(message.rev);
+      this.inputs.delete(message.rev);
+      if (message.rev === this.underway) {
+        this.underway = null;
+        this.pump();
+      }
+    }
     if (message.type === "refused" && message.about === "edit") {
       this.underway = null;
       this.sent = undefined; // next time the whole document is sent
@@ -92,6 +100,11 @@ export class Link {
     this.sentAt = performance.now();
     this.inputs.set(revision, inputAt);
     this.send({ type: "edit", rev: revision, changes });
+  }
+
+  /** Wait until the server has been told of every edit. @returns {Promise<void>} */
+  async told() {
+    while (this.wanted) await new Promise((resolve) => setTimeout(resolve, 10));
   }
 
   /** @param {any} message */

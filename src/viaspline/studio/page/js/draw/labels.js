@@ -1,6 +1,11 @@
 /** Names and figures beside what they belong to, where they cover nothing that matters. */
 
-/** @typedef {{text: string, x: number, y: number, away: number, colour: string, bold?: boolean, rank: number, plate?: boolean}} Label */
+import { LabelRoom } from "./label_room.js";
+
+/**
+ * One that `yields` is left out where it would lie on another.
+ * @typedef {{text: string, x: number, y: number, away: number, colour: string, bold?: boolean, rank: number, plate?: boolean, yields?: boolean}} Label
+ */
 
 const FONT_FAMILY = "Inter, system-ui, sans-serif";
 const DIRECTIONS = [[1, 0], [-1, 0], [0, -1], [0, 1], [0.8, -0.8], [0.8, 0.8], [-0.8, -0.8], [-0.8, 0.8]];
@@ -31,31 +36,31 @@ function widthOf(ctx, text, bold) {
  */
 export function drawLabels(pen, labels, avoid, line) {
   const { ctx, camera, colours } = pen;
-  const taken = [...avoid];
-  const cells = new Set(line.map(([x, y]) => cell(x, y)));
+  const room = new LabelRoom(camera);
+  for (const box of avoid) room.take(box);
+  for (const [x, y] of line) room.mark(x, y);
   ctx.textBaseline = "middle";
   ctx.textAlign = "left";
   for (const label of [...labels].sort((a, b) => a.rank - b.rank)) {
     const w = widthOf(ctx, label.text, !!label.bold) + 8, h = 18;
     /** @type {number[]|null} */ let best = null;
-    let least = Infinity;
+    let least = Infinity, isOnOther = false;
     (label.away ? DIRECTIONS : MIDDLE_OFFSETS).forEach(([dx, dy], i) => {
       const away = label.away || 20;
       const x = label.x + dx * away + (dx > 0.1 ? 0 : dx < -0.1 ? -w : -w / 2);
       const y = label.y + dy * away + (label.away === 0 ? -h / 2 : dy > 0.1 ? 0 : dy < -0.1 ? -h : -h / 2);
       const box = [x, y, x + w, y + h];
-      let cost = i * 0.4;
-      if (x < 4 || y < 4 || x + w > camera.width - 4 || y + h > camera.height - 4) cost += 60;
-      for (const other of taken) if (overlaps(box, other)) cost += 40;
-      for (let cx = x; cx <= x + w; cx += 8) for (let cy = y; cy <= y + h; cy += 8) if (cells.has(cell(cx, cy))) cost += 4;
+      const others = room.overlaps(box);
+      const cost = i * 0.4 + (room.holds(box) ? 0 : 60) + 40 * others + 4 * room.onPath(box);
       if (cost < least) {
         least = cost;
         best = box;
+        isOnOther = others > 0 || !room.holds(box);
       }
     });
-    if (!best || (least >= 40 && label.rank > 2)) continue;
+    if (!best || (least >= 40 && label.rank > 2) || (label.yields && isOnOther)) continue;
     const box = /** @type {number[]} */ (best);
-    taken.push(box);
+    room.take(box);
     ctx.font = `${label.bold ? 600 : 500} 12px ${FONT_FAMILY}`;
     ctx.beginPath();
     ctx.roundRect(box[0], box[1], w, h, 4);
@@ -70,8 +75,3 @@ export function drawLabels(pen, labels, avoid, line) {
     ctx.fillText(label.text, box[0] + 4, box[1] + h / 2 + 0.5);
   }
 }
-
-const cell = (/** @type {number} */ x, /** @type {number} */ y) => `${Math.floor(x / 8)},${Math.floor(y / 8)}`;
-
-/** @param {number[]} a @param {number[]} b */
-const overlaps = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[1];

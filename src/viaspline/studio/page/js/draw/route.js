@@ -4,13 +4,15 @@ import { anchorOf, isPoint, part, pathOf, shapedAt, whole } from "../core/missio
 
 /** @typedef {import("./pen.js").Pen} Pen */
 
+const DOT_PX = 2.6;
 export const HEADING_REACH_PX = 44; // pixels from a point to the handle of its heading
 
-/** @param {Pen} pen @param {any[]} points @param {{selection: string|null, hover: string|null}} state */
-export function drawPoints(pen, points, { selection, hover }) {
+/** @param {Pen} pen @param {any[]} points @param {{selection: string|null, hover: string|null, shown: Set<string>}} state those that aren't `shown` are dots */
+export function drawPoints(pen, points, { selection, hover, shown }) {
   const { ctx, camera, colours } = pen;
+  drawDots(pen, points.filter((point) => point.at && !shown.has(point.id)));
   points.forEach((point, i) => {
-    if (!point.at) return;
+    if (!point.at || !shown.has(point.id)) return;
     const [x, y] = camera.toScreen(point.at[0], point.at[1]);
     const isSelected = selection === point.id;
     if (isSelected || hover === point.id) {
@@ -27,13 +29,27 @@ export function drawPoints(pen, points, { selection, hover }) {
     const fill = point.id === "start" ? colours.start : isLast ? colours.goal : point.dwell > 0 ? colours.station : colours.paper;
     pen.fill(fill);
     pen.stroke(isSelected ? colours.select : point.dwell > 0 ? "#5a5200" : colours.ink, isSelected ? 2.4 : 1.8);
-    ctx.font = "600 10px Inter, system-ui, sans-serif";
+    ctx.font = `600 ${i > 99 ? 8 : 10}px Inter, system-ui, sans-serif`;
     ctx.textAlign = "center";
     ctx.textBaseline = "middle";
     ctx.fillStyle = point.id === "start" || isLast ? colours.paper : point.dwell > 0 ? "#1b1f24" : colours.ink;
     const letter = point.id === "start" ? "S" : point.id === "goal" ? "G" : point.id === "land" ? "L" : String(i);
     ctx.fillText(letter, x, y + 0.5);
   });
+}
+
+/** Points for whose numbers there is no room. @param {Pen} pen @param {any[]} points */
+function drawDots(pen, points) {
+  const { ctx, camera, colours } = pen;
+  ctx.beginPath();
+  for (const { at } of points) {
+    const [x, y] = camera.toScreen(at[0], at[1]);
+    if (x < -4 || y < -4 || x > camera.width + 4 || y > camera.height + 4) continue;
+    ctx.moveTo(x + DOT_PX, y);
+    ctx.arc(x, y, DOT_PX, 0, 2 * Math.PI);
+  }
+  pen.fill(colours.paper);
+  pen.stroke(colours.ink, 1.2);
 }
 
 /** @param {Pen} pen @param {number} x @param {number} y @param {number} heading [deg] @param {boolean} isSelected */

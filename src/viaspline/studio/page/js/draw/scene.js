@@ -16,10 +16,12 @@ import { drawArrows, drawComb, drawLeg, drawLosers, drawPath } from "./path.js";
 import { Pen } from "./pen.js";
 import { drawDetours, drawHandles, drawPoints } from "./route.js";
 import { theme } from "./theme.js";
+import { thinned } from "./thinned.js";
 
 /** @typedef {import("../core/mission.js").Outlined} Outlined */
 
 const PATIENCE_MS = 30;
+const FEW_POINTS = 40; // each of which is named, come what may
 const MOST_NAMED = 12; // things that move with their names beside them
 
 export class Scene {
@@ -39,6 +41,8 @@ export class Scene {
     this.ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
     this.maps = new MapPictures(() => this.later());
     this.fleet = new FleetLayer(store, preview, drive);
+    /** @type {import("../early_path.js").EarlyPath|null} */ this.early = null;
+    /** @type {import("../compare/compare.js").Compare|null} */ this.compare = null;
     this.isDue = false;
     this.patience = 0;
     /** Where the tools cover the map [CSS pixel]. */ this.tools = [0, 0, 0, 0];
@@ -171,6 +175,8 @@ export class Scene {
     drawUnseen(pen, unseen, ({ index }) => isDriving && drive.hasSeen(index), store.hover);
     this.fleet.drawRoutes(pen);
     this.drawWays(pen, isDriving, maxSpeed);
+    if (!isDriving) this.compare?.draw(pen);
+    if (!isDriving) this.early?.draw(pen);
     drawMoving(pen, moving, {
       time: this.time, required: show.rings ? requiredOf(doc) : null, marked: [store.hover, store.selection].map((id) => id && whole(id)),
       isFound: ({ index }) => isDriving && drive.hasSeen(index),
@@ -179,7 +185,8 @@ export class Scene {
     const body = bodyOf(doc);
     if (show.body && store.curve && store.plan?.ok && !store.isLate && !isDriving) this.drawBodies(pen, body);
     const points = pointsOf(doc);
-    drawPoints(pen, points, { selection: store.selection, hover: store.hover });
+    const shown = thinned(points, camera, [store.selection, store.hover]);
+    drawPoints(pen, points, { selection: store.selection, hover: store.hover, shown });
     drawHandles(pen, doc, store.selection);
     if (!isDriving && store.plan?.ok && !store.isLate) {
       drawTightest(pen, store.plan.certificate, known);
@@ -197,7 +204,7 @@ export class Scene {
     else if (this.preview.isOn && !store.isLate && store.plan?.ok) this.drawPreviewed(pen, body);
     if (this.draft) drawDraft(pen, this.draft);
     if (this.cross) drawCross(pen, this.cross);
-    this.drawNames(pen, points, obstacles, isDriving, moving);
+    this.drawNames(pen, points.filter((point) => shown.has(point.id)), obstacles, isDriving, moving);
     drawScale(pen, 16, 16, show.speed ? maxSpeed : null);
     for (const draw of this.overlays) draw(pen);
   }
@@ -273,7 +280,7 @@ export class Scene {
         if (!point.at || (!point.given && store.selection !== point.id)) continue;
         const [x, y] = camera.toScreen(point.at[0], point.at[1]);
         const dwell = point.dwell > 0 ? ` · ${point.dwell} s` : "";
-        labels.push({ text: point.name + dwell, x, y, away: 13, colour: colours.label, bold: true, rank: store.selection === point.id ? 0 : 1 });
+        labels.push({ text: point.name + dwell, x, y, away: 13, colour: colours.label, bold: true, rank: store.selection === point.id ? 0 : 1, yields: points.length > FEW_POINTS && store.selection !== point.id });
       }
       for (const obstacle of outlined(obstacles)) {
         if (!obstacle.given) continue;
@@ -299,6 +306,7 @@ export class Scene {
       }
     }
     if (store.show.names && this.space) labels.push(...this.space.labels(pen));
+    if (!isDriving) labels.push(...(this.early?.labels(pen) ?? []), ...(this.compare?.labels(pen) ?? []));
     const proof = store.plan?.ok && !store.isLate ? store.plan.certificate : null;
     if (proof && proof.clearance !== null && !isDriving) {
       const [x, y] = camera.toScreen(proof.at[0], proof.at[1]);

@@ -59,35 +59,41 @@ function pathData(p) {
   return text;
 }
 
-/** What is looked at: the route, the path and the obstacles, without bounds that lie far out. @param {import("../core/store.js").Store} store */
+/** What is looked at: everything there is, without bounds that lie far out. @param {import("../core/store.js").Store} store */
 export function boxOfInterest(store) {
+  const inner = boxOf(placesOf(store));
   const all = boxAll(store);
-  const inner = boxAll(store, { bounds: false });
   if (!all || !inner) return all;
   const size = Math.max(inner[2] - inner[0], inner[3] - inner[1], 1);
   const near = (/** @type {number} */ a, /** @type {number} */ b) => Math.abs(a - b) < 0.12 * size;
   return inner.map((value, i) => (near(value, all[i]) ? all[i] : value + (i < 2 ? -0.04 : 0.04) * size));
 }
 
-/** The box round everything in a scene [m]. @param {import("../core/store.js").Store} store @param {{bounds: boolean}} [what] */
-export function boxAll(store, what = { bounds: true }) {
-  const { doc } = store;
+/** The box round everything in a scene [m]. @param {import("../core/store.js").Store} store */
+export function boxAll(store) {
+  const bounds = store.doc.world?.bounds;
+  const corners = Array.isArray(bounds) ? [[bounds[0], bounds[1]], [bounds[2], bounds[3]]] : [];
+  return boxOf([...placesOf(store), ...corners]);
+}
+
+/** Places round which everything lies but the bounds: routes, paths, obstacles, what moves, areas, maps [m]. @param {import("../core/store.js").Store} store */
+function placesOf(store) {
+  const { doc, run } = store;
   const routes = store.robot === null ? [doc] : membersOf(store.file).map((_, i) => missionOf(store.file, i, store.missions));
   const points = routes.flatMap((route) => pointsOf(route)).flatMap((p) => (p.at ? [p.at] : []));
   for (const { shape, item } of [...obstaclesOf(doc), ...tracksOf(store.plan?.tracks ?? [])]) {
     const box = shape?.box(item);
     if (box) points.push(box.slice(0, 2), box.slice(2));
   }
-  const bounds = doc.world?.bounds;
-  if (!what.bounds) {
-    for (const span of spansOf(store)) for (let i = 0; i < span.length; i += 2) points.push([span[i], span[i + 1]]);
-    for (const grid of store.plan?.grids ?? []) if (grid.extent) points.push(grid.extent.slice(0, 2), grid.extent.slice(2));
-    return boxOf(points);
+  for (const { ring } of areasOf(doc)) points.push(...ring);
+  for (const span of spansOf(store)) for (let i = 0; i < span.length; i += 2) points.push([span[i], span[i + 1]]);
+  for (const ring of store.goodPlan?.corridor ?? []) points.push(...ring);
+  for (const grid of store.plan?.grids ?? []) {
+    if (grid.extent) points.push(grid.extent.slice(0, 2), grid.extent.slice(2));
+    for (const ring of grid.rings ?? []) points.push(...ring);
   }
-  if (Array.isArray(bounds)) points.push([bounds[0], bounds[1]], [bounds[2], bounds[3]]);
-  for (const ring of doc.world?.fences ?? []) points.push(...ring);
-  for (const grid of store.plan?.grids ?? []) if (grid.extent) points.push(grid.extent.slice(0, 2), grid.extent.slice(2));
-  return boxOf(points);
+  if (run?.samples?.x) run.samples.x.forEach((/** @type {number} */ x, /** @type {number} */ i) => points.push([x, run.samples.y[i]]));
+  return points;
 }
 
 /** @param {string} text */

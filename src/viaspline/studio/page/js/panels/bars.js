@@ -22,6 +22,7 @@ export function listenToBars(app) {
   click("#export", () => files.export());
   click("#link", () => files.link());
   click("#add-map", () => files.addMap());
+  click("#compare-variants", () => app.compare.open());
   click("#undo", () => app.undo());
   click("#redo", () => app.redo());
   click("#show-help", () => app.help());
@@ -30,7 +31,7 @@ export function listenToBars(app) {
     if (event.target === find("#help")) /** @type {any} */ (find("#help")).close();
   });
   click("#help-close", () => /** @type {any} */ (find("#help")).close());
-  for (const [id, name] of /** @type {[string, any][]} */ ([["#new", "plus"], ["#open", "folder"], ["#save", "save"], ["#export", "export"], ["#link", "link"], ["#undo", "undo"], ["#redo", "redo"], ["#show-help", "help"], ["#fit", "fit"], ["#add-map", "map"], ["#save-as", "save"], ["#menu-show", "layers"], ["#menu-more", "more"], ["#step-back", "prev"], ["#step-on", "next"]])) {
+  for (const [id, name] of /** @type {[string, any][]} */ ([["#new", "plus"], ["#open", "folder"], ["#save", "save"], ["#export", "export"], ["#link", "link"], ["#undo", "undo"], ["#redo", "redo"], ["#show-help", "help"], ["#fit", "fit"], ["#add-map", "map"], ["#compare-variants", "layers"], ["#save-as", "save"], ["#menu-show", "layers"], ["#menu-more", "more"], ["#step-back", "prev"], ["#step-on", "next"]])) {
     find(id).prepend(icon(name));
   }
   explainTools();

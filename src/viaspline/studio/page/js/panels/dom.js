@@ -56,6 +56,7 @@ const ICONS = {
   more: "M5 12h.01M12 12h.01M19 12h.01",
   plus: "M12 5v14M5 12h14",
   check: "M4 12.500l5 5L20 6.500",
+  close: "M6 6l12 12M18 6L6 18",
   warn: "M12 3L2 20h20zM12 10v4M12 17v.5",
 };
 

@@ -7,6 +7,7 @@ import { erase, reorder } from "../input/keyboard.js";
 import { withHeight, withKey } from "../geo/row_words.js";
 import { DRAWN } from "../shapes/registry.js";
 import { fill, h, icon, iconButton, lazily } from "./dom.js";
+import { keptRows } from "./kept_rows.js";
 
 const DRAWING_WORDS = DRAWN.map(({ tool }) => `a ${tool.words} (${tool.key})`).join(" or ");
 
@@ -19,6 +20,7 @@ export class Lists {
     this.areas = /** @type {HTMLElement} */ (document.querySelector("#area-list"));
     /** @type {number|null} */ this.dragged = null;
     this.signature = "";
+    /** @type {string|null} */ this.inView = null; // the selection whose row was last brought into view
     const render = lazily(() => this.render(), 80);
     app.store.on("document selection file", render);
     this.route.addEventListener("keydown", (event) => this.key(event));
@@ -70,7 +72,11 @@ export class Lists {
     ]);
     if (signature === this.signature) return;
     this.signature = signature;
-    fill(this.route, ...points.map((point, i) => this.pointRow(point, i)));
+    const { order } = store.doc.route ?? {};
+    keptRows(this.route, points.map((point, i) => ({
+      says: [point.id, point.name, point.dwell, i, store.selection === point.id, order], make: () => this.pointRow(point, i),
+    })));
+    this.bringIntoView();
     fill(
       this.obstacles,
       ...(obstacles.length ? obstacles.map((one) => withKey(this.obstacleRow(one), one)) : [h("li", { class: "empty" }, `None yet: draw ${DRAWING_WORDS}.`)]),
@@ -81,6 +87,15 @@ export class Lists {
     const many = (/** @type {number} */ n, /** @type {string} */ word) => `${n} ${word}${n === 1 ? "" : "s"}`;
     /** @type {HTMLElement} */ (document.querySelector("#route-count")).textContent = many(points.length, "point");
     /** @type {HTMLElement} */ (document.querySelector("#obstacle-count")).textContent = String(obstacles.length);
+  }
+
+  /** Show the row of what has been selected elsewhere. */
+  bringIntoView() {
+    const { selection } = this.app.store;
+    if (selection === this.inView) return;
+    this.inView = selection;
+    const row = /** @type {HTMLElement|null} */ (selection && this.route.querySelector(`[data-id="${CSS.escape(selection)}"]`));
+    if (row && !row.contains(document.activeElement)) row.scrollIntoView({ block: "nearest" });
   }
 
   /** @param {any} point @param {number} i */

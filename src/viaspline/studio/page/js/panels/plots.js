@@ -91,25 +91,28 @@ export class Plots {
     ctx.font = "500 10px Inter, system-ui, sans-serif";
     ctx.textAlign = "center";
     ctx.textBaseline = "alphabetic";
-    let free = -Infinity;
+    let free = -Infinity, lined = -Infinity;
     let count = 0;
     const users = curve.vias.filter((/** @type {any} */ v) => v[3] === "user");
     for (const via of users) {
       const px = x(via[5]);
+      const isLined = px - lined >= 4; // else the lines of many points make one grey field
+      if (isLined) lined = px;
       ctx.strokeStyle = colours.gridBold;
       ctx.lineWidth = 1;
       ctx.beginPath();
       ctx.moveTo(px, TOP_PX);
       ctx.lineTo(px, /** @type {number} */ (height) - BOTTOM_PX);
-      ctx.stroke();
+      if (isLined) ctx.stroke();
       const { route } = this.app.store.doc;
       const number = route?.closed ? count % pointsOf(this.app.store.doc).length : count; // of a lap
       const text = number === 0 ? "S" : !route?.closed && count === users.length - 1 ? "G" : String(number);
       count += 1;
-      if (px - free < 16) continue;
+      const half = ctx.measureText(text).width / 2;
+      if (px - half < free + 6) continue;
       ctx.fillStyle = colours.muted;
       ctx.fillText(text, px, /** @type {number} */ (height) - 6);
-      free = px;
+      free = px + half;
     }
   }
 

@@ -73,6 +73,7 @@ export class Summary {
       h("dl", { class: "figures" },
         ...row("Length", metres(plan.length, 1)), ...row("Duration", seconds(plan.duration)),
         ...row("Sharpest", bend(plan.curvature)), ...(this.app.store.robot !== null ? [] : row("Planned in", plan.ms < 1000 ? `${plan.ms.toFixed(1)} ms` : seconds(plan.ms / 1000)))),
+      this.app.store.robot === null ? h("button", { type: "button", class: "link", onclick: () => this.app.compare.open() }, "Compare variants …") : null,
       ...heightRows(plan),
       ...timingRows(this.app, plan),
       ...this.groups(),
