@@ -74,7 +74,7 @@ export class Lists {
     this.signature = signature;
     const { order } = store.doc.route ?? {};
     keptRows(this.route, points.map((point, i) => ({
-      says: [point.id, point.name, point.dwell, i, store.selection === point.id, order], make: () => this.pointRow(point, i),
+      says: [point.id, point.name, point.dwell, i, store.selection === point.id, this.isChosen(point.id), order, heightOf(store.doc, point.id)?.value], make: () => this.pointRow(point, i),
     })));
     this.bringIntoView();
     fill(
