@@ -340,6 +340,11 @@ class Navigator:
         return self._state.schedule.pending is not None
 
     @property
+    def held(self) -> str | None:
+        """Why the robot is held still: its ``pose`` or its ``scan`` is stale, or the ``clock``."""
+        return self._state.watch.held
+
+    @property
     def mission(self) -> Mission:
         """What was asked for."""
         return self._task.mission
