@@ -265,6 +265,8 @@ class Navigator:
         if inputs.stale is not None and not progress.finished and schedule.giving_up is None:
             schedule = held_still(task, progress, schedule)
         controller = before.progress.controller
+        if controller is not None and schedule.driven != before.schedule.driven:
+            controller = controller.moved(before.schedule.driven - schedule.driven)
         progress, waiting = with_command(controller, progress, schedule, measured, time, work)
         schedule = waiting if inputs.stale is None else schedule
         command = command_for(task.mission.robot, progress, schedule, measured)

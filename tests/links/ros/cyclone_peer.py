@@ -11,7 +11,16 @@ from dataclasses import dataclass
 
 from cyclonedds.domain import DomainParticipant
 from cyclonedds.idl import IdlStruct
-from cyclonedds.idl.types import array, bounded_str, float32, float64, int32, sequence, uint8, uint32
+from cyclonedds.idl.types import (
+    array,
+    bounded_str,
+    float32,
+    float64,
+    int32,
+    sequence,
+    uint8,
+    uint32,
+)
 from cyclonedds.pub import DataWriter
 from cyclonedds.qos import Policy, Qos
 from cyclonedds.sub import DataReader
