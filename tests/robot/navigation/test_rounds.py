@@ -281,7 +281,7 @@ CART = {
 }
 
 
-@pytest.mark.parametrize("drive", [{}, CART])
+@pytest.mark.parametrize("drive", [pytest.param({}, marks=pytest.mark.slow), CART])
 def test_with_a_lidar_the_path_ahead_is_a_round_too(drive: dict[str, Any]) -> None:
     robot = {"radius_m": 0.3, "clearance_m": 0.15, "max_speed_mps": 1.5, "sensor": LIDAR, **drive}
     unseen = [disc(3.5, -0.1, 0.25, "post"), disc(8.5, 2.5, 0.5, "beside")]

@@ -19,6 +19,8 @@ from viaspline.robot.watching.fresh_inputs import STALE_S
 from viaspline.ros_messages.odometry_message import state_from
 from viaspline.ros_messages.stamps import seconds_of
 
+RECENT: Final = 20
+"""So many messages of odometry are kept: a scan goes with the one that is nearest to it in time."""
 ONE_CLOCK_S: Final = 1.0
 """Stamps of a scan and of odometry that are farther apart aren't of one clock [s]."""
 
@@ -49,7 +51,8 @@ class HeardInputs:
         has_lidar: Whether scans are waited for.
         frames: What tf has told.
         odometry: The last that was heard.
-        scan: Likewise.
+        recent: The last ones of it.
+        scan: The last that was heard.
         chart: The map, once it is heard.
     """
 
@@ -57,6 +60,7 @@ class HeardInputs:
     has_lidar: bool
     frames: FrameTree = field(default_factory=FrameTree)
     odometry: HeardOfRobot | None = None
+    recent: tuple[HeardOfRobot, ...] = ()
     scan: HeardOfRobot | None = None
     chart: HeardOfRobot | None = None
 
@@ -69,7 +73,10 @@ class HeardInputs:
             state = state_from(message)
             numbers = *state.position, state.heading, state.speed, state.speed_across
             finite = all(math.isfinite(value) for value in (*numbers, _turning(message)))
-            return replace(self, odometry=HeardOfRobot(now, message)) if finite else self
+            if not finite:
+                return self
+            heard = HeardOfRobot(now, message)
+            return replace(self, odometry=heard, recent=(*self.recent[1 - RECENT :], heard))
         if topic == names.scan_topic:
             return replace(self, scan=HeardOfRobot(now, message))
         if topic == names.map_topic:
@@ -80,7 +87,7 @@ class HeardInputs:
         """With the map where a person says that the robot is on it."""
         if self.odometry is None:
             return self
-        base = self._base_in_odometry(self.odometry.at)
+        base = _carried(self.odometry, 0.0)
         frames = self.frames.having(
             self.names.global_frame, self._odometry_frame, pose.then(base.inverse)
         )
@@ -97,7 +104,7 @@ class HeardInputs:
         if self.odometry is None or at is None:
             return None
         told = state_from(self.odometry.message)
-        here = at.then(self._base_in_odometry(self.odometry.at))
+        here = at.then(_carried(self.odometry, 0.0))
         turned = max(now - self.odometry.at, 0.0) * _turning(self.odometry.message)
         return RobotState(
             (here.x, here.y), here.heading + turned, told.speed, told.speed_across,
@@ -118,7 +125,7 @@ class HeardInputs:
         mount = self._mount
         assert on_map is not None
         assert mount is not None
-        base = on_map.then(self._base_in_odometry(self._taken_at(self.scan)))
+        base = on_map.then(self._base_at(self.scan))
         told = self.scan.message
         return Scan.from_laserscan(
             told["ranges"], told["angle_min"], told["angle_increment"], told["range_min"],
@@ -177,28 +184,29 @@ class HeardInputs:
             return None
         return self.frames.pose(self._odometry_frame, self.names.global_frame)
 
-    def _taken_at(self, scan: HeardOfRobot) -> float:
-        """When a scan was taken, by the clock by which messages are heard [s].
+    def _base_at(self, scan: HeardOfRobot) -> PlanarPose:
+        """Where the body was by odometry when a scan was taken.
 
         Its stamp is the robot's, and so is that of the odometry; a driver that stamps nothing, or
         by another clock, is taken to have said it at once.
         """
         assert self.odometry is not None
-        earlier = self.odometry.stamp - scan.stamp
-        if scan.stamp == 0.0 or abs(earlier) > ONE_CLOCK_S:
-            return scan.at
-        return min(self.odometry.at - earlier, scan.at)
+        nearest = min(self.recent, key=lambda one: abs(scan.stamp - one.stamp))
+        after = scan.stamp - nearest.stamp
+        if scan.stamp == 0.0 or abs(after) > ONE_CLOCK_S:
+            return _carried(self.odometry, scan.at - self.odometry.at)
+        return _carried(nearest, after)
 
-    def _base_in_odometry(self, now: float) -> PlanarPose:
-        """Where the body is by odometry, at a time near that of its last message [s]."""
-        assert self.odometry is not None
-        state = state_from(self.odometry.message)
-        age = now - self.odometry.at
-        turned = age * _turning(self.odometry.message)
-        x, y, heading = *state.position, state.heading
-        way = math.hypot(state.speed, state.speed_across) * age
-        course = heading + 0.5 * turned + math.atan2(state.speed_across, state.speed)
-        return PlanarPose(x + way * math.cos(course), y + way * math.sin(course), heading + turned)
+
+def _carried(odometry: HeardOfRobot, seconds: float) -> PlanarPose:
+    """Where a body is by odometry a short time later or, below 0, before [s]."""
+    state, turned = state_from(odometry.message), seconds * _turning(odometry.message)
+    way = math.hypot(state.speed, state.speed_across) * seconds
+    course = state.heading + 0.5 * turned + math.atan2(state.speed_across, state.speed)
+    x, y = state.position[:2]
+    return PlanarPose(
+        x + way * math.cos(course), y + way * math.sin(course), state.heading + turned
+    )
 
 
 def _turning(odometry: Mapping[str, Any]) -> float:

@@ -53,8 +53,8 @@ class RosMailbox:
     def messages(self, patience: float) -> Iterator[tuple[float, str, dict[str, Any]]]:
         """What was heard, and when [s]; if nothing was, the next that is, within so long [s].
 
-        Times are by ``time.monotonic``. Of scans, odometry and maps only the newest of each topic
-        is read. What holds no message of its topic's type is left out, and counted.
+        Times are by ``time.monotonic``. Of scans and maps only the newest of each topic is read.
+        What holds no message of its topic's type is left out, and counted.
         """
         waiting = self._taken(patience)
         last = {topic: place for place, (_, topic, _) in enumerate(waiting)}

@@ -23,7 +23,7 @@ GRID: Final = "nav_msgs/msg/OccupancyGrid"
 MARKER_ARRAY: Final = "visualization_msgs/msg/MarkerArray"
 DIAGNOSTIC_ARRAY: Final = "diagnostic_msgs/msg/DiagnosticArray"
 
-NEWEST_COUNTS: Final = frozenset({SCAN, ODOMETRY, GRID})
+NEWEST_COUNTS: Final = frozenset({SCAN, GRID})
 """Of messages of these types only the newest counts: older ones that wait needn't be read."""
 
 
