@@ -150,3 +150,18 @@ def test_it_has_to_be_said_how_the_vehicle_is_reached(mission: Path) -> None:
     result = CliRunner().invoke(cli, ["drive", str(mission)])
     assert result.exit_code == 2
     assert "--mavlink ADDRESS" in result.output
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--rmw", "carrier-pigeon"], "give zenoh or dds"),
+        (["--rmw", "rmw_fastrtps_cpp", "--connect", "tcp/localhost:7447"], "CYCLONEDDS_URI"),
+    ],
+)
+def test_it_has_to_be_said_by_what_the_nodes_speak(
+    options: list[str], words: str, mission: Path
+) -> None:
+    result = CliRunner().invoke(cli, ["drive", str(mission), "--ros", *options])
+    assert result.exit_code == 2
+    assert words in " ".join(result.output.split())

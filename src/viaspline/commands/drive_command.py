@@ -3,23 +3,29 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from viaspline.commands.link_options import ADDRESSES, ORIGIN, QUIET, SYSTEM, WAIT
+from viaspline.commands.rmw_option import RMW
+
+if TYPE_CHECKING:
+    from viaspline.links.ros.ros_link import Rmw
 
 
 @click.command()
 @click.argument("mission", type=click.Path(path_type=Path))
 @click.option("--mavlink", metavar="ADDRESS", help=f"An autopilot: {ADDRESSES}")
-@click.option("--ros", is_flag=True, help="A robot that speaks ROS 2, over rmw_zenoh.")
+@click.option("--ros", is_flag=True, help="A robot that speaks ROS 2.")
 @click.option("--from-here", is_flag=True, help="The path begins where the vehicle stands.")
 @click.option("--arm", is_flag=True, help="MAVLink: arm it; else a person has to.")
 @ORIGIN
 @SYSTEM
 @WAIT
-@click.option("--connect", default="tcp/localhost:7447", show_default=True, metavar="ENDPOINT",
-              help="ROS: the router of rmw_zenoh.")  # fmt: skip
+@RMW
+@click.option("--connect", metavar="ENDPOINT",
+              help="ROS: the router of rmw_zenoh.  [default: tcp/localhost:7447]")  # fmt: skip
 @click.option("--domain", type=click.IntRange(0, 232), default=0, show_default=True, metavar="N",
               envvar="ROS_DOMAIN_ID", help="ROS: ROS_DOMAIN_ID.")  # fmt: skip
 @click.option("--distro", default="jazzy", show_default=True, metavar="NAME", envvar="ROS_DISTRO",
@@ -30,8 +36,8 @@ from viaspline.commands.link_options import ADDRESSES, ORIGIN, QUIET, SYSTEM, WA
 @QUIET
 def drive(
     mission: Path, mavlink: str | None, ros: bool, from_here: bool, arm: bool, origin: str | None,
-    system: int | None, wait: float, connect: str, domain: int, distro: str, rate: float,
-    stay: bool, quiet: bool,
+    system: int | None, wait: float, rmw: Rmw, connect: str | None, domain: int, distro: str,
+    rate: float, stay: bool, quiet: bool,
 ) -> None:  # fmt: skip
     r"""Drive a mission with a real vehicle: its motors move.
 
@@ -42,12 +48,14 @@ def drive(
     Over ROS 2 it hears odometry, tf, scans, maps and goals, and says cmd_vel, the path and how it
     goes; the mission's ros: says how they are called, Nav2's names are the defaults. It stands
     while anything that it needs is older than 0.2 s, at the end, and on Ctrl-C. The robot's base
-    has to stop by itself when cmd_vel ceases.
+    has to stop by itself when cmd_vel ceases. --rmw zenoh reaches nodes with rmw_zenoh, --rmw dds
+    those with rmw_fastrtps (ROS 2's default) or rmw_cyclonedds.
 
     \b
     Example:
       viaspline drive patrol.yaml --mavlink udp:0.0.0.0:14550 --origin 47.1,8.2 --from-here
       viaspline drive patrol.yaml --ros --from-here
+      viaspline drive patrol.yaml --ros --rmw dds --domain 5
     """
     if (mavlink is None) != ros:
         raise click.UsageError("say how the vehicle is reached: --mavlink ADDRESS or --ros")
@@ -57,7 +65,12 @@ def drive(
         link = MavlinkLink(mavlink, system, origin, arm, from_here, wait)
         drive_over_mavlink(mission, link, quiet=quiet)
         return
+    if connect is not None and rmw != "zenoh":
+        raise click.UsageError("--connect is for --rmw zenoh; DDS finds its peers by itself, or by "
+                               "what CYCLONEDDS_URI says")  # fmt: skip
     from viaspline.commands.ros_steps import RosOptions, drive_over_ros
+    from viaspline.links.ros.ros_link import ROUTER, RosPlace
 
-    options = RosOptions(connect, domain, distro, rate, from_here, stay)
+    place = RosPlace(rmw, domain, distro.lower(), connect or ROUTER)
+    options = RosOptions(place, rate, from_here, stay)
     drive_over_ros(mission, options, quiet=quiet)

@@ -112,15 +112,15 @@ def _mission(file: Path) -> Mission:
 
 def _pilot(mission: Mission, quiet: bool) -> Pilot:
     """Who leads a vehicle along a mission, planned and compiled before anything moves."""
-    from viaspline.links.mavlink.vehicle_state import VehicleState
-
     with progress_bar(quiet, mission, drives=True) as watch:
         pilot: Pilot
         if mission.is_spatial:
             with watch.stage("plan", "planning"):
                 from viaspline.links.mavlink.flight_pilot import FlightPilot
+                from viaspline.robot.warmed import warm_up
                 from viaspline.space.plan_spatial import plan_spatial
 
+                warm_up(mission, None)  # nothing is to be compiled while the vehicle moves
                 pilot = FlightPilot(plan_spatial(mission))
         else:
             plan = watched_plan(mission, watch)
@@ -129,12 +129,6 @@ def _pilot(mission: Mission, quiet: bool) -> Pilot:
                 from viaspline.robot.navigator import Navigator
 
                 pilot = PlanarPilot(Navigator(plan.mission, plan))
-        with watch.stage("try", "trying the first steps"):
-            x, y = mission.route.start.at[:2]
-            tried = pilot
-            for k in range(3):  # nothing is to be compiled while the vehicle moves
-                state = VehicleState(x, y, 0.0, 0.1 * k, 0.0, 0.0, 0.0)
-                tried, _ = tried.steered(state, 0.05 * k)
     return pilot
 
 

@@ -20,26 +20,22 @@ from viaspline.report.interrupts import undone_at_the_end
 from viaspline.report.terminal_lines import say, say_error
 
 if TYPE_CHECKING:
+    from viaspline.links.ros.ros_link import RosPlace
     from viaspline.mission.model import Mission
     from viaspline.robot.navigator import Navigator
-    from viaspline.robot.perception.lidar import Scan
 
 
 class RosOptions(NamedTuple):
     """How a robot is reached over ROS, and driven.
 
     Attributes:
-        connect: Address of the zenoh router.
-        domain: Of ROS.
-        distro: Of the robot's ROS, such as ``jazzy``.
+        place: Where its nodes are.
         rate: Steps in a second, where no scan comes sooner [Hz].
         from_here: Whether the path begins where it stands, however far from the mission's start.
         stays: Whether goals are waited for at the end.
     """
 
-    connect: str
-    domain: int
-    distro: str
+    place: RosPlace
     rate: float
     from_here: bool
     stays: bool
@@ -54,12 +50,13 @@ def drive_over_ros(file: Path, options: RosOptions, *, quiet: bool) -> None:
         quiet: Say nothing when all goes well.
     """
     from viaspline.links.ros.ros_bridge import START_WITHIN_M, RosBridge
+    from viaspline.links.ros.ros_link import check_link, open_link
     from viaspline.links.ros.ros_runner import RosRunner
-    from viaspline.links.ros.zenoh_link import ZenohLink, check_zenoh
+    from viaspline.links.ros.ros_topics import heard_topics, said_topics
     from viaspline.mission.model import Mission
     from viaspline.ros_messages.message_book import standard_book
 
-    check_zenoh()
+    check_link(options.place)
     mission = load_asked(file)
     if not isinstance(mission, Mission):
         raise click.UsageError("a robot drives the mission of one robot; this is a fleet")
@@ -69,12 +66,10 @@ def drive_over_ros(file: Path, options: RosOptions, *, quiet: bool) -> None:
     planned = _planner(quiet, period)
     planned(mission)  # is there a path at all; and all that steps need is compiled
     tell = _telling(quiet)
-    link = ZenohLink(
-        options.connect, options.domain, bridge.listens_to(), bridge.says(), standard_book(),
-        distro=options.distro.lower(),
-    )  # fmt: skip
+    hears, says = heard_topics(mission.ros, bridge.inputs.has_lidar), said_topics(mission.ros)
+    link = open_link(options.place, hears, says, standard_book())
     with closing(link):
-        tell(f"listens on {options.connect}, domain {options.domain}")
+        tell(f"listens over {options.place}")
         runner = RosRunner(
             link, bridge, planned, time.monotonic, period=period, tell=tell, stays=options.stays
         )
@@ -90,7 +85,7 @@ def drive_over_ros(file: Path, options: RosOptions, *, quiet: bool) -> None:
 
 
 def _planner(quiet: bool, period: float) -> Callable[[Mission], Navigator]:
-    """Makes the navigator of a mission, and has it make its first steps: they compile."""
+    """Makes the navigator of a mission; that loads all that its steps need."""
 
     def make(mission: Mission) -> Navigator:
         from viaspline.robot.navigator import Navigator
@@ -99,25 +94,9 @@ def _planner(quiet: bool, period: float) -> Callable[[Mission], Navigator]:
             plan = watched_plan(mission, watch)
             with watch.stage("steer", "getting ready to steer"):
                 nav = Navigator(plan.mission, plan, period=period)
-                tried = nav
-                for tick in range(3):
-                    here = tried.reference(tick * period)
-                    _, tried = tried.step(
-                        here, _nothing_seen(mission, here.position), tick * period
-                    )
         return nav
 
     return make
-
-
-def _nothing_seen(mission: Mission, at: tuple[float, ...]) -> Scan | tuple[()]:
-    """What the robot's sensor would show where there is nothing."""
-    sensor = mission.robot.sensor
-    if sensor is None or sensor.lidar is None:
-        return ()
-    from viaspline.robot.perception.lidar import LidarSensor
-
-    return LidarSensor((), sensor.lidar).scan(at, 0.0)
 
 
 def _telling(quiet: bool) -> Callable[[str], None]:

@@ -107,6 +107,12 @@ class Controller:
             )
         return controller
 
+    def moved(self, by: float) -> Controller:
+        """The controller of a path whose distances count from another place on [m]."""
+        memory = self.memory.copy()
+        memory[[control_law.AT, control_law.FLOOR]] += by
+        return replace(self, memory=memory)
+
     def step(self, state: RobotState, time: float, wait: float = 0.0) -> Controller:
         """The controller after it has decided what to do, by what was measured at a time.
 

@@ -265,6 +265,8 @@ class Navigator:
         if inputs.stale is not None and not progress.finished and schedule.giving_up is None:
             schedule = held_still(task, progress, schedule)
         controller = before.progress.controller
+        if controller is not None and schedule.driven != before.schedule.driven:
+            controller = controller.moved(before.schedule.driven - schedule.driven)
         progress, waiting = with_command(controller, progress, schedule, measured, time, work)
         schedule = waiting if inputs.stale is None else schedule
         command = command_for(task.mission.robot, progress, schedule, measured)
@@ -338,6 +340,11 @@ class Navigator:
     def searches(self) -> bool:
         """Whether it is still looking for a new path, and so every step counts."""
         return self._state.schedule.pending is not None
+
+    @property
+    def held(self) -> str | None:
+        """Why the robot is held still: its ``pose`` or its ``scan`` is stale, or the ``clock``."""
+        return self._state.watch.held
 
     @property
     def mission(self) -> Mission:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any
 
 from viaspline.errors import MessageError
@@ -53,6 +54,11 @@ class MessageBook:
 
     def __contains__(self, name: str) -> bool:
         return name in self._types
+
+    @property
+    def types(self) -> Mapping[str, MessageType]:
+        """All that are known, by full names."""
+        return MappingProxyType(self._types)
 
     def schema(self, name: str) -> str:
         """A type's definition with those that it needs, as schemas of MCAP have it.

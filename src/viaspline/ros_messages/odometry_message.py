@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Final
 
+import numpy as np
+
 from viaspline.robot.state import RobotState
 from viaspline.ros_messages.pose_message import heading_of, pose
 from viaspline.ros_messages.stamps import BASE_FRAME, ODOM_FRAME, header
 from viaspline.ros_messages.twist_message import twist
 
-_UNKNOWN: Final = (0.0,) * 36
+_UNKNOWN: Final = np.zeros(36)
 """A covariance of nothing: it isn't said."""
+_UNKNOWN.flags.writeable = False
 
 
 def odometry(

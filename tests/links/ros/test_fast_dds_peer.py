@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from viaspline.links.ros.zenoh_keys import type_key
+from viaspline.links.ros.ros_topics import dds_type
 from viaspline.ros_messages.message_book import standard_book
 from viaspline.ros_messages.message_definitions import DEFINITIONS
 from viaspline.ros_messages.message_types import MessageType, needed_by, parse_definition
@@ -57,8 +57,8 @@ CASES
 """
 
 
-def idl() -> str:
-    """The types as IDL, each after those that it needs."""
+def idl(kinds: list[str]) -> str:
+    """These types as IDL, each after those that it needs."""
     ordered: list[str] = []
 
     def add(name: str) -> None:
@@ -68,7 +68,7 @@ def idl() -> str:
         if name not in ordered:
             ordered.append(name)
 
-    for kind in KINDS:
+    for kind in kinds:
         add(kind)
     lines = []
     for name in ordered:
@@ -93,7 +93,7 @@ def peer(tmp_path_factory: pytest.TempPathFactory) -> Path:
         pytest.skip("fastddsgen or g++ is not installed: apt-get install fastddsgen "
                     "libfastrtps-dev g++")  # fmt: skip
     folder = tmp_path_factory.mktemp("fastdds")
-    (folder / "wire.idl").write_text(idl())
+    (folder / "wire.idl").write_text(idl(KINDS))
     cases = "\n".join(
         f'  if (name == "{kind}") return again({kind.replace("/", "::")}PubSubType(), '
         f"{kind.replace('/', '::')}(), bytes);"
@@ -141,7 +141,7 @@ def test_fast_dds_reads_our_bytes_and_writes_the_same(kind: str, peer: Path) -> 
         data = BOOK.encoded(kind, made(kind, random.Random(seed)))
         done = subprocess.run([peer, kind], input=data, capture_output=True, check=True)
         name, written = done.stdout.decode().split()
-        assert name == type_key(kind)
+        assert name == dds_type(kind)
         theirs = bytes.fromhex(written)
         assert theirs[: len(data)] == data
         assert not np.any(np.frombuffer(theirs[len(data) :], np.uint8))  # padding to four bytes

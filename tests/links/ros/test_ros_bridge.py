@@ -10,11 +10,14 @@ import pytest
 import viaspline as vs
 from viaspline.errors import LinkError
 from viaspline.links.ros.frame_tree import FrameTree, PlanarPose
+from viaspline.links.ros.heard_inputs import HeardInputs
 from viaspline.links.ros.ros_bridge import RosBridge
-from viaspline.links.ros.ros_inputs import grid_from, scan_from
+from viaspline.links.ros.ros_map import grid_from
 from viaspline.links.ros.ros_runner import RosRunner
+from viaspline.links.ros.ros_topics import said_topics
+from viaspline.mission.ros_spec import RosSpec
 
-from .pretend_robot import PretendRobot, turned
+from .pretend_robot import PretendRobot, transform, turned
 
 ROBOT = {
     "radius_m": 0.3, "clearance_m": 0.15, "max_speed_mps": 0.8, "max_accel_mps2": 0.8,
@@ -118,7 +121,9 @@ def test_a_robot_that_hears_nothing_any_more_is_told_to_stand(lost: str) -> None
     assert ended.reached
     assert ended.stops == 1
     assert any("older than 0.2 s" in one for one in words)
-    while_lost = [speed for time, speed in link.commands() if 3.3 < time < 5.0]
+    braked = [speed for time, speed in link.commands() if 3.2 < time < 4.3]
+    assert braked == sorted(braked, reverse=True)
+    while_lost = [speed for time, speed in link.commands() if 4.3 < time < 5.0]
     assert while_lost
     assert set(while_lost) == {0.0}
 
@@ -217,25 +222,25 @@ def test_waypoints_are_a_route_and_the_map_is_kept_clear_of() -> None:
 def test_a_person_can_say_where_the_robot_is() -> None:
     robot = PretendRobot([], None, (1.0, 2.0, 0.5))
     bridge = RosBridge.of(mission()).heard("/odom", robot.odometry(0.0), 0.0)
-    assert bridge.state(0.0) is None
+    assert bridge.inputs.state(0.0) is None
     pose = {"position": {"x": 1.0, "y": 2.0, "z": 0.0}, "orientation": turned(0.5)}
     bridge = bridge.heard("/initialpose", {"pose": {"pose": pose}}, 0.0)
-    state = bridge.state(0.0)
+    state = bridge.inputs.state(0.0)
     assert state is not None
     assert (*state.position, state.heading) == pytest.approx((1.0, 2.0, 0.5))
 
 
 def test_twists_have_stamps_where_they_are_asked_for() -> None:
-    bridge = RosBridge.of(mission(ros={"enable_stamped_cmd_vel": True, "cmd_vel_topic": "/go"}))
-    assert bridge.says()["/go"] == "geometry_msgs/msg/TwistStamped"
-    said = bridge.stop(0.0)
+    asked = mission(ros={"enable_stamped_cmd_vel": True, "cmd_vel_topic": "/go"})
+    assert said_topics(asked.ros)["/go"] == "geometry_msgs/msg/TwistStamped"
+    said = RosBridge.of(asked).news(0.0).told(None)
     assert said.topic == "/go"
     assert said.message["twist"]["linear"]["x"] == 0.0
 
 
 def test_odometry_that_is_no_number_counts_as_none() -> None:
     robot = PretendRobot([], None, (math.nan, 2.0, 0.0))
-    assert RosBridge.of(mission()).heard("/odom", robot.odometry(0.0), 0.0).odometry is None
+    assert RosBridge.of(mission()).heard("/odom", robot.odometry(0.0), 0.0).inputs.odometry is None
 
 
 @pytest.mark.parametrize(
@@ -263,26 +268,95 @@ def test_frames_connect_by_their_parents_and_not_round_a_circle() -> None:
     assert tree.having("map", "odom", PlanarPose(math.nan, 0, 0)) is tree
 
 
-def laser(ranges: list[float], **more: float) -> dict[str, Any]:
+def laser(ranges: list[float], **more: Any) -> dict[str, Any]:
     usual = {"angle_min": 0.0, "angle_increment": 0.5, "range_min": 0.1, "range_max": 9.0}
-    return {**usual, **more, "ranges": np.array(ranges, np.float32)}
+    stamp = {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "base_link"}
+    return {"header": stamp, **usual, **more, "ranges": np.array(ranges, np.float32)}
+
+
+def sensed(message: dict[str, Any]) -> Any:
+    robot = PretendRobot([], None, (1.0, 2.0, 0.0))
+    inputs = HeardInputs(RosSpec(), has_lidar=True)
+    for topic, one in (
+        ("/tf", robot.map_to_odom(0.0)), ("/odom", robot.odometry(0.0)), ("/scan", message)
+    ):  # fmt: skip
+        inputs = inputs.after(topic, one, 0.0)
+    return inputs.sensed()
 
 
 def test_scans_of_nothing_backwards_and_with_odd_numbers_are_read() -> None:
-    at = PlanarPose(1.0, 2.0, 0.0)
-    assert scan_from(laser([]), at) == ()
-    assert scan_from(laser([1.0], angle_min=math.nan), at) == ()
-    odd = scan_from(laser([0.0, math.nan, math.inf, 3.0, 50.0, -math.inf]), at)
-    assert isinstance(odd, vs.Scan)
-    np.testing.assert_array_equal(odd.ranges, [np.nan, np.nan, np.inf, 3, np.inf, np.nan])
-    forth = scan_from(laser([1.0, 2.0, 3.0]), at)
-    back = scan_from(laser([3.0, 2.0, 1.0], angle_min=1.0, angle_increment=-0.5), at)
-    assert isinstance(forth, vs.Scan)
-    assert isinstance(back, vs.Scan)
+    assert sensed(laser([])).shows_nothing
+    with pytest.raises(vs.GeometryError):
+        sensed(laser([1.0], angle_min=math.nan))
+    odd = sensed(laser([0.0, math.nan, math.inf, 3.0, 50.0, -math.inf]))
+    np.testing.assert_array_equal(odd.ranges, [np.nan, np.nan, np.inf, 3, np.nan, np.nan])
+    forth = sensed(laser([1.0, 2.0, 3.0]))
+    back = sensed(laser([3.0, 2.0, 1.0], angle_min=1.0, angle_increment=-0.5))
     np.testing.assert_allclose(forth.hits, back.hits)
-    round_again = scan_from(laser([1.0] * 15), at)  # more than one turn
-    assert isinstance(round_again, vs.Scan)
-    assert len(round_again.ranges) == 13
+    assert len(sensed(laser([1.0] * 15)).ranges) == 12  # more than one turn
+
+
+@pytest.mark.parametrize(
+    "odd",
+    [
+        {"ranges": np.zeros(0, np.float32)},
+        {"ranges": np.full(180, np.nan, np.float32)},
+        {"angle_min": math.nan},
+        {"angle_increment": 0.0},
+        {"range_max": -1.0},
+    ],
+)
+def test_scans_that_tell_nothing_stop_the_robot_until_there_are_others(odd: Any) -> None:
+    from viaspline.mission.sensor_spec import Lidar
+
+    robot = PretendRobot([], Lidar.model_validate(LIDAR["lidar"]), (1.0, 2.0, 0.0))
+    link = PretendLink(robot)
+    right = robot.scan
+    robot.scan = lambda time: {**right(time), **(odd if 2.0 < time < 4.5 else {})}  # type: ignore[method-assign]
+    words: list[str] = []
+    short = {"start": [1, 2], "goal": [4, 2]}
+    ended = runner(link, mission(robot={"sensor": LIDAR}, route=short), tell=words.append).run()
+    assert ended.reached, ended.words
+    assert ended.stops >= 1
+    meanwhile = [speed for time, speed in link.commands() if 3.5 < time < 4.5]
+    assert meanwhile
+    assert set(meanwhile) == {0.0}
+
+
+def test_a_scan_is_placed_where_the_robot_was_when_it_was_taken() -> None:
+    robot = PretendRobot([], None, (1.0, 2.0, 0.0))
+    robot.speed, robot.turn = 1.0, 0.5
+    inputs = HeardInputs(RosSpec(), has_lidar=True)
+    inputs = inputs.after("/tf", robot.map_to_odom(9.0), 9.0)
+    inputs = inputs.after("/odom", robot.odometry(9.0), 9.0)
+    late = laser([1.0, 2.0]) | {
+        "header": {**robot.odometry(8.9)["header"], "frame_id": "base_link"}
+    }
+    scan = inputs.after("/scan", late, 9.02).sensed()
+    assert isinstance(scan, vs.Scan)
+    assert (*scan.position, scan.heading) == pytest.approx((0.9, 2.0025, -0.05), abs=1e-4)
+    assert scan.stamp == 9.02
+    unstamped = inputs.after("/scan", laser([1.0, 2.0]), 9.02).sensed()
+    assert isinstance(unstamped, vs.Scan)
+    assert unstamped.position == pytest.approx((1.02, 2.0001), abs=1e-4)
+
+
+def test_a_domain_full_of_other_robots_changes_nothing() -> None:
+    robot = PretendRobot([], None, (1.0, 2.0, 0.0))
+    link = PretendLink(robot)
+    others = [
+        transform(0.0, f"robot{k}/odom", f"robot{k}/base_link", 9.0, 9.0, 1.0)["transforms"][0]
+        for k in range(300)
+    ]
+    nobody = {"frame_id": "robot7/odom", "stamp": {"sec": 0, "nanosec": 0}}
+    goal = {"position": {"x": 9.0, "y": 9.0, "z": 0.0}, "orientation": turned(0.0)}
+    for tick in range(20, 900, 20):
+        link.extra[tick] = [("/tf", {"transforms": others}), ("/robot7/scan", {})]
+    link.extra[250] = [("/robot7/goal_pose", {"header": nobody, "pose": goal})]
+    ended = runner(link, mission()).run()
+    assert ended.reached, ended.words
+    assert ended.stops == 0
+    assert math.dist((robot.x, robot.y), (7, 2)) < 0.1
 
 
 def test_a_map_that_contradicts_itself_is_refused() -> None:

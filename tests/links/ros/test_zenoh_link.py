@@ -17,8 +17,9 @@ import pytest
 from rosbags.typesys import Stores, get_typestore
 
 from viaspline.errors import LinkError
-from viaspline.links.ros import zenoh_link
-from viaspline.links.ros.zenoh_keys import Qos, attachment, endpoint_token, node_token, topic_key
+from viaspline.links.ros import ros_mailbox, zenoh_link
+from viaspline.links.ros.ros_topics import Qos
+from viaspline.links.ros.zenoh_keys import attachment, endpoint_token, node_token, topic_key
 from viaspline.links.ros.zenoh_link import ZenohLink
 from viaspline.ros_messages.message_book import standard_book
 from viaspline.ros_messages.twist_message import twist
@@ -149,7 +150,7 @@ def test_messages_of_a_peer_are_heard_and_rubbish_is_counted(router: str) -> Non
                 peer.put(key, b"rubbish")
                 peer.put("0/word/std_msgs::msg::dds_::String_/TypeHashNotSupported", data)
                 found.extend(link.messages(0.2))
-                return bool(found) and link.unread > 0
+                return bool(found) and link.mailbox.unread > 0
 
             assert until(said_and_heard)
         at, topic, message = found[0]
@@ -201,7 +202,9 @@ def test_a_flood_of_messages_is_bounded_and_the_newest_stay(router: str) -> None
         threads = [
             threading.Thread(
                 target=lambda i=i: [
-                    link._put("/word", book.encoded("std_msgs/msg/String", {"data": f"{i} {k}"}))
+                    link.mailbox.put(
+                        "/word", book.encoded("std_msgs/msg/String", {"data": f"{i} {k}"})
+                    )
                     for k in range(1500)
                 ]
             )
@@ -212,7 +215,7 @@ def test_a_flood_of_messages_is_bounded_and_the_newest_stay(router: str) -> None
         for one in threads:
             one.join()
         kept = [message["data"] for _, _, message in link.messages(0.1)]
-        assert len(kept) == zenoh_link.MOST_WAITING
+        assert len(kept) == ros_mailbox.MOST_WAITING
         assert any(one.endswith(" 1499") for one in kept)
         assert np.all([int(one.split()[1]) > 0 for one in kept])
     finally:

@@ -270,3 +270,40 @@ def test_on_a_round_the_jerk_keeps_its_limit_from_part_to_part() -> None:
     assert nav.reached
     assert np.abs(np.diff([accel for _, accel in states])).max() <= 1.001 * jerk * 0.05
     assert nav.driven + nav.path.length == pytest.approx(nav.plan.path.length)
+
+
+SMALL = {"start": [0, 0], "via": [[7, 0], [7, 5], [0, 5]], "closed": True}
+LIDAR = {"lidar": {"range_m": 2.5, "fov_deg": 360, "beams": 180}}
+CART = {
+    "drive": {"differential": {"track_m": 0.4}, "delay_s": 0.1},
+    "tracking_error_m": 0.1,
+    "max_yaw_rate_degps": 90,
+}
+
+
+@pytest.mark.parametrize("drive", [pytest.param({}, marks=pytest.mark.slow), CART])
+def test_with_a_lidar_the_path_ahead_is_a_round_too(drive: dict[str, Any]) -> None:
+    robot = {"radius_m": 0.3, "clearance_m": 0.15, "max_speed_mps": 1.5, "sensor": LIDAR, **drive}
+    unseen = [disc(3.5, -0.1, 0.25, "post"), disc(8.5, 2.5, 0.5, "beside")]
+    mission = Mission.model_validate(
+        {"world": {"unseen": unseen}, "robot": robot, "route": {**SMALL, "laps": 4}}
+    )
+    lengths = []
+
+    def note(step: Any) -> None:
+        lengths.append(len(step.nav.path.spans))
+
+    nav = Navigator(mission, warm=False)
+    assert nav.path.length < 0.5 * nav.plan.path.length
+    run = simulate(mission, plan=nav.plan, watch=note)
+    assert run.reached, run.reason
+    assert statuses(run) == ["served"] * 17
+    assert run.certificate.clearance >= 0.05  # of the driven body, by what is kept to track
+    assert max(lengths) < 3 * lengths[0]  # a lap and its detours
+    found = [event for event in run.events if event.kind == "replanned"]
+    assert 0 < len(found) < 12  # a detour that was found on one lap is there on the next
+    assert not [event.kind for event in run.events if event.kind in ("deviation", "pose_jump")]
+    passed = [via.index for via in run.path.vias if via.kind == "user"]
+    assert passed == list(range(17))
+    if run.tracking is not None:
+        assert float(np.abs(run.tracking.cross_track).max()) < 0.1

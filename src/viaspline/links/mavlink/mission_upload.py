@@ -16,10 +16,10 @@ from viaspline.links.mavlink.common_messages import (
     MissionRequest,
     MissionRequestInt,
 )
-from viaspline.links.mavlink.exchange import RETRIES, TIMEOUT_S, Failure, Said
+from viaspline.links.mavlink.exchange import Failure, Said
+from viaspline.links.mavlink.exchange_patience import PatientExchange
 from viaspline.links.mavlink.mav_words import ACCEPTED
 from viaspline.links.mavlink.message import MavlinkMessage
-from viaspline.links.mavlink.vehicle import Vehicle
 
 OUT_OF_ORDER: Final = 13
 """MAV_MISSION_INVALID_SEQUENCE: an item came twice, as happens when messages are lost; the vehicle
@@ -27,39 +27,25 @@ asks again for the one that it wants."""
 
 
 @dataclass(frozen=True)
-class MissionUpload:
+class MissionUpload(PatientExchange):
     """An upload at one moment.
 
     The vehicle asks for the items one by one. A list of no items is cleared.
 
     Attributes:
-        vehicle: Whose items they are.
-        kind: Its MAV_MISSION_TYPE.
         items: In order, numbered from 0.
         asked: The item that the vehicle has asked for last; -1 before the first.
-        since: When something was last said that has no answer yet [s].
-        tries: How often it was said again.
-        is_done: Whether the vehicle has taken all of it.
-        failure: Why it hasn't.
+        taken: Whether the vehicle has taken all of it.
     """
 
-    vehicle: Vehicle
-    kind: int
     items: tuple[MissionItemInt, ...]
     asked: int = -1
-    since: float = 0.0
-    tries: int = 0
-    is_done: bool = False
-    failure: Failure | None = None
+    taken: bool = False
 
     @property
-    def is_over(self) -> bool:
-        """Whether it is done, or has failed."""
-        return self.is_done or self.failure is not None
-
-    def begun(self, now: float) -> tuple[MissionUpload, Said]:
-        """Say how many items there are."""
-        return replace(self, since=now), self._last_said()
+    def is_done(self) -> bool:
+        """Whether the vehicle has taken all of it."""
+        return self.taken
 
     def heard(self, message: MavlinkMessage, now: float) -> tuple[MissionUpload, Said]:
         """Take a message: a request for an item, or what came of it all."""
@@ -69,32 +55,26 @@ class MissionUpload:
             if message.mission_type != self.kind or message.seq >= len(self.items):
                 return self, ()
             asked = replace(self, asked=message.seq, since=now, tries=0)
-            return asked, asked._last_said()
+            return asked, asked.last_said()
         if isinstance(message, MissionAck) and message.mission_type == self.kind:
             return self._answered(message.type), ()
         return self, ()
 
-    def waited(self, now: float) -> tuple[MissionUpload, Said]:
-        """Say it again if there is no answer; after some times, give up."""
-        if self.is_over or now - self.since < TIMEOUT_S:
-            return self, ()
-        if self.tries >= RETRIES:
-            return replace(self, failure=Failure(self._item, None)), ()
-        return replace(self, since=now, tries=self.tries + 1), self._last_said()
-
     @property
-    def _item(self) -> int | None:
+    def item(self) -> int | None:
+        """The item that is on its way."""
         return self.asked if self.asked >= 0 else None
 
     def _answered(self, result: int) -> MissionUpload:
         if result == OUT_OF_ORDER:
             return self
         if result != ACCEPTED:
-            return replace(self, failure=Failure(self._item, result))
+            return replace(self, failure=Failure(self.item, result))
         # Before the last item was asked for, it belongs to what was said before this upload.
-        return replace(self, is_done=self.asked == len(self.items) - 1)
+        return replace(self, taken=self.asked == len(self.items) - 1)
 
-    def _last_said(self) -> Said:
+    def last_said(self) -> Said:
+        """How many there are, or the item that was asked for last."""
         to, at = self.vehicle.system, self.vehicle.component
         if not self.items:
             return (MissionClearAll(to, at, self.kind),)

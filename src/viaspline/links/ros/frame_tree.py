@@ -65,12 +65,14 @@ class FrameTree:
 
     def told(self, message: Mapping[str, Any]) -> FrameTree:
         """The tree after a message ``tf2_msgs/TFMessage``."""
-        tree = self
+        parents = dict(self.parents)  # once: a domain may be full of robots
         for one in message["transforms"]:
             moved, turned = one["transform"]["translation"], one["transform"]["rotation"]
             pose = PlanarPose(float(moved["x"]), float(moved["y"]), heading_of(turned))
-            tree = tree.having(one["header"]["frame_id"], one["child_frame_id"], pose)
-        return tree
+            if all(math.isfinite(value) for value in pose):
+                parent, child = one["header"]["frame_id"], one["child_frame_id"]
+                parents[_plain(child)] = _plain(parent), pose
+        return FrameTree(parents)
 
     def pose(self, frame: str, within: str) -> PlanarPose | None:
         """Where a frame is in another; None if they never connect."""

@@ -5,13 +5,17 @@ Tested through ``links/ros/test_ros_bridge`` and ``links/ros/test_zenoh_link``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import math
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, Final, Protocol
+from typing import Final
 
+from viaspline.curve.path import Path
 from viaspline.errors import GeometryError, PlanningError
-from viaspline.links.ros.ros_bridge import STANDS_MPS, Outgoing, RosBridge
+from viaspline.links.ros.ros_bridge import STANDS_MPS, RosBridge
+from viaspline.links.ros.ros_link import RosLink
+from viaspline.links.ros.ros_topics import Outgoing
 from viaspline.mission.model import Mission
 from viaspline.robot.navigator import Navigator
 
@@ -19,16 +23,8 @@ STOPS: Final = 3
 """How often a robot is told to stand at the end: a message may be lost."""
 HEALTH_S: Final = 1.0
 """From one message of diagnostics to the next [s]."""
-
-
-class RosLink(Protocol):
-    """What carries messages."""
-
-    def publish(self, topic: str, message: Mapping[str, Any]) -> None:
-        """Say something on a topic."""
-
-    def messages(self, patience: float) -> Iterator[tuple[float, str, dict[str, Any]]]:
-        """What was heard and when [s]; waits so long for something [s]."""
+SHOWN_S: Final = 0.5
+"""From one message of a path to the next, at least [s]: to make one takes longer than a step."""
 
 
 @dataclass(frozen=True)
@@ -71,12 +67,14 @@ class RosRunner:
         self._since = clock()
         self._said: str | None = None
         self._healthy_until = 0.0
+        self._shown: Path | None = None
+        self._shown_at = -math.inf
         self._steps = self._stops = 0
 
     def run(self) -> RosDriveEnd:
         """Drive until the end; the robot is told to stand whatever happens."""
-        names = self.bridge.names
-        trigger = names.scan_topic if self.bridge.has_lidar else names.odom_topic
+        names = self.bridge.mission.ros
+        trigger = names.scan_topic if self.bridge.inputs.has_lidar else names.odom_topic
         due = self._now()
         try:
             while True:
@@ -98,12 +96,12 @@ class RosRunner:
         """Tell the robot to stand, however broken the link is."""
         for _ in range(STOPS):
             with suppress(Exception):  # whatever it is, the next may get through
-                self._publish([self.bridge.stop(self._now())])
+                self._publish(self.bridge.news(self._now()).told(None))
 
     def _now(self) -> float:
         return self._clock() - self._since
 
-    def _publish(self, said: list[Outgoing]) -> None:
+    def _publish(self, *said: Outgoing) -> None:
         for one in said:
             self._link.publish(one.topic, one.message)
 
@@ -114,7 +112,7 @@ class RosRunner:
             mission = self.bridge.to_plan(now)
             if mission is None:
                 return
-            self._publish([self.bridge.stop(now)])
+            self._publish(self.bridge.news(now).told(None))
             self._tell("planning from where the robot stands …")
             self.bridge = self.bridge.planned(self._plan(mission))
         except (PlanningError, GeometryError) as error:
@@ -123,24 +121,37 @@ class RosRunner:
             self.bridge = self.bridge.refused(str(error))
             self._tell(f"refused: {error}")
             return
-        self._publish(self.bridge.announced(self._now()))
+        nav = self.bridge.nav
+        assert nav is not None
+        self._shown, self._shown_at = nav.path, self._now()
+        self._publish(*self.bridge.news(self._now()).plan(nav))
         self._tell("drives")
 
     def _step(self, now: float) -> None:
-        said, self.bridge = self.bridge.stepped(now)
-        self._publish(said)
-        lack = self.bridge.lacks(now)
-        if lack is None and self.bridge.waits_far_off(now):
+        command, self.bridge = self.bridge.stepped(now)
+        self._publish(command)  # before all else
+        bridge = self.bridge
+        lack = bridge.lacks(now)
+        if lack is None and bridge.waits_far_off(now):
             lack = "it is too far from the mission's start; drive it there, or --from-here"
-        driving = self.bridge.nav is not None
+        driving = bridge.nav is not None
         self._steps += driving and lack is None
         if lack != self._said:
             self._said = lack
             self._stops += driving and lack is not None
             self._tell(f"stands: {lack}" if lack is not None else "hears all that it needs")
+        self._show(now, lack)
+
+    def _show(self, now: float, lack: str | None) -> None:
+        """Publish what only people look at: seldom, and after the command."""
+        bridge = self.bridge
         if now >= self._healthy_until:
             self._healthy_until = now + HEALTH_S
-            self._publish([self.bridge.health(now)])
+            self._publish(bridge.news(now).health(bridge.nav, bridge.refusal, lack))
+        nav = bridge.nav
+        if nav is not None and nav.path is not self._shown and now >= self._shown_at + SHOWN_S:
+            self._shown, self._shown_at = nav.path, now
+            self._publish(bridge.news(now).path(nav))
 
     def _is_over(self) -> bool:
         bridge = self.bridge
@@ -148,7 +159,7 @@ class RosRunner:
             return False
         if bridge.refusal is not None:
             return True
-        state = bridge.state(self._now())
+        state = bridge.inputs.state(self._now())
         return bridge.over and state is not None and abs(state.speed) < STANDS_MPS
 
     def _end(self) -> RosDriveEnd:

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import hashlib
 import struct
-from typing import Final, Literal, NamedTuple
+from typing import Final, Literal
+
+from viaspline.links.ros.ros_topics import Qos, dds_type
 
 ADMIN: Final = "@ros2_lv"
 NODE_ID: Final = 0
@@ -16,38 +18,14 @@ Side = Literal["MP", "MS"]
 """A publisher, or a subscription."""
 
 
-class Qos(NamedTuple):
-    """How messages of a topic are delivered.
+def qos_key(qos: Qos) -> str:
+    """A QoS as it stands in tokens; what is usual is left out.
 
-    Attributes:
-        reliable: Whether none may be lost.
-        stays: Whether who comes later gets the last ones (transient local).
-        depth: How many are kept.
+    >>> qos_key(Qos()), qos_key(Qos(reliable=False, stays=True, depth=1))
+    ('::,10:,:,:,,', '2:1:,1:,:,:,,')
     """
-
-    reliable: bool = True
-    stays: bool = False
-    depth: int = 10
-
-    @property
-    def key(self) -> str:
-        """As it stands in tokens; what is usual is left out.
-
-        >>> Qos().key, Qos(reliable=False, stays=True, depth=1).key
-        ('::,10:,:,:,,', '2:1:,1:,:,:,,')
-        """
-        reliability, durability = "" if self.reliable else "2", "1" if self.stays else ""
-        return f"{reliability}:{durability}:,{self.depth}:,:,:,,"
-
-
-def type_key(kind: str) -> str:
-    """A type's name as DDS has it.
-
-    >>> type_key("std_msgs/msg/String")
-    'std_msgs::msg::dds_::String_'
-    """
-    package, room, name = kind.split("/")
-    return f"{package}::{room}::dds_::{name}_"
+    reliability, durability = "" if qos.reliable else "2", "1" if qos.stays else ""
+    return f"{reliability}:{durability}:,{qos.depth}:,:,:,,"
 
 
 def topic_key(domain: int, topic: str, kind: str, type_hash: str) -> str:
@@ -56,7 +34,7 @@ def topic_key(domain: int, topic: str, kind: str, type_hash: str) -> str:
     >>> topic_key(0, "/chatter", "std_msgs/msg/String", "RIHS01_ab")
     '0/chatter/std_msgs::msg::dds_::String_/RIHS01_ab'
     """
-    return f"{domain}/{topic.strip('/')}/{type_key(kind)}/{type_hash}"
+    return f"{domain}/{topic.strip('/')}/{dds_type(kind)}/{type_hash}"
 
 
 def node_token(domain: int, session: str, node: str) -> str:
@@ -80,7 +58,7 @@ def endpoint_token(
     name = "%" + topic.strip("/").replace("/", "%")
     return (
         f"{ADMIN}/{domain}/{session}/{NODE_ID}/{number}/{side}/%/%/{node}/{name}/"
-        f"{type_key(kind)}/{type_hash}/{qos.key}"
+        f"{dds_type(kind)}/{type_hash}/{qos_key(qos)}"
     )
 
 

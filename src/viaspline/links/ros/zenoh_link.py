@@ -6,15 +6,15 @@ Tested through ``links/ros/test_zenoh_link``.
 from __future__ import annotations
 
 import json
-import queue
 import time
 from collections.abc import Iterator, Mapping
 from importlib.util import find_spec
 from typing import Any, Final
 
-from viaspline.errors import LinkError, MessageError
+from viaspline.errors import LinkError
+from viaspline.links.ros.ros_mailbox import RosMailbox
+from viaspline.links.ros.ros_topics import Qos, qos_for
 from viaspline.links.ros.zenoh_keys import (
-    Qos,
     Side,
     attachment,
     endpoint_token,
@@ -23,28 +23,8 @@ from viaspline.links.ros.zenoh_keys import (
 )
 from viaspline.ros_messages.message_book import MessageBook
 
-ROUTER: Final = "tcp/localhost:7447"
-"""Where rmw_zenoh's router listens."""
 NODE: Final = "viaspline"
 HASHLESS: Final = "humble"
-MOST_WAITING: Final = 1000
-"""Messages that wait to be read; beyond that the oldest is dropped."""
-
-SENSOR_QOS: Final = Qos(reliable=False, depth=5)
-STAYING_QOS: Final = Qos(stays=True, depth=1)
-
-
-def qos_for(topic: str, kind: str) -> Qos:
-    """The QoS with which Nav2 says or hears a topic.
-
-    >>> qos_for("/scan", "sensor_msgs/msg/LaserScan").reliable, qos_for("/tf_static", "").stays
-    (False, True)
-    """
-    if kind in ("sensor_msgs/msg/LaserScan", "nav_msgs/msg/Odometry"):
-        return SENSOR_QOS
-    if kind == "nav_msgs/msg/OccupancyGrid" or topic == "/tf_static":
-        return STAYING_QOS
-    return Qos(depth=100) if topic == "/tf" else Qos()
 
 
 def check_zenoh() -> None:
@@ -80,10 +60,9 @@ class ZenohLink:
         check_zenoh()
         import zenoh
 
-        self._book, self._hears, self._domain = book, dict(hears), domain
+        self._book, self._domain = book, domain
         self._hash_of = book.hash if distro != HASHLESS else _no_hash
-        self._waiting: queue.Queue[tuple[float, str, bytes]] = queue.Queue(MOST_WAITING)
-        self.unread = 0
+        self.mailbox = RosMailbox(hears, book)
         config = zenoh.Config()
         config.insert_json5("mode", json.dumps("client"))
         config.insert_json5("connect/endpoints", json.dumps([endpoint]))
@@ -122,26 +101,13 @@ class ZenohLink:
         key = topic_key(self._domain, topic, kind, "*")
 
         def heard(sample: Any) -> None:
-            self._put(topic, sample.payload.to_bytes())
+            self.mailbox.put(topic, sample.payload.to_bytes())
 
         self._token("MS", topic, kind, qos)
         if not qos.stays:
             return self._session.declare_subscriber(key, heard)
         history = ext.HistoryConfig(detect_late_publishers=True, max_samples=qos.depth)
         return ext.declare_advanced_subscriber(self._session, key, heard, history=history)
-
-    def _put(self, topic: str, data: bytes) -> None:
-        """Keep a message until it is read; called by zenoh's own threads."""
-        at = time.monotonic()
-        while True:
-            try:
-                self._waiting.put_nowait((at, topic, data))
-                return
-            except queue.Full:
-                try:
-                    self._waiting.get_nowait()
-                except queue.Empty:
-                    continue
 
     def _say(self, topic: str, kind: str) -> None:
         from zenoh import ext
@@ -166,26 +132,8 @@ class ZenohLink:
         publisher.put(data, attachment=attachment(count, time.time_ns(), token))
 
     def messages(self, patience: float) -> Iterator[tuple[float, str, dict[str, Any]]]:
-        """What was heard, and when [s]; if nothing was, the next that is, within so long [s].
-
-        Times are by ``time.monotonic``.
-
-        What holds no message of its topic's type is left out, and counted in ``unread``.
-        """
-        try:
-            waiting = [self._waiting.get(timeout=max(patience, 0.0))]
-        except queue.Empty:
-            return
-        while True:
-            try:
-                waiting.append(self._waiting.get_nowait())
-            except queue.Empty:
-                break
-        for at, topic, data in waiting:
-            try:
-                yield at, topic, self._book.decoded(self._hears[topic], data)
-            except MessageError:
-                self.unread += 1
+        """What was heard, and when [s]; waits so long for something [s]: see ``RosMailbox``."""
+        return self.mailbox.messages(patience)
 
     def close(self) -> None:
         """End the session; tokens and all go with it."""

@@ -37,10 +37,11 @@ def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     robot, world = task.mission.robot, plan.world
     has_lidar = robot.sensor is not None and robot.sensor.lidar is not None
     belief = Belief.at_start(world, robot) if has_lidar else None
+    path, laps = first_round(task, plan.path)
     controller = None
     if task.model is not None:
         pose_filter = PoseFilter.of(robot, period)
-        controller = Controller.of(task.model, period, plan.path, plan.trajectory, pose_filter)
+        controller = Controller.of(task.model, period, path, plan.trajectory, pose_filter)
     progress = Progress(time=0.0, controller=controller)
     moving = MovingObstacles.known(task.mission)
     hits = None
@@ -50,7 +51,6 @@ def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     knowledge = Knowledge(
         world, frozenset(world.obstacles), belief, moving=moving, charted=len(moving), hits=hits
     )
-    path, laps = first_round(task, plan.path)
     schedule = Schedule(path, plan.trajectory, laid_in=world, laps=laps)
     has_jerk = task.limits.max_jerk is not None
     changes = not has_jerk or belief is not None or laps is not None or task.reaction != REACTION_S

@@ -22,6 +22,7 @@ class LapsAhead:
         unseen: Length of the path's end that isn't looked at yet [m]; 0 on the last lap, on which
             the path ends at the goal.
         timed: Length of the path ahead that the time law reaches over [m].
+        kept: Length of the path that stays behind the robot when it grows [m].
         given_up: By their place in the round, points that were given up: up to which lap's that has
             been noted (as an index in the route), and why.
     """
@@ -31,6 +32,7 @@ class LapsAhead:
     goal: int
     unseen: float
     timed: float = math.inf
+    kept: float = 0.0
     given_up: Mapping[int, tuple[int, str]] = field(default_factory=lambda: MappingProxyType({}))
 
     def is_goal(self, index: int) -> bool:

@@ -35,16 +35,20 @@ FEW_ROUNDS = 3
 SAME_U = 1e-9
 """A parameter nearer than this to a joint of two spans is that joint."""
 
-MIN_STOPS, MIN_REACHES = 8.0, 4.0
-"""A round is no shorter than so many braking distances and so many ranges of the sensor; shorter
-laps make up one together."""
+MIN_STOPS, MIN_REACHES, MIN_LIDAR_REACHES = 8.0, 4.0, 8.0
+"""A round is no shorter than so many braking distances and so many ranges of the sensor, more of a
+lidar's; shorter laps make up one together."""
+
+KEPT_RATIO = 1.0 / 8.0
+"""So much of a round stays behind a robot with a lidar: it may have to go back as it came, and its
+controller looks for it on what lies behind, too."""
 
 
 def first_round(task: DriveTask, path: Path) -> tuple[Path, LapsAhead | None]:
     """The path with which a drive begins, and the laps after it; None if that is all of it.
 
-    A lidar has to see ahead where the body will be, and a controller follows points of the path
-    that lie behind as well: with them a drive is one path.
+    Without a lidar a controller follows the trajectory of its plan, for which slower stretches were
+    tried out all along the way: with that alone a drive is one path.
 
     Args:
         task: What is asked of the drive.
@@ -52,7 +56,8 @@ def first_round(task: DriveTask, path: Path) -> tuple[Path, LapsAhead | None]:
     """
     laps = task.mission.route.laps
     count = math.ceil(_least_round(task) * laps / path.length)
-    if FEW_ROUNDS * count >= laps or task.model is not None or _has_lidar(task):
+    follows_plan = task.model is not None and not _has_lidar(task)
+    if FEW_ROUNDS * count >= laps or follows_plan:
         return path, None
     end = count * (len(path.spans) // laps)
     goal = max(via.index for via in path.vias if via.index is not None)
@@ -60,7 +65,8 @@ def first_round(task: DriveTask, path: Path) -> tuple[Path, LapsAhead | None]:
     first = Path(path.spans[:end], [*vias, _seam(path.spans[:end])])
     points = goal // laps
     unseen, timed = UNSEEN_RATIO * first.length, _least_round(task)
-    return first, LapsAhead(points, count * points, goal, unseen, timed)
+    kept = KEPT_RATIO * first.length if _has_lidar(task) else 0.0
+    return first, LapsAhead(points, count * points, goal, unseen, timed, kept=kept)
 
 
 def grows_after(schedule: Schedule) -> float:
@@ -84,7 +90,7 @@ def _grows_at(schedule: Schedule) -> float | None:
     if laps is None or not schedule.is_round or schedule.giving_up is not None:
         return None
     soonest, latest = (path.length - ratio * laps.unseen for ratio in GROWS_RATIOS)
-    return max(soonest, min(float(path.distance(1.0)), latest))
+    return max(soonest, min(float(path.distance(1.0)) + laps.kept, latest))
 
 
 def next_part(progress: Progress, schedule: Schedule) -> tuple[Progress, Schedule, Path]:
@@ -96,7 +102,7 @@ def next_part(progress: Progress, schedule: Schedule) -> tuple[Progress, Schedul
     """
     path, laps = schedule.path, schedule.laps
     assert laps is not None
-    u = float(path.parameter(progress.distance))
+    u = float(path.parameter(progress.distance - laps.kept))
     u = math.floor(u + SAME_U) if u >= 1.0 - SAME_U else u
     driven = float(path.distance(u))
     behind = Path(path.section(0.0, u).spans, [via for via in path.vias if via.u < u])
@@ -122,10 +128,19 @@ def next_part(progress: Progress, schedule: Schedule) -> tuple[Progress, Schedul
         trajectory=schedule.trajectory.moved(-driven),
         turns=(*(turn - driven for turn in schedule.turns if turn >= driven), *turns),
         slow=(*_moved(slow_between(schedule.slow, driven, path.length), -driven), *slow),
+        sighted_until=max(schedule.sighted_until - driven, 0.0),
+        probed_until=max(schedule.probed_until - driven, 0.0),
+        reduced=None if schedule.reduced is None else schedule.reduced.moved(-driven),
         driven=schedule.driven + driven,
         laps=to_come,
     )
-    return replace(progress, distance=max(progress.distance - driven, 0.0)), moved, behind
+    controller = progress.controller
+    progress = replace(
+        progress,
+        distance=max(progress.distance - driven, 0.0),
+        controller=None if controller is None else controller.moved(-driven),
+    )
+    return progress, moved, behind
 
 
 def _moved(parts: tuple[Slow, ...], by: float) -> tuple[Slow, ...]:
@@ -147,7 +162,8 @@ def _least_round(task: DriveTask) -> float:
     speed, brake = limits.max_speed, limits.brake
     onset = 0.0 if limits.max_jerk is None else brake / limits.max_jerk
     stop = speed * (speed / (2.0 * brake) + task.reaction + onset)
-    return max(MIN_STOPS * stop, 0.0 if sensor is None else MIN_REACHES * sensor.reach)
+    reaches = MIN_LIDAR_REACHES if _has_lidar(task) else MIN_REACHES
+    return max(MIN_STOPS * stop, 0.0 if sensor is None else reaches * sensor.reach)
 
 
 def _has_lidar(task: DriveTask) -> bool:

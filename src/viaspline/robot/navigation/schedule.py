@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,6 +42,10 @@ class ReducedClearance:
 
     until: float
     floor: float
+
+    def moved(self, by: float) -> ReducedClearance:
+        """It on a path whose distances count from another place on [m]."""
+        return replace(self, until=self.until + by)
 
 
 @dataclass(frozen=True)

@@ -68,6 +68,8 @@ def look_again(
         sighting: What was just seen, if it was anything new.
     """
     context = ReplanContext.of(task, progress, knowledge, schedule)
+    if knowledge.belief is not None:
+        return replan_from_scan(context, opened=False)
     new, world = sighting if isinstance(sighting, World) else World(), knowledge.world
     free = context.free_until(world)
     if free is None:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viaspline.curve.path import Path
 from viaspline.kernels.arrays import Floats
-from viaspline.kernels.tracking.control_law import NOTES
+from viaspline.kernels.tracking.control_law import HIGH, LOW, NOTES, PLACE, PROGRESS
 from viaspline.kernels.tracking.drive_model import DriveModel
 from viaspline.kernels.tracking.drive_motion import (
     ACROSS,
@@ -22,6 +23,7 @@ from viaspline.kernels.tracking.drive_motion import (
     move,
 )
 from viaspline.machine.drive_noise import DriveNoise
+from viaspline.machine.reference import reference_path_of
 from viaspline.machine.tracking import Tracking
 from viaspline.machine.trial_drive import first_row, start_of
 from viaspline.robot.logbook import Logbook
@@ -50,6 +52,7 @@ class MachineDrive:
     Attributes:
         nav: The navigator at its end.
         book: What happened.
+        path: Which it drove, all of it.
         model: What drove.
         rows: The true motion at every step, as of the kernel ``move``, shape (n, ROW).
         tracking: What it was off from its path.
@@ -59,6 +62,7 @@ class MachineDrive:
 
     nav: Navigator
     book: Logbook
+    path: Path
     model: DriveModel
     rows: Floats
     tracking: Tracking
@@ -108,7 +112,7 @@ def drive_machine(
         watch(DrivenStep(time, believed, sensed, command, nav))
         controller = nav.controller
         assert controller is not None
-        notes.append(controller.note)
+        notes.append(_along_all(controller.note, nav.driven))
         tell(time, nav)
         if _is_over(nav, time, math.hypot(state[ALONG], state[ACROSS])):
             break
@@ -129,8 +133,19 @@ def drive_machine(
     if contact is not None:
         track = track[track[:, ROW_TIME] <= contact.time + 1e-9]
     noted = np.array(notes) if notes else np.zeros((1, NOTES))
-    tracking = Tracking.of(model, controller.reference, noted, track)
-    return MachineDrive(nav, book, model, track, tracking, contact, overdue)
+    driven = book.path(nav) if nav.driven > 0.0 else nav.path
+    reference = reference_path_of(driven) if nav.driven > 0.0 else controller.reference
+    tracking = Tracking.of(model, reference, noted, track)
+    return MachineDrive(nav, book, driven, model, track, tracking, contact, overdue)
+
+
+def _along_all(note: Floats, driven: float) -> Floats:
+    """What a controller noted, with its places along all that was driven before its path [m]."""
+    if driven == 0.0:
+        return note
+    moved = note.copy()
+    moved[[PLACE, LOW, HIGH, PROGRESS]] += driven
+    return moved
 
 
 def _is_over(nav: Navigator, time: float, speed: float) -> bool:

@@ -131,7 +131,7 @@ def driven_path(drive: MachineDrive) -> tuple[Path, float, Floats]:
     courses = travel_of(drive.model, drive.rows).courses
     curve, bound, u = trace(drive.rows[:, ROW_X : ROW_Y + 1], courses, reach)
     vias: list[PathVia] = []
-    for via, distance in zip(drive.nav.path.vias, drive.nav.path.via_distances, strict=True):
+    for via, distance in zip(drive.path.vias, drive.path.via_distances, strict=True):
         row = _passing(drive, via, float(distance))
         if row is not None:
             least = vias[-1].u if vias else 0.0
@@ -166,7 +166,7 @@ def missed(drive: MachineDrive, visits: tuple[Visit, ...]) -> tuple[Visit, ...]:
 
 def _passings(drive: MachineDrive) -> list[tuple[PathVia, int]]:
     found = []
-    for via, distance in zip(drive.nav.path.vias, drive.nav.path.via_distances, strict=True):
+    for via, distance in zip(drive.path.vias, drive.path.via_distances, strict=True):
         row = _passing(drive, via, float(distance))
         if row is not None and via.kind == "user":
             found.append((via, row))
