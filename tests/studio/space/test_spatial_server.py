@@ -335,3 +335,17 @@ def test_the_path_of_a_flight_is_exported_with_its_heights(start: Start, file: P
     assert rows[0] == "QGC WPL 110"
     commands = [int(row.split("\t")[3]) for row in rows[2:]]
     assert {22, 21} <= set(commands)  # take off and land
+
+
+def test_variants_in_space_are_planned_whole(start: Start, file: Path) -> None:
+    with start(file).client() as client:
+        asked = [[], [[["robot", "clearance_m"], 400]]]
+        end = client.ask("compare", "compared", number=1, variants=asked)
+        rows = [m for m in client.heard if m["type"] == "variant"]
+    assert not end["stopped"]
+    own = planned(file)
+    assert rows[0]["length"] == pytest.approx(own.path.length, rel=1e-9)
+    assert rows[0]["duration"] == pytest.approx(own.trajectory.duration, rel=1e-9)
+    assert (rows[0]["jumps"], rows[0]["verdict"]) == (None, None)
+    assert not rows[1]["ok"]
+    assert rows[1]["words"][0]
