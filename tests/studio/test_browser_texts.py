@@ -43,13 +43,13 @@ CUT = """() => {
     if (!(e instanceof HTMLElement) || !isSeen(e)) continue;
     const style = getComputedStyle(e);
     if (e instanceof HTMLSelectElement) {
-      pen.font = style.font;
+      pen.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
       const width = pen.measureText(e.selectedOptions[0]?.textContent ?? "").width + 26;
       if (width > e.clientWidth + 1 && !e.title) say(e, `choice cut by ${width - e.clientWidth}`);
     }
     if (e instanceof HTMLInputElement && ["number", "text"].includes(e.type)) {
       if (e.type === "number" && e.scrollWidth > e.clientWidth + 1) say(e, `${e.value} is cut`);
-      pen.font = style.font;
+      pen.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
       const room = e.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight);
       const hint = e.value ? 0 : pen.measureText(e.placeholder).width;
       if (hint > room + 1) say(e, `${e.placeholder} is cut`);
