@@ -17,6 +17,7 @@ from viaspline.studio.worker import Worker
 
 if TYPE_CHECKING:
     from viaspline.studio.map_cache import MapCache
+    from viaspline.studio.space.solid_files import SolidFiles
 
 
 class VariantPlans:
@@ -30,6 +31,7 @@ class VariantPlans:
         self._folder = folder
         self._worker = Worker("variants")
         self._maps: MapCache | None = None
+        self._solids: SolidFiles | None = None
 
     async def row(
         self, document: Document, base: Path, running: Stoppable
@@ -58,9 +60,11 @@ class VariantPlans:
 
         if self._maps is None:
             self._maps = MapCache(self._folder)
+        if self._solids is None:
+            self._solids = SolidFiles(self._maps)
         if not is_spatial(document):
             return variant_row.variant_row(plan_document.planned(document, self._maps, base))
-        soon = planned_spatial.planned_in_space(document, SolidFiles(self._maps), base)
+        soon = planned_spatial.planned_in_space(document, self._solids, base)
         if soon.plan is not None and not soon.is_whole:
             soon = planned_spatial.wholly_planned_in_space(soon)
         return variant_row.variant_row(soon)

@@ -314,3 +314,38 @@ def test_way_points_are_saved_with_their_heights(start: Start, file: Path) -> No
     assert saved["name"] == "tower.plan"
     items = json.loads((file.parent / "tower.plan").read_text())["mission"]["items"]
     assert 12 in [item.get("Altitude") for item in items]
+
+
+def test_the_path_of_a_flight_is_exported_with_its_heights(start: Start, file: Path) -> None:
+    with start(file).client() as client:
+        whole(client, client.edit())
+        told = {
+            kind: client.ask("export", "exported", kind=kind, origin="47.4, 8.5")
+            for kind in ("path.geojson", "path.waypoints")
+        }
+    line = json.loads(base64.b64decode(told["path.geojson"]["data"]))["features"][0]["geometry"]
+    heights = np.array(line["coordinates"])[:, 2]
+    flown = planned(file).path
+    assert heights[0] == pytest.approx(flown.spans[0, 0, 2], abs=0.05)
+    assert heights.max() == pytest.approx(
+        flown.evaluate(np.linspace(*flown.domain, 2001))[:, 2].max(), abs=0.3
+    )
+    assert "m clear" in told["path.geojson"]["told"][0]
+    rows = base64.b64decode(told["path.waypoints"]["data"]).decode().splitlines()
+    assert rows[0] == "QGC WPL 110"
+    commands = [int(row.split("\t")[3]) for row in rows[2:]]
+    assert {22, 21} <= set(commands)  # take off and land
+
+
+def test_variants_in_space_are_planned_whole(start: Start, file: Path) -> None:
+    with start(file).client() as client:
+        asked = [[], [[["robot", "clearance_m"], 400]]]
+        end = client.ask("compare", "compared", number=1, variants=asked)
+        rows = [m for m in client.heard if m["type"] == "variant"]
+    assert not end["stopped"]
+    own = planned(file)
+    assert rows[0]["length"] == pytest.approx(own.path.length, rel=1e-9)
+    assert rows[0]["duration"] == pytest.approx(own.trajectory.duration, rel=1e-9)
+    assert (rows[0]["jumps"], rows[0]["verdict"]) == (None, None)
+    assert not rows[1]["ok"]
+    assert rows[1]["words"][0]

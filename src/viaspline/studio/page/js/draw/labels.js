@@ -10,6 +10,8 @@ import { LabelRoom } from "./label_room.js";
 const FONT_FAMILY = "Inter, system-ui, sans-serif";
 const DIRECTIONS = [[1, 0], [-1, 0], [0, -1], [0, 1], [0.8, -0.8], [0.8, 0.8], [-0.8, -0.8], [-0.8, 0.8]];
 
+const LONGEST_SHARE = 0.55; // of the map's width, that a name takes
+const LETTER_PX = 6.8;
 const MIDDLE_OFFSETS = [[0, 0], [0, -1.1], [0, 1.1]]; // on what is large enough
 
 /** @type {Map<string, number>} */ const widths = new Map();
@@ -41,8 +43,10 @@ export function drawLabels(pen, labels, avoid, line) {
   for (const [x, y] of line) room.mark(x, y);
   ctx.textBaseline = "middle";
   ctx.textAlign = "left";
+  const longest = Math.max(12, Math.floor((LONGEST_SHARE * camera.width) / LETTER_PX));
   for (const label of [...labels].sort((a, b) => a.rank - b.rank)) {
-    const w = widthOf(ctx, label.text, !!label.bold) + 8, h = 18;
+    const text = label.text.length > longest ? `${label.text.slice(0, longest - 1)}…` : label.text;
+    const w = widthOf(ctx, text, !!label.bold) + 8, h = 18;
     /** @type {number[]|null} */ let best = null;
     let least = Infinity, isOnOther = false;
     (label.away ? DIRECTIONS : MIDDLE_OFFSETS).forEach(([dx, dy], i) => {
@@ -72,6 +76,6 @@ export function drawLabels(pen, labels, avoid, line) {
       ctx.globalAlpha = 1;
     }
     ctx.fillStyle = label.colour;
-    ctx.fillText(label.text, box[0] + 4, box[1] + h / 2 + 0.5);
+    ctx.fillText(text, box[0] + 4, box[1] + h / 2 + 0.5);
   }
 }

@@ -64,7 +64,7 @@ export class RobotList {
     return h("li", { class: `row${isChosen ? " is-selected" : ""}` },
       h("button", { type: "button", class: "row-main", "aria-pressed": String(isChosen), "aria-label": `robot ${name}${note ? `, ${note}` : ""}`, title, onclick: () => store.choose(i) },
         swatch,
-        h("span", { class: "row-name" }, name),
+        h("span", { class: "row-name", title: name }, name),
         note ? h("span", { class: `row-note${isBad ? " is-bad" : ""}` }, note) : null));
   }
 }

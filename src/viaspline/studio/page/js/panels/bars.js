@@ -40,7 +40,7 @@ export function listenToBars(app) {
   listenToMenus();
   const file = () => {
     const name = store.name ?? "new mission";
-    fill(find("#file-name"), h("span", { class: "file-stem" }, name), store.dirty ? h("span", { class: "dirty", title: "not saved" }, "edited") : null);
+    fill(find("#file-name"), h("span", { class: "file-stem", title: name }, name), store.dirty ? h("span", { class: "dirty", title: "not saved" }, "edited") : null);
     document.title = `${store.dirty ? "• " : ""}${name} – viaspline studio`;
     /** @type {HTMLButtonElement} */ (find("#undo")).disabled = !store.past.length;
     /** @type {HTMLButtonElement} */ (find("#redo")).disabled = !store.future.length;

@@ -141,7 +141,7 @@ export function slider({ label, value, min, max, step, words, shown, ends, grab,
 
 /** @param {{label: string, value: string, options: [string, string][], set: (value: string) => void}} options */
 export function choice({ label, value, options, set }) {
-  const select = h("select", { "aria-label": label, onchange: () => set(select.value) }, ...options.map(([key, text]) => h("option", { value: key, selected: key === value }, text)));
+  const select = h("select", { "aria-label": label, title: options.find(([key]) => key === value)?.[1], onchange: () => set(select.value) }, ...options.map(([key, text]) => h("option", { value: key, selected: key === value }, text)));
   return h("label", { class: "field" }, h("span", { class: "field-name" }, label), h("span", { class: "field-box" }, select));
 }
 

@@ -108,7 +108,7 @@ export class Lists {
     const main = h(
       "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${point.name}${point.dwell ? `, stays ${point.dwell} seconds` : ""}`, onclick: (/** @type {MouseEvent} */ event) => this.pick(event, point.id) },
       h("span", { class: `badge ${point.id === "start" ? "is-start" : point.id === "goal" || point.id === "land" ? "is-goal" : point.dwell > 0 ? "is-station" : ""}` }, badge),
-      h("span", { class: "row-name" }, point.name),
+      h("span", { class: "row-name", title: point.name }, point.name),
       point.dwell > 0 ? h("span", { class: "row-note" }, `${point.dwell} s`) : null,
     );
     const row = h("li", { class: `row${isSelected ? " is-selected" : ""}`, "data-id": point.id }, main);
@@ -164,7 +164,7 @@ export class Lists {
       h(
         "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${one.kind === "zone" ? `speed zone, ${speed ?? "no speed"}` : "the robot stays inside"}`, onclick: (/** @type {MouseEvent} */ event) => this.pick(event, one.id) },
         h("span", { class: "glyph" }, icon(one.kind, 16)),
-        h("span", { class: "row-name" }, one.name),
+        h("span", { class: "row-name", title: one.name }, one.name),
         speed ? h("span", { class: "row-note" }, speed) : null,
       ),
     );
@@ -181,7 +181,7 @@ export class Lists {
       h(
         "button", { type: "button", class: "row-main", "aria-pressed": String(isSelected), "aria-label": `${one.name}, ${one.shape?.name ?? "no shape"}${isUnseen ? ", unseen" : ""}`, onclick: (/** @type {MouseEvent} */ event) => this.pick(event, one.id) },
         h("span", { class: `glyph${isUnseen ? " is-unseen" : ""}` }, icon(one.shape?.key ?? "warn", 16)),
-        h("span", { class: "row-name" }, one.name),
+        h("span", { class: "row-name", title: one.name }, one.name),
         one.item?.motion ? h("span", { class: "row-note" }, "moves") : null,
         one.side ? h("span", { class: "row-note" }, `pass ${one.side}`) : null,
         isUnseen ? h("span", { class: "row-note is-unseen" }, "unseen") : null,

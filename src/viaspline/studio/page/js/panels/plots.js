@@ -5,6 +5,7 @@ import { onTheme, theme } from "../draw/theme.js";
 import { fitted, lazily } from "./dom.js";
 
 const LEFT_PX = 58, RIGHT_PX = 14, TOP_PX = 18, GAP_PX = 24, BOTTOM_PX = 20;
+const TWO_NUMBERS_PX = 26; // a strip that is less tall has the upper one alone
 
 /** What the upper strip shows: curvature, or in space how fast it climbs. @param {any} curve @returns {{name: string, unit: string, of: (p: any) => number}} */
 const bendOf = (curve) => (curve.isSpatial ? { name: "climb", unit: "m/s", of: (p) => p.climb } : { name: "curvature", unit: "1/m", of: (p) => p.curvature });
@@ -132,7 +133,7 @@ export class Plots {
     ctx.textBaseline = "middle";
     ctx.fillStyle = colours.muted;
     ctx.fillText(String(Number(range[1].toPrecision(2))), LEFT_PX - 6, y + 4);
-    ctx.fillText(String(Number(range[0].toPrecision(2))), LEFT_PX - 6, y + tall - 3);
+    if (tall >= TWO_NUMBERS_PX) ctx.fillText(String(Number(range[0].toPrecision(2))), LEFT_PX - 6, y + tall - 3);
     ctx.textAlign = "left";
     ctx.fillText(`${name} [${unit}]`, LEFT_PX, y - 9);
   }

@@ -134,7 +134,7 @@ export class Summary {
     };
     const sides = store.curve?.isSpatial ? entry.candidates.map((/** @type {any} */ c) => c.side) : ["left", "right"];
     return h("li", { class: "group" },
-      h("div", { class: "group-name" }, h("span", {}, name),
+      h("div", { class: "group-name" }, h("span", { title: name }, name),
         forced ? h("button", { type: "button", class: "link", onclick: () => store.edit(forceSide(store.doc, entry.items, null)) }, `forced ${forced} · free it`) : null),
       h("div", { class: "sides" }, ...sides.map(side)));
   }
