@@ -12,14 +12,27 @@ from typing import NamedTuple
 from viaspline.machine.robot_model import ACCEL_RESERVE, YAW_RESERVE
 
 
+LEAST_SHARE = 0.01
+"""Of its spread that a figure is worth writing down."""
+
+
 class Estimate(NamedTuple):
     """A figure and its standard deviation, in the same unit."""
 
     value: float
     spread: float
 
+    @property
+    def figure(self) -> str:
+        """The value with three digits; what is next to nothing beside its spread is 0.
+
+        >>> Estimate(0.12345, 0.01).figure, Estimate(3e-13, 0.02).figure
+        ('0.123', '0')
+        """
+        return f"{self.value:.3g}" if abs(self.value) > LEAST_SHARE * self.spread else "0"
+
     def __str__(self) -> str:
-        return f"{self.value:.3g} ± {self.spread:.2g}"
+        return f"{self.figure} ± {self.spread:.2g}"
 
 
 @dataclass(frozen=True)
@@ -105,7 +118,7 @@ def drive_block(drive: IdentifiedDrive, track: float) -> str:
 
 def _line(key: str, figure: Estimate, words: str = "") -> str:
     note = f"± {figure.spread:.2g}" + (f"; {words}" if words else "")
-    return f"{key}: {figure.value:.3g}  # {note}"
+    return f"{key}: {figure.figure}  # {note}"
 
 
 def _noise(key: str, figure: Estimate) -> str:
