@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 from viaspline.machine.robot_model import ACCEL_RESERVE, YAW_RESERVE
 
-
 LEAST_SHARE = 0.01
 """Of its spread that a figure is worth writing down."""
 
