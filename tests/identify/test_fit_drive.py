@@ -103,6 +103,15 @@ def test_a_limit_that_another_one_hides_is_found() -> None:
     assert "delay_s: 0  #" in drive_block(found, 0.5) or found.delay.value > 1e-3
 
 
+def test_the_greatest_yaw_rate_that_was_driven_is_a_limit_to_paste() -> None:
+    """Without one a cart was told to turn at 10 rad/s in a sharp bend, and never got round it."""
+    found = fit_drive(simulated_log(robot(0.1, 0.1, 1.0), COMMANDS))
+    assert found.fastest_turn == pytest.approx(0.8, rel=0.02)
+    assert f"max_yaw_rate_degps: {math.degrees(found.fastest_turn) / 1.25:.3g}" in drive_block(
+        found, 0.5
+    )
+
+
 def test_slip_is_told_from_a_yaw_rate_that_is_not_reached() -> None:
     log = simulated_log(robot(0.1, 0.1, 1.0, 0.01, 0.5, 0.003), COMMANDS, seed=3)
     slipping = DriveLog(

@@ -116,7 +116,7 @@ def _identified(
         return figure(i) if math.isfinite(p[i]) else None
 
     along, turned = noises
-    fastest = float(np.abs(problem.motion(p)[0]).max())
+    fastest, fastest_turn = (float(np.abs(one).max()) for one in problem.motion(p))
     return IdentifiedDrive(
         delay=figure(DELAY),
         lag=figure(LAG),
@@ -130,5 +130,6 @@ def _identified(
         position_noise=along.measured,
         heading_noise=turned.measured,
         fastest=fastest,
+        fastest_turn=fastest_turn,
         seconds=problem.log.seconds,
     )

@@ -51,6 +51,7 @@ class IdentifiedDrive:
         position_noise: Of a measured coordinate [m].
         heading_noise: Of a measured heading [rad].
         fastest: The greatest speed in the log [m/s].
+        fastest_turn: The greatest yaw rate that it shows [rad/s].
         seconds: Length of the log [s].
     """
 
@@ -66,6 +67,7 @@ class IdentifiedDrive:
     position_noise: Estimate
     heading_noise: Estimate
     fastest: float
+    fastest_turn: float
     seconds: float
 
 
@@ -90,6 +92,9 @@ def drive_block(drive: IdentifiedDrive, track: float) -> str:
         half = _scaled(drive.accel, 1.0 / ACCEL_RESERVE)
         words = f"{drive.accel} m/s² at most, of which control needs a half"
         lines.append(_line("  max_accel_mps2", half, words))
+    turn = deg(drive.fastest_turn) / YAW_RESERVE
+    words = "no greater one was driven; with a fifth left for control"
+    lines.append(f"  max_yaw_rate_degps: {turn:.3g}  # {words}")
     if drive.yaw_accel is not None:
         most = _scaled(drive.yaw_accel, deg(1.0) / YAW_RESERVE)
         lines.append(_line("  max_yaw_accel_degps2", most, "with a fifth left for control"))
