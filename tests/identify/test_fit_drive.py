@@ -91,6 +91,27 @@ def test_a_top_speed_that_commands_exceed_is_found() -> None:
     assert found.top_speed.value == pytest.approx(0.7, abs=0.01)
 
 
+def test_a_limit_that_another_one_hides_is_found() -> None:
+    """Fitted one after the other, an acceleration was taken for a lag of 0.4 s."""
+    true = robot(0.0, 0.12, 0.35, 0.1).model_copy(update={"max_yaw_accel_degps2": 60.0})
+    found = fit_drive(simulated_log(true, standard_commands(1.0, 1.5, 0.05)))
+    assert found.lag.value == pytest.approx(0.12, abs=0.06)
+    assert found.accel is not None
+    assert found.accel.value == pytest.approx(0.7, rel=0.1)
+    assert found.yaw_accel is not None
+    assert math.degrees(found.yaw_accel.value) == pytest.approx(1.25 * 60.0, rel=0.1)
+    assert "delay_s: 0  #" in drive_block(found, 0.5) or found.delay.value > 1e-3
+
+
+def test_the_greatest_yaw_rate_that_was_driven_is_a_limit_to_paste() -> None:
+    """Without one a cart was told to turn at 10 rad/s in a sharp bend, and never got round it."""
+    found = fit_drive(simulated_log(robot(0.1, 0.1, 1.0), COMMANDS))
+    assert found.fastest_turn == pytest.approx(0.8, rel=0.02)
+    assert f"max_yaw_rate_degps: {math.degrees(found.fastest_turn) / 1.25:.3g}" in drive_block(
+        found, 0.5
+    )
+
+
 def test_slip_is_told_from_a_yaw_rate_that_is_not_reached() -> None:
     log = simulated_log(robot(0.1, 0.1, 1.0, 0.01, 0.5, 0.003), COMMANDS, seed=3)
     slipping = DriveLog(

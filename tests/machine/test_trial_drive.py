@@ -171,3 +171,17 @@ def test_a_route_with_heights_is_refused(robot_of: Any) -> None:
     line = PiecewiseCubic([[[0, 0, 0], [1, 0, 1], [2, 0, 2], [3, 0, 3]]])
     with pytest.raises(GeometryError, match="plane"):
         driven(line, robot_of("differential"))
+
+
+def test_a_robot_that_is_behind_when_it_brakes_does_not_stop_short_and_wait_for_ever() -> None:
+    """Its command was 0 where the feed-forward of braking met the feedback of being behind."""
+    line = PiecewiseCubic([[[0, 0], [10 / 3, 0], [20 / 3, 0], [10, 0]]])
+    late = RobotSpec(
+        max_speed_mps=1.0,
+        max_accel_mps2=1.0,
+        drive={"differential": {"track_m": 0.26}, "lag_s": 0.41, "speed_noise_mps": 0.115},
+    )
+    for seed in range(3):
+        track = driven(line, late, seed=seed)
+        assert track.finished
+        assert abs(10.0 - track.positions[-1, 0]) < 0.1

@@ -11,6 +11,9 @@ from typing import NamedTuple
 
 from viaspline.machine.robot_model import ACCEL_RESERVE, YAW_RESERVE
 
+LEAST_SHARE = 0.01
+"""Of its spread that a figure is worth writing down."""
+
 
 class Estimate(NamedTuple):
     """A figure and its standard deviation, in the same unit."""
@@ -18,8 +21,17 @@ class Estimate(NamedTuple):
     value: float
     spread: float
 
+    @property
+    def figure(self) -> str:
+        """The value with three digits; what is next to nothing beside its spread is 0.
+
+        >>> Estimate(0.12345, 0.01).figure, Estimate(3e-13, 0.02).figure
+        ('0.123', '0')
+        """
+        return f"{self.value:.3g}" if abs(self.value) > LEAST_SHARE * self.spread else "0"
+
     def __str__(self) -> str:
-        return f"{self.value:.3g} ± {self.spread:.2g}"
+        return f"{self.figure} ± {self.spread:.2g}"
 
 
 @dataclass(frozen=True)
@@ -39,6 +51,7 @@ class IdentifiedDrive:
         position_noise: Of a measured coordinate [m].
         heading_noise: Of a measured heading [rad].
         fastest: The greatest speed in the log [m/s].
+        fastest_turn: The greatest yaw rate that it shows [rad/s].
         seconds: Length of the log [s].
     """
 
@@ -54,6 +67,7 @@ class IdentifiedDrive:
     position_noise: Estimate
     heading_noise: Estimate
     fastest: float
+    fastest_turn: float
     seconds: float
 
 
@@ -78,6 +92,9 @@ def drive_block(drive: IdentifiedDrive, track: float) -> str:
         half = _scaled(drive.accel, 1.0 / ACCEL_RESERVE)
         words = f"{drive.accel} m/s² at most, of which control needs a half"
         lines.append(_line("  max_accel_mps2", half, words))
+    turn = deg(drive.fastest_turn) / YAW_RESERVE
+    words = "no greater one was driven; with a fifth left for control"
+    lines.append(f"  max_yaw_rate_degps: {turn:.3g}  # {words}")
     if drive.yaw_accel is not None:
         most = _scaled(drive.yaw_accel, deg(1.0) / YAW_RESERVE)
         lines.append(_line("  max_yaw_accel_degps2", most, "with a fifth left for control"))
@@ -105,7 +122,7 @@ def drive_block(drive: IdentifiedDrive, track: float) -> str:
 
 def _line(key: str, figure: Estimate, words: str = "") -> str:
     note = f"± {figure.spread:.2g}" + (f"; {words}" if words else "")
-    return f"{key}: {figure.value:.3g}  # {note}"
+    return f"{key}: {figure.figure}  # {note}"
 
 
 def _noise(key: str, figure: Estimate) -> str:

@@ -98,7 +98,9 @@ def _under_way(
 ) -> None:
     """The command for a robot that should be moving, held for some time [s]."""
     s, aside, error = note[PROGRESS], note[CROSS_TRACK], note[HEADING_ERROR]
-    v = speed + model.lag * accel + model.along_gain * note[ALONG_TRACK]
+    # who brakes late is told to stand early, not to go back: that would take away what brings up a
+    # robot that is behind, and its clock would wait for it for ever
+    v = max(speed + model.lag * accel, 0.0) + model.along_gain * note[ALONG_TRACK]
     v = clip(v, 0.0, model.max_speed)
     now = math.hypot(pose[ALONG], pose[ACROSS])
     ahead = min(s + now * (model.lag + 0.5 * hold), note[HIGH] - 1e-9)
