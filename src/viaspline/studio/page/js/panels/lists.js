@@ -17,6 +17,7 @@ export class Lists {
     this.areas = /** @type {HTMLElement} */ (document.querySelector("#area-list"));
     /** @type {number|null} */ this.dragged = null;
     this.signature = "";
+    /** @type {Set<string>} */ this.chosen = new Set(); // whose rows are marked
     const render = lazily(() => this.render(), 80);
     app.store.on("document selection file", render);
     this.route.addEventListener("keydown", (event) => this.key(event));
@@ -51,7 +52,7 @@ export class Lists {
 
   /** @param {string} id of a row */
   isChosen(id) {
-    return this.app.store.chosen.some((/** @type {string} */ one) => whole(one) === id);
+    return this.chosen.has(id);
   }
 
   render() {
@@ -67,6 +68,7 @@ export class Lists {
     ]);
     if (signature === this.signature) return;
     this.signature = signature;
+    this.chosen = new Set(store.chosen.map(whole));
     fill(this.route, ...points.map((point, i) => this.pointRow(point, i)));
     fill(
       this.obstacles,
