@@ -21,6 +21,7 @@ export class Lists {
     /** @type {number|null} */ this.dragged = null;
     this.signature = "";
     /** @type {string|null} */ this.inView = null; // the selection whose row was last brought into view
+    /** @type {Set<string>} */ this.chosen = new Set(); // whose rows are marked
     const render = lazily(() => this.render(), 80);
     app.store.on("document selection file", render);
     this.route.addEventListener("keydown", (event) => this.key(event));
@@ -55,7 +56,7 @@ export class Lists {
 
   /** @param {string} id of a row */
   isChosen(id) {
-    return this.app.store.chosen.some((/** @type {string} */ one) => whole(one) === id);
+    return this.chosen.has(id);
   }
 
   render() {
@@ -72,6 +73,7 @@ export class Lists {
     ]);
     if (signature === this.signature) return;
     this.signature = signature;
+    this.chosen = new Set(store.chosen.map(whole));
     const { order } = store.doc.route ?? {};
     keptRows(this.route, points.map((point, i) => ({
       says: [point.id, point.name, point.dwell, i, store.selection === point.id, this.isChosen(point.id), order, heightOf(store.doc, point.id)?.value], make: () => this.pointRow(point, i),
