@@ -24,6 +24,8 @@ from viaspline.space.among.law_past_moving import law_past_moving, proven_past_m
 from viaspline.space.among.moving_solid import HIGH_M, MovingSolid
 from viaspline.space.laid_round import laid_round
 from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.trajectory.moving_certificate import MovingCertificate
+from viaspline.trajectory.trajectory import Trajectory
 
 WATCHED_SHARE: Final = 4.0
 WATCHED_S: Final = 300.0
@@ -53,12 +55,7 @@ def plan_past_moving(static: SpatialPlan) -> SpatialPlan:
     """
     mission, law = static.mission, static.trajectory
     _refuse_what_is_not_planned(mission)
-    until = law.start_time + WATCHED_SHARE * law.duration + WATCHED_S
-    moving = [
-        MovingSolid.of(one, one.name or f"moving obstacle {k + 1}", law.start_time, until)
-        for k, one in enumerate(mission.world.moving)
-    ]
-    until = min([until, *(float(one.times[-1]) for one in moving)])
+    moving, until = _watched(mission, law)
     first = _timed(static, moving, until)
     found = [] if isinstance(first, str) else [first]
     in_the_way = {first} if isinstance(first, str) else {one.obstacle for one in first.waits}
@@ -75,6 +72,30 @@ def plan_past_moving(static: SpatialPlan) -> SpatialPlan:
     if mission.route.optimise == "length":
         return min(found, key=lambda one: one.path.length)
     return min(found, key=lambda one: one.trajectory.end_time)
+
+
+def proof_past_moving(static: SpatialPlan, law: Trajectory) -> MovingCertificate:
+    """Prove how far a robot stays from what moves, on another law than if nothing moved.
+
+    Args:
+        static: The plan as if nothing moved.
+        law: Along its path.
+    """
+    moving, _ = _watched(static.mission, static.trajectory)
+    robot = static.mission.robot
+    body = FlyingBody.of(robot)
+    bare = (body.radius, body.half_height, body.margin)
+    return proven_past_moving(static.path, law, bare, robot.clearance_m, moving)
+
+
+def _watched(mission: Mission, law: Trajectory) -> tuple[list[MovingSolid], float]:
+    """What moves, by the law of a robot that is alone, and until when it is looked at [s]."""
+    until = law.start_time + WATCHED_SHARE * law.duration + WATCHED_S
+    moving = [
+        MovingSolid.of(one, one.name or f"moving obstacle {k + 1}", law.start_time, until)
+        for k, one in enumerate(mission.world.moving)
+    ]
+    return moving, min([until, *(float(one.times[-1]) for one in moving)])
 
 
 def _refuse_what_is_not_planned(mission: Mission) -> None:
