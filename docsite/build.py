@@ -4,7 +4,8 @@
 
 In ``build/``: ``pages/`` mirrors the repository, with the pages as they were run, so that a link
 means the same file here and there; ``site/`` is the site. It needs no network, neither to be built
-nor to be read. With pages (``docs/start/five-minutes.md``) only those are run.
+nor to be read; its search asks for ``python -m http.server -d build/site``.
+With pages (``docs/start/five-minutes.md``) only those are run.
 ``--keep`` writes the pictures and the reference that were made back to ``docs/``; ``--gallery``
 plans all examples for their page, which takes minutes, and writes it to ``docs/``.
 """

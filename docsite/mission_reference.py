@@ -19,7 +19,8 @@ file at once, with its line; `viaspline check --schema` prints the same as JSON 
 Lengths are metres, times seconds, angles degrees where the key says `_deg`; x points east, y north,
 headings turn anticlockwise from x.
 """
-ROOTS = ("world", "robot", "route", "spline", "separation_m", "robots", "fleet")
+FIRST = ("world", "robot", "route", "spline", "separation_m", "robots", "fleet")
+"""The keys of a file whose classes come first; those of all others follow."""
 _UNIT = re.compile(r" ?\[([a-zA-Z/²³°%]+)\](?=[.;:,]|$| )")
 
 
@@ -29,7 +30,8 @@ def mission_reference() -> str:
     examples = dict(_examples(Value))
     parts = [INTRODUCTION, "## A file\n", _table(schema["properties"], schema.get("required", ()))]
     seen: set[str] = set()
-    todo = [name for key in ROOTS for name in _named(schema["properties"][key])]
+    roots = dict.fromkeys((*FIRST, *schema["properties"]))
+    todo = [name for key in roots for name in _named(schema["properties"][key])]
     while todo:
         name = todo.pop(0)
         if name in seen:

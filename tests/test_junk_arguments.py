@@ -61,6 +61,7 @@ VERBS: dict[str, Callable[[Any], Any]] = {
     "advise_tension": vs.advise_tension,
     "Mission": vs.Mission.model_validate,
     "load": vs.load,
+    "origin_of": vs.origin_of,
     "load ground": lambda junk: vs.load(PLAN, ground=junk),
     "load_map": vs.load_map,
     "load_plan": vs.load_plan,

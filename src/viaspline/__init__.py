@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from viaspline.fleet.execution.simulate_fleet import simulate_fleet
     from viaspline.fleet.fleet_plan import FleetPlan
     from viaspline.fleet.plan_fleet import plan_fleet
-    from viaspline.formats.load import load
+    from viaspline.formats.load import load, origin_of
     from viaspline.maps.grid import Grid
     from viaspline.maps.terrain import Terrain
     from viaspline.maps.voxels import Voxels
@@ -135,6 +135,7 @@ _HOMES = {
     "load": "formats.load",
     "load_map": "mission.load_map",
     "load_plan": "saved_plans.load_plan",
+    "origin_of": "formats.load",
     "plan": "plan_mission",
     "plan_fleet": "fleet.plan_fleet",
     "remove_robot": "fleet.execution.changed_plans",

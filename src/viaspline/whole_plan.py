@@ -20,6 +20,7 @@ from viaspline.machine.robot_model import is_driven
 from viaspline.machine.turns_on_spot import SpotTurning, with_turns
 from viaspline.mission.model import Mission
 from viaspline.mission.robot_parts import RobotSpec
+from viaspline.planning.alternatives.kept_account import KeptAccount
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.plan_drive import find_drive
@@ -76,7 +77,7 @@ class Plan(ShownValue, SavedValue, ComparedByValue):
     world: World
     path: Path
     certificate: Certificate
-    account: Account | None
+    account: Account | KeptAccount | None
     trajectory: Trajectory
     tracking_error: float = 0.0
     timed: TimedDrive | None = None

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+import viaspline as vs
 from viaspline.cli import cli
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -31,6 +32,21 @@ def test_the_origin_of_a_plan_of_others_is_its_own(tmp_path: Path) -> None:
     assert "<LineString>" in out.read_text()
 
 
+def test_a_plan_that_was_saved_is_exported_as_its_mission_is(tmp_path: Path) -> None:
+    mission = EXAMPLES / "fig7-obstacles.yaml"
+    saved, out = tmp_path / "saved", tmp_path / "line.gpx"
+    vs.plan(mission).save(saved)
+    assert call(mission, out, "-q", "--origin", "47,8").exit_code == 0
+    planned = out.read_bytes()
+    for given in (saved, saved / "plan.json"):
+        out.unlink()
+        result = call(given, out, "--origin", "47,8")
+        assert result.exit_code == 0, result.output
+        assert out.read_bytes() == planned
+    (saved / "planned-mission.yaml").unlink()
+    assert call(saved, out, "--origin", "47,8").exit_code == 2
+
+
 def test_each_robot_of_a_fleet_has_its_file(tmp_path: Path) -> None:
     result = call(EXAMPLES / "corridor-bay.yaml", tmp_path / "bay.csv")
     assert result.exit_code == 0, result.output
@@ -50,7 +66,7 @@ def test_each_robot_of_a_fleet_has_its_file(tmp_path: Path) -> None:
         (("fig8-patrol.yaml", "x.csv", "--chord-error", "-1"), "chord-error"),
         (("fig8-patrol.yaml", "x.csv", "--chord-error", "0"), "chord_error is 0"),
         (("missing.yaml", "x.csv"), "there is no such file"),
-        ((".", "x.csv"), "results"),
+        ((".", "x.csv"), "plan.json: there is no such file"),
     ],
 )
 def test_what_can_not_be_exported_is_refused_in_words_before_the_work(

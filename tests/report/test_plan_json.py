@@ -37,7 +37,7 @@ def test_plan_json_has_the_keys_that_the_design_fixes(planned: Plan) -> None:
     (entry,) = data["ledger"]
     assert entry["members"] == ["tank $1"]
     keys = {"side", "vias", "length_m", "duration_s", "clearance_m", "max_curvature_1pm"}
-    keys |= {"impossible", "passed_over", "chosen"}
+    keys |= {"impossible", "passed_over", "chosen", "spans"}
     assert all(set(candidate) == keys for candidate in entry["candidates"])
     assert [c["side"] for c in entry["candidates"] if c["chosen"]] == [entry["chosen"]]
 

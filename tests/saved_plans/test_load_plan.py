@@ -43,12 +43,29 @@ ASKED: dict[str, dict[str, Any]] = {
         "world": {"known": [TANK]},
         "route": {"start": [10, 50], "via": [[70, 70], [80, 30]], "closed": True, "laps": 2},
     },
+    "roomy": {
+        "world": {"known": [TANK]},
+        "robot": {"prefer_clearance_m": 1.0},
+        "route": {**ROUTE, "depart_s": 5},
+    },
     "flight": {
         "world": {"known": [TOWER], "ground": {"flat_m": 0}},
         "route": {
             "start": [0, 0], "takeoff": {"to_agl_m": 10}, "via": [{"at": [60, 5], "agl_m": 15}],
             "land": {"at": [90, 0]},
         },
+    },
+    "flight among": {
+        "world": {
+            "known": [
+                {**TOWER, "height_m": [0, 3]},
+                {
+                    "name": "kite", "ball": {"center": [0, 0, 0], "radius": 2},
+                    "motion": {"from": [20, 0, 10], "velocity_mps": [0.3, 0, 0]},
+                },
+            ]
+        },
+        "route": {"start": [0, 0, 10], "via": [[70, 5, 10]], "goal": [100, 0, 10], "depart_s": 3},
     },
 }  # fmt: skip
 
@@ -75,10 +92,22 @@ def test_a_plan_that_is_loaded_equals_the_one_that_was_saved(name: str, saved: S
     assert again == made
     assert hash(again) == hash(made)
     assert vs.load_plan(str(folder / "plan.json"), made.mission) == made
-    assert again.ledger == ()
+    assert again.ledger == made.ledger
     if isinstance(again, vs.Plan):
         assert again.drivability.verdict == made.drivability.verdict
-        assert again.timed is None or again.timed.certificate.holds
+        assert again.preferred_clearance == made.preferred_clearance
+        assert (again.timed is None) == (made.timed is None)
+        if again.timed is not None:
+            assert again.timed.candidates == made.timed.candidates
+            assert again.timed.waits == made.timed.waits
+
+
+def test_what_was_saved_has_something_to_keep_of_every_kind(saved: Saved) -> None:
+    assert saved["plain"][1].ledger
+    assert saved["roomy"][1].preferred_clearance.tried
+    assert saved["among"][1].timed.candidates
+    assert saved["flight"][1].ledger
+    assert saved["flight among"][1].waits
 
 
 def test_a_loaded_plan_is_saved_simulated_and_drawn_as_any_other(
@@ -138,7 +167,8 @@ def put(value: Any, *keys: Any) -> Callable[[Any], None]:
 
 def faster(data: Any) -> None:
     law = data["trajectory"]["law"]
-    law["times_s"] = [0.5 * time for time in law["times_s"]]
+    begin = law["times_s"][0]
+    law["times_s"] = [begin + 0.5 * (time - begin) for time in law["times_s"]]
     law["speeds_mps"] = [2.0 * speed for speed in law["speeds_mps"]]
     law["accelerations_mps2"] = [4.0 * accel for accel in law["accelerations_mps2"]]
 
@@ -167,6 +197,11 @@ CHANGES: list[tuple[str, str, Callable[[Any], None], str]] = [
     ("flight", "airborne nowhere", put([5.0, 1.0], "airborne_m"), "isn't a part"),
     ("flight", "more clearance", nudge("certificate", "clearance_m"), "of clearance"),
     ("flight", "sooner", nudge("trajectory", "duration_s", by=-1.0), "of duration"),
+    ("flight among", "faster than it may", faster, "faster than the robot"),
+    ("flight among", "nearer", nudge("certificate", "moving", "clearance_m"), "to what moves"),
+    ("plain", "no ledger", put(5, "ledger"), "ledger isn't what it has to be"),
+    ("plain", "a side that isn't", put("up", "ledger", 0, "candidates", 0, "side"), "ledger isn't"),
+    ("among", "no waits", put(None, "trajectory", "waits"), "trajectory.waits isn't"),
 ]
 
 
@@ -197,7 +232,7 @@ def test_a_mission_that_somebody_changed_is_refused(saved: Saved, tmp_path: Path
     slower = made.mission.model_copy(
         update={"robot": made.mission.robot.model_copy(update={"max_speed_mps": 1.0})}
     )
-    with pytest.raises(vs.SavedPlanError, match="duration"):
+    with pytest.raises(vs.SavedPlanError, match="faster than the robot's limits"):
         vs.load_plan(folder, slower)
 
 
@@ -212,13 +247,13 @@ def leaves(data: Any, *keys: Any) -> list[tuple[Any, ...]]:
 
 @given(data=st.data())
 @settings(
-    max_examples=150, deadline=None,
+    max_examples=60, deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )  # fmt: skip
 def test_whatever_is_put_into_a_file_it_is_loaded_or_refused(
     data: st.DataObject, saved: Saved, tmp_path: Path
 ) -> None:
-    name = data.draw(st.sampled_from(["plain", "among", "flight"]))
+    name = data.draw(st.sampled_from(["plain", "among", "flight among"]))
     folder, made = saved[name]
     content = json.loads((folder / "plan.json").read_text())
     keys = data.draw(st.sampled_from(leaves(content)))
@@ -257,15 +292,24 @@ def test_what_is_no_plan_is_told(saved: Saved, tmp_path: Path) -> None:
         vs.load_plan(5)  # type: ignore[arg-type]
 
 
-def test_the_plan_of_a_fleet_says_where_its_robots_are(tmp_path: Path) -> None:
-    pair = vs.Fleet.model_validate(
-        {"fleet": [{"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}}]}
+def test_the_plan_of_a_fleet_is_loaded_robot_by_robot_with_what_each_waits(tmp_path: Path) -> None:
+    routes = {"a": ([0, 0], [40, 0]), "b": ([20, -20], [20, 20]), "c": ([20, 30], [22, -30])}
+    fleet = vs.Fleet.model_validate(
+        {
+            "separation_m": 1,
+            "fleet": [
+                {"name": name, "depart_s": 2, "route": {"start": start, "goal": goal}}
+                for name, (start, goal) in routes.items()
+            ],
+        }
     )
-    planned = vs.plan_fleet(pair)
+    planned = vs.plan_fleet(fleet)
     planned.save(tmp_path)
-    with pytest.raises(vs.SavedPlanError, match="the plan of a fleet"):
+    assert any(one.waits_s > 0.0 for one in planned.precedences)
+    with pytest.raises(vs.SavedPlanError, match=r"plan_fleet .* load_plan\(folder / NAME"):
         vs.load_plan(tmp_path)
-    assert vs.load_plan(tmp_path / "a", pair.members[0].mission) == planned.plans["a"]
+    for member in fleet.members:
+        assert vs.load_plan(tmp_path / member.name, member.mission) == planned.plans[member.name]
 
 
 def test_a_map_that_was_made_in_memory_is_given_again(tmp_path: Path) -> None:

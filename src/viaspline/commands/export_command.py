@@ -49,7 +49,8 @@ def export_command(
 ) -> None:  # fmt: skip
     r"""Write the proven path of a mission into a file of another program.
 
-    IN is a mission of any format. OUT says the format by its ending: .plan (QGroundControl),
+    IN is a mission of any format, or the folder of a plan that was saved, which is proven again
+    instead of planned. OUT says the format by its ending: .plan (QGroundControl),
     .waypoints or .txt (QGC WPL 110), .path.yaml or .mcap (nav_msgs/Path), .geojson, .kml, .gpx,
     .csv or .json. The path becomes straight lines, few of them, which are proven again as the file
     has them. Of a fleet each robot has a file of its own, OUT with the robot's name.
@@ -58,19 +59,21 @@ def export_command(
     Examples:
       viaspline export examples/fence-survey.plan survey.kml
       viaspline export examples/fig8-patrol.yaml patrol.plan --origin 47.3977,8.5456
+      viaspline export fig8-patrol/ patrol.path.yaml
     """
     from viaspline.exports.export_options import ExportOptions
     from viaspline.exports.path_format import path_format_of
     from viaspline.exports.tabled_path import check_origin
 
     kind = path_format_of(out)  # what can't be is refused before the long work
-    _check_in(mission)
-    asked = load_asked(mission)
-    options = ExportOptions(_origin_of(mission, origin), chord_error, acceptance, spacing)
+    saved = _is_saved(mission)
+    asked = None if saved else load_asked(mission)
+    place = None if saved and origin is None else _origin_of(mission, origin)
+    options = ExportOptions(place, chord_error, acceptance, spacing)
     options = options.checked()
     check_origin(kind, options, str(out))
     with result_folder(out.parent, (out.name,)), progress_bar(quiet, asked) as watch:
-        planned = _planned(asked, watch)
+        planned = _loaded(mission, watch) if asked is None else _planned(asked, watch)
         with watch.stage("export", "cutting and proving"):
             done = _exported(planned, out, options)
     if not quiet:
@@ -123,13 +126,19 @@ def _end_unserved(planned: Plan | SpatialPlan | FleetPlan) -> None:
         end_unserved(planned)
 
 
-def _check_in(file: Path) -> None:
-    """Refuse results, which don't hold the world that a path has to be proven against."""
-    if file.is_dir() or file.name == "plan.json":
-        raise click.UsageError(
-            f"{file} holds results, without the world that the path is proven against; give the "
-            "mission that they were made from"
-        )
+def _is_saved(given: Path) -> bool:
+    """Whether it is a plan that was saved: its folder, or the ``plan.json`` in that."""
+    from viaspline.saved_plans.load_plan import PLAN_NAME
+
+    return given.is_dir() or given.name == PLAN_NAME
+
+
+def _loaded(folder: Path, watch: ProgressBar) -> Plan | SpatialPlan:
+    """A plan that was saved, proven again with the mission that stands beside it."""
+    with watch.stage("load", "proving the plan again"):
+        from viaspline.saved_plans.load_plan import load_plan
+
+        return load_plan(folder)
 
 
 def _origin_of(mission: Path, said: str | None) -> tuple[float, float] | None:

@@ -33,7 +33,7 @@ class Certificate:
             keep clear of.
         required: The clearance that was asked for [m].
         tightest_at: Where it is tightest [m], shape (d,).
-        tightest_u: The same as a parameter of the curve.
+        tightest_u: At which parameter of the curve that is.
         tightest_distance: The same as a distance along the curve [m].
         obstacle: The name of the obstacle that is nearest there; None when there is none.
         contact: The point of a polygonal body that is nearest to it then [m]; None for a disc.

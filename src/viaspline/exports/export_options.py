@@ -24,6 +24,9 @@ class ExportOptions:
         acceptance: How near to a point a vehicle turns to the next one [m]. None: as much as can be
             proven, up to 2 m.
         spacing: The longest line [m]. None: that of the format.
+
+    >>> ExportOptions(origin=(47.3977, 8.5456), chord_error=0.05).checked().chord_error
+    0.05
     """
 
     origin: LatLon | None = None

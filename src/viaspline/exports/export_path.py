@@ -119,6 +119,17 @@ def export_fleet(
 
     Raises:
         OutputError, GeometryError: As ``export``; nothing is written then.
+
+    Example:
+        >>> from tempfile import TemporaryDirectory
+        >>> import viaspline as vs
+        >>> plan = vs.plan_fleet(vs.Fleet.model_validate({"fleet": [
+        ...     {"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}},
+        ... ]}))
+        >>> with TemporaryDirectory() as folder:
+        ...     done = vs.export_fleet(plan, f"{folder}/round.csv")
+        ...     done["a"].path.name
+        'round-a.csv'
     """
     from viaspline.fleet.fleet_plan import FleetPlan
 

@@ -80,10 +80,12 @@ def origin_of(path: str | Path) -> LatLon | None:
 
     Raises:
         MissionError: The file can't be read.
+        GeometryError: It is no path of a file.
 
     >>> origin_of("survey.plan")
     Traceback (most recent call last):
     viaspline.errors.MissionError: survey.plan: there is no such file; give the path of ...
     """
+    check_kind("path", path, str | Path, "give the path of a mission file")
     text = read_text(path, MISSION_FILE)
     return format_of(Path(path), text).origin(text, str(path))

@@ -54,6 +54,9 @@ class SpeedZone(
 
     Raises:
         MissionError: With every fault.
+
+    >>> SpeedZone(polygon=[(0, 0), (4, 0), (4, 3)], max_speed_mps=0.5).max_speed_mps
+    0.5
     """
 
     stands_at = ("world", "speed_zones", 0)

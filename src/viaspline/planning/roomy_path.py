@@ -43,7 +43,7 @@ def find_roomy_path(sequence: ViaSequence, world: World, requirements: Requireme
         GaveUpError: When a budget ran out before that was known.
     """
     found = find_path(sequence, world, requirements)
-    if requirements.preferred <= 0.0 or not len(world) or found.account is None:
+    if requirements.preferred <= 0.0 or not len(world) or not isinstance(found.account, Account):
         return found
     duration = _duration(found.account.spline_path, sequence, requirements)
     most = duration + min(MOST_LATER * duration, MOST_LATER_S)
@@ -58,7 +58,7 @@ def find_roomy_path(sequence: ViaSequence, world: World, requirements: Requireme
         if takes <= most:
             found = _solution(*roomy, world, requirements)
             break
-    assert found.account is not None
+    assert isinstance(found.account, Account)
     weighed = PreferredClearance(requirements.preferred, duration, most, tuple(tried))
     return replace(found, account=replace(found.account, preferred=weighed))
 

@@ -46,7 +46,7 @@ def plan_json(plan: Plan, name: str, *, spacing: float) -> str:
                     for s in plan.trajectory.stations
                 ],
                 **waits_data(plan),
-                **({} if plan.timed is None else {"law": law_data(plan.trajectory)}),
+                "law": law_data(plan.trajectory),
             },
         }
     )
@@ -159,6 +159,7 @@ def ledger_entry_data(entry: LedgerEntry) -> dict[str, Any]:
                 "side": candidate.side,
                 "chosen": candidate.chosen,
                 "vias": candidate.vias,
+                "spans": candidate.spans,
                 "length_m": candidate.length,
                 "duration_s": candidate.duration,
                 "clearance_m": candidate.clearance,

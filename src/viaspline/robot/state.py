@@ -22,6 +22,9 @@ class RobotState:
         speed_across: To the left, across its body [m/s]; 0 of a robot that can't.
         stamp: When that was measured, by the clock of the steps [s]; None: now, whenever it is
             handed in. What is older than 0.2 s stops the robot.
+
+    >>> RobotState((3.0, 4.0), heading=1.57, speed=0.8, stamp=12.05).position
+    (3.0, 4.0)
     """
 
     position: tuple[float, ...]

@@ -15,6 +15,11 @@ from viaspline.space.spatial_plan import SpatialPlan
 PLAN_NAME: Final = "plan.json"
 MISSION_NAME: Final = "planned-mission.yaml"
 FLEET_NAME: Final = "fleet.json"
+WHOLE_FLEET: Final = (
+    "holds the plan of a fleet, which is loaded robot by robot; call plan_fleet with the fleet's "
+    "file, which makes the same plan again, or load_plan(folder / NAME, member.mission) for one of "
+    "fleet.members"
+)
 
 
 def load_plan(folder: str | Path, mission: AskedMission | None = None) -> Plan | SpatialPlan:
@@ -23,10 +28,12 @@ def load_plan(folder: str | Path, mission: AskedMission | None = None) -> Plan |
     What can be proven isn't believed: the path is taken from ``plan.json``, and its clearance to
     the world of the mission is proven again, as are its heights, its distance to what moves, and
     that it serves the route; the time law is made again, or held against the robot's limits. So it
-    equals what was saved, or is refused. What the search did isn't kept: the ledger is empty.
+    equals what was saved, or is refused. The ledger is a record of what was tried, and taken as it
+    stands.
 
     Args:
-        folder: With ``plan.json``, or that file itself.
+        folder: With ``plan.json``, or that file itself. Of a fleet each robot has a folder: the
+            distance between robots is proven of all of them, and not again here.
         mission: What was planned, with its via points in the order in which they are served; not
             needed where ``planned-mission.yaml`` stands beside the plan.
 
@@ -52,8 +59,7 @@ def load_plan(folder: str | Path, mission: AskedMission | None = None) -> Plan |
     file = Path(folder)
     if file.name != PLAN_NAME or file.is_dir():
         if (file / FLEET_NAME).exists() and not (file / PLAN_NAME).exists():
-            problem = "holds the plan of a fleet, of which each robot has a folder"
-            raise SavedPlanError(file, f"{problem}; give that of a robot, with its mission")
+            raise SavedPlanError(file, WHOLE_FLEET)
         file = file / PLAN_NAME
     saved = PlanFile.read(file)
     if mission is None:

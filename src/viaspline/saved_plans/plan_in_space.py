@@ -5,20 +5,31 @@ Tested through ``saved_plans/test_load_plan``.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from viaspline.curve.height_certificate import certify_heights
 from viaspline.errors import GeometryError
 from viaspline.mission.model import Mission
+from viaspline.saved_plans.law_within_limits import (
+    PROVEN_OFF_M,
+    TIMED_OFF,
+    check_moving_proof,
+    law_of_file,
+    law_within_limits,
+)
 from viaspline.saved_plans.plan_file import PlanFile
-from viaspline.saved_plans.planar_plan import PROVEN_OFF_M, TIMED_OFF
+from viaspline.saved_plans.saved_search import saved_ledger, saved_waits
 from viaspline.saved_plans.served_points import AskedPoint, check_served
+from viaspline.space.among.plan_past_moving import proof_past_moving
 from viaspline.space.solve_route import whole_proof
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_problem import SpatialProblem
 from viaspline.space.spatial_request import spatial_problem_of
 from viaspline.space.static_plan import headings_of, stops_of
-from viaspline.space.timing.retime_in_space import retime_in_space
+from viaspline.space.timing.retime_in_space import along_limits, retime_in_space
+from viaspline.trajectory.limits import Station
 
 
 def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
@@ -54,14 +65,27 @@ def plan_in_space(plan: PlanFile, mission: Mission) -> SpatialPlan:
     if not (certificate.holds and heights.holds):
         raise plan.wrong("the path doesn't keep the clearance or the heights of its mission")
     yaw = headings_of(problem, path)
+    stops = tuple(stops_of(problem, path))
     law = retime_in_space(
-        path, problem.limits, tuple(stops_of(problem, path)), yaw, zones=problem.zones
+        path, problem.limits, stops, yaw, zones=problem.zones, start_time=mission.route.depart_s
     )
-    lasts = plan.number("trajectory", "duration_s")
-    plan.check("duration [s]", lasts, law.duration, TIMED_OFF * (1.0 + law.duration))
-    return SpatialPlan(
-        mission, problem.world, path, certificate, heights, (), airborne, problem.limits, yaw, law
-    )
+    alone = SpatialPlan(
+        mission, problem.world, path, certificate, heights, saved_ledger(plan, 3), airborne,
+        problem.limits, yaw, law,
+    )  # fmt: skip
+    if mission.world.moving:
+        return _past_moving(plan, alone, stops)
+    law = law_of_file(plan, path, law, along_limits(problem.limits), stops)
+    return replace(alone, trajectory=law)
+
+
+def _past_moving(plan: PlanFile, alone: SpatialPlan, stops: tuple[Station, ...]) -> SpatialPlan:
+    """The plan with the law of the file, proven again past what moves."""
+    path, free = alone.path, alone.trajectory
+    law = law_within_limits(plan, path, free, along_limits(alone.limits), stops)
+    proof = proof_past_moving(alone, law)
+    check_moving_proof(plan, proof)
+    return replace(alone, trajectory=law, moving=proof, waits=saved_waits(plan))
 
 
 def _points(problem: SpatialProblem) -> list[AskedPoint]:

@@ -237,7 +237,19 @@ def stopping_speed(room: float, accel: float, reaction: float) -> float:
 
 @dataclass(frozen=True)
 class Station:
-    """A stop on the path: where [m along the path], how long [s], and its name."""
+    """A stop on the path.
+
+    Attributes:
+        distance: Where it is along the path [m].
+        dwell: How long the robot stays there [s].
+        name: What it is called in reports.
+
+    Raises:
+        GeometryError: A number isn't finite, or below 0.
+
+    >>> Station(12.5, dwell=20.0, name="pump")
+    Station(distance=12.5, dwell=20.0, name='pump')
+    """
 
     distance: float
     dwell: float = 0.0

@@ -72,6 +72,15 @@ def reroute_robot(plan: FleetPlan, member: FleetMember) -> FleetPlan:
         PlanningError: It has no path, or can't be timed along it among the others.
         GeometryError: There is no robot of its name, the mission never ends, or something moves in
             the world that waits for nobody.
+
+    Example:
+        >>> import viaspline as vs
+        >>> plan = vs.plan_fleet(vs.Fleet.model_validate({"fleet": [
+        ...     {"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}},
+        ... ]}))
+        >>> farther = vs.Mission.model_validate({"route": {"start": [0, 0], "goal": [50, 0]}})
+        >>> reroute_robot(plan, vs.FleetMember("a", farther)).plans["a"].path.length
+        50.0
     """
     check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
     check_member(member)
@@ -91,6 +100,15 @@ def remove_robot(plan: FleetPlan, name: str) -> FleetPlan:
     Raises:
         GeometryError: There is no such robot, it is the only one, or something moves in the world
             that waits for nobody.
+
+    Example:
+        >>> import viaspline as vs
+        >>> plan = vs.plan_fleet(vs.Fleet.model_validate({"fleet": [
+        ...     {"name": "a", "route": {"start": [0, 0], "goal": [40, 0]}},
+        ...     {"name": "b", "route": {"start": [0, 9], "goal": [40, 9]}},
+        ... ]}))
+        >>> list(remove_robot(plan, "a").plans)
+        ['b']
     """
     check_kind("plan", plan, FleetPlan, "give plan_fleet(fleet)")
     index_of(tuple(one.name for one in plan.fleet.members), name)

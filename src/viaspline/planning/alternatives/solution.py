@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
+from viaspline.planning.alternatives.kept_account import KeptAccount
 from viaspline.planning.alternatives.record import Account
 from viaspline.planning.problem.ledger import LedgerEntry
 
@@ -28,7 +29,7 @@ class Solution:
 
     path: Path
     certificate: Certificate
-    account: Account | None
+    account: Account | KeptAccount | None
     changed_from: float = 0.0
     rejoins_at: float | None = None
 

@@ -15,6 +15,7 @@ from viaspline.report.json_text import dumps
 from viaspline.report.moving_json import moving_certificate_data, waits_list
 from viaspline.report.plan_json import (
     certificate_data,
+    law_data,
     ledger_entry_data,
     mission_summary,
     path_data,
@@ -50,6 +51,7 @@ def spatial_plan_json(plan: SpatialPlan, name: str) -> str:
                     for s in plan.trajectory.stations
                 ],
                 **({} if plan.moving is None else {"waits": waits_list(plan.waits)}),
+                "law": law_data(plan.trajectory),
             },
         }
     )

@@ -19,9 +19,11 @@ from viaspline.errors import GaveUpError, PlanningError
 from viaspline.mission.shapes.capsule import Capsule
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.space.among.moving_solid import HIGH_M, MovingSolid
-from viaspline.space.among.timed_past import solids_beside, timed_past
+from viaspline.space.among.timed_past import proven_beside, solids_beside, timed_past
 from viaspline.space.laid_round import laid_round
 from viaspline.space.spatial_plan import SpatialPlan
+from viaspline.trajectory.moving_certificate import MovingCertificate
+from viaspline.trajectory.trajectory import Trajectory
 
 WORTH_S: Final = 1.0
 """What has to be lost by waiting before another path is looked for [s]."""
@@ -62,6 +64,18 @@ def plan_past_moving(static: SpatialPlan) -> SpatialPlan:
     if mission.route.optimise == "length":
         return min(found, key=lambda one: one.path.length)
     return min(found, key=lambda one: one.trajectory.end_time)
+
+
+def proof_past_moving(static: SpatialPlan, law: Trajectory) -> MovingCertificate:
+    """Prove how far a robot stays from what moves, on another law than if nothing moved.
+
+    Args:
+        static: The plan as if nothing moved.
+        law: Along its path.
+    """
+    hold = static.mission.route.hold_s
+    moving = solids_beside(static.mission, static.trajectory, hold)
+    return proven_beside(static.path, law, hold, static.mission, moving)
 
 
 def _timed(plan: SpatialPlan, moving: Sequence[MovingSolid]) -> SpatialPlan | str:

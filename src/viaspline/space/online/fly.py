@@ -95,6 +95,14 @@ def fly(plan: SpatialPlan | AskedMission, step: float = STEP_S) -> SpatialRun:
         NoPathError, GaveUpError: When a mission has no path, or none is found.
         GeometryError: When there is something unseen and no sensor to see it, or the mission isn't
             one in space.
+
+    Example:
+        >>> import viaspline as vs
+        >>> hop = {"start": [0, 0, 5], "goal": [20, 0, 8]}
+        >>> above = {"ground": {"flat_m": 0}}
+        >>> run = vs.fly(vs.Mission.model_validate({"world": above, "route": hop}))
+        >>> run.reached, run.positions[-1].round(2).tolist()
+        (True, [20.0, 0.0, 8.0])
     """
     plan = _planned(plan)
     step = time_from("step", step)
