@@ -37,6 +37,7 @@ START = "#009e73"
 GOAL = "#1b1f24"
 STATION = "#f0e442"
 SENSOR = "#56b4e9"
+SWEPT = "#d0eaf9"  # opaque: its parts lie over each other
 BODY = "#2f6f9f"
 MOVING = "#c2410c"
 MOVING_FILL = "#f6c7a8"
