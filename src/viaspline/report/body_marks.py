@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import shapely
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PathCollection, PolyCollection
@@ -140,7 +141,10 @@ def draw_zones(axes: Axes, labels: Labels, zones: tuple[SpeedZone, ...]) -> list
         axes.add_artist(Polygon(zone.polygon, zorder=1.5, **look))
         x, y = np.mean(zone.polygon, axis=0).tolist()
         name = f"{style.short(zone.name)}: " if zone.name else ""
-        labels.add(f"{name}{zone.max_speed_mps:g} m/s", (x, y), rank=5, colour=style.ZONE_INK)
+        labels.add(
+            f"{name}{zone.max_speed_mps:g} m/s", (x, y), rank=5, colour=style.ZONE_INK,
+            area=shapely.Polygon(zone.polygon),
+        )  # fmt: skip
     return [Rectangle((0, 0), 1, 1, label="speed zone", **look)] if zones else []
 
 

@@ -41,7 +41,7 @@ def contrasts(axes: Axes) -> tuple[Floats, Floats]:
         if _is_ink(axes, artist):
             artist.draw(renderer)
     pixels = np.asarray(renderer.buffer_rgba())[::-1]  # type: ignore[no-untyped-call]
-    seen = pixels[bottom : bottom + up, left : left + across].astype(np.float32) / 255.0
+    seen = pixels[bottom : bottom + up, left : left + across] / 255.0
     whole = _changes(_grey(seen))
     for image in axes.images:
         coarse = _changes(_grey(_sampled(image, axes, across, up)))
@@ -60,7 +60,8 @@ def _grey(colours: Floats) -> Floats:
     """Brightness on white paper of red, green, blue and opacity from 0 to 1."""
     opaque = colours[..., 3]
     # a renderer's colours aren't multiplied with their opacity
-    return 1.0 - opaque * (1.0 - colours[..., :3] @ GREYS.astype(np.float32))
+    grey: Floats = 1.0 - opaque * (1.0 - colours[..., :3] @ GREYS)
+    return grey
 
 
 def _changes(grey: Floats) -> Floats:
@@ -83,6 +84,6 @@ def _sampled(image: AxesImage, axes: Axes, across: int, up: int) -> Floats:
     row = np.floor((y - bottom) / (top - bottom) * rows).astype(int)
     inside = ((row >= 0) & (row < rows))[:, None] & ((column >= 0) & (column < columns))
     picked = data[np.clip(row, 0, rows - 1)][:, np.clip(column, 0, columns - 1)]
-    colours = np.asarray(image.to_rgba(picked), np.float32)
+    colours: Floats = np.asarray(image.to_rgba(picked), float)
     colours[~inside] = 0.0
     return colours

@@ -86,7 +86,8 @@ def overlaps(boxes: Floats, others: Floats) -> Flags:
     """Which of some boxes (k, 4) lie over which others (n, 4): shape (k, n)."""
     one, other = boxes[:, None], others[None]
     apart = (one[..., :2] >= other[..., 2:]) | (one[..., 2:] <= other[..., :2])
-    return ~apart.any(axis=2)
+    over: Flags = np.logical_not(apart.any(axis=2))
+    return over
 
 
 def _cost(one: LabelPlaces, place: int) -> float:
@@ -95,16 +96,17 @@ def _cost(one: LabelPlaces, place: int) -> float:
 
 def _kept_off(one: LabelPlaces, taken: Floats) -> Flags:
     """Which of a label's places are off what is taken, and worth their cost: shape (k,)."""
-    kept: Flags = ~overlaps(one.boxes, taken).any(axis=1)
-    kept &= ~_crossed(one.leaders, taken).any(axis=1)
-    return kept & (one.costs < one.left_out)
+    met = (overlaps(one.boxes, taken) | _crossed(one.leaders, taken)).any(axis=1)
+    kept: Flags = np.logical_not(met) & (one.costs < one.left_out)
+    return kept
 
 
 def _crossed(leaders: Floats, boxes: Floats) -> Flags:
     """Which leaders (k, l, 2) run through which boxes (n, 4): shape (k, n)."""
-    points = leaders[:, None]
-    inside = (points > boxes[:, None, :2]) & (points < boxes[:, None, 2:])
-    return inside.all(axis=3).any(axis=2)
+    x, y = leaders[:, None, :, 0], leaders[:, None, :, 1]
+    x0, y0, x1, y1 = boxes.T[:, None, :, None]
+    through: Flags = ((x > x0) & (x < x1) & (y > y0) & (y < y1)).any(axis=2)
+    return through
 
 
 def _conflicts(labels: Sequence[LabelPlaces], chosen: Sequence[int], i: int) -> Flags:

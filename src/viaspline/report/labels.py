@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
@@ -26,6 +27,7 @@ LEADER_FROM_PX = 12.0
 """Beyond the gap: a label that is farther away gets a line to what it names [pixels]."""
 
 LEADER_POINTS = 8
+PLACES_ASIDE = 7  # of a label within an area
 FACING_LEAST = 0.2
 """Of a direction's part along an axis, from which a label stands beside its thing that way."""
 
@@ -45,6 +47,7 @@ class _Label:
     size: float
     inside: float
     gap: float
+    area: shapely.Geometry | None
 
 
 @dataclass(frozen=True)
@@ -75,7 +78,7 @@ class _Ground:
         wide = np.array([-1.0, -1.0, 1.0, 1.0])
         near = 4.0 * np.minimum(self.curve.within(boxes + 2.0 * wide), 10.0)
         covered = 12.0 * self.dots.within(boxes + self.marker_size * wide)
-        return near + covered + np.minimum(0.1 * self.ink.within(boxes), 30.0) + beyond / 4.0
+        return near + covered + np.minimum(0.1 * self.ink.within(boxes), 24.0) + beyond / 3.0
 
 
 class Labels:
@@ -95,6 +98,7 @@ class Labels:
         size: float = SMALL_PT,
         inside: float = 0.0,
         gap: float = 9.0,
+        area: shapely.Geometry | None = None,
     ) -> None:
         """Ask for a label.
 
@@ -106,8 +110,10 @@ class Labels:
             size: The size of the font [points].
             inside: Width of the thing [m]: the label goes on it when it fits.
             gap: From its place to the label, at least [pixels].
+            area: What it names, if that is a part of the ground [m]: the label goes anywhere in it
+                where it fits, before it goes beside its place.
         """
-        self._labels.append(_Label(text, at, rank, colour, size, inside, gap))
+        self._labels.append(_Label(text, at, rank, colour, size, inside, gap, area))
 
     def place(self, lines: Floats, markers: Floats, marker_size: float = 9.0) -> None:
         """Put the labels where they hide least in all; one that has no free place is left out.
@@ -136,14 +142,15 @@ class Labels:
         )
         sizes = [self._measure(label) for label, _ in asked]
         places = [
-            _places(label, anchor, size, self._room_on(label), ground)
+            self._in_area(label, size, ground)
+            or _places(label, anchor, size, self._room_on(label), ground)
             for (label, anchor), size in zip(asked, sizes, strict=True)
         ]
         chosen = least_cost_places(places, self._written())
-        for (label, anchor), size, some, place in zip(asked, sizes, places, chosen, strict=True):
+        for (label, anchor), some, place in zip(asked, places, chosen, strict=True):
             if place != LEFT_OUT:
                 box = some.boxes[place]
-                self._draw(label, anchor, 0.5 * (box[:2] + box[2:]), size)
+                self._draw(label, anchor, 0.5 * (box[:2] + box[2:]), some.leaders[place])
 
     def _room_on(self, label: _Label) -> float:
         """Width of the thing that a label names, on the picture [pixels]."""
@@ -151,12 +158,34 @@ class Labels:
         ends = self._axes.transData.transform([(x, y), (x + label.inside, y)])
         return float(ends[1, 0] - ends[0, 0])
 
+    def _in_area(self, label: _Label, size: Floats, ground: _Ground) -> LabelPlaces | None:
+        """The places of a label within what it names; None where it doesn't fit."""
+        if label.area is None:
+            return None
+        outline = self._axes.transData.transform(shapely.get_coordinates(label.area))
+        seen = shapely.intersection(shapely.Polygon(outline), shapely.box(*ground.area))
+        if seen.is_empty:
+            return None
+        low, high = np.array(seen.bounds).reshape(2, 2)
+        shares = np.linspace(0.0, 1.0, PLACES_ASIDE)[:, None]
+        x, y = (low + size / 2 + shares * (high - low - size)).T
+        middles = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+        boxes = np.hstack((middles - size / 2, middles + size / 2))
+        fits = shapely.contains(seen, shapely.box(*boxes.T))
+        if not fits.any():
+            return None
+        away = np.abs(middles - (low + high) / 2).sum(axis=1)
+        costs = ground.costs(boxes, 0.05 * away)
+        leaders = np.full((int(fits.sum()), LEADER_POINTS, 2), np.nan)
+        return LabelPlaces(boxes[fits], costs[fits], leaders, _left_out(label))
+
     def _written(self) -> Floats:
         """The boxes of all texts that are on the axes already [pixels], shape (n, 4)."""
         renderer = renderer_of(self._axes.figure)
         texts = [text for text in self._axes.texts if text.get_visible() and text.get_text()]
         boxes = [text.get_window_extent(renderer).extents for text in texts]
-        return np.array(boxes).reshape(-1, 4) + BETWEEN_PX * np.array([-1.0, -1.0, 1.0, 1.0])
+        grown: Floats = np.array(boxes).reshape(-1, 4) + BETWEEN_PX * np.array([-1.0, -1, 1, 1])
+        return grown
 
     def _measure(self, label: _Label) -> Floats:
         text = Text(
@@ -164,12 +193,11 @@ class Labels:
             figure=self._axes.figure,
         )  # fmt: skip
         extent = text.get_window_extent(renderer_of(self._axes.figure))
-        return np.ceil(np.array([extent.width, extent.height])) + 2.0 * BETWEEN_PX
+        size: Floats = np.ceil(np.array([extent.width, extent.height])) + 2.0 * BETWEEN_PX
+        return size
 
-    def _draw(self, label: _Label, anchor: Floats, middle: Floats, size: Floats) -> None:
+    def _draw(self, label: _Label, anchor: Floats, middle: Floats, ends: Floats) -> None:
         to_metres = self._axes.transData.inverted().transform
-        box = np.concatenate((middle - size / 2, middle + size / 2))
-        ends = _leaders(label, anchor, box[None])[0]
         if np.isfinite(ends).all():
             line = to_metres(ends[[0, -1]])
             self._axes.plot(
@@ -204,6 +232,11 @@ def _leaders(label: _Label, anchor: Floats, boxes: Floats) -> Floats:
     return lines
 
 
+def _left_out(label: _Label) -> float:
+    """What it costs to leave a label out."""
+    return 150.0 - 10.0 * label.rank
+
+
 def _around() -> tuple[Floats, Floats, Floats]:
     """Directions (k, 2), reaches and costs (k,) of the places around a thing."""
     ways, reaches, costs = [], [], []
@@ -233,4 +266,4 @@ def _places(
     costs = ground.costs(boxes, beyond + shifted)
     outside = (boxes[:, :2] < ground.area[:2] - 1) | (boxes[:, 2:] > ground.area[2:] + 1)
     costs[outside.any(axis=1)] = np.inf
-    return LabelPlaces(boxes, costs, _leaders(label, anchor, boxes), 150.0 - 10.0 * label.rank)
+    return LabelPlaces(boxes, costs, _leaders(label, anchor, boxes), _left_out(label))

@@ -12,11 +12,13 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from viaspline.report.canvas import tidy
+from viaspline.report.driven_line import DrivenKey
 from viaspline.report.sheet import Sheet
 from viaspline.report.style import INK, MUTED, SMALL_PT
 from viaspline.report.units import nice
@@ -48,7 +50,8 @@ class SideColumn:
         legend = figure.legend(
             handles=list(handles), loc="upper left", fontsize=SMALL_PT, frameon=False,
             bbox_to_anchor=(self._left / across, self._top / up), borderaxespad=0,
-            borderpad=0, handlelength=2.0, labelspacing=0.55, markerscale=0.75,
+            borderpad=0, handlelength=2.0, labelspacing=0.75, markerscale=0.66,
+            handler_map={LineCollection: DrivenKey()},
         )  # fmt: skip
         for text in legend.get_texts():
             text.set_parse_math(False)
