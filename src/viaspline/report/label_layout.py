@@ -25,8 +25,14 @@ MAX_ROUNDS: Final = 6
 MAX_TRIED: Final = 10
 """Cheaper places that a label tries in a round, others making room for it."""
 
+MAX_TRIED_IN_ALL: Final = 150
+"""Such places of all labels together: where they crowd, a better choice isn't worth the time."""
+
 MAX_MOVED: Final = 3
 """Labels that make room for one."""
+
+LEAST_GAIN: Final = 1e-9
+"""Of costs: less is nothing."""
 
 LEFT_OUT: Final = -1
 """The place of a label that has none."""
@@ -70,9 +76,12 @@ def least_cost_places(labels: Sequence[LabelPlaces], taken: Floats) -> list[int]
     chosen = [LEFT_OUT] * len(labels)
     for i in range(len(labels)):
         chosen[i] = _cheapest(labels, chosen, i, free[i])
+    left = MAX_TRIED_IN_ALL
     for _ in range(MAX_ROUNDS):
-        moved = [_improve(labels, chosen, free, i) for i in range(len(labels))]
-        if not any(moved):
+        before = list(chosen)
+        for i in range(len(labels)):
+            left -= _improve(labels, chosen, free, i, min(left, MAX_TRIED))
+        if chosen == before or left <= 0:
             break
     return chosen
 
@@ -144,25 +153,29 @@ def _cheapest(labels: Sequence[LabelPlaces], chosen: Sequence[int], i: int, free
 
 
 def _improve(
-    labels: Sequence[LabelPlaces], chosen: list[int], free: Sequence[Flags], i: int
-) -> bool:
-    """Move a label to where all costs together are less, if there is such a place."""
+    labels: Sequence[LabelPlaces], chosen: list[int], free: Sequence[Flags], i: int, most: int
+) -> int:
+    """Move a label to where all costs together are less, if there is such a place.
+
+    Returns:
+        How many places were tried, at most ``most``.
+    """
     now, costs = _cost(labels[i], chosen[i]), labels[i].costs
-    cheaper = np.flatnonzero(free[i] & (costs < now - 1e-9))
-    if not cheaper.size:
-        return False
+    cheaper = np.flatnonzero(free[i] & (costs < now - LEAST_GAIN))
+    if not cheaper.size or most <= 0:
+        return 0
     conflicts = _conflicts(labels, chosen, i)
-    for place in cheaper[np.argsort(costs[cheaper], kind="stable")][:MAX_TRIED].tolist():
+    cheaper = cheaper[conflicts[cheaper].sum(axis=1) <= MAX_MOVED]
+    inviting = cheaper[np.argsort(costs[cheaper], kind="stable")][:most].tolist()
+    for tries, place in enumerate(inviting, 1):
         ousted = np.flatnonzero(conflicts[place]).tolist()
-        if len(ousted) > MAX_MOVED:
-            continue
         tried = list(chosen)
         tried[i] = place
         for j in ousted:
             tried[j] = LEFT_OUT
         for j in ousted:
             tried[j] = _cheapest(labels, tried, j, free[j])
-        if cost_of(labels, tried) < cost_of(labels, chosen) - 1e-9:
+        if cost_of(labels, tried) < cost_of(labels, chosen) - LEAST_GAIN:
             chosen[:] = tried
-            return True
-    return False
+            return tries
+    return len(inviting)

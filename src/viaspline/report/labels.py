@@ -22,7 +22,9 @@ _FAR_RAD = np.radians([35, -35, 145, -145, 0, 180, 90, -90, 62, -62, 118, -118, 
 _REACHES_PX = (0.0, 6.0, 15.0, 27.0, 43.0, 66.0, 95.0, 130.0)
 """Beyond the gap, to the label's box [pixels]."""
 
-MAX_LABELS = 150
+MAX_LABELS = 80
+FIRST_RANKS = 3  # all labels below this rank are asked for, of the others evenly many
+LEFT_OUT_COST = 62.0  # less for higher ranks: a label that hides more than that is left out
 LEADER_FROM_PX = 12.0
 """Beyond the gap: a label that is farther away gets a line to what it names [pixels]."""
 
@@ -128,7 +130,7 @@ class Labels:
         to_pixels = self._axes.transData.transform
         asked = [
             (label, anchor)
-            for label in sorted(self._labels, key=lambda item: item.rank)[:MAX_LABELS]
+            for label in _most(sorted(self._labels, key=lambda item: item.rank))
             if _is_in(anchor := to_pixels(label.at), area)
         ]
         if not asked:
@@ -213,6 +215,16 @@ class Labels:
         )  # fmt: skip
 
 
+def _most(labels: list[_Label]) -> list[_Label]:
+    """The first labels, and as many of the others as there may be, evenly out of them."""
+    first = [label for label in labels if label.rank < FIRST_RANKS]
+    others = labels[len(first) :]
+    room = max(MAX_LABELS - len(first), 0)
+    if len(others) > room:
+        others = [others[k * len(others) // room] for k in range(room)]
+    return first + others
+
+
 def _is_in(place: Floats, area: Floats) -> bool:
     return bool((place >= area[:2]).all() and (place <= area[2:]).all())
 
@@ -234,7 +246,7 @@ def _leaders(label: _Label, anchor: Floats, boxes: Floats) -> Floats:
 
 def _left_out(label: _Label) -> float:
     """What it costs to leave a label out."""
-    return 150.0 - 10.0 * label.rank
+    return LEFT_OUT_COST - 4.0 * label.rank
 
 
 def _around() -> tuple[Floats, Floats, Floats]:

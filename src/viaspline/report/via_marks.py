@@ -21,7 +21,7 @@ from viaspline.report.labels import Labels
 MAX_NUMBERED = 80  # via points that have numbers
 MIN_NUMBERED_SPACING_PX = 24.0  # pixels between via points, below which they lose their numbers
 SAME_PLACE_PX = 2.0  # closer via points are one mark
-MIN_ON_DISC_PX = 14.0  # from a disc with a number to the next
+MIN_ON_DISC_PX = 19.0  # from a disc with a number to the next
 LETTERS_ON_DISC = 3  # more stand beside it
 
 
