@@ -21,7 +21,7 @@ NOWHERE = np.full((1, 2), np.nan)
 
 def _label(corners: list[tuple[int, int]], left_out: float = 50.0) -> LabelPlaces:
     low = np.array(corners, float)
-    boxes = np.hstack((low, low + (4.0, 2.0)))
+    boxes = np.hstack((low, low + np.array([4.0, 2.0])))
     leaders = np.broadcast_to(NOWHERE, (len(boxes), 1, 2)).copy()
     return LabelPlaces(boxes, np.arange(1.0, len(boxes) + 1.0), leaders, left_out)
 
