@@ -17,7 +17,7 @@ from matplotlib.text import Text
 from viaspline.kernels.arrays import Floats
 
 GREYS = np.array([0.3, 0.59, 0.11])  # of red, green and blue
-STEP_PX = 2  # of an image's dots that are looked at
+STEP_PX = 2  # of the pixels that are looked at
 
 
 def contrasts(axes: Axes) -> tuple[Floats, Floats]:
@@ -27,7 +27,7 @@ def contrasts(axes: Axes) -> tuple[Floats, Floats]:
         axes: With fixed limits, linear in both ways.
 
     Returns:
-        Changes from 0 to 2 per pixel, the lowest row first, shape (rows, columns), and the place
+        Changes at every other pixel, the lowest row first, shape (rows, columns), and the place
         of its lower left corner on the figure [pixels], shape (2,).
     """
     figure = axes.get_figure(root=True)
@@ -41,13 +41,11 @@ def contrasts(axes: Axes) -> tuple[Floats, Floats]:
         if _is_ink(axes, artist):
             artist.draw(renderer)
     pixels = np.asarray(renderer.buffer_rgba())[::-1]  # type: ignore[no-untyped-call]
-    seen = pixels[bottom : bottom + up, left : left + across] / 255.0
+    seen = pixels[bottom : bottom + up, left : left + across][::STEP_PX, ::STEP_PX] / 255.0
     whole = _changes(_grey(seen))
     for image in axes.images:
-        coarse = _changes(_grey(_sampled(image, axes, across, up)))
-        dots = np.repeat(np.repeat(coarse, STEP_PX, axis=0), STEP_PX, axis=1)
-        whole += dots[:up, :across] / STEP_PX
-    return whole, np.array([left, bottom], float)
+        whole += _changes(_grey(_sampled(image, axes, across, up)))
+    return STEP_PX * whole, np.array([left, bottom], float)
 
 
 def _is_ink(axes: Axes, artist: Artist) -> bool:

@@ -13,7 +13,7 @@ from matplotlib.text import Text
 from viaspline.kernels.arrays import Floats
 from viaspline.report.box_sums import BoxSums
 from viaspline.report.canvas import renderer_of
-from viaspline.report.drawn_ink import contrasts
+from viaspline.report.drawn_ink import STEP_PX, contrasts
 from viaspline.report.label_layout import LEFT_OUT, LabelPlaces, least_cost_places
 from viaspline.report.style import INK, SMALL_PT
 
@@ -139,7 +139,7 @@ class Labels:
             area,
             BoxSums.of_points(to_pixels(lines.reshape(-1, 2)), area, CURVE_CELL_PX),
             BoxSums.of_points(to_pixels(markers.reshape(-1, 2)), area, 1.0),
-            BoxSums.of_image(*contrasts(self._axes), 1.0),
+            BoxSums.of_image(*contrasts(self._axes), STEP_PX),
             marker_size,
         )
         sizes = [self._measure(label) for label, _ in asked]
