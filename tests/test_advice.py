@@ -144,7 +144,7 @@ def test_along_a_straight_line_it_makes_no_difference(
     advice = vs.advise_tension(asked)
     assert not advice.matters
     assert advice.suggested == stated
-    assert advice_words(advice).startswith("It makes no difference: the path is straight")
+    assert advice_words(advice).startswith("There is nothing to choose: the path is straight")
 
 
 def test_what_stands_in_the_mission_stays_where_nothing_is_better() -> None:

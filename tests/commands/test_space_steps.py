@@ -35,7 +35,7 @@ def test_a_mission_in_space_is_checked_planned_and_flown(tower: Path, tmp_path: 
     assert done.exit_code == 0, done.output
     assert {file.name for file in out.iterdir()} == {
         "plan.json", "path.csv", "plan.png", "planned-mission.yaml", "run.json", "run.csv",
-        "timing.json",
+        "run.png", "timing.json",
     }  # fmt: skip
     assert json.loads((out / "run.json").read_text())["reached"]
     assert "hall" in done.output

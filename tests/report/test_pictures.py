@@ -7,6 +7,8 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 import pytest
+import shapely
+from matplotlib.collections import LineCollection
 from numpy.typing import NDArray
 from PIL import Image
 
@@ -14,8 +16,11 @@ from viaspline.maps.grid import Grid
 from viaspline.mission.model import Mission
 from viaspline.planner import Plan, plan
 from viaspline.report import style
+from viaspline.report.canvas import new_figure, renderer_of
+from viaspline.report.driven_line import DrivenKey, draw_driven, sharpest_driven, speed_colours
+from viaspline.report.labels import Labels
 from viaspline.report.plan_picture import plan_picture, via_ticks
-from viaspline.report.profile_strips import shown_range
+from viaspline.report.profile_strips import mark_clipped, shown_range
 from viaspline.report.run_picture import echoes, run_picture
 from viaspline.robot.run import Run
 
@@ -174,3 +179,52 @@ def test_a_peak_does_not_flatten_the_rest_of_a_strip() -> None:
     low, high = shown_range(curvature)
     assert (low, high) == (pytest.approx(-1, abs=0.01), pytest.approx(6, abs=0.1))
     assert shown_range(np.array([0.0, 0.0, 3.0])) == (0.0, 3.0)
+
+
+def test_a_clipped_peak_is_marked_with_its_radius() -> None:
+    axes = new_figure(6, 2).add_axes((0.1, 0.2, 0.8, 0.7))
+    distances, curvature = np.linspace(0, 20, 1000), np.sin(np.linspace(0, 20, 1000))
+    curvature[500] = -40.0
+    axes.plot(distances, curvature)
+    axes.set_xlim(0, 20)
+    axes.set_ylim(-6, 6)
+    mark_clipped(axes, distances, curvature, 50.0)
+    (mark,) = [line for line in axes.lines if line.get_marker() == "v"]
+    assert float(np.ravel(mark.get_xdata())[0]) == distances[500]
+    assert [text.get_text() for text in axes.texts] == ["beyond: 50 1/m, radius 0.020 m"]
+    mark_clipped(axes, distances, np.clip(curvature, -1, 1), 1.0)
+    assert len(axes.texts) == 1
+
+
+def test_the_sharpest_place_of_a_run_is_that_of_its_exact_curve(driven: Run) -> None:
+    sharpest = sharpest_driven(driven)
+    assert sharpest is not None
+    assert sharpest.radius * driven.path.max_curvature()[0] == pytest.approx(1.0)
+    assert np.abs(driven.curvatures).max() <= sharpest.curvature * (1 + 1e-6)
+    near = np.hypot(*(driven.positions[:, :2] - sharpest.at).T).min()
+    assert near < 0.5
+
+
+def test_the_legend_shows_the_driven_path_in_its_colours(driven: Run) -> None:
+    axes = new_figure(6, 4).add_axes((0, 0, 1, 1))
+    colours, limits = speed_colours(driven.speeds)
+    line = draw_driven(axes, driven.positions, driven.speeds, colours, limits)
+    legend = axes.legend(handles=[line], handler_map={LineCollection: DrivenKey()})
+    assert [text.get_text() for text in legend.get_texts()] == ["driven path"]
+    (shown,) = legend.findobj(LineCollection)
+    assert len(np.unique(shown.get_colors(), axis=0)) > 8
+
+
+def test_an_area_names_itself_where_its_name_fits() -> None:
+    axes = new_figure(6, 6).add_axes((0, 0, 1, 1))
+    axes.set_xlim(0, 10)
+    axes.set_ylim(0, 10)
+    labels = Labels(axes)
+    area = shapely.box(1, 1, 6, 6)
+    labels.add("walkway", (3.5, 3.5), area=area)
+    path = np.column_stack((np.linspace(0, 10, 400), np.full(400, 3.5)))
+    labels.place(path, np.zeros((0, 2)))
+    box = axes.texts[0].get_window_extent(renderer_of(axes.figure))
+    corners = axes.transData.inverted().transform(box.get_points())
+    assert area.contains(shapely.box(*corners.ravel()))
+    assert not corners[0, 1] < 3.5 < corners[1, 1]

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 SPATIAL_PLAN_NAMES: Final = (
     "plan.json", "path.csv", "plan.png", "planned-mission.yaml", "timing.json"
 )  # fmt: skip
-SPATIAL_RUN_NAMES: Final = (*SPATIAL_PLAN_NAMES, "run.json", "run.csv")
+SPATIAL_RUN_NAMES: Final = (*SPATIAL_PLAN_NAMES, "run.json", "run.csv", "run.png")
 
 
 def plan_spatial_mission(asked: Mission, file: Path, out: Path | None, *, quiet: bool) -> None:

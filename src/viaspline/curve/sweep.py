@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import shapely
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from viaspline.curve.bending import SMOOTH_JUMP_RAD, corner_angles
 from viaspline.curve.piecewise import PiecewiseCubic
@@ -75,12 +75,39 @@ def swept_area(
         >>> 10.0 <= area.area < 10.2
         True
     """
+    return shapely.union_all(swept_parts(curve, footprint, tolerance, radius=radius))
+
+
+def swept_parts(
+    curve: PiecewiseCubic,
+    footprint: ArrayLike | None = None,
+    tolerance: float = 0.02,
+    *,
+    radius: float = 0.0,
+) -> NDArray[np.object_]:
+    """What a body covers from pose to pose along a curve: polygons that together are all of it.
+
+    Their union takes far longer than they do; who only fills them with a colour does without.
+
+    Args:
+        curve: As for ``swept_area``,
+        footprint: likewise,
+        tolerance: likewise [m],
+        radius: and likewise [m].
+
+    Returns:
+        Shapely polygons, shape (n,).
+
+    Raises:
+        GeometryError: As ``swept_area`` does.
+    """
     if not (tolerance > 0.0 and math.isfinite(tolerance)) or not radius >= 0.0:
         raise GeometryError(f"tolerance {tolerance} has to be above 0, radius {radius} 0 or more")
     if footprint is None:
         at, _ = _poses(curve, 0.0, 0.5 * tolerance)
         line = shapely.LineString(at)
-        return line.buffer(radius + 0.5 * tolerance, quad_segs=_segments(radius, tolerance))
+        around = line.buffer(radius + 0.5 * tolerance, quad_segs=_segments(radius, tolerance))
+        return np.array([around], object)
     body = outline(footprint)
     reach = float(np.hypot(body[:, 0], body[:, 1]).max())
     at, heading = _poses(curve, reach, 0.5 * tolerance)
@@ -93,8 +120,7 @@ def swept_area(
         hulls.append(shapely.convex_hull(shapely.multipoints(pairs)))
     grown = radius + 0.5 * tolerance
     # each by itself: the union of slivers, edges that slide along themselves, would lose parts
-    around = shapely.buffer(np.concatenate(hulls), grown, quad_segs=_segments(radius, tolerance))
-    return shapely.union_all(around)
+    return shapely.buffer(np.concatenate(hulls), grown, quad_segs=_segments(radius, tolerance))
 
 
 def _segments(radius: float, tolerance: float) -> int:
@@ -115,7 +141,7 @@ def _poses(curve: PiecewiseCubic, reach: float, tolerance: float) -> tuple[Float
 
     Halved until neither the middle of the path nor the turn between neighbours is too far off.
     """
-    u = np.linspace(*curve.domain, 8 * len(curve.spans) + 1)
+    u = _first_parameters(curve, tolerance)
     widest = 2.0 * math.acos(max(1.0 - 0.25 * tolerance / max(reach, tolerance), 0.0))
     while True:
         at = curve.evaluate(u)[:, :2]
@@ -133,6 +159,16 @@ def _poses(curve: PiecewiseCubic, reach: float, tolerance: float) -> tuple[Float
             raise GeometryError(f"a tolerance of {tolerance} takes more than {MAX_POSES} poses")
         u = np.sort(np.concatenate((u, 0.5 * (u[:-1] + u[1:])[coarse])))
     return _with_turns(curve, at, heading, widest)
+
+
+def _first_parameters(curve: PiecewiseCubic, tolerance: float) -> Floats:
+    """Where poses stand at first: eight to a span, fewer to one that is as short as a tolerance."""
+    edges = np.diff(np.asarray(curve.spans)[:, :, :2], axis=1)
+    longest = np.hypot(edges[..., 0], edges[..., 1]).sum(axis=1)
+    counts = np.clip(np.ceil(longest / tolerance), 1, 8).astype(int)
+    whole = [k + np.arange(count) / count for k, count in enumerate(counts.tolist())]
+    first, last = curve.domain
+    return np.append(first + np.concatenate(whole), last)
 
 
 def _with_turns(

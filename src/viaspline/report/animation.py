@@ -14,14 +14,15 @@ from matplotlib.text import Text
 
 from viaspline.report import style
 from viaspline.report.canvas import any_name, polyline
+from viaspline.report.driven_line import thinned
 from viaspline.report.labels import Labels
 from viaspline.report.moving_film import MovingLayer
-from viaspline.report.path_marks import draw_vias
-from viaspline.report.run_picture import has_lidar, run_scene, thinned
+from viaspline.report.run_picture import has_lidar, run_scene
 from viaspline.report.scene import Scene
 from viaspline.report.sensor_view import sight_of
 from viaspline.report.sheet import Sheet, new_sheet
 from viaspline.report.side_column import SideColumn
+from viaspline.report.via_marks import draw_vias
 from viaspline.report.video_file import VideoFile
 from viaspline.report.video_writer import Frame, write_film
 from viaspline.robot.run import Run

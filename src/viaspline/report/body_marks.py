@@ -8,15 +8,16 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import shapely
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection, PathCollection, PolyCollection
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, PathPatch, Polygon, Rectangle
+from matplotlib.patches import Circle, Polygon, Rectangle
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.curve.sweep import footprints_along, placed, swept_area
+from viaspline.curve.sweep import footprints_along, placed, swept_parts
 from viaspline.kernels.arrays import Floats
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.mission.world_spec import SpeedZone
@@ -47,11 +48,14 @@ def draw_swept(
         or curve.length <= 0.0
     ):
         return []
-    tolerance = max(0.5 / pixels_per_metre, 0.01 * robot.outer_radius)
-    area = swept_area(curve, robot.footprint, tolerance, radius=_disc(robot))
-    axes.add_artist(
-        PathPatch(outline(area), facecolor=style.SENSOR, alpha=0.28, edgecolor="none", zorder=3)
-    )
+    tolerance = max(1.0 / pixels_per_metre, 0.01 * robot.outer_radius)
+    parts = swept_parts(curve, robot.footprint, tolerance, radius=_disc(robot))
+    axes.add_collection(
+        PathCollection(
+            [outline(part) for part in parts], facecolors=style.SWEPT, edgecolors="none", zorder=2.2
+        ),
+        autolim=False,
+    )  # fmt: skip
     if robot.footprint is not None:
         spacing = max(BODY_SPACING_LENGTHS * 2.0 * robot.outer_radius, curve.length / MAX_BODIES)
         axes.add_collection(
@@ -61,7 +65,7 @@ def draw_swept(
             ),
             autolim=False,
         )  # fmt: skip
-    return [Rectangle((0, 0), 1, 1, facecolor=style.SENSOR, alpha=0.28, label="swept by the body")]
+    return [Rectangle((0, 0), 1, 1, facecolor=style.SWEPT, label="swept by the body")]
 
 
 def draw_body(axes: Axes, certificate: Certificate, robot: RobotSpec, heading: float) -> None:
@@ -137,7 +141,10 @@ def draw_zones(axes: Axes, labels: Labels, zones: tuple[SpeedZone, ...]) -> list
         axes.add_artist(Polygon(zone.polygon, zorder=1.5, **look))
         x, y = np.mean(zone.polygon, axis=0).tolist()
         name = f"{style.short(zone.name)}: " if zone.name else ""
-        labels.add(f"{name}{zone.max_speed_mps:g} m/s", (x, y), rank=5, colour=style.ZONE_INK)
+        labels.add(
+            f"{name}{zone.max_speed_mps:g} m/s", (x, y), rank=5, colour=style.ZONE_INK,
+            area=shapely.Polygon(zone.polygon),
+        )  # fmt: skip
     return [Rectangle((0, 0), 1, 1, label="speed zone", **look)] if zones else []
 
 

@@ -23,6 +23,9 @@ from viaspline.kernels.arrays import Floats
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.report.style import DPI, MUTED, SMALL_PT, TEXT_PT
 
+FITTINGS, MOST_OF_FONT = 12, 0.97
+"""Steps in which a text is made to fit, and the least of them as a share of its size."""
+
 
 def new_figure(width: float, height: float, dpi: int = DPI) -> Figure:
     """An empty white figure [inch] with its own canvas."""
@@ -64,6 +67,18 @@ def text_width(text: Text) -> float:
     assert isinstance(figure.canvas, FigureCanvasAgg)
     extent = text.get_window_extent(figure.canvas.get_renderer())  # type: ignore[no-untyped-call]
     return float(extent.width)
+
+
+def fit(text: Text, right: float) -> None:
+    """Make a text smaller until it ends left of a place on its figure [pixels]."""
+    figure = text.get_figure(root=True)
+    assert figure is not None
+    for _ in range(FITTINGS):  # letters are as wide as whole pixels: one step isn't enough
+        box = text.get_window_extent(renderer_of(figure))
+        if box.x1 <= right or right <= box.x0:
+            return
+        share = (right - box.x0) / box.width
+        text.set_fontsize(text.get_fontsize() * min(share, MOST_OF_FONT))
 
 
 def polyline(spans: Floats, per_span: int = 40) -> Floats:

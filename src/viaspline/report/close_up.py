@@ -5,6 +5,8 @@ Tested through ``report/test_pictures``.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -15,7 +17,7 @@ from viaspline.kernels.arrays import Floats
 from viaspline.mission.robot_parts import RobotSpec
 from viaspline.report import style
 from viaspline.report.body_marks import draw_body
-from viaspline.report.path_marks import draw_echoes, draw_path
+from viaspline.report.path_marks import draw_echoes
 from viaspline.report.scene import Scene
 from viaspline.report.side_column import SideColumn
 from viaspline.report.units import down
@@ -29,11 +31,19 @@ def close_up(
     path: Path,
     certificate: Certificate,
     robot: RobotSpec,
+    layers: Callable[[Axes, float], None],
     seen: Floats | None = None,
 ) -> None:
-    """The tightest place, large enough to see the clearance.
+    """The tightest place, large enough to see the clearance, as the map shows it.
 
-    What a lidar has ``seen`` are points [m], shape (n, 2); what was there stays in the background.
+    Args:
+        column: Where to.
+        scene: The world.
+        path: What was planned or driven.
+        certificate: Of that path.
+        robot: Whose body stands there.
+        layers: Draws what the map shows besides the world, on axes at so many pixels a metre.
+        seen: What a lidar has seen: points [m], shape (n, 2); what was there stays faint.
 
     It is left out where nothing is tight, where there is no room for it in the column, and where
     the map shows it as large.
@@ -58,10 +68,7 @@ def close_up(
     scene.draw(axes, scale, faint=seen is not None)
     if seen is not None:
         draw_echoes(axes, seen, 5.0)
-    distance = certificate.tightest_distance
-    near = np.linspace(max(distance - 3 * half, 0), min(distance + 3 * half, path.length), 400)
-    line = np.asarray(path.at_distance(near))[:, :2]
-    draw_path(axes, line)
+    layers(axes, scale)
     draw_body(axes, certificate, robot, float(path.heading(certificate.tightest_u)))
     body = certificate.contact or (x, y)
     nearest = scene.nearest_to(body)

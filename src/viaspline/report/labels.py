@@ -1,21 +1,42 @@
-"""Labels that keep off the path, the markers and each other: a small greedy placer."""
+"""Labels that keep off the path, the markers, each other and whatever else is drawn."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
 from viaspline.kernels.arrays import Floats
+from viaspline.report.box_sums import BoxSums
 from viaspline.report.canvas import renderer_of
+from viaspline.report.drawn_ink import STEP_PX, contrasts
+from viaspline.report.label_layout import LEFT_OUT, LabelPlaces, least_cost_places
 from viaspline.report.style import INK, SMALL_PT
 
-_ANGLES_RAD = np.radians([35, -35, 145, -145, 0, 180, 90, -90])
-_REACHES_PX = (0.0, 6.0, 15.0, 27.0, 43.0, 66.0)  # beyond the gap, to the label's box [pixels]
-MAX_LABELS = 150
+_NEAR_RAD = np.radians([35, -35, 145, -145, 0, 180, 90, -90])
+_FAR_RAD = np.radians([35, -35, 145, -145, 0, 180, 90, -90, 62, -62, 118, -118, 15, -15, 165, -165])
+_REACHES_PX = (0.0, 6.0, 15.0, 27.0, 43.0, 66.0, 95.0, 130.0)
+"""Beyond the gap, to the label's box [pixels]."""
+
+MAX_LABELS = 80
+FIRST_RANKS = 3  # all labels below this rank are asked for, of the others evenly many
+LEFT_OUT_COST = 62.0  # less for higher ranks: a label that hides more than that is left out
+LEADER_FROM_PX = 12.0
+"""Beyond the gap: a label that is farther away gets a line to what it names [pixels]."""
+
+LEADER_POINTS = 8
+PLACES_ASIDE = 7  # of a label within an area
+FACING_LEAST = 0.2
+"""Of a direction's part along an axis, from which a label stands beside its thing that way."""
+
+CURVE_CELL_PX = 4.0
+BETWEEN_PX = 1.0
+"""Free space about every label, to either side [pixels]."""
+
 _HALO = withStroke(linewidth=2.2, foreground="white", alpha=0.9)
 
 
@@ -28,6 +49,38 @@ class _Label:
     size: float
     inside: float
     gap: float
+    area: shapely.Geometry | None
+
+
+@dataclass(frozen=True)
+class _Ground:
+    """What labels are laid on, in pixels of the figure.
+
+    Attributes:
+        area: What they have to stay in, shape (4,).
+        curve: The curves to keep off.
+        dots: The markers to keep off.
+        ink: Whatever is drawn.
+        marker_size: Radius of a marker.
+    """
+
+    area: Floats
+    curve: BoxSums
+    dots: BoxSums
+    ink: BoxSums
+    marker_size: float
+
+    def costs(self, boxes: Floats, beyond: Floats) -> Floats:
+        """What it costs to put a label there, shape (k,).
+
+        Args:
+            boxes: Of the label, shape (k, 4).
+            beyond: How far each is from its usual place.
+        """
+        wide = np.array([-1.0, -1.0, 1.0, 1.0])
+        near = 4.0 * np.minimum(self.curve.within(boxes + 2.0 * wide), 10.0)
+        covered = 12.0 * self.dots.within(boxes + self.marker_size * wide)
+        return near + covered + np.minimum(0.1 * self.ink.within(boxes), 24.0) + beyond / 3.0
 
 
 class Labels:
@@ -47,6 +100,7 @@ class Labels:
         size: float = SMALL_PT,
         inside: float = 0.0,
         gap: float = 9.0,
+        area: shapely.Geometry | None = None,
     ) -> None:
         """Ask for a label.
 
@@ -58,50 +112,100 @@ class Labels:
             size: The size of the font [points].
             inside: Width of the thing [m]: the label goes on it when it fits.
             gap: From its place to the label, at least [pixels].
+            area: What it names, if that is a part of the ground [m]: the label goes anywhere in it
+                where it fits, before it goes beside its place.
         """
-        self._labels.append(_Label(text, at, rank, colour, size, inside, gap))
+        self._labels.append(_Label(text, at, rank, colour, size, inside, gap, area))
 
     def place(self, lines: Floats, markers: Floats, marker_size: float = 9.0) -> None:
-        """Put every label where it hides least; one that has no free place is left out.
+        """Put the labels where they hide least in all; one that has no free place is left out.
 
         Args:
             lines: Points of the curves to keep off [m], close together, shape (n, 2).
             markers: Centres of the markers to keep off [m], shape (k, 2).
             marker_size: Their radius [pixels].
         """
-        if not self._labels:
-            return
-        to_pixels = self._axes.transData.transform
-        curve = _sparse(to_pixels(lines)) if len(lines) else np.zeros((0, 2))
-        dots = to_pixels(markers) if len(markers) else np.zeros((0, 2))
         frame = self._axes.get_window_extent()
         area = np.array([frame.x0 + 3, frame.y0 + 3, frame.x1 - 3, frame.y1 - 3])
-        taken: list[Floats] = []
-        for label in sorted(self._labels, key=lambda item: item.rank)[:MAX_LABELS]:
-            anchor = to_pixels(label.at)
-            if not (area[0] <= anchor[0] <= area[2] and area[1] <= anchor[1] <= area[3]):
-                continue
-            size = self._measure(label)
-            best = _best_place(
-                label, anchor, size, area, curve, dots, marker_size, taken, to_pixels
-            )
-            if best is not None:
-                self._draw(label, anchor, best, size)
-                taken.append(_box(best, size))
+        to_pixels = self._axes.transData.transform
+        asked = [
+            (label, anchor)
+            for label in _most(sorted(self._labels, key=lambda item: item.rank))
+            if _is_in(anchor := to_pixels(label.at), area)
+        ]
+        if not asked:
+            return
+        ground = _Ground(
+            area,
+            BoxSums.of_points(to_pixels(lines.reshape(-1, 2)), area, CURVE_CELL_PX),
+            BoxSums.of_points(to_pixels(markers.reshape(-1, 2)), area, 1.0),
+            BoxSums.of_image(*contrasts(self._axes), STEP_PX),
+            marker_size,
+        )
+        sizes = [self._measure(label) for label, _ in asked]
+        places = [
+            self._in_area(label, size, ground)
+            or _places(label, anchor, size, self._room_on(label), ground)
+            for (label, anchor), size in zip(asked, sizes, strict=True)
+        ]
+        chosen = least_cost_places(places, self._written())
+        for (label, anchor), some, place in zip(asked, places, chosen, strict=True):
+            if place != LEFT_OUT:
+                box = some.boxes[place]
+                self._draw(label, anchor, 0.5 * (box[:2] + box[2:]), some.leaders[place])
+
+    def _room_on(self, label: _Label) -> float:
+        """Width of the thing that a label names, on the picture [pixels]."""
+        x, y = label.at
+        ends = self._axes.transData.transform([(x, y), (x + label.inside, y)])
+        return float(ends[1, 0] - ends[0, 0])
+
+    def _in_area(self, label: _Label, size: Floats, ground: _Ground) -> LabelPlaces | None:
+        """The places of a label within what it names; None where it doesn't fit."""
+        if label.area is None:
+            return None
+        outline = self._axes.transData.transform(shapely.get_coordinates(label.area))
+        seen = shapely.intersection(shapely.Polygon(outline), shapely.box(*ground.area))
+        if seen.is_empty:
+            return None
+        low, high = np.array(seen.bounds).reshape(2, 2)
+        shares = np.linspace(0.0, 1.0, PLACES_ASIDE)[:, None]
+        x, y = (low + size / 2 + shares * (high - low - size)).T
+        middles = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+        boxes = np.hstack((middles - size / 2, middles + size / 2))
+        fits = shapely.contains(seen, shapely.box(*boxes.T))
+        if not fits.any():
+            return None
+        away = np.abs(middles - (low + high) / 2).sum(axis=1)
+        costs = ground.costs(boxes, 0.05 * away)
+        leaders = np.full((int(fits.sum()), LEADER_POINTS, 2), np.nan)
+        return LabelPlaces(boxes[fits], costs[fits], leaders, _left_out(label))
+
+    def _written(self) -> Floats:
+        """The boxes of all texts that are on the axes already [pixels], shape (n, 4)."""
+        renderer = renderer_of(self._axes.figure)
+        texts = [text for text in self._axes.texts if text.get_visible() and text.get_text()]
+        boxes = [text.get_window_extent(renderer).extents for text in texts]
+        grown: Floats = np.array(boxes).reshape(-1, 4) + BETWEEN_PX * np.array([-1.0, -1, 1, 1])
+        return grown
 
     def _measure(self, label: _Label) -> Floats:
-        text = Text(0, 0, label.text, size=label.size, parse_math=False, figure=self._axes.figure)
+        text = Text(
+            0, 0, label.text, size=label.size, parse_math=False, linespacing=1.05,
+            figure=self._axes.figure,
+        )  # fmt: skip
         extent = text.get_window_extent(renderer_of(self._axes.figure))
-        return np.array([extent.width + 2, extent.height + 2])
+        size: Floats = np.ceil(np.array([extent.width, extent.height])) + 2.0 * BETWEEN_PX
+        return size
 
-    def _draw(self, label: _Label, anchor: Floats, middle: Floats, size: Floats) -> None:
+    def _draw(self, label: _Label, anchor: Floats, middle: Floats, ends: Floats) -> None:
         to_metres = self._axes.transData.inverted().transform
-        gap = np.abs(middle - anchor) - size / 2
-        distance = float(np.hypot(*np.maximum(gap, 0)))
-        if distance > label.gap + 12:
-            near = np.clip(anchor, middle - size / 2, middle + size / 2)
-            ends = to_metres([anchor + (near - anchor) * label.gap / distance, near])
-            self._axes.plot(*ends.T, color=label.colour, linewidth=0.6, alpha=0.7, zorder=19)
+        if np.isfinite(ends).all():
+            line = to_metres(ends[[0, -1]])
+            self._axes.plot(
+                *line.T, color=label.colour, linewidth=0.6, alpha=0.7, zorder=19, scalex=False,
+                scaley=False,
+            )  # fmt: skip
         x, y = to_metres(middle)
         halo = [] if (middle == anchor).all() else [_HALO]  # on the thing itself it needs none
         self._axes.text(
@@ -111,55 +215,67 @@ class Labels:
         )  # fmt: skip
 
 
-def _sparse(points: Floats) -> Floats:
-    """One of the points for each square of four pixels."""
-    return np.unique(np.round(points / 4), axis=0) * 4
+def _most(labels: list[_Label]) -> list[_Label]:
+    """The first labels, and as many of the others as there may be, evenly out of them."""
+    first = [label for label in labels if label.rank < FIRST_RANKS]
+    others = labels[len(first) :]
+    room = max(MAX_LABELS - len(first), 0)
+    if len(others) > room:
+        others = [others[k * len(others) // room] for k in range(room)]
+    return first + others
 
 
-def _box(middle: Floats, size: Floats) -> Floats:
-    return np.concatenate([middle - size / 2, middle + size / 2])
+def _is_in(place: Floats, area: Floats) -> bool:
+    return bool((place >= area[:2]).all() and (place <= area[2:]).all())
 
 
-def _inside(points: Floats, box: Floats, grow: float) -> int:
-    if not len(points):
-        return 0
-    within = (points > box[:2] - grow) & (points < box[2:] + grow)
-    return int(within.all(1).sum())
+def _leaders(label: _Label, anchor: Floats, boxes: Floats) -> Floats:
+    """Points of the lines from places (k, 4) to what is named there; not a number where near.
+
+    Returns:
+        Shape (k, l, 2).
+    """
+    near = np.clip(anchor, boxes[:, :2], boxes[:, 2:])
+    distance = np.hypot(*(near - anchor).T)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        begin = anchor + (near - anchor) * (label.gap / distance)[:, None]
+    lines: Floats = np.linspace(begin, near, LEADER_POINTS, axis=1)
+    lines[distance <= label.gap + LEADER_FROM_PX] = np.nan
+    return lines
 
 
-def _best_place(
-    label: _Label, anchor: Floats, size: Floats, area: Floats, curve: Floats, dots: Floats,
-    marker_size: float, taken: list[Floats], to_pixels: object,
-) -> Floats | None:  # fmt: skip
-    best, lowest = None, 60.0
-    boxes = np.array(taken).reshape(-1, 4)
-    for cost, middle in _places(label, anchor, size, to_pixels):
-        box = _box(middle, size)
-        if (box[:2] < area[:2]).any() or (box[2:] > area[2:]).any():
-            continue
-        apart = (boxes[:, :2] > box[2:]) | (boxes[:, 2:] < box[:2])
-        if not apart.any(1).all():
-            continue
-        cost += 4.0 * min(_inside(curve, box, 2.0), 10) + 12.0 * _inside(dots, box, marker_size)
-        if cost < lowest:
-            best, lowest = middle, cost
-    return best
+def _left_out(label: _Label) -> float:
+    """What it costs to leave a label out."""
+    return LEFT_OUT_COST - 4.0 * label.rank
+
+
+def _around() -> tuple[Floats, Floats, Floats]:
+    """Directions (k, 2), reaches and costs (k,) of the places around a thing."""
+    ways, reaches, costs = [], [], []
+    for reach in _REACHES_PX:
+        for i, angle in enumerate(_NEAR_RAD if reach < 15.0 else _FAR_RAD):
+            ways.append((np.cos(angle), np.sin(angle)))
+            reaches.append(reach)
+            costs.append(4.0 + reach + 0.8 * min(i, 8))
+    return np.array(ways), np.array(reaches), np.array(costs)
+
+
+_AROUND = _around()
 
 
 def _places(
-    label: _Label, anchor: Floats, size: Floats, to_pixels: object
-) -> list[tuple[float, Floats]]:
-    assert callable(to_pixels)
-    places: list[tuple[float, Floats]] = []
-    if label.inside > 0:
-        corners = to_pixels([label.at, (label.at[0] + label.inside, label.at[1])])
-        if corners[1, 0] - corners[0, 0] > size[0]:
-            places.append((0.0, anchor))
-    for reach in _REACHES_PX:
-        for i, angle in enumerate(_ANGLES_RAD):
-            way = np.array([np.cos(angle), np.sin(angle)])
-            lean = np.sign(np.where(np.abs(way) < 0.2, 0.0, way))
-            places.append(
-                (1.0 + reach / 4 + 0.2 * i, anchor + way * (label.gap + reach) + lean * size / 2)
-            )
-    return places
+    label: _Label, anchor: Floats, size: Floats, room: float, ground: _Ground
+) -> LabelPlaces:
+    """All places of a label, with their costs: around what it names, or right on it."""
+    ways, reaches, beyond = _AROUND
+    lean = np.sign(np.where(np.abs(ways) < FACING_LEAST, 0.0, ways))
+    usual = anchor + ways * (label.gap + reaches)[:, None] + lean * size / 2
+    if label.inside > 0 and room > size[0]:
+        usual, beyond = np.vstack((anchor, usual)), np.append(-20.0, beyond)
+    kept = np.clip(usual, ground.area[:2] + size / 2, ground.area[2:] - size / 2)
+    shifted = np.abs(kept - usual).sum(axis=1)
+    boxes = np.hstack((kept - size / 2, kept + size / 2))
+    costs = ground.costs(boxes, beyond + shifted)
+    outside = (boxes[:, :2] < ground.area[:2] - 1) | (boxes[:, 2:] > ground.area[2:] + 1)
+    costs[outside.any(axis=1)] = np.inf
+    return LabelPlaces(boxes, costs, _leaders(label, anchor, boxes), _left_out(label))

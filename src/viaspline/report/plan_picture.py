@@ -6,9 +6,11 @@ Tested through ``report/test_pictures``.
 from __future__ import annotations
 
 import textwrap
+from functools import partial
 
 import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 
 from viaspline.curve.certificate import Certificate
 from viaspline.curve.path import Path
@@ -28,15 +30,20 @@ from viaspline.report.path_marks import (
     draw_path,
     draw_sharpest,
     draw_tightest,
-    draw_vias,
 )
-from viaspline.report.profile_strips import draw_curvature_limit, fill_strips, strip_names
+from viaspline.report.profile_strips import (
+    draw_curvature_limit,
+    fill_strips,
+    mark_clipped,
+    strip_names,
+)
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Box, Sheet, new_sheet, view_of
 from viaspline.report.side_column import SideColumn
 from viaspline.report.space_time_column import plan_space_time
 from viaspline.report.summary import body_words, spline_words
 from viaspline.report.units import asked_words, down, metres, seconds
+from viaspline.report.via_marks import draw_plain_vias, draw_vias
 from viaspline.world.moving_obstacles import MovingObstacles
 
 MAX_REASONS = 3  # why a path drives roughly, before the rest is only counted
@@ -68,7 +75,8 @@ def plan_picture(plan: Plan, name: str) -> bytes:
     column.legend(handles)
     plan_space_time(column, plan)
     column.notes(*drive_notes(plan.drivability))
-    close_up(column, scene, plan.path, plan.certificate, plan.mission.robot)
+    layers = partial(_draw_close, plan=plan)
+    close_up(column, scene, plan.path, plan.certificate, plan.mission.robot, layers)
     return png(sheet.figure)
 
 
@@ -106,6 +114,16 @@ def draw_plan_map(sheet: Sheet, scene: Scene, plan: Plan) -> list[Artist]:
     handles += draw_moving(sheet.map, labels, moment_of(plan))
     labels.place(np.vstack([points, *losing(plan)]), places)
     return handles
+
+
+def _draw_close(axes: Axes, pixels_per_metre: float, *, plan: Plan) -> None:
+    """What the map shows of a plan, for axes that show a part of it larger."""
+    draw_zones(axes, Labels(axes), plan.mission.world.speed_zones)
+    draw_swept(axes, plan.path, plan.mission.robot, pixels_per_metre)
+    for line in losing(plan):
+        _draw_loser(axes, line, "way not taken")
+    draw_path(axes, polyline(plan.path.spans))
+    draw_plain_vias(axes, plan.path.vias, plan.mission)
 
 
 def moment_of(plan: Plan) -> Moment:
@@ -192,11 +210,7 @@ def draw_losers(sheet: Sheet, labels: Labels, plan: Plan) -> list[Artist]:
     lines = losing(plan)
     label = f"{len(lines)} ways not taken" if len(lines) > MAX_GROUPS_MEASURED else "way not taken"
     for line in lines:
-        (handle,) = sheet.map.plot(
-            *line.T, color=style.LOSER, linewidth=1.1, linestyle=(0, (5, 3)), alpha=0.75,
-            zorder=6, scalex=False, scaley=False, label=label,
-        )  # fmt: skip
-        handles = [handle]
+        handles = [_draw_loser(sheet.map, line, label)]
     legs: set[tuple[str, str]] = set()
     for entry in plan.ledger if len(plan.ledger) <= MAX_GROUPS_MEASURED else ():
         taken = entry.chosen
@@ -218,6 +232,14 @@ def draw_losers(sheet: Sheet, labels: Labels, plan: Plan) -> list[Artist]:
             text = f"{taken.side}: {metres(taken.length, 1)}"
             labels.add(text, at, rank=6, colour=style.PATH)
     return handles
+
+
+def _draw_loser(axes: Axes, line: Floats, label: str) -> Artist:
+    (handle,) = axes.plot(
+        *line.T, color=style.LOSER, linewidth=1.1, linestyle=(0, (5, 3)), alpha=0.75,
+        zorder=6, scalex=False, scaley=False, label=label,
+    )  # fmt: skip
+    return handle
 
 
 def _far_from(spans: Floats, others: Floats) -> tuple[float, float]:
@@ -242,3 +264,4 @@ def _fill_strips(sheet: Sheet, plan: Plan) -> None:
         values.append(np.asarray(path.evaluate(u))[:, 2])
     fill_strips(sheet.strips, distances, values, via_ticks(path, plan.mission), style.PATH)
     draw_curvature_limit(sheet.strips[1], plan.mission.robot.turn_radius)
+    mark_clipped(sheet.strips[1], distances, values[1], path.max_curvature()[0])

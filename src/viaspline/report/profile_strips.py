@@ -12,8 +12,10 @@ from matplotlib.axes import Axes
 
 from viaspline.kernels.arrays import Floats
 from viaspline.report.style import INK, MUTED, OBSTACLE, SMALL_PT, TEXT_PT, TIGHTEST
+from viaspline.report.units import metres
 
 TICK_SPACING_PX = 3.0
+LIMIT_WORDS_PX = 95.0  # at the right end of the strip, for the words at the turning circle
 Ticks = Sequence[tuple[float, str]]  # distance [m] and the number of a via point
 
 
@@ -83,6 +85,66 @@ def draw_curvature_limit(axes: Axes, radius: float | None) -> None:
             xytext=(-3, -2 if bound > 0.0 else 2), textcoords="offset points", color=TIGHTEST,
             size=SMALL_PT - 1, ha="right", va="top" if bound > 0.0 else "bottom",
         )  # fmt: skip
+
+
+def mark_clipped(axes: Axes, distances: Floats, curvature: Floats, sharpest: float) -> None:
+    """Say of peaks of the curvature that they go on beyond the strip, and how far the largest does.
+
+    Args:
+        axes: The strip, with its final limits.
+        distances: Along the path [m], shape (n,).
+        curvature: Signed [1/m], shape (n,).
+        sharpest: The largest of the whole path, without its sign [1/m].
+    """
+    low, high = axes.get_ylim()
+    peaks = [(i, 1) for i in _peaks(curvature, high)]
+    peaks += [(i, -1) for i in _peaks(-curvature, -low)]
+    if not peaks:
+        return
+    across = axes.get_window_extent().width
+    for i, side in peaks:
+        axes.plot(
+            distances[i], 0.93 if side > 0 else 0.07, transform=axes.get_xaxis_transform(),
+            marker="^" if side > 0 else "v", markersize=5, color=TIGHTEST, linestyle="none",
+            zorder=5, scalex=False, scaley=False,
+        )  # fmt: skip
+    i, side = max(peaks, key=lambda one: abs(curvature[one[0]]))
+    pixels = distances[i] / max(float(distances[-1]), 1e-9) * across
+    is_late = pixels > 0.5 * across
+    off = min(pixels - 6.0, across - LIMIT_WORDS_PX) if is_late else pixels + 6.0
+    axes.annotate(
+        _beyond_words(sharpest), (0.0, 1.0 if side > 0 else 0.0),
+        xycoords="axes fraction", xytext=(off * 72.0 / axes.figure.dpi, -3 * side),
+        textcoords="offset points", color=TIGHTEST, size=SMALL_PT - 1,
+        ha="right" if is_late else "left", va="top" if side > 0 else "bottom",
+    )  # fmt: skip
+
+
+def _beyond_words(sharpest: float) -> str:
+    if not np.isfinite(sharpest):
+        return "beyond: turns back on the spot"
+    return f"beyond: {sharpest:.3g} 1/m, {radius_words(1.0 / sharpest)}"
+
+
+def _peaks(values: Floats, most: float) -> list[int]:
+    """The highest place of each stretch that is higher than the strip."""
+    beyond = np.flatnonzero(values > most)
+    if not beyond.size:
+        return []
+    stretches = np.split(beyond, np.flatnonzero(np.diff(beyond) > 1) + 1)
+    return [int(one[np.argmax(values[one])]) for one in stretches]
+
+
+def radius_words(radius: float) -> str:
+    """A radius [m] in two or three digits behind the point.
+
+    Example:
+        >>> radius_words(1.1234), radius_words(0.0106), radius_words(1e-7)
+        ('radius 1.12 m', 'radius 0.011 m', 'radius below 1 mm')
+    """
+    if radius < 1e-3:
+        return "radius below 1 mm"
+    return f"radius {metres(radius, 2 if radius > 0.1 else 3)}"
 
 
 def shown_range(value: Floats) -> tuple[float, float]:

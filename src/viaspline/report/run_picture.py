@@ -5,11 +5,12 @@ Tested through ``report/test_pictures``.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.artist import Artist
-from matplotlib.collections import LineCollection
-from matplotlib.colors import Colormap, ListedColormap, Normalize
+from matplotlib.axes import Axes
+from matplotlib.colors import Colormap, Normalize
 
 from viaspline.curve.path import PathVia
 from viaspline.kernels.arrays import Floats
@@ -18,20 +19,21 @@ from viaspline.report import style
 from viaspline.report.body_marks import draw_headings, draw_swept, draw_zones
 from viaspline.report.canvas import any_name, png, polyline
 from viaspline.report.close_up import CLOSE_UP_ROOM_IN, close_up
+from viaspline.report.driven_line import draw_driven, sharpest_driven, speed_colours, thinned
 from viaspline.report.labels import Labels
 from viaspline.report.moving_marks import Moment, draw_moving
-from viaspline.report.path_marks import draw_arrows, draw_echoes, draw_tightest, draw_vias
+from viaspline.report.path_marks import draw_arrows, draw_echoes, draw_tightest, mark_sharpest
 from viaspline.report.plan_picture import proof, subtitle, via_ticks
-from viaspline.report.profile_strips import fill_strips, strip_names
+from viaspline.report.profile_strips import fill_strips, mark_clipped, strip_names
 from viaspline.report.scene import Scene, nearest_on
 from viaspline.report.sheet import Box, Sheet, new_sheet, view_of
 from viaspline.report.side_column import SideColumn
 from viaspline.report.space_time_column import run_space_time
 from viaspline.report.units import metres, seconds
+from viaspline.report.via_marks import draw_plain_vias, draw_vias
 from viaspline.robot.run import Event, Replan, Run
 
 CROSS_TRACK_STRIP = "left of path [m]"  # the strip of what a robot with a drive was off
-MAX_LINE_PIECES = 4000  # of the coloured line, at most
 NOTED_EVENTS = ("detected", "replanned", "skipped", "braked", "stopped", "contact")
 EVENT_MARKS = {
     "detected": ("x", "detected"),
@@ -65,14 +67,9 @@ def run_picture(run: Run, name: str) -> bytes:
     run_space_time(column, run)
     column_notes = _notes(run)
     if column.room > CLOSE_UP_ROOM_IN + 0.155 * min(len(column_notes), 6):
-        close_up(
-            column,
-            scene,
-            run.path,
-            run.certificate,
-            mission.robot,
-            echoes(run) if has_lidar(run) else None,
-        )
+        seen = echoes(run) if has_lidar(run) else None
+        layers = partial(_draw_close, run=run, colours=colours, limits=limits)
+        close_up(column, scene, run.path, run.certificate, mission.robot, layers, seen)
     column.notes("Under way", column_notes)
     return png(sheet.figure)
 
@@ -108,11 +105,11 @@ def draw_run_map(sheet: Sheet, scene: Scene, run: Run) -> list[Artist]:
         scene.name(labels)
     handles += draw_zones(sheet.map, labels, mission.world.speed_zones)
     handles += draw_swept(sheet.map, run.path, mission.robot, sheet.pixels_per_metre)
-    before = _draw_planned(sheet, planned)
+    before = _draw_planned(sheet.map, planned)
     if run.replans or not run.reached:  # else the driven path covers it
         handles.append(before)
     colours, limits = speed_colours(run.speeds)
-    draw_driven(sheet, run, colours, limits)
+    handles.append(draw_driven(sheet.map, run.positions, run.speeds, colours, limits))
     vias, places = draw_vias(sheet.map, labels, _all_vias(run), mission)
     draw_arrows(sheet.map, thinned(driven), style.INK, avoid=places, every=150)
     if mission.robot.held_heading is not None:
@@ -120,10 +117,26 @@ def draw_run_map(sheet: Sheet, scene: Scene, run: Run) -> list[Artist]:
         handles += draw_headings(sheet.map, some[:, :2], some[:, 2])
     handles += vias + _draw_events(sheet, labels, run)
     handles += draw_tightest(sheet.map, labels, run.certificate)
+    sharpest = sharpest_driven(run)
+    if sharpest is not None:
+        handles += mark_sharpest(sheet.map, labels, sharpest.at, sharpest.radius)
     handles += draw_moving(sheet.map, labels, _moment(run))
     noted = [event.at[:2] for event in run.events if event.kind in _told(run)]
     labels.place(np.vstack([planned, thinned(driven)]), np.vstack([places, *noted]))
     return handles
+
+
+def _draw_close(
+    axes: Axes, pixels_per_metre: float, *, run: Run, colours: Colormap, limits: Normalize
+) -> None:
+    """What the map shows of a run, for axes that show a part of it larger."""
+    mission = run.plan.mission
+    draw_zones(axes, Labels(axes), mission.world.speed_zones)
+    draw_swept(axes, run.path, mission.robot, pixels_per_metre)
+    if run.replans or not run.reached:
+        _draw_planned(axes, polyline(run.plan.path.spans))
+    draw_driven(axes, run.positions, run.speeds, colours, limits)
+    draw_plain_vias(axes, _all_vias(run), mission)
 
 
 def _moment(run: Run) -> Moment:
@@ -191,39 +204,8 @@ def note(event: Event) -> str:
     return style.short(f"{event.time:.1f} s  {event.message or event.kind}", 50)
 
 
-def speed_colours(speeds: Floats) -> tuple[Colormap, Normalize]:
-    """Colours from standing to full speed, dark enough for white paper at both ends."""
-    whole = colormaps[style.SPEED_MAP]
-    top = float(speeds.max()) if speeds.size else 0.0
-    return ListedColormap(whole(np.linspace(0.0, 0.88, 256))), Normalize(0.0, max(top, 1e-3))
-
-
-def thinned(points: Floats, most: int = MAX_LINE_PIECES) -> Floats:
-    """At most so many of the points, the last one among them."""
-    if len(points) <= most:
-        return points
-    kept: Floats = points[np.linspace(0, len(points) - 1, most).round().astype(int)]
-    return kept
-
-
-def draw_driven(sheet: Sheet, run: Run, colours: Colormap, limits: Normalize) -> None:
-    """The driven path in the colours of its speed, with a dark edge."""
-    points = thinned(run.positions[:, :2])
-    speeds = thinned(run.speeds[:, None])[:, 0]
-    sheet.map.plot(
-        *points.T, color=style.INK, linewidth=3.4, zorder=7.5, solid_capstyle="round",
-        scalex=False, scaley=False,
-    )  # fmt: skip
-    pieces = LineCollection(
-        list(np.stack([points[:-1], points[1:]], axis=1)), cmap=colours, norm=limits,
-        linewidths=2.4, zorder=8, capstyle="round",
-    )  # fmt: skip
-    pieces.set_array((speeds[:-1] + speeds[1:]) / 2)
-    sheet.map.add_collection(pieces, autolim=False)
-
-
-def _draw_planned(sheet: Sheet, planned: Floats) -> Artist:
-    (line,) = sheet.map.plot(
+def _draw_planned(axes: Axes, planned: Floats) -> Artist:
+    (line,) = axes.plot(
         *planned.T, color=style.OLD_PATH, linewidth=1.1, linestyle=(0, (6, 2)), zorder=7,
         scalex=False, scaley=False, label="path planned before",
     )  # fmt: skip
@@ -299,5 +281,8 @@ def _fill_strips(sheet: Sheet, run: Run) -> None:
     fill_strips(
         sheet.strips, distances[keep], values, via_ticks(run.path, run.plan.mission), style.PATH
     )
+    sharpest = sharpest_driven(run)
+    if sharpest is not None:
+        mark_clipped(sheet.strips[1], distances[keep], values[1], sharpest.curvature)
     for replan in run.replans:
         sheet.strips[0].axvline(replan.distance, color=style.UNSEEN, linewidth=0.9, linestyle=":")

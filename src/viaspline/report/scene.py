@@ -45,6 +45,7 @@ from viaspline.report.sheet import Box
 from viaspline.world.world import World
 
 MAX_CORNERS_DRAWN = 20_000  # of all outlines, beyond which their grown edges lose what is hidden
+LEAST_RING_PX = 3.0  # from an obstacle to the edge of its required distance, to be told apart
 HIDDEN_DOTS = 0.25  # detail of a picture that can't be seen [pixels]
 
 
@@ -135,8 +136,12 @@ class Scene:
             artists.append(draw_known(axes, known, pixels_per_metre, words))
         if unseen.size:
             artists.append(draw_unseen(axes, unseen, len(self.unseen), faint))
-        if self.required * pixels_per_metre >= (3.0 if grids else 1.0):
-            ring = self._ring(np.concatenate([known, unseen]), grids, view, pixels_per_metre)
+        if self.required * pixels_per_metre >= LEAST_RING_PX:
+            near = grown(view, self.required)  # what is just out of sight has an edge in sight
+            shapes = _within(self.known, near)
+            if reveal:
+                shapes = np.concatenate((shapes, _within(self.unseen, near)))
+            ring = self._ring(shapes, grids, view, pixels_per_metre)
             if not ring.is_empty:
                 patch = PathPatch(
                     outline(ring), facecolor="none", edgecolor=style.RING, linewidth=0.6,

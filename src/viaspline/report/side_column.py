@@ -12,14 +12,18 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from viaspline.report.canvas import tidy
+from viaspline.report.canvas import fit, tidy
+from viaspline.report.driven_line import DrivenKey
 from viaspline.report.sheet import Sheet
 from viaspline.report.style import INK, MUTED, SMALL_PT
 from viaspline.report.units import nice
+
+PAST_IN = 0.12  # that texts may reach beyond the column, on the page still [inch]
 
 
 class SideColumn:
@@ -29,6 +33,11 @@ class SideColumn:
         self._sheet = sheet
         self._left, self.bottom, self._width, height = sheet.side
         self._top = self.bottom + height
+
+    @property
+    def _right(self) -> float:
+        """Where texts have to end [pixels]."""
+        return (self._left + self._width + PAST_IN) * self._sheet.figure.dpi
 
     @property
     def room(self) -> float:
@@ -48,11 +57,13 @@ class SideColumn:
         legend = figure.legend(
             handles=list(handles), loc="upper left", fontsize=SMALL_PT, frameon=False,
             bbox_to_anchor=(self._left / across, self._top / up), borderaxespad=0,
-            borderpad=0, handlelength=2.0, labelspacing=0.55, markerscale=0.75,
+            borderpad=0, handlelength=2.0, labelspacing=0.75, markerscale=0.66,
+            handler_map={LineCollection: DrivenKey()},
         )  # fmt: skip
         for text in legend.get_texts():
             text.set_parse_math(False)
             text.set_color(INK)
+            fit(text, self._right)
         self._top -= legend.get_window_extent(_renderer(figure)).height / figure.dpi + 0.25
 
     def colour_bar(self, colours: Colormap, limits: Normalize, title: str) -> None:
@@ -74,7 +85,8 @@ class SideColumn:
         axes = self._sheet.figure.add_axes(box)
         tidy(axes)
         axes.tick_params(left=False, bottom=False, labelleft=False, labelbottom=False)
-        axes.set_title(title, size=SMALL_PT, color=INK, loc="left", pad=3, parse_math=False)
+        text = axes.set_title(title, size=SMALL_PT, color=INK, loc="left", pad=3, parse_math=False)
+        fit(text, self._right)
         self._top -= height + head + 0.4
         return axes
 
@@ -106,7 +118,8 @@ class SideColumn:
         figure.text(x, self._top / up, title, size=SMALL_PT, color=INK, weight="bold", va="top")
         for i, line in enumerate(lines):
             y = (self._top - 0.19 - i * step) / up
-            figure.text(x, y, line, size=7, color=MUTED, va="top", parse_math=False)
+            text = figure.text(x, y, line, size=7, color=MUTED, va="top", parse_math=False)
+            fit(text, self._right)
         self._top -= 0.35 + len(lines) * step
 
 

@@ -7,6 +7,7 @@ matters differs in shape or dash as well.
 from __future__ import annotations
 
 import re
+from unicodedata import bidirectional
 
 DPI = 135
 
@@ -37,6 +38,7 @@ START = "#009e73"
 GOAL = "#1b1f24"
 STATION = "#f0e442"
 SENSOR = "#56b4e9"
+SWEPT = "#d0eaf9"  # opaque: its parts lie over each other
 BODY = "#2f6f9f"
 MOVING = "#c2410c"
 MOVING_FILL = "#f6c7a8"
@@ -50,6 +52,8 @@ SMALL_PT = 7.5
 
 PATH_WIDTH_PT = 2.0
 
+LEFT_TO_RIGHT = "\u200e"
+
 
 def without_folder(name: str) -> str:
     """What a thing is called, with just the file of the map that it is on.
@@ -62,11 +66,17 @@ def without_folder(name: str) -> str:
 
 
 def short(name: str, length: int = 28) -> str:
-    """A name that fits on a picture: one line, not too long.
+    r"""A name that fits on a picture: one line, not too long.
 
     Example:
         >>> short("pump house" * 5, 12)
         'pump housep…'
+    >>> short("שער")
+    '\u200eשער\u200e'
     """
     line = " ".join(name.split())
-    return line if len(line) <= length else line[: length - 1] + "…"
+    if len(line) > length:
+        line = line[: length - 1] + "…"
+    is_right_to_left = any(bidirectional(letter) in ("R", "AL") for letter in line)
+    # marks of no width: what stands before and after such a name keeps its place
+    return f"{LEFT_TO_RIGHT}{line}{LEFT_TO_RIGHT}" if is_right_to_left else line

@@ -40,8 +40,9 @@ def tension_picture(advice: TensionAdvice, name: str) -> bytes:
     """
     figure = new_figure(WIDTH + COLUMN, HEIGHT)
     across = 0.75 / (WIDTH + COLUMN)
+    what = "what tension does" if advice.matters else "there is no tension to choose"
     figure.text(
-        across, 1 - 0.28 / HEIGHT, f"{style.short(name, 48)}: what tension does",
+        across, 1 - 0.28 / HEIGHT, f"{style.short(name, 48)}: {what}",
         size=style.TITLE_PT, weight="bold", color=style.INK, va="center", parse_math=False,
     )  # fmt: skip
     words = fill(advice_words(advice), WORDS_WIDTH)
@@ -120,7 +121,8 @@ def _open_up(axes: Axes, values: Floats) -> None:
     if np.ptp(values) <= FLAT_SHARE * max(1.0, float(values.max())):
         middle = float(values.mean())
         axes.set_ylim(0.0, 2.0 * middle if middle > FLAT_SHARE else 1.0)
-        axes.text(0.5, 0.75, "no difference", transform=axes.transAxes, ha="center",
+        words = "the same, whatever the tension"
+        axes.text(0.5, 0.75, words, transform=axes.transAxes, ha="center",
                   size=style.TEXT_PT, color=style.MUTED)  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from viaspline.planner import Plan
 from viaspline.report.csv_tables import path_csv, run_csv, spacing
 from viaspline.report.plan_json import plan_json
 from viaspline.report.run_json import run_json
-from viaspline.report.space.spatial_results import spatial_plan_contents, spatial_run_contents
+from viaspline.report.space.spatial_results import flight_file, spatial_plan_contents
 from viaspline.robot.run import Run
 from viaspline.space.spatial_plan import SpatialPlan
 from viaspline.space.spatial_run import SpatialRun
@@ -96,11 +96,7 @@ def run_file(run: AnyRun, kind: str, name: str, seed: int) -> bytes:
     if isinstance(run, SimulatedFleet):
         return fleet_run_file(run, kind, name, seed)
     if isinstance(run, SpatialRun):
-        contents = spatial_run_contents(run, name)
-        if kind not in contents:
-            raise RefusedError(f"a flight has {' and '.join(contents)}")
-        content = contents[kind]
-        return content.encode() if isinstance(content, str) else content
+        return flight_file(run, kind, name)
     if kind == "run.json":
         return run_json(run, name, seed=seed).encode()
     if kind == "run.csv":

@@ -39,7 +39,7 @@ SAVED: dict[str, tuple[Any, set[str]]] = {
     "plan": (PLAN, PLAN_FILES),
     "flight plan": (FLOWN, PLAN_FILES),
     "run": (vs.simulate(MISSION, plan=PLAN), PLAN_FILES | {"run.json", "run.csv", "run.png"}),
-    "flight": (vs.fly(FLOWN), PLAN_FILES | {"run.json", "run.csv"}),
+    "flight": (vs.fly(FLOWN), PLAN_FILES | {"run.json", "run.csv", "run.png"}),
     "fleet plan": (FLEET_PLAN, {"fleet.json", "fleet.png", "a", "b"}),
     "fleet run": (vs.simulate_fleet(PAIR, plan=FLEET_PLAN), {"run.json"}),
 }

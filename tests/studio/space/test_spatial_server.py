@@ -228,7 +228,7 @@ def test_a_flight_is_told_with_its_heights_and_what_the_sensor_saw(
         client.edit()
         run = client.ask("drive", "driven")
         exported = client.ask("export", "exported", kind="run.csv")
-        picture = client.ask("export", "refused", kind="run.png")
+        picture = client.ask("export", "exported", kind="run.png")
         crane = {"name": "crane", "circle": {"center": [20, 0], "radius": 3}, "height_m": [0, 30]}
         client.edit([["world", "unseen"], [crane]], [["robot", "sensor"], {"range_m": 15}])
         surprised = client.ask("drive", "driven")
@@ -238,7 +238,7 @@ def test_a_flight_is_told_with_its_heights_and_what_the_sensor_saw(
     assert run["sight"] is None
     assert "passed 'via 2'" in [event["message"] for event in run["events"]]
     assert base64.b64decode(exported["data"]).decode() == flight_csv(flight)
-    assert "run.json and run.csv" in picture["message"]
+    assert base64.b64decode(picture["data"]).startswith(b"\x89PNG")
     kinds = [event["kind"] for event in surprised["events"]]
     assert kinds.index("detected") < kinds.index("replanned") < kinds.index("reached")
     assert surprised["sight"]["reach"] == 15

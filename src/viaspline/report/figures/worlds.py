@@ -18,12 +18,13 @@ from viaspline.report import style
 from viaspline.report.canvas import png, polyline
 from viaspline.report.figures.missions import OBSTACLES, PATROL, SURVEY
 from viaspline.report.labels import Labels
-from viaspline.report.path_marks import draw_arrows, draw_path, draw_vias
+from viaspline.report.path_marks import draw_arrows, draw_path
 from viaspline.report.plan_picture import draw_losers, losing, proof
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import Sheet, new_sheet, view_of
 from viaspline.report.side_column import SideColumn
 from viaspline.report.units import metres, seconds
+from viaspline.report.via_marks import draw_vias
 from viaspline.robot.run import Run
 from viaspline.robot.simulator import simulate
 

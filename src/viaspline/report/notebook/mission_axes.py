@@ -19,9 +19,9 @@ from viaspline.report.labels import Labels
 from viaspline.report.moving_film import MovingLayer
 from viaspline.report.notebook.plain_axes import map_on
 from viaspline.report.notebook.spatial_axes import draw_standing, standing_scene
-from viaspline.report.path_marks import draw_vias
 from viaspline.report.scene import Scene
 from viaspline.report.sheet import view_of
+from viaspline.report.via_marks import draw_vias
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 

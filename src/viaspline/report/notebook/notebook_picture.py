@@ -8,9 +8,12 @@ from __future__ import annotations
 import io
 from typing import Final
 
+from matplotlib.collections import LineCollection
+
 from viaspline.presentable.upper_doors import opened_for
 from viaspline.report import style
 from viaspline.report.canvas import any_name, new_figure, tidy
+from viaspline.report.driven_line import DrivenKey
 
 WIDE, TALL = 6.4, 4.8  # of the axes, at most [inch]
 MARGIN: Final = 0.75  # [inch]
@@ -35,7 +38,8 @@ def picture(value: object) -> bytes:
     if handles:
         legend = axes.legend(
             handles=handles, loc="upper left", bbox_to_anchor=(1.02, 1.0), borderaxespad=0.0,
-            frameon=False, fontsize=style.SMALL_PT, markerscale=0.75, labelspacing=0.55,
+            frameon=False, fontsize=style.SMALL_PT, markerscale=0.66, labelspacing=0.75,
+            handler_map={LineCollection: DrivenKey()},
         )  # fmt: skip
         for text in legend.get_texts():
             text.set_parse_math(False)

@@ -10,9 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from viaspline.planner import Plan
+from viaspline.report.driven_line import speed_colours
 from viaspline.report.notebook.plain_axes import map_on
 from viaspline.report.plan_picture import draw_plan_map, plan_scene
-from viaspline.report.run_picture import draw_run_map, run_scene, speed_colours
+from viaspline.report.run_picture import draw_run_map, run_scene
 from viaspline.robot.run import Run
 
 

@@ -19,7 +19,8 @@ from viaspline.maps.terrain import Terrain
 from viaspline.maps.voxels import Voxels
 from viaspline.mission.shapes.solids import GridPrism, Prism
 from viaspline.report import style
-from viaspline.report.canvas import outline
+from viaspline.report.canvas import outline, renderer_of
+from viaspline.report.label_layout import overlaps
 from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
 
 MAX_HEIGHTS_WRITTEN: Final = 40
@@ -28,8 +29,14 @@ MAX_HEIGHTS_WRITTEN: Final = 40
 MAX_CONTOUR_NODES: Final = 400
 """Of a terrain aside; of a finer one every so many nodes are drawn."""
 
+CONTOUR_LABEL: Final = "height on a contour line"
+
 LEAST_LABEL_PX: Final = 26
 """Width of an outline on the page that has room for a height."""
+
+
+HEIGHT_OFFSETS_PT: Final = (0.0, -9.0, 9.0, -18.0, 18.0)
+"""Where a height goes that would lie on another one."""
 
 
 def draw_solids(axes: Axes, scene: SpatialScene, pixels_per_metre: float) -> list[Artist]:
@@ -92,8 +99,25 @@ def _draw_contours(axes: Axes, terrain: Terrain) -> Artist:
     y = terrain.origin[1] + terrain.cell * step * np.arange(ny)
     if terrain.highest > terrain.lowest:
         lines = axes.contour(x, y, heights, 9, colors="#8a7350", linewidths=0.6, zorder=1)
-        axes.clabel(lines, fontsize=style.SMALL_PT - 1.5, fmt="%g")
+        for text in axes.clabel(lines, fontsize=style.SMALL_PT - 1.5, fmt="%g"):
+            text.set_gid(CONTOUR_LABEL)
     return Line2D([], [], color="#8a7350", linewidth=0.8, label="height of the ground [m]")
+
+
+def clear_contour_labels(axes: Axes) -> None:
+    """Take heights off contour lines where they lie under another text or reach beyond the axes."""
+    renderer = renderer_of(axes.figure)
+    frame = np.array(axes.get_window_extent().extents)
+    texts = [text for text in axes.texts if text.get_gid() == CONTOUR_LABEL]
+    others = [text for text in axes.texts if text.get_gid() != CONTOUR_LABEL and text.get_text()]
+    boxes = np.array([one.get_window_extent(renderer).extents for one in others]).reshape(-1, 4)
+    for text in texts:
+        box = np.array([text.get_window_extent(renderer).extents])
+        is_cut = bool((box[:, :2] < frame[:2]).any() or (box[:, 2:] > frame[2:]).any())
+        if is_cut or overlaps(box, boxes).any():
+            text.remove()
+        else:
+            boxes = np.vstack((boxes, box))
 
 
 def _draw_voxels(axes: Axes, voxels: Voxels) -> Artist:
@@ -118,12 +142,21 @@ def _write_heights(axes: Axes, solids: list[NamedSolid], pixels_per_metre: float
         if room >= LEAST_LABEL_PX and math.isfinite(one.heights[1]):
             wide.append((room, one))
     wide.sort(key=lambda each: -each[0])
+    renderer, written = renderer_of(axes.figure), np.zeros((0, 4))
     for _, one in wide[:MAX_HEIGHTS_WRITTEN]:
         low, high = one.heights
         from_ground = not math.isfinite(low) or low <= 0.0
         text = f"{high:g}" if from_ground else f"{low:g} - {high:g}"
         x, y = shapely.get_coordinates(shapely.point_on_surface(one.shadow))[0].tolist()
-        axes.annotate(
-            text, (x, y), size=style.SMALL_PT - 1, color=style.INK, ha="center",
-            va="center", zorder=3, annotation_clip=True,
+        note = axes.annotate(
+            text, (x, y), (0.0, 0.0), textcoords="offset points", size=style.SMALL_PT - 1,
+            color=style.INK, ha="center", va="center", zorder=3, annotation_clip=True,
         )  # fmt: skip
+        for up in HEIGHT_OFFSETS_PT:
+            note.set_position((0.0, up))
+            box = np.array([note.get_window_extent(renderer).extents])
+            if not overlaps(box, written).any():
+                written = np.vstack((written, box))
+                break
+        else:
+            note.remove()

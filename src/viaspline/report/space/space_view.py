@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 import shapely
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 
@@ -32,6 +33,9 @@ MAX_NODES: Final = 40
 
 LEAST_SHARE: Final = 0.25
 """Of the longest side of what is shown, to which a shorter one is widened."""
+
+MOST_TICKS: Final = 6
+"""Of the longest side; shorter ones have fewer, lest their numbers touch."""
 
 Face = list[tuple[float, float, float]]
 
@@ -95,6 +99,8 @@ def draw_in_perspective(
     axes.set_ylim(low[1] - sides[1], high[1] + sides[1])
     axes.set_zlim(floor, floor + wide[2])
     axes.set_box_aspect(wide.tolist())
+    for one, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), wide / wide.max(), strict=True):
+        one.set_major_locator(MaxNLocator(max(round(MOST_TICKS * float(share)), 1)))
     axes.view_init(elev=32, azim=-60)
 
 

@@ -5,26 +5,31 @@ Tested through ``report/space/test_spatial_pictures``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 
 from viaspline.kernels.arrays import Floats
 from viaspline.maps.terrain import Terrain
 from viaspline.report import style
 from viaspline.report.canvas import any_name, png, polyline
+from viaspline.report.driven_line import DrivenKey
 from viaspline.report.labels import Labels
-from viaspline.report.path_marks import draw_arrows, draw_path, draw_tightest, draw_vias
+from viaspline.report.path_marks import draw_arrows, draw_path, draw_tightest
 from viaspline.report.profile_strips import Ticks
 from viaspline.report.sheet import Box, view_of
 from viaspline.report.space.elevation_profile import SAMPLES, ProfileRange, draw_profile
 from viaspline.report.space.moving_in_space import draw_moving_in_space
-from viaspline.report.space.solid_marks import draw_solids
+from viaspline.report.space.solid_marks import clear_contour_labels, draw_solids
 from viaspline.report.space.space_view import draw_space
 from viaspline.report.space.spatial_scene import NamedSolid, SpatialScene
 from viaspline.report.space.spatial_sheet import SpatialSheet, spatial_sheet
 from viaspline.report.summary import spline_words
 from viaspline.report.units import down, metres, seconds
+from viaspline.report.via_marks import draw_vias
 from viaspline.space.spatial_plan import SpatialPlan
 
 PER_LEGEND_ROW = 6
@@ -55,20 +60,26 @@ def drawn_page(plan: SpatialPlan, name: str, dpi: int = style.DPI) -> SpatialShe
         f"{style.short(name, 48)}: {metres(plan.path.length, 1)} in "
         f"{seconds(plan.trajectory.duration)}"
     )
-    words = (proof_words(plan), _subtitle(plan))
+    words = (proof_words(plan), body_subtitle(plan))
     sheet = spatial_sheet(plan_view_of(plan, scene), title, words, dpi)
     handles = draw_plan_view(sheet.map, sheet.pixels_per_metre, scene, plan)
     handles += draw_profile(sheet.elevation, plan.path, scene, robot.radius_m, band_of(plan))
     _fill_strips(sheet, plan)
     draw_space(sheet.figure, sheet.view, plan.path, scene)
+    draw_legend(sheet, handles)
+    return sheet
+
+
+def draw_legend(sheet: SpatialSheet, handles: Sequence[Artist]) -> None:
+    """The legend of the page, beside the map."""
     legend = sheet.figure.legend(
-        handles=handles, loc="upper left", bbox_to_anchor=sheet.legend, fontsize=style.SMALL_PT,
-        frameon=False, borderaxespad=0, ncol=2 if len(handles) > PER_LEGEND_ROW else 1,
-        columnspacing=1.2, labelspacing=0.6, markerscale=0.6,
+        handles=list(handles), loc="upper left", bbox_to_anchor=sheet.legend,
+        fontsize=style.SMALL_PT, frameon=False, borderaxespad=0,
+        ncol=2 if len(handles) > PER_LEGEND_ROW else 1, columnspacing=1.2, labelspacing=0.75,
+        markerscale=0.6, handler_map={LineCollection: DrivenKey()},
     )  # fmt: skip
     for text in legend.get_texts():
         text.set_parse_math(False)
-    return sheet
 
 
 def plan_view_of(plan: SpatialPlan, scene: SpatialScene) -> Box:
@@ -101,6 +112,7 @@ def draw_plan_view(
     draw_arrows(axes, points, style.PATH, avoid=places)
     handles += vias + draw_tightest(axes, labels, plan.certificate)
     handles += draw_moving_in_space(axes, labels, plan)
+    clear_contour_labels(axes)
     labels.place(points, places)
     return handles
 
@@ -148,7 +160,8 @@ def proof_words(plan: SpatialPlan) -> str:
     return f"{words}; {down(moving.clearance)} from what moves, at {moving.tightest_at_s:.1f} s"
 
 
-def _subtitle(plan: SpatialPlan) -> str:
+def body_subtitle(plan: SpatialPlan) -> str:
+    """How the curve was asked to be, and who flies it."""
     robot = plan.mission.robot
     body = f"ball of radius {robot.radius_m:g} m"
     if robot.half_height_m is not None:

@@ -6,6 +6,7 @@ Tested through ``report/space/test_spatial_pictures``.
 from __future__ import annotations
 
 from viaspline.report.results import Contents
+from viaspline.report.space.flight_picture import flight_picture
 from viaspline.report.space.spatial_json import (
     flight_csv,
     flight_json,
@@ -27,6 +28,17 @@ def spatial_path_contents(plan: SpatialPlan, name: str) -> Contents:
     return {"plan.json": spatial_plan_json(plan, name), "path.csv": spatial_path_csv(plan)}
 
 
+def flight_file(run: SpatialRun, kind: str, name: str) -> bytes:
+    """One of the files of a flight: ``run.json``, ``run.csv`` or ``run.png``."""
+    if kind == "run.png":
+        return flight_picture(run, name)
+    return (flight_json(run, name) if kind == "run.json" else flight_csv(run)).encode()
+
+
 def spatial_run_contents(run: SpatialRun, name: str) -> Contents:
     """The files of a flight, without those of its plan."""
-    return {"run.json": flight_json(run, name), "run.csv": flight_csv(run)}
+    return {
+        "run.json": flight_json(run, name),
+        "run.csv": flight_csv(run),
+        "run.png": flight_picture(run, name),
+    }

@@ -1,4 +1,4 @@
-"""The page of a spatial picture: seen from above and in perspective, the elevation below.
+"""The page of a spatial picture: seen from above and in perspective, the heights below.
 
 Tested through ``report/space/test_spatial_pictures``.
 """
@@ -20,6 +20,7 @@ MAP_WIDEST, MAP_TALLEST, MAP_LEAST = 7.0, 6.0, 3.4
 ASIDE, LEGEND = 4.6, 1.9
 ELEVATION, STRIP, BETWEEN = 2.3, 0.85, 0.14
 STRIPS: Final = ("speed [m/s]", "climb [m/s]")
+ALONG: Final = "distance along the path [m]"
 
 
 @dataclass(frozen=True)
@@ -46,8 +47,9 @@ class SpatialSheet:
 
 
 def spatial_sheet(
-    view: Box, title: str, subtitles: tuple[str, ...], dpi: int = DPI
-) -> SpatialSheet:
+    view: Box, title: str, subtitles: tuple[str, ...], dpi: int = DPI, *,
+    strips: tuple[str, ...] = STRIPS, along: str = ALONG,
+) -> SpatialSheet:  # fmt: skip
     """A page for a part of the world.
 
     Args:
@@ -55,6 +57,8 @@ def spatial_sheet(
         title: The first line.
         subtitles: Those below it.
         dpi: Pixels for each inch.
+        strips: What they show below the elevation.
+        along: What the elevation and the strips share.
     """
     across, up = view[2] - view[0], view[3] - view[1]
     scale = min(MAP_WIDEST / across, MAP_TALLEST / up)
@@ -79,18 +83,18 @@ def spatial_sheet(
     elevation = axes_at(LEFT, BOTTOM + 2 * (STRIP + BETWEEN), inner, ELEVATION, None)
     elevation.set_ylabel("height [m]", labelpad=2)
     elevation.tick_params(labelbottom=False)
-    strips = []
-    for k, name in enumerate(STRIPS):
-        bottom = BOTTOM + (len(STRIPS) - 1 - k) * (STRIP + BETWEEN)
+    drawn = []
+    for k, name in enumerate(strips):
+        bottom = BOTTOM + (len(strips) - 1 - k) * (STRIP + BETWEEN)
         strip = axes_at(LEFT, bottom, inner, STRIP, elevation)
         strip.set_ylabel(name, labelpad=2)
-        strip.tick_params(labelbottom=k == len(STRIPS) - 1)
-        strips.append(strip)
-    strips[-1].set_xlabel("distance along the path [m]", labelpad=2)
-    figure.align_ylabels([elevation, *strips])
+        strip.tick_params(labelbottom=k == len(strips) - 1)
+        drawn.append(strip)
+    drawn[-1].set_xlabel(along, labelpad=2)
+    figure.align_ylabels([elevation, *drawn])
     draw_heading(figure, title, subtitles)
     aside = LEFT + width + GAP
     tall = max(height - LEGEND, 1.5)
     box = (aside / total_w, (below + height - tall) / total_h, ASIDE / total_w, tall / total_h)
     legend = (aside / total_w, (below + height - tall - 0.1) / total_h)
-    return SpatialSheet(figure, plan, elevation, tuple(strips), box, legend, scale * dpi)
+    return SpatialSheet(figure, plan, elevation, tuple(drawn), box, legend, scale * dpi)
