@@ -73,6 +73,7 @@ class Schedule:
         laps: What the path goes on with at its end; None if the path was all laps from the start.
         driven: Distance that was driven before the path begins [m].
         gives_way: Whether the trajectory is slower than it could be, for what moves.
+        next_way: Which of the ways past what moves is tried next; 0: all were, or none.
     """
 
     path: Path
@@ -94,6 +95,7 @@ class Schedule:
     laps: LapsAhead | None = None
     driven: float = 0.0
     gives_way: bool = False
+    next_way: int = 0
 
     @property
     def is_blocked(self) -> bool:
