@@ -74,6 +74,8 @@ class Schedule:
         driven: Distance that was driven before the path begins [m].
         gives_way: Whether the trajectory is slower than it could be, for what moves.
         next_way: Which of the ways past what moves is tried next; 0: all were, or none.
+        frozen_since: Since when it stands and no step of it is proven to be safe from what may
+            come [s]; inf if it doesn't.
     """
 
     path: Path
@@ -96,6 +98,7 @@ class Schedule:
     driven: float = 0.0
     gives_way: bool = False
     next_way: int = 0
+    frozen_since: float = math.inf
 
     @property
     def is_blocked(self) -> bool:
