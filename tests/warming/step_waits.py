@@ -41,7 +41,7 @@ class Waits:
 
     def __init__(self) -> None:
         self.inside, self.longest, self.first_scan = False, 0.0, 0.0
-        self.cpu: list[float] = []
+        self.cpu: dict[str, list[float]] = {"under_way": [0.0], "standing": [0.0]}
         self.compiled: list[str] = []
         self.loaded: list[str] = []
         self.imported: list[str] = []
@@ -69,7 +69,7 @@ class Waits:
                     start = time.thread_time()
                     step(nav, state, sensed, now)
                     spent.append(time.thread_time() - start)
-                self.cpu.append(min(spent))
+                self.cpu["under_way" if abs(state.speed) > 1e-3 else "standing"].append(min(spent))
                 new = (name for name in sys.modules if name not in before)
                 self.imported += [name for name in new if name.partition(".")[0] in PACKAGES]
                 self.longest = max(self.longest, took)
@@ -156,10 +156,14 @@ def waits(name: str) -> dict[str, Any]:
             told_by_hand(given[0])
     return {
         "kind": name, "compiled": watched.compiled, "loaded": watched.loaded,
-        "imported": watched.imported, "steps": len(watched.cpu), "outcomes": outcomes,
+        "imported": watched.imported, "steps": sum(map(len, watched.cpu.values())),
+        "outcomes": outcomes,
         "warmed_s": round(warmed, 2), "first_scan_ms": round(1e3 * watched.first_scan, 1),
         "longest_ms": round(1e3 * watched.longest, 1),
-        "cpu_ms": [round(1e3 * float(q), 1) for q in np.quantile(watched.cpu, (0.5, 0.99, 1.0))],
+        "cpu_ms": {
+            how: (1e3 * np.quantile(spent, (0.5, 0.99, 1.0))).round(1).tolist()
+            for how, spent in watched.cpu.items()
+        },
     }  # fmt: skip
 
 
