@@ -86,15 +86,6 @@ def test_whatever_is_guessed_the_clearance_is_kept_but_for_what_nobody_could_kno
         assert done.nav.allowance > max(event.data["off_m"] for event in slower)
 
 
-def test_a_robot_that_coasts_less_than_its_model_says_gets_to_its_goal(
-    slalom_of: Any, cart_of: Any, loop: Any
-) -> None:
-    drive = {"differential": {"track_m": 0.5}, "delay_s": 0.3, "lag_s": 0.3}
-    done = loop(Navigator(slalom_of(drive=drive), warm=False), cart_of(0.05, 0.05), limit=120.0)
-    assert done.nav.reached
-    assert np.hypot(*(done.track[-1, 1:3] - (40.0, 0.0))) < 0.06
-
-
 def test_what_is_ahead_is_proven_with_what_is_kept_from_then_on(
     slalom_of: Any, cart_of: Any, loop: Any, discs: list[Obstacle]
 ) -> None:

@@ -32,9 +32,6 @@ MAX_ROLL_M = 0.3
 STANDSTILL_MPS = 0.02
 """A robot that is slower stands [m/s]."""
 
-ALL_BUT_STILL_MPS = 0.002
-"""One that is slower at the end of its path won't get any farther [m/s]."""
-
 
 def track(
     progress: Progress, schedule: Schedule, measured: RobotState, time: float
@@ -73,8 +70,7 @@ def _controlled(
     One that brakes for good isn't waited for: it stands when it has had the time for that.
     """
     controller = controller.on(schedule.path, schedule.trajectory).step(measured, time)
-    waits = controller.late > 0.0 and schedule.giving_up is None
-    if waits and not _is_all_but_there(schedule, measured, time + controller.ahead):
+    if controller.late > 0.0 and schedule.giving_up is None:
         schedule = replace(schedule, trajectory=schedule.trajectory.delayed(controller.late))
     now = time + controller.ahead
     should = float(schedule.trajectory.distance_at(now))
@@ -90,15 +86,6 @@ def _controlled(
     if ahead <= MAX_AHEAD_M or progress.dwell is not None or schedule.giving_up is not None:
         return progress, schedule
     return replace(progress, distance=progress.distance + ahead, along_track=ahead), schedule
-
-
-def _is_all_but_there(schedule: Schedule, measured: RobotState, now: float) -> bool:
-    """Whether a robot stands so near to the end of its path that nothing is left to wait for.
-
-    One that coasts less far than its model says is told to stop too early, and never gets there.
-    """
-    left = schedule.path.length - float(schedule.trajectory.distance_at(now))
-    return left <= MAX_ALONG_TRACK_M and abs(measured.speed) < ALL_BUT_STILL_MPS
 
 
 def beyond_corner(schedule: Schedule, distance: float) -> float:
