@@ -101,7 +101,11 @@ class Navigator:
     an event with its figures (``deviation``, ``slip``, ``lag``, ``pose_jump``, ``stale``,
     ``clock``). What it is measured beside its path is kept from then on (``allowance``): the path
     ahead is proven anew with that, laid anew where it doesn't hold, and where that can't be the
-    robot stops and says so.
+    robot stops and says so. It also goes on more slowly and steers more gently.
+
+    What moves costs no more: a law past it is looked for with a budget, and of the ways round it
+    each step tries some, the next one those that come after. Under passive safety a robot that no
+    step is proven safe for stands, and ends its drive after a minute of that, with the reason.
 
     Args:
         mission: What to do.

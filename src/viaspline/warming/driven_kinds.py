@@ -78,9 +78,31 @@ def _drive_missions(kind: MissionKind) -> None:
 
     for module in IMPORTED_LATE:
         import_module(module)
+    _meet_seldom()
     for name, mission in missions_of(kind):
         with suppress(ViasplineError, _EnoughError):
             simulate(mission, plan=plan(mission), progress=partial(_enough, name))
+
+
+def _meet_seldom() -> None:
+    """What a step may need that not every kind comes to in its small missions."""
+    import numpy as np
+
+    from viaspline.curve.path import Path
+    from viaspline.kernels.routing.narrow_gaps import narrow_places
+    from viaspline.mission.shapes.obstacle import Obstacle
+    from viaspline.trajectory.limits import Limits
+    from viaspline.trajectory.yielding.law_among import law_among
+    from viaspline.world.moving_obstacles import MovingObstacles
+    from viaspline.world.world import World
+
+    rock = Obstacle(circle={"center": (5, 1), "radius": 0.5})
+    narrow_places(World([rock]).packed, np.array([[0.0, 0.0], [9.0, 0.0]]), 0.3)
+    line = Path([[[0, 0], [10, 0], [20, 0], [30, 0]]], vias=[])
+    motion = {"from": (15, -8), "velocity_mps": (0, 1)}
+    cart = Obstacle(circle={"center": (0, 0), "radius": 1}, motion=motion)
+    limits = Limits(max_speed=2, max_accel=1)
+    law_among(line, limits, moving=MovingObstacles([cart]), required=0.5)
 
 
 def _enough(name: str, time: float, distance: float, length: float) -> None:

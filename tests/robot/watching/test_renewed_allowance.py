@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
 
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.navigator import Navigator
@@ -55,6 +57,33 @@ def test_a_guessed_drive_that_is_wrong_is_told_and_what_is_kept_grows(
     # it never comes nearer than it tells
     told_room = min(event.data["clearance_m"] for event in told)
     assert gap >= min(0.5, told_room) - 0.1
+
+
+MAX_SWING_M = 0.12
+"""When a robot is told to be beside its path it swings on a little; that nobody can know before."""
+
+
+@given(
+    guessed=st.tuples(st.floats(0.0, 0.3), st.floats(0.0, 0.3)),
+    true=st.tuples(st.floats(0.0, 0.4), st.floats(0.0, 0.4)),
+)
+@example(guessed=(0.15, 0.2), true=(0.3, 0.4))  # came as near as 0.31 m
+@example(guessed=(0.3, 0.3), true=(0.05, 0.05))
+@settings(max_examples=4, deadline=None, suppress_health_check=list(HealthCheck))
+def test_whatever_is_guessed_the_clearance_is_kept_but_for_what_nobody_could_know(
+    slalom_of: Any,
+    cart_of: Any,
+    loop: Any,
+    discs: list[Obstacle],
+    guessed: tuple[float, float],
+    true: tuple[float, float],
+) -> None:
+    drive = {"differential": {"track_m": 0.5}, "delay_s": guessed[0], "lag_s": guessed[1]}
+    done = loop(Navigator(slalom_of(drive=drive), warm=False), cart_of(*true), limit=25.0)
+    assert done.gap(discs, 0.3) >= 0.5 - MAX_SWING_M
+    slower = [event for event in deviations(done) if event.data["outcome"] != "returns"]
+    if slower:
+        assert done.nav.allowance > max(event.data["off_m"] for event in slower)
 
 
 def test_what_is_ahead_is_proven_with_what_is_kept_from_then_on(

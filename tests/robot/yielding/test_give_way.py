@@ -8,6 +8,11 @@ import numpy as np
 import pytest
 
 import viaspline as vs
+from viaspline.planning.problem.work_budget import LAW_AMONG_S
+from viaspline.robot.navigation import law_past
+from viaspline.robot.navigation.law_past import LAW_WORK_S
+from viaspline.robot.navigator import Navigator
+from viaspline.robot.yielding.ways_past import WAYS_WORK_S, try_ways
 
 
 def crossing(*moving: dict[str, Any], **robot: Any) -> vs.Mission:
@@ -106,3 +111,50 @@ def test_a_wall_of_them_touches_no_robot_under_way_that_is_to_be_at_rest_in_time
     run = vs.simulate(crossing(*boxed, moving=safe), step=0.1)
     assert run.encounters is not None
     assert all(contact.robot_speed == 0.0 for contact in run.encounters.contacts)
+
+
+def test_ways_are_tried_one_after_the_other_and_the_rest_in_the_steps_to_come() -> None:
+    tried: list[int] = []
+
+    def way(number: int) -> Any:
+        def lay(budget: Any) -> None:
+            tried.append(number)
+            budget.spent += LAW_AMONG_S
+
+        return lay
+
+    ways, at, steps = [way(number) for number in range(7)], 0, []
+    for _ in range(4):
+        done = try_ways(ways, at, lambda *_: True)
+        assert done.best is None
+        steps.append(list(tried))
+        tried.clear()
+        at = done.next_way
+    most = 1 + int(WAYS_WORK_S / LAW_AMONG_S)
+    assert all(1 <= len(step) <= most for step in steps)
+    assert [number for step in steps for number in step] == [*range(7), 0][: sum(map(len, steps))]
+
+
+def test_no_step_searches_more_than_a_few_laws_however_much_comes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Up to eight paths with two searches each were laid in a step: it took 6.5 s once."""
+    found, step = law_past.law_among, Navigator.step
+    searched: list[int] = []
+
+    def counted(*args: Any, **keys: Any) -> Any:
+        outcome = found(*args, **keys)
+        assert keys["budget"].spent <= LAW_WORK_S
+        searched[-1] += 1
+        return outcome
+
+    def stepped(*args: Any) -> Any:
+        searched.append(0)
+        return step(*args)
+
+    monkeypatch.setattr(law_past, "law_among", counted)
+    monkeypatch.setattr(Navigator, "step", stepped)
+    wall = [cart(f"d{i}", (12.0, y), (-1.3, 0.0)) for i, y in enumerate(np.arange(-6.0, 7.0))]
+    vs.simulate(crossing(*wall, min_turn_radius_m=0.5), step=0.1)
+    assert max(searched) <= 6
+    assert sum(searched) > 20

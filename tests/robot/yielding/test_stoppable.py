@@ -109,3 +109,13 @@ def test_a_stop_that_was_proven_is_driven_on_its_path_and_what_was_seen_is_not_f
 def test_who_does_without_drives_as_if_nothing_came_from_out_of_sight() -> None:
     calm, bold = (vs.simulate(among(3, safety), step=0.1) for safety in ("passive", "none"))
     assert bold.duration <= calm.duration
+
+
+def test_one_that_no_step_is_proven_safe_for_says_so_and_does_not_stand_for_ever() -> None:
+    data = among(0, "passive").model_dump(by_alias=True, exclude_defaults=True)
+    data["world"], data["robot"]["sensor"] = {"unseen": []}, {"range_m": 0.6}
+    run = vs.simulate(vs.Mission.model_validate(data), step=0.5)
+    assert not run.reached
+    assert run.duration == pytest.approx(stoppable.MAX_FROZEN_S, abs=1.0)
+    assert "no step of it was proven safe" in run.events[-1].message
+    assert np.abs(run.positions).max() < 1e-6

@@ -43,8 +43,8 @@ CHAIN_SEGMENT_S = 1e-4
 """Of the shortcuts of what such a search has found, for each segment [s]."""
 
 
-TIME_LAW_S, JERK_LAW_S = 1e-3, 1.5e-2
-"""Of a time law, and of one with a limit of the jerk [s]."""
+TIME_LAW_S, JERK_LAW_S, LAW_AMONG_S = 1e-3, 1.5e-2, 8e-3
+"""Of a time law, of one with a limit of the jerk, and of one past what moves [s]."""
 
 DRIVE_AHEAD_S, DRIVE_AHEAD_SECOND_S = 5e-4, 7e-5
 """Of a drive ahead along a new path: to begin one, and for each second that it takes [s]."""

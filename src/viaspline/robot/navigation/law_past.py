@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
 from viaspline.planning.problem.method import Found, GaveUp
+from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.schedule import Schedule
 from viaspline.trajectory.limits import Station
@@ -17,6 +18,9 @@ from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_among import law_among
 from viaspline.trajectory.yielding.no_law import Unserved
 from viaspline.world.moving_obstacles import MovingObstacles
+
+LAW_WORK_S = 0.02
+"""What the search for a law under way may spend [s of the reference machine]: a step needs some."""
 
 
 def law_past(
@@ -53,7 +57,8 @@ def law_past(
         required=task.kept_to_moving,
         zones=task.mission.world.speed_zones, slow=schedule.slow,
         start=min(distance, timed.length), start_speed=motion[0], start_time=time,
-        hold=task.mission.route.hold_s if end >= path.length else 0.0, explained=_unexplained,
+        hold=task.mission.route.hold_s if end >= path.length else 0.0,
+        budget=WorkBudget(LAW_WORK_S), explained=_unexplained,
     )  # fmt: skip
     if isinstance(outcome, Found):
         return outcome.value

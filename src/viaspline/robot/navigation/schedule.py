@@ -77,6 +77,9 @@ class Schedule:
         laps: What the path goes on with at its end; None if the path was all laps from the start.
         driven: Distance that was driven before the path begins [m].
         gives_way: Whether the trajectory is slower than it could be, for what moves.
+        next_way: Which of the ways past what moves is tried next; 0: all were, or none.
+        frozen_since: Since when it stands and no step of it is proven to be safe from what may
+            come [s]; inf if it doesn't.
     """
 
     path: Path
@@ -98,6 +101,8 @@ class Schedule:
     laps: LapsAhead | None = None
     driven: float = 0.0
     gives_way: bool = False
+    next_way: int = 0
+    frozen_since: float = math.inf
 
     @property
     def is_blocked(self) -> bool:

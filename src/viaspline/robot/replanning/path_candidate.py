@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from viaspline.errors import GeometryError
 from viaspline.planning.alternatives.solution import Solution
-from viaspline.planning.problem.work_budget import JERK_LAW_S, TIME_LAW_S
+from viaspline.planning.problem.work_budget import JERK_LAW_S, LAW_AMONG_S, TIME_LAW_S
 from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.navigation.reschedule import trajectory_within_sight
 from viaspline.robot.navigation.schedule import ReducedClearance
@@ -89,7 +89,8 @@ def _in_sight(
 ) -> Trajectory:
     """The trajectory of a path as far as the robot is certain to be free."""
     has_jerk = context.task.limits.max_jerk is not None
-    context.requirements.spend(JERK_LAW_S if has_jerk else TIME_LAW_S)
+    cost = LAW_AMONG_S if len(context.knowledge.moving) else TIME_LAW_S
+    context.requirements.spend(JERK_LAW_S if has_jerk else cost)
     return trajectory_within_sight(
         context.task,
         context.progress,

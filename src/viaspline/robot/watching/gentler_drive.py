@@ -1,4 +1,4 @@
-"""A robot that keeps getting farther beside its path goes on more slowly, and steers more gently.
+"""A robot that was farther beside its path than was kept is slower then, and steers more gently.
 
 What a machine reacts to later than its model says is corrected too late, and so too much: it swings
 about its path, more and more. Gains that are lower, and a speed that is, calm that down.
@@ -11,7 +11,7 @@ from dataclasses import replace
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.progress import Progress
 
-SLOWER = 0.8
+SLOWER = 0.6
 """Of its greatest speed, with which it goes on,"""
 
 LEAST_SHARE = 0.25
@@ -36,7 +36,7 @@ def gentler_drive(task: DriveTask, progress: Progress) -> tuple[DriveTask, Progr
         >>> limits, kept = limits_of(mission.robot), requirements_under_way(mission, 0.0)
         >>> task = DriveTask(mission, kept, limits, reaction=0.1)
         >>> gentler_drive(task, Progress(0.0))[0].limits.max_speed
-        1.6
+        1.2
     """
     asked, now = task.mission.robot.max_speed_mps, task.limits.max_speed
     speed = max(SLOWER * now, min(LEAST_SHARE * asked, now))

@@ -5,7 +5,7 @@ Tested through ``robot/watching/test_renewed_allowance``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.drive_task import DriveTask
@@ -19,10 +19,6 @@ from viaspline.robot.watching.model_watch import WatchedMotion, told_of_lag
 from viaspline.robot.watching.path_deviation import path_deviation
 from viaspline.robot.watching.renewed_allowance import renewed_allowance
 from viaspline.robot.watching.watch import Watch
-
-GENTLE_FROM = 2
-"""From the so manieth time on that it was farther beside its path than was kept, a robot goes on
-more gently."""
 
 
 @dataclass(frozen=True)
@@ -79,9 +75,8 @@ def judged_motion(
     task, decision = renewed.task, renewed.decision
     schedule = decision.schedule
     if deviation.returns is None and schedule.giving_up is None:
-        watch = replace(watch, renewals=watch.renewals + 1)
-        if watch.renewals >= GENTLE_FROM:
-            task, progress = gentler_drive(task, progress)
-            speed = float(schedule.trajectory.state_at(progress.time)[1])
-            schedule = rescheduled(task, progress, knowledge, schedule, speed)
+        # its model was wrong once: what it reacts to too late grows with its speed
+        task, progress = gentler_drive(task, progress)
+        speed = float(schedule.trajectory.state_at(progress.time)[1])
+        schedule = rescheduled(task, progress, knowledge, schedule, speed)
     return JudgedMotion(task, progress, watch, schedule, (told, decision), decision.work)

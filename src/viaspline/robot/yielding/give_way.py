@@ -1,7 +1,8 @@
 """What a robot does about what moves: go on, slow down, pass on another side, brake.
 
 Its path is timed anew first. Where that costs much, or can't be done, it is led round what it would
-meet, on either side, and the earliest arrival wins. What moves may turn: so there is room to spare
+meet, on either side, and the earliest arrival wins; a step that has no time for all of these ways
+leaves the rest to the next one. What moves may turn: so there is room to spare
 beside it, and where that can't be, what is required. Where nothing is found the robot takes what
 meets something last, also beside its path, and braking if that is no worse.
 """
@@ -9,28 +10,24 @@ meets something last, also beside its path, and braking if that is no worse.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
-from viaspline.errors import GeometryError, PlanningError
-from viaspline.mission.shapes.obstacle import Side
-from viaspline.planning import replan
+from viaspline.errors import GeometryError
+from viaspline.planning.alternatives.solution import Solution
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.progress import Progress
-from viaspline.robot.navigation.reschedule import (
-    rescheduled,
-    trajectory_within_sight,
-)
+from viaspline.robot.navigation.reschedule import rescheduled, trajectory_within_sight
 from viaspline.robot.navigation.schedule import Schedule
-from viaspline.robot.replanning.path_candidate import PathCandidate, timed
+from viaspline.robot.replanning.path_candidate import PathCandidate
 from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.transitions import take_over
 from viaspline.robot.yielding.meeting_ahead import meeting_ahead
 from viaspline.robot.yielding.out_of_the_way import out_of_the_way
-from viaspline.robot.yielding.swerves import driven, swerves
-from viaspline.spacetime.standing_ghost import standing_ghost
-from viaspline.spacetime.timed_problem import without_lanes
+from viaspline.robot.yielding.swerves import swerves
+from viaspline.robot.yielding.ways_past import Way, try_ways, ways_past
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 
@@ -46,13 +43,8 @@ PATIENCE_S = 1.0
 GAIN_S = 0.5
 """Another side has to be so much sooner than waiting [s]."""
 
-SIDE_WORK_S = 0.03
-"""What may be spent on laying one other path [s of the reference machine]."""
-
 FREE_S = 0.05
 """Who comes no later than this doesn't give way [s]."""
-
-SIDES: tuple[Side, Side] = ("left", "right")
 
 
 def give_way(
@@ -69,19 +61,87 @@ def give_way(
     if schedule.giving_up is not None or progress.finished:
         return Decision(schedule)
     kept = _kept(task, progress, knowledge, schedule)
-    if kept == 0 and not _hopes_for_more(progress, schedule):
+    goes_on = schedule.next_way > 0 or progress.time >= schedule.timed_at + RETRY_S
+    if kept == 0 and not (schedule.gives_way and goes_on):
+        return Decision(schedule if schedule.next_way == 0 else replace(schedule, next_way=0))
+    if 0 < kept < len(APART_M) and not goes_on:
         return Decision(schedule)
-    if 0 < kept < len(APART_M) and progress.time < schedule.timed_at + RETRY_S:
-        return Decision(schedule)
-    for apart in APART_M[: max(kept, 1)]:
-        wide = replace(task, apart=apart)
-        decision = _clear_of_all(ReplanContext.of(wide, progress, knowledge, schedule))
-        if decision is not None:
-            return decision
-    if kept < len(APART_M):
-        return Decision(replace(schedule, timed_at=progress.time))
     context = ReplanContext.of(task, progress, knowledge, schedule)
-    return out_of_the_way(context, _free_law(context))
+    tried = []
+    for apart in APART_M[: max(kept, 1)]:
+        tried.append(_Waiting.of(replace(context, task=replace(task, apart=apart))))
+        if tried[-1].schedule is not None:
+            break
+    if tried[0].late <= PATIENCE_S:
+        return Decision(tried[0].given(progress))
+    paths = swerves(context)
+    decision, next_way = _by_another_way(context, tried, paths)
+    if decision is None and kept < len(APART_M):
+        decision = Decision(replace(schedule, timed_at=progress.time))
+    if decision is None:
+        decision = out_of_the_way(context, tried[-1].free, paths)
+    return replace(decision, schedule=replace(decision.schedule, next_way=next_way))
+
+
+@dataclass(frozen=True)
+class _Waiting:
+    """What a robot comes to that stays on its path, and keeps some room to what moves.
+
+    Attributes:
+        context: The robot, that is to keep so much.
+        free: The law that it would drive if nothing moved.
+        schedule: With a law past what moves; None if none was found.
+    """
+
+    context: ReplanContext
+    free: Trajectory
+    schedule: Schedule | None
+
+    @classmethod
+    def of(cls, context: ReplanContext) -> _Waiting:
+        return cls(context, _free_law(context), _on_path(context))
+
+    @property
+    def ends(self) -> float:
+        """When it arrives [s]."""
+        return math.inf if self.schedule is None else self.schedule.trajectory.end_time
+
+    @property
+    def late(self) -> float:
+        """So much later than if nothing moved [s]."""
+        return self.ends - self.free.end_time
+
+    def given(self, progress: Progress) -> Schedule:
+        """Its schedule, taken."""
+        assert self.schedule is not None
+        return _giving_way(self.schedule, progress, self.late)
+
+
+def _by_another_way(
+    context: ReplanContext, waiting: Sequence[_Waiting], paths: Sequence[Solution]
+) -> tuple[Decision | None, int]:
+    """What keeps clear of all that moves: waiting for it, or another way; None if neither does.
+
+    Returns:
+        That, and which of the ways is tried in the next step; 0 if all were.
+    """
+    ways: list[tuple[Way, _Waiting]] = []
+    for one in waiting:
+        if one.late > PATIENCE_S:
+            ways += [(way, one) for way in ways_past(one.context, one.free, paths)]
+
+    def is_worth(candidate: PathCandidate, number: int) -> bool:
+        return candidate.trajectory.end_time + GAIN_S < ways[number][1].ends
+
+    progress = context.progress
+    tried = try_ways([way for way, _ in ways], context.schedule.next_way, is_worth)
+    if tried.best is not None:
+        candidate, number = tried.best
+        decision = take_over(ways[number][1].context, candidate, {})
+        taken = _giving_way(decision.schedule, progress, math.inf)
+        return replace(decision, schedule=taken), 0
+    last = waiting[-1]
+    return None if last.schedule is None else Decision(last.given(progress)), tried.next_way
 
 
 def _kept(task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule) -> int:
@@ -97,27 +157,6 @@ def _kept(task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: S
         if meeting_ahead(replace(task, apart=apart), sensed, path, law, now) is None:
             return k
     return len(APART_M) - 1
-
-
-def _clear_of_all(context: ReplanContext) -> Decision | None:
-    """What keeps clear of all that moves: waiting for it, or another side; None if neither does."""
-    progress, free = context.progress, _free_law(context)
-    waiting = _on_path(context)
-    late = math.inf if waiting is None else waiting.trajectory.end_time - free.end_time
-    if waiting is not None and late <= PATIENCE_S:
-        return Decision(_giving_way(waiting, progress, late))
-    other = _other_side(context, free)
-    if other is not None and (
-        waiting is None or other.trajectory.end_time + GAIN_S < waiting.trajectory.end_time
-    ):
-        decision = take_over(context, other, {})
-        return replace(decision, schedule=_giving_way(decision.schedule, progress, math.inf))
-    return None if waiting is None else Decision(_giving_way(waiting, progress, late))
-
-
-def _hopes_for_more(progress: Progress, schedule: Schedule) -> bool:
-    """Whether a robot that gives way may have a better way by now."""
-    return schedule.gives_way and progress.time >= schedule.timed_at + RETRY_S
 
 
 def _giving_way(schedule: Schedule, progress: Progress, late: float) -> Schedule:
@@ -144,53 +183,3 @@ def _on_path(context: ReplanContext) -> Schedule | None:
     except GeometryError:
         return None
     return replace(context.schedule, trajectory=law)
-
-
-def _other_side(context: ReplanContext, free: Trajectory) -> PathCandidate | None:
-    """The path past what is met first that arrives first; None if none has a law.
-
-    Where there is room for that it swerves: round what moves, few paths are found that have a law,
-    and they cost most. Else it is led round.
-    """
-    moving, path = context.knowledge.moving, context.schedule.path
-    meeting = meeting_ahead(context.task, moving, path, free, context.progress.time)
-    if meeting is None:
-        return None
-    paths = swerves(context)
-    if paths:
-        found = driven(context, paths, context.knowledge)
-    else:
-        found = [
-            candidate
-            for window in meeting.windows
-            for side in SIDES
-            if (candidate := _led_round(context, meeting.obstacle, side, window)) is not None
-        ]
-    return min(found, key=lambda candidate: candidate.trajectory.end_time, default=None)
-
-
-def _led_round(
-    context: ReplanContext, obstacle: int, side: Side, window: tuple[float, float]
-) -> PathCandidate | None:
-    """The path on one side of where an obstacle is for a while, with its law."""
-    apart = context.task.apart
-    made = standing_ghost(context.knowledge.moving, obstacle, side, window, apart)
-    if made is None:
-        return None
-    ghost, _ = made
-    world = context.knowledge.world.with_obstacles([ghost])
-    index, required = len(world) - 1, context.requirements.required
-    places = [context.here[:2], *(via.at[:2] for via, _ in context.vias_ahead)]
-    if (world.distances_to(index, places) < required).any():
-        return None
-    searching = context.searching(SIDE_WORK_S)
-    path, until = context.schedule.path, context.schedule.looked_at
-    stands = context.speed == 0.0
-    lay = replan.from_rest if stands else replan.planned
-    leave = context.stop if stands else context.leaves[0]
-    try:
-        requirements = without_lanes(searching.requirements)
-        solution = lay(path, leave, world, requirements, (), until)
-        return timed(context, "from_rest" if stands else "planned", solution)
-    except PlanningError:
-        return None

@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from viaspline.planning.alternatives.solution import Solution
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.reschedule import braking_at_once
 from viaspline.robot.replanning.path_candidate import PathCandidate
@@ -16,7 +17,7 @@ from viaspline.robot.replanning.replan_context import ReplanContext
 from viaspline.robot.replanning.transitions import take_over
 from viaspline.robot.run import Event
 from viaspline.robot.yielding.meeting_ahead import meeting_ahead
-from viaspline.robot.yielding.swerves import driven, swerves
+from viaspline.robot.yielding.swerves import driven
 from viaspline.spacetime.meetings import Meeting
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
@@ -25,12 +26,13 @@ LATER_S = 0.1
 """A new path has to be met so much later than any law on this one [s]."""
 
 
-def out_of_the_way(context: ReplanContext, free: Trajectory) -> Decision:
+def out_of_the_way(context: ReplanContext, free: Trajectory, paths: Sequence[Solution]) -> Decision:
     """What the robot meets nothing on for the longest time; braking if it is no worse.
 
     Args:
         context: The robot, which has no way past all that moves.
         free: The law that it would drive on its path if nothing moved.
+        paths: By which it may swerve.
     """
     schedule, progress, task = context.schedule, context.progress, context.task
     braking = braking_at_once(task, progress, schedule, context.speed)
@@ -39,7 +41,7 @@ def out_of_the_way(context: ReplanContext, free: Trajectory) -> Decision:
     meetings = [meeting_ahead(task, moving, schedule.path, law, now) for law in laws]
     until = [math.inf if meeting is None else meeting.begins for meeting in meetings]
     best = max(range(len(laws)), key=lambda k: (until[k], -k))
-    aside = _aside(context, until[best] + LATER_S)
+    aside = _aside(context, paths, until[best] + LATER_S)
     if aside is not None:
         decision = take_over(context, aside, {})
         moved = replace(decision.schedule, timed_at=now, gives_way=True)
@@ -52,7 +54,7 @@ def out_of_the_way(context: ReplanContext, free: Trajectory) -> Decision:
     return Decision(held, (Event("braked", now, context.here, words),))
 
 
-def _aside(context: ReplanContext, later: float) -> PathCandidate | None:
+def _aside(context: ReplanContext, paths: Sequence[Solution], later: float) -> PathCandidate | None:
     """The path beside this one that meets something last, if that is later than a time [s].
 
     One that is to be at rest in time brakes on its path, where that is proven, until it stands.
@@ -64,7 +66,7 @@ def _aside(context: ReplanContext, later: float) -> PathCandidate | None:
     moving, now = context.knowledge.moving, context.progress.time
     best = None
     alone = replace(context.knowledge, moving=MovingObstacles())
-    for candidate in driven(context, swerves(context), alone):
+    for candidate in driven(context, paths, alone):
         path, law = candidate.solution.path, candidate.trajectory
         met = meeting_ahead(context.task, moving, path, law, now)
         begins = math.inf if met is None else met.begins

@@ -45,6 +45,15 @@ NARROWEST_M = 0.2
 PIECE_S = 0.02
 """A law with a limit of the jerk is taken in pieces of even acceleration, so long [s]."""
 
+MAX_FROZEN_S = 60.0
+"""A robot gives up that has stood so long without a step that is proven to be safe [s],"""
+
+FROZEN = (
+    f"for {MAX_FROZEN_S:g} s no step of it was proven safe from what moves there, or may come out "
+    "of what it doesn't see; moving.max_speed_mps says how fast that may be"
+)
+"""and says why."""
+
 ANY_ACCEL_MPS2 = 1e6
 """What moves may turn at will: nothing is taken for granted but its greatest speed."""
 
@@ -137,7 +146,16 @@ def stoppable(
         meant = meant if meant.path is before.path else before
     if task.limits.max_jerk is not None:
         law = replace(law, over_jerk_until=float(law.distances[-1]))
-    return replace(meant, trajectory=law)
+    here = progress.distance + SAME_PLACE_M
+    is_frozen = speed == 0.0 and law.distances[-1] <= here < upper.distances[-1]
+    return _patient(replace(meant, trajectory=law), now, is_frozen=is_frozen)
+
+
+def _patient(schedule: Schedule, now: float, *, is_frozen: bool) -> Schedule:
+    """The schedule of a robot that doesn't stand for ever where nothing is proven to be safe."""
+    since = min(schedule.frozen_since, now) if is_frozen else math.inf
+    kept = replace(schedule, frozen_since=since)
+    return replace(kept, giving_up=FROZEN, pending=None) if now - since >= MAX_FROZEN_S else kept
 
 
 def kept_to_path(
