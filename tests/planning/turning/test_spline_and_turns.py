@@ -10,7 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
-from viaspline.planning.turning.spline_and_turns import runs_of
+from viaspline.mission.spline_spec import SplineSpec
+from viaspline.planning.problem.via_sequence import Leg, RouteVia, ViaSequence
+from viaspline.planning.turning.spline_and_turns import runs_of, turns_on_runs
 
 
 def legs_of(path: vs.Path) -> list[np.ndarray]:
@@ -53,3 +55,11 @@ def test_runs_are_the_blocked_legs_in_order(closed: bool, blocked: set[int]) -> 
     for run in runs:
         assert all((after - before) % 8 == 1 for before, after in pairwise(run))
         assert (run[-1] + 1) % 8 not in blocked or not closed
+
+
+def test_there_is_no_room_for_turns_between_legs_of_one_cubic() -> None:
+    vias = tuple(RouteVia(f"v{k}", np.array([10.0 * k, float(k % 2)]), k) for k in range(4))
+    legs = tuple(Leg.straight(0.5, 2) for _ in range(3))
+    sequence = ViaSequence(vias, legs, SplineSpec(), tangents="cardinal")
+
+    assert turns_on_runs(sequence, [], {1}, pytest.fail) is None

@@ -57,6 +57,8 @@ def turns_on_runs(
         The spans [m], (m, 4, 2), the span that begins at each via point and m where the last one
         ends, and the spans that begin at detour via points; None where there is no room.
     """
+    if sequence.tangents != "continuous":  # a leg of one cubic can begin or end straight nowhere
+        return None
     first = sequence.first_spans()
     spline = np.ascontiguousarray(lay(sequence)[:, :, :2])
     count = len(sequence.legs)
