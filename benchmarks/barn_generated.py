@@ -26,7 +26,7 @@ from barn_unseen import mission
 from barn_worlds import RADIUS_M, is_there_a_way, posts
 
 import viaspline as vs
-from viaspline.robot import navigator
+from viaspline.robot import navigator_step
 from viaspline.robot.perception.belief import Belief
 
 SAMPLES_PER_M = 4000
@@ -84,7 +84,7 @@ def main() -> None:
     parser.add_argument("--noise", type=float, default=0.0, help="of a measured distance [m]")
     parser.add_argument("--only", type=int, nargs="*", help="these seeds")
     options = parser.parse_args()
-    navigator.clock = SimpleNamespace(perf_counter=time.thread_time)
+    navigator_step.clock = SimpleNamespace(perf_counter=time.thread_time)
     for seed in WARM_UP_SEEDS:
         drive(seed, options.noise)
     outcomes = []

@@ -29,7 +29,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import viaspline as vs
-from viaspline.robot import navigator
+from viaspline.robot import navigator_step
 
 Post = tuple[float, float, float]
 START, GOAL, SPEED, RADIUS = (-2.25, 3.0), (-2.25, 13.0), 2.0, 0.075
@@ -94,7 +94,7 @@ def main() -> None:
     parser.add_argument("--noise", type=float, default=0.0, help="of a measured distance [m]")
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
-    navigator.clock = SimpleNamespace(perf_counter=time.thread_time)
+    navigator_step.clock = SimpleNamespace(perf_counter=time.thread_time)
     runs, spent, scores, late = 0, [], [], []
     reached = contacts = 0
     nearest = np.inf

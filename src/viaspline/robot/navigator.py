@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import time as clock
 from collections.abc import Iterable
-from dataclasses import replace
 
 import numpy as np
 
@@ -19,35 +17,18 @@ from viaspline.planner import Plan
 from viaspline.planner import plan as plan_mission
 from viaspline.planning.turning.hybrid_astar.pose_search import prepare_body
 from viaspline.robot.controller import Controller
-from viaspline.robot.navigation.arrivals import note_arrivals
-from viaspline.robot.navigation.at_start import at_start, set_off
+from viaspline.robot.navigation.at_start import at_start
 from viaspline.robot.navigation.drive_task import DriveTask, requirements_under_way
-from viaspline.robot.navigation.knowledge import Knowledge
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.navigation_state import NavigationState
-from viaspline.robot.navigation.progress import Progress
-from viaspline.robot.navigation.reschedule import caught_up, renewed_at, rescheduled
-from viaspline.robot.navigation.rounds import grows_after, is_due, next_part
-from viaspline.robot.navigation.schedule import Schedule
-from viaspline.robot.navigation.track_path import track, with_command
-from viaspline.robot.path_following import command_for
+from viaspline.robot.navigation.reschedule import renewed_at
+from viaspline.robot.navigation.rounds import grows_after
+from viaspline.robot.navigator_step import step_taken
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.motion_sensor import MovingSighting
-from viaspline.robot.perception.perceive import perceive, told_apart
-from viaspline.robot.replanning.decide import decide, look_again
 from viaspline.robot.run import Event, Replan, Visit
 from viaspline.robot.state import Command, RobotState
 from viaspline.robot.warmed import KernelCallback, warm_up
-from viaspline.robot.watching.clock import runs_backwards, told_of_clock
-from viaspline.robot.watching.fresh_inputs import fresh_inputs
-from viaspline.robot.watching.held_still import held_still, let_on, stop_command
-from viaspline.robot.watching.judged_motion import judged_motion
-from viaspline.robot.watching.measured_motion import remembered_for
-from viaspline.robot.watching.model_watch import watched_motion
-from viaspline.robot.yielding.broken_premises import broken_premises
-from viaspline.robot.yielding.foreseen import foreseen
-from viaspline.robot.yielding.give_way import give_way
-from viaspline.robot.yielding.stoppable import kept_to_path, sight_of, stoppable
 from viaspline.trajectory.limits import REACTION_S
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
@@ -189,98 +170,10 @@ class Navigator:
         """
         time = number_from("time", time)
         _check(state, time, self._state)
-        task = self._task
-        before = replace(self._state, log=Log())
-        if not before.progress.set_off:
-            before = set_off(before, time, self._plan)
-        if runs_backwards(before.watch, time):
-            return self._stood(state, time)
-        progress, knowledge = before.progress, before.knowledge
-        schedule = proven = before.schedule
-        # is what it is told of now?
-        inputs = fresh_inputs(task, before.watch, progress, schedule, state, sensed, time)
-        measured, sensed, watch = inputs.measured, inputs.sensed, inputs.watch
-        log = before.log.with_events(*inputs.events)
-        # how far has the robot come?
-        respond, work = decide, 0.0
-        if not progress.finished or progress.controller is not None:
-            motion = None
-            if not progress.finished and inputs.stale != "pose":
-                motion = watched_motion(
-                    task, before.watch, watch, progress, schedule, measured, time
-                )
-                watch, schedule = motion.watch, motion.schedule
-                log = log.with_events(*motion.events)
-            progress, waiting = track(progress, schedule, measured, time)
-            # who is held still isn't waited for: it stands when it has had the time for that
-            schedule = waiting if inputs.stale is None else schedule
-            progress, log = note_arrivals(task, progress, schedule, log)
-            if is_due(progress, schedule):
-                progress, schedule, log = _next_part(task, progress, knowledge, schedule, log)
-                respond, proven, motion = look_again, schedule, None
-            schedule = caught_up(task, progress, knowledge, schedule, measured.speed)
-            if before.watch.held is not None and inputs.stale is None:
-                schedule = let_on(task, progress, knowledge, schedule)
-            if motion is not None:
-                judged = judged_motion(task, progress, knowledge, schedule, watch, motion, measured)
-                task, watch, schedule, work = (
-                    judged.task,
-                    judged.watch,
-                    judged.schedule,
-                    judged.work,
-                )
-                for decision in judged.decisions:
-                    log = log.with_decision(decision, 0.0)
-        # what does it perceive? after the end only a lidar goes on
-        sighting = None
-        if isinstance(sensed, Scan):
-            knowledge, sighting = perceive(knowledge, sensed, time, foreseen)
-        else:
-            standing, moving = told_apart(sensed)
-            if moving or knowledge.tracked is not None:
-                knowledge = knowledge.with_sightings(moving, time, foreseen)
-            if not progress.finished:
-                knowledge, sighting = perceive(knowledge, standing, time, foreseen)
-        log = log.with_events(
-            *broken_premises(task, progress, before.knowledge, knowledge, schedule)
-        )
-        # what does it do about that?
-        undecided = progress, log
-        if sighting is not None or schedule.pending is not None or respond is look_again:
-            began = clock.perf_counter()
-            decision = respond(task, progress, knowledge, schedule, sighting)
-            log = log.with_decision(decision, clock.perf_counter() - began)
-            schedule, work = decision.schedule, max(work, decision.work)
-            progress, log = note_arrivals(task, progress, schedule, log)
-        if len(knowledge.moving):
-            decision = give_way(task, progress, knowledge, schedule)
-            log, schedule = log.with_decision(decision, 0.0), decision.schedule
-            progress, log = note_arrivals(task, progress, schedule, log)
-        if task.mission.robot.moving is not None:
-            sight = sight_of(task.mission.robot, sensed, measured, time)
-            decided = schedule
-            schedule = stoppable(task, progress, knowledge, proven, decided, sight)
-            if schedule.path is not decided.path:
-                progress, log = undecided
-                looked_at = knowledge.world if respond is look_again else sighting
-                schedule, event = kept_to_path(progress, knowledge, schedule, looked_at)
-                log = log.with_events(event)
-        # what is it to do now?
-        if inputs.stale is not None and not progress.finished and schedule.giving_up is None:
-            schedule = held_still(task, progress, schedule)
-        controller = before.progress.controller
-        if controller is not None and schedule.driven != before.schedule.driven:
-            controller = controller.moved(before.schedule.driven - schedule.driven)
-        progress, waiting = with_command(controller, progress, schedule, measured, time, work)
-        schedule = waiting if inputs.stale is None else schedule
-        command = command_for(task.mission.robot, progress, schedule, measured)
-        if schedule.giving_up is not None and progress.finished:
-            command = stop_command(task, command)
-        watch = replace(watch, held=inputs.stale).having_given(
-            time + work, command.speed, remembered_for(task)
-        )
-        state_now = NavigationState(progress, knowledge, schedule, log, work, watch)
-        return command, self._with(task, state_now)
+        taken = step_taken(self._task, self._plan, self._state, state, sensed, time)
+        navigator = object.__new__(Navigator)
+        navigator._plan, navigator._task, navigator._state = self._plan, taken.task, taken.state
+        return taken.command, navigator
 
     def warm(self, progress: KernelCallback | None = None) -> None:
         """Load all that any step can need, so that none has to wait for it.
@@ -294,23 +187,6 @@ class Navigator:
             progress: Hears the name of every kernel that has to be compiled.
         """
         warm_up(self.mission, progress)
-
-    def _stood(self, state: RobotState, time: float) -> tuple[Command, Navigator]:
-        """The command and the navigator of a step before the last one: the robot stands."""
-        task, before = self._task, self._state
-        progress, schedule = before.progress, before.schedule
-        if before.watch.held is None and not progress.finished and schedule.giving_up is None:
-            schedule = held_still(task, progress, schedule)
-        watch, events = told_of_clock(before.watch, schedule.place(progress.distance), time)
-        log = Log().with_events(*events)
-        command = stop_command(task, command_for(task.mission.robot, progress, schedule, state))
-        now = replace(before, schedule=schedule, log=log, work=0.0, watch=watch)
-        return command, self._with(task, now)
-
-    def _with(self, task: DriveTask, state: NavigationState) -> Navigator:
-        navigator = object.__new__(Navigator)
-        navigator._plan, navigator._task, navigator._state = self._plan, task, state
-        return navigator
 
     @property
     def allowance(self) -> float:
@@ -436,16 +312,6 @@ class Navigator:
     def compute_times(self) -> tuple[float, ...]:
         """How long each search in the last step took, by the clock on the wall [s]."""
         return self._state.log.compute_times
-
-
-def _next_part(
-    task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule, log: Log
-) -> tuple[Progress, Schedule, Log]:
-    """The robot with what it has driven at its path's end."""
-    progress, schedule, behind = next_part(progress, schedule)
-    log = log.with_driven(behind)
-    speed = float(schedule.trajectory.state_at(progress.time)[1])
-    return progress, rescheduled(task, progress, knowledge, schedule, speed), log
 
 
 def _check(measured: RobotState, time: float, state: NavigationState) -> None:

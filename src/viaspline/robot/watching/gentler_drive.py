@@ -12,7 +12,10 @@ from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.progress import Progress
 
 SLOWER = 0.6
-"""Of its greatest speed, with which it goes on,"""
+"""Of its greatest speed, with which a robot goes on whose model was wrong,"""
+
+SLOWER_UNMODELLED = 0.8
+"""and one that has none: nothing was kept for it, so less is wrong,"""
 
 LEAST_SHARE = 0.25
 """but no less than this of the speed that was asked for."""
@@ -36,10 +39,11 @@ def gentler_drive(task: DriveTask, progress: Progress) -> tuple[DriveTask, Progr
         >>> limits, kept = limits_of(mission.robot), requirements_under_way(mission, 0.0)
         >>> task = DriveTask(mission, kept, limits, reaction=0.1)
         >>> gentler_drive(task, Progress(0.0))[0].limits.max_speed
-        1.2
+        1.6
     """
     asked, now = task.mission.robot.max_speed_mps, task.limits.max_speed
-    speed = max(SLOWER * now, min(LEAST_SHARE * asked, now))
+    share = SLOWER_UNMODELLED if task.model is None else SLOWER
+    speed = max(share * now, min(LEAST_SHARE * asked, now))
     task = replace(task, limits=replace(task.limits, max_speed=speed))
     controller = progress.controller
     if task.model is None or controller is None:

@@ -5,7 +5,7 @@ Tested through ``robot/watching/test_renewed_allowance``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from viaspline.robot.navigation.decision import Decision
 from viaspline.robot.navigation.drive_task import DriveTask
@@ -19,6 +19,10 @@ from viaspline.robot.watching.model_watch import WatchedMotion, told_of_lag
 from viaspline.robot.watching.path_deviation import path_deviation
 from viaspline.robot.watching.renewed_allowance import renewed_allowance
 from viaspline.robot.watching.watch import Watch
+
+GENTLE_FROM = 2
+"""From the so manieth time on that it was farther beside its path than was kept, a robot that has
+no model goes on more gently; one that has, from the first: its model is wrong."""
 
 
 @dataclass(frozen=True)
@@ -75,8 +79,10 @@ def judged_motion(
     task, decision = renewed.task, renewed.decision
     schedule = decision.schedule
     if deviation.returns is None and schedule.giving_up is None:
-        # its model was wrong once: what it reacts to too late grows with its speed
-        task, progress = gentler_drive(task, progress)
-        speed = float(schedule.trajectory.state_at(progress.time)[1])
-        schedule = rescheduled(task, progress, knowledge, schedule, speed)
+        watch = replace(watch, renewals=watch.renewals + 1)
+        if task.model is not None or watch.renewals >= GENTLE_FROM:
+            # what it reacts to too late grows with its speed
+            task, progress = gentler_drive(task, progress)
+            speed = float(schedule.trajectory.state_at(progress.time)[1])
+            schedule = rescheduled(task, progress, knowledge, schedule, speed)
     return JudgedMotion(task, progress, watch, schedule, (told, decision), decision.work)

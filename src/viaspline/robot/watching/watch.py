@@ -69,6 +69,7 @@ class Watch:
         trail: Marks of the last seconds, in order.
         behind: For how long its time law has waited for it, in all [s].
         excuse: What it may be beside its path because it was set there, if it was.
+        renewals: How often what is kept for the tracking error was renewed.
         told: What holds and was told of already, with the figure of then.
         held: Why it is held still; None if it isn't.
     """
@@ -86,6 +87,7 @@ class Watch:
     trail: tuple[TrailMark, ...] = ()
     behind: float = 0.0
     excuse: Excuse | None = None
+    renewals: int = 0
     told: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
     held: str | None = None
 
