@@ -31,7 +31,6 @@ PLAIN, LIDAR = MissionKind(), MissionKind(("lidar",))
     [
         "untold",
         "lidar+ackermann+footprint+turning",
-        "lidar",
         "differential",
     ],
 )

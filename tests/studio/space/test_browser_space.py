@@ -265,6 +265,8 @@ def test_a_flight_is_played_in_all_views(visit: Visit, file: Path) -> None:
     path = page.js("studio.space.elevation.flown()")
     there = page.js("s => studio.store.curve.at(s)", path)
     assert abs(there["x"] - state["x"]) + abs(there["z"] - state["z"]) < 3
+    page.js("studio.drive.seek(studio.drive.begin)")  # as far away as it can be
+    assert page.js("studio.space.elevation.flown()") < 3
     page.until("studio.space.solid.moving.children.length >= 2")  # the robot and its trail
 
 

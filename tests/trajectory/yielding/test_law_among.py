@@ -5,10 +5,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+import viaspline as vs
 from viaspline.curve.cardinal import CardinalSpline
 from viaspline.curve.path import Path
 from viaspline.curve.piecewise import PiecewiseCubic
-from viaspline.errors import GeometryError
+from viaspline.errors import GaveUpError, GeometryError
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.mission.world_spec import SpeedZone
 from viaspline.planning.problem.method import Found, GaveUp, Refusal
@@ -295,3 +296,24 @@ def test_numbers_that_make_no_sense_are_refused(name: str) -> None:
     numbers = {"required": 0.5, "hold": 0.0, name: -1.0}
     with pytest.raises(GeometryError, match=name):
         law_among(line(), LIMITS, moving=MovingObstacles(), **numbers)
+
+
+def test_what_never_comes_near_the_goal_keeps_nobody_from_saying_how_long_it_is_free() -> None:
+    def goes_round(name: str, *frames: list[float]) -> dict[str, Any]:
+        return {
+            "name": name,
+            "circle": {"center": [0, 0], "radius": 1},
+            "motion": {"keyframes": list(frames), "after": "loop"},
+        }
+
+    known = [
+        goes_round("far", [0, 0, 50], [4, 5, 50], [8, 0, 50]),
+        goes_round("near", [0, 20, 9], [4, 20, 0], [8, 20, 9]),
+    ]
+    mission = {
+        "world": {"known": known},
+        "robot": {"radius_m": 0.3, "max_speed_mps": 2},
+        "route": {"start": [0, 0], "goal": [20, 0], "hold_s": 20},
+    }
+    with pytest.raises(GaveUpError, match="'near' first: hold 5 s at most"):
+        vs.plan(vs.Mission.model_validate(mission))

@@ -151,11 +151,10 @@ class Unserved:
         legs = replace(
             self.legs, traffic=traffic, search=replace(self.legs.search, traffic=traffic)
         )
-        end = self._course.stage.end
+        road, end, watched = self.legs.search.road, self._course.stage.end, self._watched()
         return max(
             (
-                min(traffic.free_until(self.legs.search.road, end, time), time + self._watched())
-                - time
+                min(traffic.free_until(road, end, time, time + watched) - time, watched)
                 for time in legs.arrivals(self.budget)
             ),
             default=0.0,

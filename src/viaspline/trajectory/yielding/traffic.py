@@ -5,7 +5,6 @@ Tested through ``trajectory/yielding/test_law_among``.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,8 +68,8 @@ class Traffic:
         )  # fmt: skip
         return int(index)
 
-    def free_until(self, road: Road, place: float, begin: float, end: float = math.inf) -> float:
-        """Until when nothing comes too near to a robot that stands somewhere [s]."""
+    def free_until(self, road: Road, place: float, begin: float, end: float) -> float:
+        """Until when nothing comes near a robot that stands somewhere [s]; inf: until the end."""
         x, y = road.at(place)
         time, _ = standing_conflicts(self.moving.packed, self.required, x, y, begin, end)
         return float(time)
