@@ -102,7 +102,7 @@ def main() -> None:
         chosen = tests_of(changed())
         run(BIN / "python", "-m", "pytest", "-x", "-m", "not slow", *chosen)
     else:
-        run(BIN / "python", "-m", "pytest", "-n", "2")
+        run(BIN / "python", "-m", "pytest", "-n", "2", "--dist", "worksteal")
 
 
 if __name__ == "__main__":
