@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from viaspline.report.interrupts import undone_at_the_end
 from viaspline.report.terminal_lines import say, say_error
@@ -22,6 +22,12 @@ if TYPE_CHECKING:
     from viaspline.report.progress_bar import ProgressBar
     from viaspline.report.result_files import ResultFolder
     from viaspline.report.video_file import VideoFile
+
+PLAN_NAMES: Final = (
+    "plan.json", "path.csv", "plan.png", "planned-mission.yaml", "timing.json"
+)  # fmt: skip
+RUN_NAMES: Final = (*PLAN_NAMES, "run.json", "run.csv", "run.png")
+"""The files that are written of the mission of one robot, planned and driven."""
 
 
 def default_folder(mission: Path) -> Path:

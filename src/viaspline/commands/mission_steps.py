@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from contextlib import nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 import click
 
 from viaspline.commands.command_steps import (
+    PLAN_NAMES,
+    RUN_NAMES,
     bag_file,
     default_folder,
     film_file,
@@ -26,11 +28,6 @@ from viaspline.report.terminal_lines import say_error
 
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
-
-PLAN_NAMES: Final = (
-    "plan.json", "path.csv", "plan.png", "planned-mission.yaml", "timing.json"
-)  # fmt: skip
-RUN_NAMES: Final = (*PLAN_NAMES, "run.json", "run.csv", "run.png")
 
 
 def check_mission(mission: Mission) -> list[tuple[str, str]]:

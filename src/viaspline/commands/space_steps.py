@@ -6,9 +6,11 @@ Tested through ``commands/test_space_steps``.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from viaspline.commands.command_steps import (
+    PLAN_NAMES,
+    RUN_NAMES,
     default_folder,
     film_file,
     progress_bar,
@@ -18,11 +20,6 @@ from viaspline.commands.command_steps import (
 
 if TYPE_CHECKING:
     from viaspline.mission.model import Mission
-
-SPATIAL_PLAN_NAMES: Final = (
-    "plan.json", "path.csv", "plan.png", "planned-mission.yaml", "timing.json"
-)  # fmt: skip
-SPATIAL_RUN_NAMES: Final = (*SPATIAL_PLAN_NAMES, "run.json", "run.csv", "run.png")
 
 
 def plan_spatial_mission(asked: Mission, file: Path, out: Path | None, *, quiet: bool) -> None:
@@ -35,7 +32,7 @@ def plan_spatial_mission(asked: Mission, file: Path, out: Path | None, *, quiet:
         quiet: Say nothing when all goes well.
     """
     with (
-        result_folder(out or default_folder(file), SPATIAL_PLAN_NAMES) as folder,
+        result_folder(out or default_folder(file), PLAN_NAMES) as folder,
         progress_bar(quiet) as watch,
     ):
         with watch.stage("plan", "planning"):
@@ -70,7 +67,7 @@ def run_spatial_mission(
         quiet: Say nothing when all goes well.
     """
     with (
-        result_folder(out or default_folder(file), SPATIAL_RUN_NAMES) as folder,
+        result_folder(out or default_folder(file), RUN_NAMES) as folder,
         film_file(animate) as film,
         progress_bar(quiet) as watch,
     ):

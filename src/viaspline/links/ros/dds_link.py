@@ -13,6 +13,7 @@ from viaspline.links.ros.ros_graph import (
     GRAPH_QOS,
     GRAPH_TOPIC,
     HUMBLE,
+    NODE,
     graph_book,
     graph_message,
 )
@@ -20,7 +21,6 @@ from viaspline.links.ros.ros_mailbox import RosMailbox
 from viaspline.links.ros.ros_topics import Qos, qos_for
 from viaspline.ros_messages.message_book import MessageBook
 
-NODE: Final = "viaspline"
 MOST_TAKEN: Final = 100
 """Messages that are taken from a reader at once."""
 BLOCKING_NS: Final = 100_000_000

@@ -17,6 +17,8 @@ GRAPH_TOPIC: Final = "ros_discovery_info"
 GRAPH_KIND: Final = "rmw_dds_common/msg/ParticipantEntitiesInfo"
 GRAPH_QOS: Final = Qos(stays=True, depth=1)
 HUMBLE: Final = "humble"
+NODE: Final = "viaspline"
+"""What our node is called."""
 GID_BYTES, GID_BYTES_HUMBLE = 16, 24
 
 

@@ -9,9 +9,10 @@ import json
 import time
 from collections.abc import Iterator, Mapping
 from importlib.util import find_spec
-from typing import Any, Final
+from typing import Any
 
 from viaspline.errors import LinkError
+from viaspline.links.ros.ros_graph import HUMBLE, NODE
 from viaspline.links.ros.ros_mailbox import RosMailbox
 from viaspline.links.ros.ros_topics import Qos, qos_for
 from viaspline.links.ros.zenoh_keys import (
@@ -22,9 +23,6 @@ from viaspline.links.ros.zenoh_keys import (
     topic_key,
 )
 from viaspline.ros_messages.message_book import MessageBook
-
-NODE: Final = "viaspline"
-HASHLESS: Final = "humble"
 
 
 def check_zenoh() -> None:
@@ -61,7 +59,7 @@ class ZenohLink:
         import zenoh
 
         self._book, self._domain = book, domain
-        self._hash_of = book.hash if distro != HASHLESS else _no_hash
+        self._hash_of = book.hash if distro != HUMBLE else _no_hash
         self.mailbox = RosMailbox(hears, book)
         config = zenoh.Config()
         config.insert_json5("mode", json.dumps("client"))

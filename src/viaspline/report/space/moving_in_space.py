@@ -21,13 +21,10 @@ INSTANTS = 300  # at which ways are looked at
 RANK = 6  # of the names of what moves
 
 
-def solids_past(plan: SpatialPlan) -> list[MovingSolid]:
+def solids_past(plan: SpatialPlan) -> tuple[MovingSolid, ...]:
     """What moves while a plan is flown."""
     law = plan.trajectory
-    return [
-        MovingSolid.of(one, one.name or f"moving obstacle {k + 1}", law.start_time, law.end_time)
-        for k, one in enumerate(plan.mission.world.moving)
-    ]
+    return MovingSolid.all_of(plan.mission, law.start_time, law.end_time)
 
 
 def place_then(one: MovingSolid, times: Floats) -> Floats:

@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from viaspline.kernels.arrays import Flags, Floats
+from viaspline.mission.model import Mission
 from viaspline.mission.motion_spec import Motion
 from viaspline.mission.shapes.obstacle import Obstacle
 
@@ -66,6 +67,14 @@ class MovingSolid:
         growth = motion.error.growth_mps * np.maximum(after, 0.0)
         off: Floats = motion.error.position_m + growth
         return cls(name, body, times, places + middle, there, off)
+
+    @classmethod
+    def all_of(cls, mission: Mission, begin: float, end: float) -> tuple[MovingSolid, ...]:
+        """All that moves in a mission, from one time to another [s]."""
+        return tuple(
+            cls.of(one, one.name or f"moving obstacle {k + 1}", begin, end)
+            for k, one in enumerate(mission.world.moving)
+        )
 
 
 def _turns(motion: Motion) -> bool:

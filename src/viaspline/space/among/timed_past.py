@@ -49,10 +49,7 @@ def solids_beside(mission: Mission, law: Trajectory, hold: float) -> tuple[Movin
         hold: How long the robot stays at the end [s].
     """
     until = law.start_time + WATCHED_SHARE * law.duration + WATCHED_S + hold
-    return tuple(
-        MovingSolid.of(one, one.name or f"moving obstacle {k + 1}", law.start_time, until)
-        for k, one in enumerate(mission.world.moving)
-    )
+    return MovingSolid.all_of(mission, law.start_time, until)
 
 
 def timed_past(
