@@ -134,6 +134,8 @@ def test_options_of_one_kind_of_file_are_refused_with_the_other(
 ) -> None:
     one = tmp_path / "one.yaml"
     one.write_text("route: {start: [0, 0], goal: [20, 5]}\n")
+    high = tmp_path / "high.yaml"
+    high.write_text("route: {start: [0, 0, 2], goal: [20, 5, 3]}\n")
     for arguments, words in (
         (("plan", one, "--improve", 3), "--improve is for fleets"),
         (("run", one, "--improve", 3), "--improve is for fleets"),
@@ -143,7 +145,9 @@ def test_options_of_one_kind_of_file_are_refused_with_the_other(
         (("plan", fleet, "--workers", 0), "is not in the range"),
         (("run", fleet, "--workers", 2, "--scheduler", "tcp://a:1"), "not both"),
         (("tension", fleet), "this is a fleet"),
-        (("run", fleet, "--real-time"), "--real-time is for the mission of one robot"),
+        (("run", fleet, "--real-time"), "--real-time is for one robot in the plane"),
+        (("run", fleet, "--bag", "a.mcap"), "this mission is one of a fleet"),
+        (("run", high, "--real-time"), "this mission is one in space"),
     ):
         result = call(*arguments)
         assert result.exit_code == 2

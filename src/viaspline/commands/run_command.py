@@ -63,7 +63,7 @@ def run(
     if isinstance(asked, Mission):
         check_of_fleets(improve, workers, scheduler)
         if asked.is_spatial:
-            check_no_bag(bag, "in space")
+            check_not_asked({"--bag": bag, "--real-time": real_time}, "in space")
             from viaspline.commands.space_steps import run_spatial_mission
 
             run_spatial_mission(asked, mission, out, animate=animate, quiet=quiet)
@@ -75,9 +75,7 @@ def run(
             quiet=quiet,
         )  # fmt: skip
         return
-    check_no_bag(bag, "of a fleet")
-    if real_time:
-        raise click.UsageError("--real-time is for the mission of one robot; this is a fleet")
+    check_not_asked({"--bag": bag, "--real-time": real_time}, "of a fleet")
     from viaspline.commands.fleet_steps import LaidBy, run_fleet_file
 
     run_fleet_file(
@@ -86,7 +84,10 @@ def run(
     )  # fmt: skip
 
 
-def check_no_bag(bag: Path | None, which: str) -> None:
-    """Refuse the option where there is no navigator to log."""
-    if bag is not None:
-        raise click.UsageError(f"--bag is for one robot in the plane; this mission is one {which}")
+def check_not_asked(options: dict[str, object], which: str) -> None:
+    """Refuse what is for the navigator of one robot in the plane, which is not driven here."""
+    for name, value in options.items():
+        if value:
+            raise click.UsageError(
+                f"{name} is for one robot in the plane; this mission is one {which}"
+            )
