@@ -135,7 +135,7 @@ def test_options_of_one_kind_of_file_are_refused_with_the_other(
     one = tmp_path / "one.yaml"
     one.write_text("route: {start: [0, 0], goal: [20, 5]}\n")
     high = tmp_path / "high.yaml"
-    high.write_text("route: {start: [0, 0, 2], goal: [20, 5, 3]}\n")
+    high.write_text("robot: {max_climb_mps: 2}\nroute: {start: [0, 0, 2], goal: [20, 5, 3]}\n")
     for arguments, words in (
         (("plan", one, "--improve", 3), "--improve is for fleets"),
         (("run", one, "--improve", 3), "--improve is for fleets"),
