@@ -24,7 +24,7 @@ settings.register_profile(
     "viaspline",
     deadline=None,  # the first example may compile a kernel
     derandomize=True,  # the check says the same of the same code; benchmarks hunt at random
-    max_examples=8 if os.environ.get("NUMBA_DISABLE_JIT") == "1" else 40,
+    max_examples=8 if os.environ.get("NUMBA_DISABLE_JIT") == "1" else 25,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 settings.load_profile("viaspline")
