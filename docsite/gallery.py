@@ -1,4 +1,4 @@
-"""The gallery: every example planned or driven, with its picture, its file and how long that took."""
+"""The gallery: every example planned or driven, with its picture, its file and its time."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from shrink_picture import shrink_picture
 INTRODUCTION = """# Gallery
 
 Every example, planned by `viaspline plan examples/…` while this page was built, or driven by
-`viaspline run` where there are things that only the robot's sensor finds. A click on a picture shows
-it in its full size. The time is that of the first plan of a process, without starting Python: half a
-second to a second of it is loading compiled kernels, which a
+`viaspline run` where there are things that only the robot's sensor finds. A click on a picture
+shows it in its full size. The time is that of the first plan of a process, without starting
+Python: half a second to a second of it is loading compiled kernels, which a
 [program that goes on](../benchmarks/README.md#plans-in-vector-worlds) does once.
 """
 UNSEEN = re.compile(r"^  unseen:", re.MULTILINE)
