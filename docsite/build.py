@@ -6,9 +6,10 @@ In ``build/``: ``pages/`` mirrors the repository, with the pages as they were ru
 means the same file here and there; ``site/`` is the site. It needs no network, neither to be built
 nor to be read; its search asks for ``python -m http.server -d build/site``.
 With pages (``docs/start/five-minutes.md``) only those are run.
-``--keep`` writes the pictures and the reference that were made back to ``docs/``; ``--gallery``
-plans or drives all examples for their page, which takes minutes, and writes it to ``docs/``;
-``--pictures`` makes the pictures that README shows anew, those of the studio by Chromium.
+``--keep`` writes the pictures and the reference that were made back to ``docs/``, and the studio's
+page of what is proven to it; ``--gallery`` plans or drives all examples for their page, which takes
+minutes, and writes it to ``docs/``; ``--pictures`` makes the pictures that README shows anew, those
+of the studio by Chromium.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from command_reference import command_reference, error_reference
 from fences import fences, pictures
 from gallery import gallery
 from mission_reference import mission_reference
+from proven_page import TARGET, proven_page
 from run_page import PageError, run_page
 from shrink_picture import shrink_picture
 from standing_pictures import standing_pictures
@@ -58,6 +60,8 @@ def main() -> None:
         (pages / name).write_text(make(), encoding="utf-8")
         if asked.keep:
             shutil.copyfile(pages / name, ROOT / name)
+    if asked.keep:
+        TARGET.write_text(proven_page(), encoding="utf-8")
     if asked.gallery:
         page = pages / "docs" / "gallery.md"
         shown = page.parent / "pictures" / "gallery"

@@ -3,6 +3,7 @@
 import { isFleet, membersOf, robotName } from "../core/fleet.js";
 import { fill, h, lazily, sentence } from "../panels/dom.js";
 import { clock, down, metres, seconds } from "../units.js";
+import { meaning } from "../panels/meaning.js";
 
 const MOST_SHOWN = 8; // robots that aren't served, and waits, one by one
 
@@ -29,7 +30,7 @@ export class FleetProof {
 
   /** @param {any} proof */
   separation(proof) {
-    const words = proof.pair ? `proven apart at all times (${metres(proof.required)} asked)` : "there is nobody to keep apart from";
+    const words = proof.pair ? h("span", {}, meaning("fleets-and-space", "proven"), ` apart at all times (${metres(proof.required)} asked)`) : "there is nobody to keep apart from";
     const look = () => this.lookAt(proof.at_s, proof.at[0]);
     return [h("div", { class: `proof${proof.holds ? "" : " is-bad"}` },
       h("span", { class: "proof-figure" }, proof.separation === null ? "–" : down(proof.separation)),
