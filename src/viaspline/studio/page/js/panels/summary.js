@@ -48,8 +48,9 @@ export class Summary {
   }
 
   /** @param {import("../core/fleet_plan.js").FleetPlan} fleet */
-  fleetPill({ driving, byName, certificate, missing, served, lasts }) {
+  fleetPill({ driving, byName, certificate, missing, served, isWhole, lasts }) {
     if (served) this.pill("is-good", "check", `proven apart · ${byName.size} robots · ${seconds(lasts[1])}`);
+    else if (!isWhole) this.pill("is-busy", "…", `${driving.length} of ${byName.size} served, trying other ways`);
     else if (missing.length) this.pill("is-bad", "warn", `${driving.length} of ${byName.size} served: ${missing[0].name}: ${missing[0].missing?.reason ?? ""}`);
     else this.pill("is-bad", "warn", `too near: ${metres(certificate.separation)} of ${metres(certificate.required)}`);
   }
