@@ -1,13 +1,15 @@
 """Build the site of the documentation: run each page, make the reference, lay it out, check links.
 
-    python docsite/build.py [PAGE ...] [--keep] [--gallery] [--no-site]
+    python docsite/build.py [PAGE ...] [--keep] [--gallery] [--pictures] [--no-site]
 
 In ``build/``: ``pages/`` mirrors the repository, with the pages as they were run, so that a link
 means the same file here and there; ``site/`` is the site. It needs no network, neither to be built
 nor to be read; its search asks for ``python -m http.server -d build/site``.
 With pages (``docs/start/five-minutes.md``) only those are run.
-``--keep`` writes the pictures and the reference that were made back to ``docs/``; ``--gallery``
-plans all examples for their page, which takes minutes, and writes it to ``docs/``.
+``--keep`` writes the pictures and the reference that were made back to ``docs/``, and the studio's
+page of what is proven to it; ``--gallery`` plans or drives all examples for their page, which takes
+minutes, and writes it to ``docs/``; ``--pictures`` makes the pictures that README shows anew, those
+of the studio by Chromium.
 """
 
 from __future__ import annotations
@@ -25,8 +27,10 @@ from command_reference import command_reference, error_reference
 from fences import fences, pictures
 from gallery import gallery
 from mission_reference import mission_reference
+from proven_page import TARGET, proven_page
 from run_page import PageError, run_page
 from shrink_picture import shrink_picture
+from standing_pictures import standing_pictures
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
@@ -46,13 +50,18 @@ def main() -> None:
     parser.add_argument("pages", nargs="*", help="run these alone (below docs/)")
     parser.add_argument("--keep", action="store_true", help="write what was made to docs/")
     parser.add_argument("--gallery", action="store_true", help="plan all examples for the gallery")
+    parser.add_argument("--pictures", action="store_true", help="make README's pictures anew")
     parser.add_argument("--no-site", action="store_true", help="run the pages, and no more")
     asked = parser.parse_args()
+    if asked.pictures:
+        standing_pictures(ROOT, BUILD / "work-of-pictures")
     pages = gathered()
     for name, make in REFERENCE.items():
         (pages / name).write_text(make(), encoding="utf-8")
         if asked.keep:
             shutil.copyfile(pages / name, ROOT / name)
+    if asked.keep:
+        TARGET.write_text(proven_page(), encoding="utf-8")
     if asked.gallery:
         page = pages / "docs" / "gallery.md"
         shown = page.parent / "pictures" / "gallery"

@@ -1,4 +1,4 @@
-"""The gallery: every example planned, with its picture, its file and how long the plan took."""
+"""The gallery: every example planned or driven, with its picture, its file and its time."""
 
 from __future__ import annotations
 
@@ -12,15 +12,18 @@ from shrink_picture import shrink_picture
 
 INTRODUCTION = """# Gallery
 
-Every example, planned by `viaspline plan examples/…` while this page was built. The time is that of
-the plan alone, without starting Python, on the machine that built the page, two cores of which were
-busy.
+Every example, planned by `viaspline plan examples/…` while this page was built, or driven by
+`viaspline run` where there are things that only the robot's sensor finds. A click on a picture
+shows it in its full size. The time is that of the first plan of a process, without starting
+Python: half a second to a second of it is loading compiled kernels, which a
+[program that goes on](../benchmarks/README.md#plans-in-vector-worlds) does once.
 """
-PICTURES = ("fleet.png", "plan.png")
+UNSEEN = re.compile(r"^  unseen:", re.MULTILINE)
+PICTURES = ("fleet.png", "run.png", "plan.png")
 
 
 def gallery(root: Path, work: Path, pictures: Path) -> str:
-    """Plan every example of the list in ``examples/README.md`` and make the page.
+    """Plan or drive every example of the list in ``examples/README.md`` and make the page.
 
     Args:
         root: The checkout.
@@ -35,19 +38,22 @@ def gallery(root: Path, work: Path, pictures: Path) -> str:
     pictures.mkdir(parents=True, exist_ok=True)
     for name, words in re.findall(r"^\| `([\w.-]+)` \| (.+) \|$", listed, re.MULTILINE):
         out = work / name
-        print(f"plans {name}", flush=True)
+        print(f"shows {name}", flush=True)
+        mission = root / "examples" / name
+        verb = "run" if UNSEEN.search(mission.read_text(encoding="utf-8")) else "plan"
         done = subprocess.run(
-            [sys.executable, "-m", "viaspline", "plan", root / "examples" / name, "--out", out],
+            [sys.executable, "-m", "viaspline", verb, mission, "--out", out],
             capture_output=True, text=True, check=False,
         )  # fmt: skip
         shown = next((out / one for one in PICTURES if (out / one).exists()), None)
         if shown is None:
             raise RuntimeError(f"{name}: {done.stdout}{done.stderr}")
         shrink_picture(shown, pictures / f"{Path(name).stem}.png")
+        picture = f"pictures/gallery/{Path(name).stem}.png"
         parts.append(
             f"## {Path(name).stem}\n\n{words[0].upper()}{words[1:]}. "
             f"[`{name}`](../examples/{name}){_seconds(out)}\n\n"
-            f"![{words}](pictures/gallery/{Path(name).stem}.png)\n"
+            f"[![{words}]({picture})]({picture})\n"
         )
     return "\n".join(parts)
 

@@ -20,6 +20,7 @@ sys.path.append(str(ROOT / "docsite"))
 from check_links import broken_links  # noqa: E402
 from command_reference import command_reference, error_reference  # noqa: E402
 from fences import fences, pictures  # noqa: E402
+from proven_page import TARGET, proven_page  # noqa: E402
 from run_page import PageError, run_page  # noqa: E402
 
 from viaspline import __all__ as exported  # noqa: E402
@@ -94,6 +95,17 @@ def test_every_key_that_the_reference_speaks_of_has_its_place_in_it() -> None:
     places = set(re.findall(r"\{ #([\w-]+) \}", page))
     assert {"rosspec", "route"} <= places
     assert set(re.findall(r"\]\(#([\w-]+)\)", page)) <= places
+
+
+def test_the_studio_shows_the_page_of_what_is_proven_as_it_is() -> None:
+    kept, page = TARGET.read_text(encoding="utf-8"), proven_page()
+    assert kept == page, "run docsite/build.py --keep --no-site docs/glossary.md"
+    assert not re.search(r"\*|`|\]\(|^\|", page, re.MULTILINE)  # all of it became HTML
+    folder = TARGET.parent / "js"
+    scripts = "".join(file.read_text(encoding="utf-8") for file in folder.rglob("*.js"))
+    led = set(re.findall(r'meaning\("([\w-]+)"', scripts))
+    assert len(led) == 4
+    assert led <= set(re.findall(r'id="([\w-]+)"', page))
 
 
 def test_every_command_and_every_public_name_has_its_place_in_the_reference() -> None:

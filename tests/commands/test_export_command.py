@@ -32,6 +32,23 @@ def test_the_origin_of_a_plan_of_others_is_its_own(tmp_path: Path) -> None:
     assert "<LineString>" in out.read_text()
 
 
+def test_an_origin_that_was_set_in_the_studio_is_taken_and_told(tmp_path: Path) -> None:
+    mission, out = tmp_path / "yard.yaml", tmp_path / "yard.kml"
+    mission.write_text("route: {start: [0, 0], goal: [9, 0]}\n")
+    beside = tmp_path / "yard.yaml.studio.json"
+    beside.write_text('{"origin": [47.25, 8.5]}\n')
+    result = call(mission, out)
+    assert result.exit_code == 0, result.output
+    assert "note: 0, 0 lies at 47.25, 8.5, as yard.yaml.studio.json says" in result.output
+    assert "8.5001188896,47.2499999999" in out.read_text()
+    assert "studio.json" not in call(mission, out, "--origin", "46,7").output  # somebody says it
+    beside.write_text('{"origin": [147.25, 8.5]}\n')
+    assert call(mission, tmp_path / "yard.csv", "-q").exit_code == 0  # which needs none
+    refused = call(mission, out)
+    assert refused.exit_code == 2
+    assert "[147.25, 8.5] is no latitude and longitude" in refused.output
+
+
 def test_a_plan_that_was_saved_is_exported_as_its_mission_is(tmp_path: Path) -> None:
     mission = EXAMPLES / "fig7-obstacles.yaml"
     saved, out = tmp_path / "saved", tmp_path / "line.gpx"

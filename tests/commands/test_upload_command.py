@@ -112,6 +112,19 @@ def test_two_origins_are_one_too_many(tmp_path: Path) -> None:
     assert "the file has its own origin, 47.1,8.2; leave out --origin" in result.output
 
 
+def test_an_origin_that_was_set_in_the_studio_is_told_before_anything_is_sent(
+    mission: Path,
+) -> None:
+    mission.with_name("yard.yaml.studio.json").write_text('{"origin": [47.25, 8.5]}')
+    port, vehicle = free_udp_port(), PymavlinkVehicle()
+    with VehicleOnUdp(vehicle, port):
+        result = uploaded(mission, port, "--vias")
+    assert result.exit_code == 0, result.output
+    told = "note: 0, 0 lies at 47.25, 8.5, as yard.yaml.studio.json says"
+    assert told in " ".join(result.output.split())
+    assert vehicle.board[0][0].x == 472500000
+
+
 def test_nobody_answers(mission: Path) -> None:
     result = uploaded(mission, free_udp_port(), "--vias", "--origin", "47.1,8.2", "--wait", "1")
     assert result.exit_code == 2

@@ -13,6 +13,7 @@ from viaspline.report.terminal_lines import say
 if TYPE_CHECKING:
     from viaspline.exports.export_options import ExportOptions
     from viaspline.exports.export_path import Exported
+    from viaspline.exports.path_format import PathFormat
     from viaspline.fleet.fleet_plan import FleetPlan
     from viaspline.mission.fleet.fleet import Fleet
     from viaspline.mission.model import Mission
@@ -28,7 +29,8 @@ METRES = click.FloatRange(min=0.0, max=1e4)
 @click.argument("out", metavar="OUT", type=click.Path(path_type=Path))
 @click.option(
     "--origin", metavar="LAT,LON",
-    help="Latitude and longitude of the mission's 0, 0.  [default: the mission's, if it says so]",
+    help="Latitude and longitude of the mission's 0, 0.  [default: the mission's, or as set "
+    "in the studio]",
 )  # fmt: skip
 @click.option(
     "--chord-error", type=METRES, metavar="M",
@@ -64,11 +66,13 @@ def export_command(
     from viaspline.exports.export_options import ExportOptions
     from viaspline.exports.path_format import path_format_of
     from viaspline.exports.tabled_path import check_origin
+    from viaspline.links.mavlink.geographic_origin import origin_note
 
     kind = path_format_of(out)  # what can't be is refused before the long work
     saved = _is_saved(mission)
     asked = None if saved else load_asked(mission)
-    place = None if saved and origin is None else _origin_of(mission, origin)
+    place = None if saved and origin is None else _origin_of(mission, origin, kind)
+    note = None if saved or not kind.is_geographic else origin_note(mission, origin)
     options = ExportOptions(place, chord_error, acceptance, spacing)
     options = options.checked()
     check_origin(kind, options, str(out))
@@ -82,7 +86,8 @@ def export_command(
         first = next(iter(done.values()), None)
         if first is not None:
             say(*(f"not carried: {words}" for words in first.lost))
-            say(*(f"note: {words}" for words in first.notes))
+            notes = first.notes if note is None else (*first.notes, note)
+            say(*(f"note: {words}" for words in notes))
             say(f"wrote {', '.join(str(one.path) for one in done.values())}")
     _end_unserved(planned)
 
@@ -141,11 +146,13 @@ def _loaded(folder: Path, watch: ProgressBar) -> Plan | SpatialPlan:
         return load_plan(folder)
 
 
-def _origin_of(mission: Path, said: str | None) -> tuple[float, float] | None:
+def _origin_of(mission: Path, said: str | None, kind: PathFormat) -> tuple[float, float] | None:
     if said is None:
         from viaspline.formats.load import origin_of
+        from viaspline.formats.studio_origin import studio_origin
 
-        return origin_of(mission)
+        own = origin_of(mission)
+        return studio_origin(mission) if own is None and kind.is_geographic else own
     try:
         latitude, longitude = (float(part) for part in said.split(","))
     except ValueError:

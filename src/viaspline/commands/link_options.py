@@ -25,7 +25,8 @@ SYSTEM = click.option(
 )  # fmt: skip
 ORIGIN = click.option(
     "--origin", metavar="LAT,LON",
-    help="Where on earth the mission's 0, 0 is, if its file is in metres.",
+    help="Where on earth the mission's 0, 0 is, if its file is in metres.  [default: as set in the "
+    "studio]",
 )  # fmt: skip
 WAIT = click.option(
     "--wait", type=click.FloatRange(min=1.0, max=86400.0), default=PATIENCE_S, show_default=True,

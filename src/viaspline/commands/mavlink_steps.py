@@ -63,9 +63,11 @@ def drive_over_mavlink(file: Path, link: MavlinkLink, *, quiet: bool) -> None:
         quiet: Say nothing when all goes well.
     """
     from viaspline.formats.local_frame import LocalFrame
-    from viaspline.links.mavlink.geographic_origin import mission_origin
+    from viaspline.links.mavlink.geographic_origin import mission_origin, origin_note
 
     frame = LocalFrame(*mission_origin(file, link.origin))
+    if (note := origin_note(file, link.origin)) and not quiet:
+        say(f"note: {note}")
     mission = _mission(file)
     pilot = None if link.from_here else _pilot(mission, quiet)
     if not quiet and mission.robot.drive is None and not mission.is_spatial:

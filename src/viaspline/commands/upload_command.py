@@ -49,13 +49,15 @@ def upload(
       viaspline upload survey.plan --to udp:0.0.0.0:14550
       viaspline upload patrol.yaml --to serial:/dev/ttyUSB0:57600 --origin 47.1,8.2
     """
-    from viaspline.links.mavlink.geographic_origin import mission_origin
+    from viaspline.links.mavlink.geographic_origin import mission_origin, origin_note
     from viaspline.links.mavlink.mav_words import FENCE, LISTS
     from viaspline.links.mavlink.mission_items import lists_of
     from viaspline.links.mavlink.rally_points import rally_points
     from viaspline.links.mavlink.upload_mission import refuse_under_way, upload_mission
 
     way = _way(mission, mission_origin(mission, origin), vias=vias, quiet=quiet)
+    if (note := origin_note(mission, origin)) and not quiet:
+        say(f"note: {note}")
     lists = lists_of(way.itinerary, rally_points(mission))
     if no_fence:
         lists.pop(FENCE)

@@ -11,7 +11,7 @@ from urllib.request import urlopen
 import PIL.Image
 import pytest
 
-from viaspline.studio.background.studio_settings import ENDING
+from viaspline.formats.studio_origin import STUDIO_ENDING
 
 MISSION = "route: {start: [0, 0], goal: [90, 0]}\n"
 Studio = Any
@@ -50,7 +50,7 @@ def test_a_picture_is_put_under_a_mission_kept_and_never_planned_with(
     answer = client.ask("remember", "remembered", background=wanted)
     found = answer["background"]
     assert found["sheet"] == pytest.approx([-10, 110, 0, 50, 0, -55], abs=1e-9)
-    assert json.loads((site / f"a.yaml{ENDING}").read_text())["background"]["opacity"] == 0.4
+    assert json.loads((site / f"a.yaml{STUDIO_ENDING}").read_text())["background"]["opacity"] == 0.4
     assert (site / "a.yaml").read_text() == MISSION
     with urlopen(f"{client.studio.url}backgrounds/{found['name']}") as reply:
         assert reply.headers["content-type"] == "image/png"
@@ -58,7 +58,7 @@ def test_a_picture_is_put_under_a_mission_kept_and_never_planned_with(
     after = client.edit()
     assert {**after, "rev": 0, "ms": 0} == {**before, "rev": 0, "ms": 0}
     client.ask("save", "saved", name="rounds/b.yaml")
-    moved = json.loads((site / "rounds" / f"b.yaml{ENDING}").read_text())
+    moved = json.loads((site / "rounds" / f"b.yaml{STUDIO_ENDING}").read_text())
     assert moved["background"]["picture"] == "../site.png"
     with client.studio.client() as again:
         assert again.hear("background")["background"] is None  # not that of the mission before
@@ -69,7 +69,7 @@ def test_an_origin_is_kept_for_a_file_that_can_not_say_its_own(client: Any, site
     degrees = {"picture": "site.png", "grid": "degrees", "corners": [[47, 8], [47.001, 8.001]]}
     refused = client.ask("remember", "refused", background=degrees)
     assert "origin" in refused["message"]
-    assert not (site / f"a.yaml{ENDING}").exists()
+    assert not (site / f"a.yaml{STUDIO_ENDING}").exists()
     for words in ("north", "91, 8", "0, 0"):
         assert "origin" in client.ask("remember", "refused", origin=words)["message"]
     assert client.ask("remember", "remembered", origin="47, 8")["origin"] == [47, 8]
@@ -123,9 +123,9 @@ def test_what_lies_under_a_new_mission_is_kept_when_that_is_saved(client: Any, s
     corners = [[0, 0], [10, 5]]
     wanted = {"picture": "site.png", "corners": corners}
     client.ask("remember", "remembered", background=wanted, origin="47, 8")
-    assert not list(site.glob(f"*{ENDING}"))
+    assert not list(site.glob(f"*{STUDIO_ENDING}"))
     client.ask("save", "saved", name="rounds/new.yaml")
-    kept = json.loads((site / "rounds" / f"new.yaml{ENDING}").read_text())
+    kept = json.loads((site / "rounds" / f"new.yaml{STUDIO_ENDING}").read_text())
     assert (kept["origin"], kept["background"]["picture"]) == ([47, 8], "../site.png")
     client.ask("remember", "remembered", background=None, origin="")
-    assert json.loads((site / "rounds" / f"new.yaml{ENDING}").read_text()) == {}
+    assert json.loads((site / "rounds" / f"new.yaml{STUDIO_ENDING}").read_text()) == {}

@@ -134,9 +134,11 @@ def test_what_priority_leaves_out_is_served_once_nobody_drags(start: Start, file
     with start(file).client() as client:
         first = client.edit([["fleet"], members], [["separation_m"], 0.5])
         assert not first["fleet"]["served"]
+        assert not first["fleet"]["is_whole"]  # the page says that more is tried
         then = client.hear("planned")
         client.ask("save", "saved", name="swapped.yaml")
     assert then["rev"] == first["rev"]
+    assert then["fleet"]["is_whole"]
     plan = planned(file.parent / "swapped.yaml")
     assert then["fleet"]["served"] == plan.served
     assert {name for name, one in by_name(then).items() if not one["missing"]} == set(plan.plans)

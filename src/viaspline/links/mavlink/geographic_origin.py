@@ -1,4 +1,4 @@
-"""Where on earth a mission's 0, 0 is: as its file says, or as somebody says.
+"""Where on earth a mission's 0, 0 is: says its file, or somebody, or the studio beside the file.
 
 Tested through ``commands/test_upload_command``.
 """
@@ -10,6 +10,7 @@ from pathlib import Path
 from viaspline.errors import LinkError
 from viaspline.formats.items import LatLon
 from viaspline.formats.load import origin_of
+from viaspline.formats.studio_origin import beside, studio_origin
 
 
 def mission_origin(path: Path, given: str | None) -> LatLon:
@@ -21,7 +22,7 @@ def mission_origin(path: Path, given: str | None) -> LatLon:
 
     Raises:
         LinkError: Nobody says it, two say it, or it can't be meant.
-        MissionError: The file can't be read.
+        MissionError: The file can't be read, or what the studio keeps beside it.
     """
     own = origin_of(path)
     if own is not None and given is not None:
@@ -30,6 +31,9 @@ def mission_origin(path: Path, given: str | None) -> LatLon:
     if own is not None:
         return own
     if given is None:
+        kept = studio_origin(path)
+        if kept is not None:
+            return kept
         problem = "the mission is in metres, and a vehicle drives in latitudes and longitudes"
         raise LinkError(path, problem, "say where its 0, 0 is: --origin LAT,LON")
     try:
@@ -41,3 +45,24 @@ def mission_origin(path: Path, given: str | None) -> LatLon:
         remedy = "latitudes are -90 to 90, longitudes -180 to 180 degrees, and 0,0 means nowhere"
         raise LinkError(given, "can't be the origin", remedy)
     return latitude, longitude
+
+
+def origin_note(path: Path, given: str | None) -> str | None:
+    """What is to be said of an origin that neither the mission nor its user has said.
+
+    Args:
+        path: The mission's file.
+        given: What somebody says, as ``LAT,LON``.
+
+    Returns:
+        None where one of them has said it.
+
+    Raises:
+        MissionError: A file can't be read.
+    """
+    if given is not None or origin_of(path) is not None:
+        return None
+    kept = studio_origin(path)
+    if kept is None:
+        return None
+    return f"0, 0 lies at {kept[0]:.7g}, {kept[1]:.7g}, as {beside(path).name} says"

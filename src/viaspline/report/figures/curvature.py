@@ -19,6 +19,7 @@ from viaspline.report.figures.paper import dots, fit, headline, page
 VIA_POINTS_M = np.array([(0, 0), (20, 26), (50, 22), (62, -2), (92, 2), (106, 28), (134, 18.0)])
 COMB_M2 = 160.0  # [m] for a curvature of 1/m
 POINTS_PER_SPAN = 90
+NO_JUMP_1PM = 1e-6
 
 
 def curvature_figure() -> bytes:
@@ -48,7 +49,9 @@ def curvature_figure() -> bytes:
         tops.append(_plot(right, spline, jumps))
         largest = float(jumps.max())
         words = (
-            f"jumps of up to {largest:.3f} 1/m at the via points" if largest > 1e-6 else "no jumps"
+            f"jumps of up to {largest:.3f} 1/m at the via points"
+            if largest > NO_JUMP_1PM
+            else "no jumps"
         )
         headline(right, words, size=style.TEXT_PT)
         right.set_ylabel("curvature [1/m]", labelpad=1)
@@ -99,14 +102,14 @@ def _plot(axes: Axes, spline: CardinalSpline, jumps: Floats) -> float:
         axes.axvline(where, color=style.OBSTACLE, linewidth=0.5, zorder=0)
         axes.plot([where] * 2, [before, after], color=style.TIGHTEST, linewidth=1.6)
         above = max(before, after) > -min(before, after)
-        axes.annotate(
-            f"{jumps[i]:.3f}" if jumps[i] > 1e-6 else "0",
-            (where, max(before, after) if above else min(before, after)),
-            xytext=(0, 7 if above else -8), textcoords="offset points", size=style.SMALL_PT - 0.5,
-            color=style.TIGHTEST, ha="center", va="center",
-        )  # fmt: skip
+        if jumps[i] > NO_JUMP_1PM:
+            axes.annotate(
+                f"{jumps[i]:.3f}", (where, max(before, after) if above else min(before, after)),
+                xytext=(0, 7 if above else -8), textcoords="offset points",
+                size=style.SMALL_PT - 0.5, color=style.TIGHTEST, ha="center", va="center",
+            )  # fmt: skip
         axes.text(
-            where, 0.015, str(i + 1), transform=axes.get_xaxis_transform(),
-            size=style.SMALL_PT - 0.5, color=style.MUTED, ha="center", va="bottom",
+            where, 0.98, f" {i + 1}", transform=axes.get_xaxis_transform(),
+            size=style.SMALL_PT - 0.5, color=style.MUTED, ha="left", va="top",
         )  # fmt: skip
     return top

@@ -106,7 +106,8 @@ def dots(axes: Axes, points: Floats, names: Sequence[str] = (), *, away: float =
         outside = -np.sum(ways, axis=0)
         if np.linalg.norm(outside) < 0.2:
             outside = np.array([-ways[0][1], ways[0][0]])
-        outside *= away / np.linalg.norm(outside)
+        is_end = k in (0, len(points) - 1)  # within lies the curve
+        outside *= (abs(away) if is_end else away) / np.linalg.norm(outside)
         axes.annotate(
             name, tuple(points[k]), xytext=tuple(outside), textcoords="offset points",
             size=style.TEXT_PT, color=style.INK, ha="center", va="center", zorder=11,

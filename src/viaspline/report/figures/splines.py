@@ -119,10 +119,10 @@ def fig5() -> bytes:
                 *missed.T, "o", markersize=13, markerfacecolor="none",
                 markeredgecolor=style.TIGHTEST, markeredgewidth=1.4,
             )  # fmt: skip
-            for point in missed:
+            for point, side in zip(missed, (-1, 1), strict=True):  # beyond its name
                 axes.annotate(
-                    "not reached", tuple(point), xytext=(12, 0), textcoords="offset points",
-                    size=style.SMALL_PT, color=style.TIGHTEST, ha="left", va="center",
+                    "not reached", tuple(point), xytext=(0, 24 * side), textcoords="offset points",
+                    size=style.SMALL_PT, color=style.TIGHTEST, ha="center", va="center",
                 )  # fmt: skip
         else:
             axes.plot(

@@ -8,17 +8,15 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
-from viaspline.bounded_file import FileKind, read_text
+from viaspline.bounded_file import read_text
 from viaspline.errors import MissionError
 from viaspline.formats.items import LatLon
+from viaspline.formats.studio_origin import STUDIO_ENDING, STUDIO_FILE
 from viaspline.studio.background.background import Background
 from viaspline.studio.folder import Folder
 from viaspline.studio.refused_error import RefusedError
-
-ENDING: Final = ".studio.json"
-SETTINGS_FILE: Final = FileKind("file of the studio", 100_000, "take out what isn't needed")
 
 
 @dataclass(frozen=True)
@@ -86,12 +84,12 @@ def read_settings(folder: Folder, mission: str) -> tuple[StudioSettings, tuple[s
         folder: The studio's.
         mission: The name of the mission's file.
     """
-    name = f"{mission}{ENDING}"
+    name = f"{mission}{STUDIO_ENDING}"
     try:
         path = folder.inside(name)
         if not path.exists():
             return StudioSettings(), ()
-        data = json.loads(read_text(path, SETTINGS_FILE), parse_constant=_no_number)
+        data = json.loads(read_text(path, STUDIO_FILE), parse_constant=_no_number)
         if not isinstance(data, dict):
             raise RefusedError("it is no JSON object")
         return _parsed(data), ()
@@ -120,12 +118,12 @@ def write_settings(folder: Folder, mission: str, settings: StudioSettings) -> No
     Raises:
         RefusedError: The file can't be written.
     """
-    path = folder.inside(f"{mission}{ENDING}")
+    path = folder.inside(f"{mission}{STUDIO_ENDING}")
     if settings == StudioSettings() and not path.exists():
         return
     old = ""
     with suppress(MissionError):  # what can't be read is written anew
-        old = read_text(path, SETTINGS_FILE)
+        old = read_text(path, STUDIO_FILE)
     if settings.text != old:
         folder.save(path, settings.text)
 

@@ -45,15 +45,17 @@ def fleet_answer(
         "gave_up": False,
         "problems": [problem_data(problem) for problem in planned.problems],
         "missions": {name: one.document for name, one in planned.missions.items()},
-        "fleet": None if plan is None else _fleet(plan, None if before is None else before.drawn),
+        "fleet": None if plan is None else _fleet(planned, plan, before),
     }
 
 
-def _fleet(plan: FleetPlan, before: FleetPlan | None) -> dict[str, Any]:
+def _fleet(planned: PlannedFleet, plan: FleetPlan, earlier: PlannedFleet | None) -> dict[str, Any]:
+    before = None if earlier is None else earlier.drawn
     missing = {one.name: one for one in plan.not_served}
     members = plan.fleet.members
     return {
         "served": plan.served,
+        "is_whole": planned.is_whole,
         "certificate": _certificate(plan),
         "robots": [_robot(one, plan, missing.get(one.name), before) for one in members],
         "waits": list(_waits(plan)),

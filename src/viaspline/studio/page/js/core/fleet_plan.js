@@ -26,17 +26,19 @@ export class FleetPlan {
     /** @type {any} */ this.certificate = null; // of the newest that is a plan
     /** @type {Wait[]} */ this.waits = [];
     this.served = false;
+    this.isWhole = true; // else more is tried to serve those who are not
   }
 
   /** Take up what the server says. @param {any} answer */
   take(answer) {
     this.answer = answer;
     if (!answer.fleet) return;
-    const { robots, waits, certificate, served } = answer.fleet;
+    const { robots, waits, certificate, served, is_whole: isWhole } = answer.fleet;
     this.byName = new Map(robots.map((/** @type {any} */ robot) => [robot.name, this.merged(robot)]));
     this.certificate = certificate;
     this.waits = waits;
     this.served = served;
+    this.isWhole = isWhole;
   }
 
   /** @param {any} robot what is new of it @returns {RobotPlan} */

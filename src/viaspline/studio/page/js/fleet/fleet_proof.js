@@ -3,6 +3,7 @@
 import { isFleet, membersOf, robotName } from "../core/fleet.js";
 import { fill, h, lazily, sentence } from "../panels/dom.js";
 import { clock, down, metres, seconds } from "../units.js";
+import { meaning } from "../panels/meaning.js";
 
 const MOST_SHOWN = 8; // robots that aren't served, and waits, one by one
 
@@ -24,12 +25,12 @@ export class FleetProof {
       fill(this.panel, h("p", { class: "hint" }, "What is proven is said here once it is planned."));
       return;
     }
-    fill(this.panel, ...(plan.certificate ? [...this.separation(plan.certificate), ...this.figures(plan)] : []), ...this.missing(plan), ...this.waits(plan));
+    fill(this.panel, ...(plan.certificate ? [...(plan.driving.length ? this.separation(plan.certificate) : []), ...this.figures(plan)] : []), ...this.missing(plan), ...this.waits(plan));
   }
 
   /** @param {any} proof */
   separation(proof) {
-    const words = proof.pair ? `proven apart at all times (${metres(proof.required)} asked)` : "there is nobody to keep apart from";
+    const words = proof.pair ? h("span", {}, meaning("fleets-and-space", "proven"), ` apart at all times (${metres(proof.required)} asked)`) : "there is nobody to keep apart from";
     const look = () => this.lookAt(proof.at_s, proof.at[0]);
     return [h("div", { class: `proof${proof.holds ? "" : " is-bad"}` },
       h("span", { class: "proof-figure" }, proof.separation === null ? "–" : down(proof.separation)),
@@ -51,7 +52,8 @@ export class FleetProof {
   missing(plan) {
     const { missing } = plan;
     if (!missing.length) return [];
-    return [h("h3", {}, "Not served")].concat(missing.slice(0, MOST_SHOWN).map((robot) => h("div", { class: "problem" },
+    const soon = plan.isWhole ? [] : [h("p", { class: "hint" }, "Other ways are being tried.")];
+    return [h("h3", {}, plan.isWhole ? "Not served" : "Not served yet"), ...soon].concat(missing.slice(0, MOST_SHOWN).map((robot) => h("div", { class: "problem" },
       this.named(robot.name, "link problem-key"), ` ${robot.missing?.outcome}`,
       h("p", {}, sentence(robot.missing?.reason ?? "")), h("p", { class: "hint" }, sentence(robot.missing?.remedy ?? "")))))
       .concat(missing.length > MOST_SHOWN ? [h("p", { class: "hint" }, `and ${missing.length - MOST_SHOWN} more`)] : []);

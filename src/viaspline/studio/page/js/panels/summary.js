@@ -7,6 +7,7 @@ import { heightRows } from "../space/height_rows.js";
 import { timingRows } from "./timing.js";
 import { bend, down, metres, number, place, seconds } from "../units.js";
 import { fill, h, icon, lazily, sentence } from "./dom.js";
+import { meaning } from "./meaning.js";
 
 export class Summary {
   /** @param {any} app */
@@ -47,8 +48,9 @@ export class Summary {
   }
 
   /** @param {import("../core/fleet_plan.js").FleetPlan} fleet */
-  fleetPill({ driving, byName, certificate, missing, served, lasts }) {
+  fleetPill({ driving, byName, certificate, missing, served, isWhole, lasts }) {
     if (served) this.pill("is-good", "check", `proven apart · ${byName.size} robots · ${seconds(lasts[1])}`);
+    else if (!isWhole) this.pill("is-busy", "…", `${driving.length} of ${byName.size} served, trying other ways`);
     else if (missing.length) this.pill("is-bad", "warn", `${driving.length} of ${byName.size} served: ${missing[0].name}: ${missing[0].missing?.reason ?? ""}`);
     else this.pill("is-bad", "warn", `too near: ${metres(certificate.separation)} of ${metres(certificate.required)}`);
   }
@@ -67,7 +69,7 @@ export class Summary {
     return [
       h("div", { class: "proof" },
         proof.clearance === null ? null : h("span", { class: "proof-figure" }, down(proof.clearance)),
-        h("span", { class: "proof-words" }, proof.clearance === null ? "nothing to keep clear of" : `proven clear of everything (${metres(proof.required)} asked)`,
+        h("span", { class: "proof-words" }, proof.clearance === null ? "nothing to keep clear of" : h("span", {}, meaning("a-path", "proven"), ` clear of everything (${metres(proof.required)} asked)`),
           proof.nearest ? h("button", { type: "button", class: "link", onclick: () => this.app.lookAtPlace(proof.at, proof.distance) }, `tightest at ${proof.nearest}`) : null)),
       plan.drivability ? this.drives(plan.drivability) : null,
       h("dl", { class: "figures" },
@@ -87,7 +89,7 @@ export class Summary {
       at ? h("button", { type: "button", class: "link", onclick: () => app.lookAtPlace(at, distance) }, text) : h("span", {}, text);
     const across = `at most ${number(drive.max_lateral_accel_mps2)} m/s² across the path`;
     if (drive.verdict === "good") {
-      return h("div", { class: "drives is-good", title: across }, icon("check", 14), h("span", {}, "drives well"),
+      return h("div", { class: "drives is-good", title: across }, icon("check", 14), meaning("how-it-drives", "drives well"),
         drive.sharpest_at ? link("sharpest place", drive.sharpest_at, drive.sharpest_distance_m) : null);
     }
     const { reasons } = drive;
@@ -98,6 +100,7 @@ export class Summary {
     },
     h("summary", {}, icon("warn", 14), h("span", {}, `drives roughly${count}`)),
     h("ul", {}, ...reasons.slice(0, 12).map((/** @type {any} */ r) => h("li", {}, link(sentence(r.text), r.at, r.distance_m)))),
+    h("p", { class: "hint" }, meaning("how-it-drives", "How this is judged")),
     reasons.length > 12 ? h("p", { class: "hint" }, `and ${reasons.length - 12} more in plan.json`) : null);
   }
 

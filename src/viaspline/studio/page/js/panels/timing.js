@@ -3,6 +3,7 @@
 import { waitWords } from "../preview.js";
 import { down, metres, seconds } from "../units.js";
 import { h } from "./dom.js";
+import { meaning } from "./meaning.js";
 
 const MOST_CANDIDATES = 4;
 
@@ -24,11 +25,11 @@ export function timingRows(app, plan) {
 
 /** @param {any} app @param {any} plan @param {any} certificate */
 function proof(app, plan, certificate) {
-  if (!certificate.obstacle) return h("p", { class: "hint" }, "Proven: nothing that moves comes near, until the goal need not stay free.");
+  if (!certificate.obstacle) return h("p", { class: "hint" }, meaning("what-moves", "Proven"), ": nothing that moves comes near, until the goal need not stay free.");
   const { obstacle, tightest_at_s: time, clearance_m: clearance, required_clearance_m: required } = certificate;
   return h("div", { class: "proof is-small" },
     h("span", { class: "proof-figure" }, down(clearance)),
-    h("span", { class: "proof-words" }, `proven clear of what moves, at every instant (${metres(required)} asked)`,
+    h("span", { class: "proof-words" }, h("span", {}, meaning("what-moves", "proven"), ` clear of what moves, at every instant (${metres(required)} asked)`),
       h("button", { type: "button", class: "link", onclick: () => look(app, time, plan.timing.items[obstacle]) }, `tightest at ${seconds(time)}, to ${obstacle}`)));
 }
 
