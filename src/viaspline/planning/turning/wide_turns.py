@@ -99,9 +99,6 @@ class WideTurns:
         narrowest = settled_turns(bends.turning(self.least))
         if isinstance(narrowest, NoTurnPath):
             return None
-        least = np.full(len(bends.rows), self.least)
-        if _tried(bends, least, world, requirements)[0] is None:
-            return None
         wishes = self._wishes(narrowest)
         joins = joins_worth_it(narrowest.bends, wishes, GENTLE_ROOM)
         while joins:
