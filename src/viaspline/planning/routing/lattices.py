@@ -31,13 +31,16 @@ Box = tuple[float, float, float, float]
 HALF_DIAGONAL = math.sqrt(0.5)  # of a cell of side 1
 OPEN_CELL_RADII, PROOF_CELL_RADII = 0.5, 0.25  # side of open cells, in required distances
 CELLS_WANTED, CELLS_QUICK = 2**16, 2**20  # of the lattice that is tried first without maps
+CELLS_SHORTEST = 2**22  # the most of it where it is the length that counts
 MAX_CELLS = 2**25  # of any lattice
 MAX_PARTS = 4  # of a map's cell aside, where other things stand beside the map
 MISALIGNMENT = 1e-9  # what a map may lie off the lattice, in cells
 NO_CELLS: Bytes = np.empty((0, 0), np.uint8)
 
 
-def lattices(world: World, required: float, floor: float, places: Floats) -> Iterator[Lattice]:
+def lattices(
+    world: World, required: float, floor: float, places: Floats, most_cells: int = CELLS_QUICK
+) -> Iterator[Lattice]:
     """Lattices of a world for a robot that needs ``required`` [m] around its middle, ever finer.
 
     Args:
@@ -45,6 +48,9 @@ def lattices(world: World, required: float, floor: float, places: Floats) -> Ite
         required: [m].
         floor: A little less, which is what is proven [m].
         places: Where the robot has to get to [m], (n, 2).
+        most_cells: Of the lattice that is tried first, for a robot much slimmer than its cells. A
+            slim robot may find a long way on it where one that is less slim finds none, and a short
+            one on the next.
     """
     box = _box(world, required, places)
     own = _own_cells(world, required, box)
@@ -53,17 +59,18 @@ def lattices(world: World, required: float, floor: float, places: Floats) -> Ite
         if own.is_open:
             return
         yield _maps_alone(own, world, required)
-    for side in _sides(world, required, box):
+    for side in _sides(world, required, box, most_cells):
         if side <= OPEN_CELL_RADII * required * (1.0 + 1e-9):
             yield _open_cells(world, required, floor, box, side)
         else:
             yield _closed_cells(world, required, box, side)
 
 
-def _sides(world: World, required: float, box: Box) -> Iterator[float]:
+def _sides(world: World, required: float, box: Box, most_cells: int) -> Iterator[float]:
     """Sides of cells [m], ever smaller; the last ones prove that there is no way."""
     area = (box[2] - box[0]) * (box[3] - box[1])
-    first, quickest, finest = (math.sqrt(area / n) for n in (CELLS_WANTED, CELLS_QUICK, MAX_CELLS))
+    counts = CELLS_WANTED, most_cells, MAX_CELLS
+    first, quickest, finest = (math.sqrt(area / n) for n in counts)
     resolution = min((grid.resolution for grid in _grids(world)), default=math.inf)
     open_side, last_side = OPEN_CELL_RADII * required, PROOF_CELL_RADII * required
     wanted = [max(open_side, finest), max(last_side, finest)]

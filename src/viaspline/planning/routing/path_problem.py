@@ -16,6 +16,7 @@ from viaspline.kernels.world.clusters import group_labels
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.via_sequence import ViaSequence
 from viaspline.planning.routing.asked_sides import AskedSides, sided
+from viaspline.planning.routing.lattices import CELLS_QUICK, CELLS_SHORTEST
 from viaspline.planning.routing.router import Router
 from viaspline.world.world import World
 
@@ -43,7 +44,9 @@ class PathProblem:
     def of(cls, sequence: ViaSequence, world: World, requirements: Requirements) -> PathProblem:
         """The problem of a via sequence."""
         places = np.array([via.at[:2] for via in sequence.vias])
-        return cls(sequence, world, requirements, Router(world, requirements.required, places))
+        cells = CELLS_QUICK if requirements.objective.is_time else CELLS_SHORTEST
+        router = Router(world, requirements.required, places, most_cells=cells)
+        return cls(sequence, world, requirements, router)
 
     def binding_too(self, overlooked: Sequence[tuple[int, ...]]) -> PathProblem:
         """This problem, where the sides of some more obstacles bind: a row for each leg."""

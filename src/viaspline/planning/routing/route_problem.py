@@ -6,7 +6,7 @@ Tested through ``planning/routing/test_router``.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count, pairwise
 
@@ -17,7 +17,7 @@ from viaspline.kernels.arrays import Flags, Floats
 from viaspline.kernels.world.corner_fans import X, Y
 from viaspline.kernels.world.segment import mark_near_segment
 from viaspline.planning.routing.lattice import Lattice
-from viaspline.planning.routing.lattices import lattices
+from viaspline.planning.routing.lattices import CELLS_QUICK, lattices
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.world.world import World
 
@@ -42,11 +42,13 @@ class SearchSpace:
         world: What to keep clear of.
         required: Distance to keep [m].
         places: Where routes may begin and end [m], (n, 2).
+        most_cells: Of the lattice that is tried first for a slim robot.
     """
 
     world: World
     required: float
     places: Floats
+    most_cells: int = field(default=CELLS_QUICK, kw_only=True)
 
     @property
     def floor(self) -> float:
@@ -102,7 +104,7 @@ class SearchSpace:
     @cached_property
     def _lattices(self) -> tuple[list[Lattice], Iterator[Lattice]]:
         """Those that are made, and those that are not yet."""
-        return [], lattices(self.world, self.required, self.floor, self.places)
+        return [], lattices(self.world, self.required, self.floor, self.places, self.most_cells)
 
     def __getstate__(self) -> dict[str, object]:
         """For another process: without the lattices, which are made there if they are needed."""

@@ -127,21 +127,13 @@ class WideTurns:
         """Turns round a row, narrowed from radii (n,) [m] until they are clear.
 
         Where the least have no room, these are the bends before, after and between them, (k,).
+        That is tried first: where they don't fit, wider ones needn't be narrowed to them.
         """
-        for _ in range(MAX_NARROWINGS):
-            requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
-            turn_path = turn_path_on_sides(bends.turning(radii))
-            if isinstance(turn_path, NoTurnPath):
-                tight = _pairs(turn_path.left, turn_path.lines)
-                swings = radii
-            else:
-                close = body_conflicts(world, turn_path.spans, requirements)
-                if (close == CLEAR).all():
-                    return turn_path
-                left = turn_path.left
-                tight = _pairs_between(turn_path, left, np.flatnonzero(close != CLEAR))
-                swings = np.zeros(len(radii))
-                swings[left] = _swings(turn_path)
+        _, tight, _ = _tried(bends, np.minimum(radii, self.least), world, requirements)
+        for _ in range(MAX_NARROWINGS if not tight else 0):
+            turn_path, tight, swings = _tried(bends, radii, world, requirements)
+            if turn_path is not None:
+                return turn_path
             narrowed = _narrowed(radii, tight, swings, self.least)
             if np.array_equal(narrowed, radii):
                 break
@@ -193,6 +185,33 @@ class WideTurns:
         radii[rows] = np.minimum(radii[rows], kept + swung)
         radii[rows] = np.maximum(radii[rows], self.sharpest)
         return radii
+
+
+def _tried(
+    bends: Bends, radii: Floats, world: World, requirements: Requirements
+) -> tuple[TurnPath | None, list[Ints], Floats]:
+    """Turns of given radii round a row, if they are clear.
+
+    Args:
+        bends: The row.
+        radii: [m], (n,).
+        world: What to keep clear of.
+        requirements: What to keep.
+
+    Returns:
+        The path; the bends before and after each tight place, if it isn't clear or there is none;
+        how far each turn swings out, (n,).
+    """
+    requirements.spend(TURN_PATH_S + TURN_PATH_BEND_S * len(bends.rows))
+    turn_path = turn_path_on_sides(bends.turning(radii))
+    if isinstance(turn_path, NoTurnPath):
+        return None, _pairs(turn_path.left, turn_path.lines), radii
+    swings = np.zeros(len(radii))
+    swings[turn_path.left] = _swings(turn_path)
+    close = body_conflicts(world, turn_path.spans, requirements)
+    if (close == CLEAR).all():
+        return turn_path, [], swings
+    return None, _pairs_between(turn_path, turn_path.left, np.flatnonzero(close != CLEAR)), swings
 
 
 def _wound_round(turn_path: TurnPath) -> Ints:
