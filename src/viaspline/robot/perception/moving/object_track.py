@@ -37,6 +37,9 @@ MAX_SHIFT_M: Final = 0.3
 CREEP_M: Final = 0.1
 """A thing whose middle is so far from where it first was isn't yet said to stand [m]."""
 
+MOVED_M: Final = 0.3
+"""One that has gone so far, and left free what it stood on, moves, however slowly [m]."""
+
 SHRINKING_MPS: Final = 1.0
 """A thing that shows less of itself than before is taken for smaller by so much in a second [m/s]:
 one that was merged with another gets its own size back."""
@@ -76,9 +79,7 @@ class ObjectTrack:
         x, y = cluster.center.tolist()
         error = measured_error(cluster, glimpse, None)
         estimate = MotionEstimate.at_first_sight(glimpse.time, (x, y), error, premises.top_speed)
-        return cls(
-            number, estimate, cluster.radius, glimpse.time, False, glimpse, cluster.center
-        )
+        return cls(number, estimate, cluster.radius, glimpse.time, False, glimpse, cluster.center)
 
     def foreseen(self, time: float, premises: TrackingPremises) -> ObjectTrack:
         """Where it should be at a later time [s]."""
@@ -115,7 +116,8 @@ class ObjectTrack:
         track = replace(
             self, estimate=estimate, radius=radius, seen=glimpse.time, suspected=moved, doubts=0
         )
-        if moved and (track.moves or estimate.significance > SIGNIFICANT):
+        is_fast = estimate.significance > SIGNIFICANT or track.has_gone(MOVED_M)
+        if moved and (track.moves or is_fast):
             return replace(track, moves=True, anchor=glimpse, anchor_place=cluster.center)
         return track
 
@@ -124,14 +126,14 @@ class ObjectTrack:
         still = self.seen - self.anchor.time + 1e-9
         if self.moves:
             return still >= premises.rest_s
-        if self.estimate.significance > SIGNIFICANT or self._creeps:
+        seems_to = self.suspected or self.has_gone(CREEP_M)
+        if seems_to or self.estimate.significance > SIGNIFICANT:
             return still >= premises.doubt_s
         return still >= premises.settle_s
 
-    @property
-    def _creeps(self) -> bool:
-        """Whether its middle isn't where it first was: it moves, or ever more of it is seen."""
-        return math.dist(self.estimate.place, self.anchor_place) > CREEP_M
+    def has_gone(self, far: float) -> bool:
+        """Whether its middle is that far [m] from its anchor: so is one of which more is seen."""
+        return math.dist(self.estimate.place, self.anchor_place) > far
 
 
 def measured_error(cluster: HitCluster, glimpse: Glimpse, track: ObjectTrack | None) -> float:
