@@ -100,7 +100,8 @@ class RobotSpec(
         tracking_error_m: How far beside its path the robot may get [m]; the path keeps that much
             more. None: as far as it gets on a trial drive; nothing if it follows exactly.
         sensor: What finds the obstacles that are not on the map.
-        moving: What it has to reckon with where it doesn't see. None: nothing unseen moves.
+        moving: What it has to reckon with where it doesn't see. None: nothing unseen moves, or as
+            the mission's ``unseen`` says; then no safety is proven.
         half_height_m: In space, half the height of the body if it is an upright cylinder with
             ``radius_m`` about the reference point [m]. None: it is a ball.
         max_climb_mps: The greatest speed upwards [m/s]. None: ``max_speed_mps``.

@@ -22,6 +22,10 @@ from viaspline.world.moving_obstacles import MovingObstacles
 SPACING_M: Final = 0.1
 """From place to place along a path [m]."""
 
+FIRST_STEPS_M: Final = (0.001, 0.003, 0.006, 0.012, 0.025, 0.05)
+"""Places of a law, from where the robot is, that lie closer together: one that stands near to what
+might come goes no farther than that in the time in which it can still stand again [m]."""
+
 SAME_PLACE_M: Final = 1e-9
 """Places of a law that are nearer to each other are one [m]."""
 
@@ -276,10 +280,16 @@ def _pieces(law: Trajectory) -> Floats:
 
 
 def _line(upper: Trajectory, here: float, end: float) -> Floats:
-    """Places of a law between two distances: its own, and others where these are far apart."""
+    """Places of a law between two distances: its own, and others where these are far apart.
+
+    A step is proven as a whole, so short ones begin it: from rest, 0.1 m and the stop after it take
+    0.9 s by 1 m/s², in which nothing may come.
+    """
     inside = upper.distances[(upper.distances > here) & (upper.distances < end)]
     count = max(math.ceil((end - here) / SPACING_M), 1)
+    first = here + np.array(FIRST_STEPS_M)
     marks = np.union1d(np.linspace(here, end, count + 1), inside)
+    marks = np.union1d(marks, first[first < end])
     kept = np.append(np.diff(marks) > SAME_PLACE_M, True)
     line: Floats = marks[kept]
     line[0] = here

@@ -105,9 +105,19 @@ def test_who_does_without_drives_as_if_nothing_came_from_out_of_sight() -> None:
 
 def test_one_that_no_step_is_proven_safe_for_says_so_and_does_not_stand_for_ever() -> None:
     data = among(0, "passive").model_dump(by_alias=True, exclude_defaults=True)
-    data["world"], data["robot"]["sensor"] = {"unseen": []}, {"range_m": 0.6}
+    data["world"], data["robot"]["sensor"] = {"unseen": []}, {"range_m": 0.35}
     run = vs.simulate(vs.Mission.model_validate(data), step=0.5)
     assert not run.reached
     assert run.duration == pytest.approx(stoppable.MAX_FROZEN_S, abs=1.0)
     assert "no step of it was proven safe" in run.events[-1].message
     assert np.abs(run.positions).max() < 1e-6
+
+
+def test_one_that_sees_little_creeps_on_and_is_not_frozen() -> None:
+    """It stood: no step of 0.1 m with the stop after it was proven, but shorter ones are."""
+    data = among(0, "passive").model_dump(by_alias=True, exclude_defaults=True)
+    data["world"], data["robot"]["sensor"] = {"unseen": []}, {"range_m": 0.6}
+    data["route"]["goal"] = [0.5, 0.0]
+    run = vs.simulate(vs.Mission.model_validate(data), step=0.1)
+    assert run.reached
+    assert run.speeds.max() * TOP_MPS < 0.3  # at rest before what comes from 0.3 m beyond its body

@@ -8,6 +8,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from viaspline.machine.pose_filter import PoseFilter
+from viaspline.mission.model import Mission
+from viaspline.mission.robot_parts import MovingThings
 from viaspline.planner import Plan
 from viaspline.robot.controller import Controller
 from viaspline.robot.navigation.drive_task import DriveTask
@@ -45,8 +47,9 @@ def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     progress = Progress(time=0.0, controller=controller)
     moving = MovingObstacles.known(task.mission)
     hits = None
-    if belief is not None and robot.moving is not None:
-        premises = TrackingPremises(robot.moving.max_speed_mps, noise=belief.surfaces.noise)
+    things = _things_that_move(task.mission)
+    if belief is not None and things is not None:
+        premises = TrackingPremises(things.max_speed_mps, noise=belief.surfaces.noise)
         hits = TrackedHits(premises)
     knowledge = Knowledge(
         world, frozenset(world.obstacles), belief, moving=moving, charted=len(moving), hits=hits
@@ -57,6 +60,16 @@ def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
     if changes and plan.timed is None:
         schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
     return NavigationState(progress, knowledge, schedule, Log())
+
+
+def _things_that_move(mission: Mission) -> MovingThings | None:
+    """What it has to reckon with; a mission in which something unseen moves says that it does.
+
+    Without this its lidar would take everything for walls: all that moves would leave them behind.
+    """
+    if mission.robot.moving is None and mission.world.unseen_moving:
+        return MovingThings(safety="none")
+    return mission.robot.moving
 
 
 def set_off(state: NavigationState, time: float, plan: Plan) -> NavigationState:

@@ -1,7 +1,9 @@
 """What is seen to move, as it is taken to go on for a while.
 
 It goes straight on as it goes now, within what is uncertain of its place and velocity; after that
-while it isn't reckoned with. What may come otherwise is the business of passive safety.
+while it isn't reckoned with, and no longer than it is known at all where it will be: a thing that a
+lidar has just seen for the first time might be anywhere soon, and one look later much less so. What
+may come otherwise is the business of passive safety.
 
 Tested through ``robot/yielding/test_foreseen``.
 """
@@ -20,8 +22,15 @@ from viaspline.world.moving_obstacles import MovingObstacles
 HORIZON_S = 8.0
 """So far ahead it is taken to go straight on [s]."""
 
-SIGMAS = 2.0
-"""Standard deviations by which it may be elsewhere, or faster."""
+LEAST_HORIZON_S = 1.0
+"""It is so for so long at least [s]:"""
+
+WIDEST_M = 1.5
+"""else until it may be so far from there [m]."""
+
+SIGMAS = 1.0
+"""Standard deviations by which it may be elsewhere, or faster. With two, a robot that a lidar shows
+things to was led round half of the traffic, which took twice as long."""
 
 
 def foreseen(tracks: Iterable[ObjectTrack | SightedTrack], now: float) -> MovingObstacles:
@@ -37,14 +46,26 @@ def foreseen(tracks: Iterable[ObjectTrack | SightedTrack], now: float) -> Moving
 def _foreseen(track: ObjectTrack | SightedTrack, now: float) -> Obstacle:
     estimate = track.estimate
     (x, y), (vx, vy) = estimate.place.tolist(), estimate.velocity.tolist()
-    later = now + HORIZON_S
+    error = MotionError(
+        position_m=SIGMAS * estimate.place_error, growth_mps=SIGMAS * estimate.velocity_error
+    )
+    ahead = _horizon(error)
     motion = Motion(
-        keyframes=((now, x, y), (later, x + vx * HORIZON_S, y + vy * HORIZON_S)),
+        keyframes=((now, x, y), (now + ahead, x + vx * ahead, y + vy * ahead)),
         after="vanish",
         before="absent",
-        error=MotionError(
-            position_m=SIGMAS * estimate.place_error,
-            growth_mps=SIGMAS * estimate.velocity_error,
-        ),
+        error=error,
     )
     return as_obstacle(track, motion)
+
+
+def _horizon(error: MotionError) -> float:
+    """How long something is taken to go straight on [s].
+
+    >>> _horizon(MotionError(position_m=0.1, growth_mps=0.7))
+    2.0
+    """
+    spare = WIDEST_M - error.position_m
+    if spare >= HORIZON_S * error.growth_mps:
+        return HORIZON_S
+    return max(spare / error.growth_mps, LEAST_HORIZON_S)

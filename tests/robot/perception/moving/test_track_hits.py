@@ -153,6 +153,36 @@ def test_what_stays_stands_and_what_has_moved_stands_later() -> None:
     assert any(m.standing.any() for m in moments if m.time >= 5.5)
 
 
+@pytest.mark.parametrize(("speed", "y"), [(0.3, -6.0), (0.3, 0.0), (0.5, 9.2)])
+def test_what_goes_slowly_far_away_leaves_nothing_behind_in_what_stands(
+    speed: float, y: float
+) -> None:
+    """After 0.8 s it was said to stand, since so little of it had moved clearly."""
+    for moment in watched([disc((-7.0, y), (0.7 * speed, -0.7 * speed), 0.5)], [], 5.0):
+        assert not moment.standing.any()
+
+
+def test_what_comes_into_reach_has_no_speed_that_it_has_not() -> None:
+    """Ever more of it is seen, so its middle seems to go outward: within its error it doesn't."""
+    start, velocity = (10.5, 0.0), (-1.0, 0.5)
+    for moment in watched([disc(start, velocity, 0.5)], [], 2.5):
+        for track in moment.tracked.tracks:
+            away = math.dist(track.estimate.velocity, velocity)
+            assert away < 2.5 * track.estimate.velocity_error
+    assert away < 0.2
+
+
+def test_what_stops_and_starts_again_keeps_its_number_and_its_speed_follows() -> None:
+    way = along((0.0, -3.0, 3.0), (2.0, -1.0, 3.0), (4.0, -1.0, 3.0), (6.0, 1.0, 3.0))
+    moments = list(watched([way], [], 6.0))
+    speeds = {round(m.time, 1): math.hypot(*m.tracked.tracks[0].estimate.velocity) for m in moments}
+    assert speeds[1.9] == pytest.approx(1.0, abs=0.15)
+    assert speeds[3.9] < 0.15
+    assert speeds[5.5] == pytest.approx(1.0, abs=0.15)
+    assert {m.tracked.tracks[0].number for m in moments if m.tracked.tracks} == {1}
+    assert not any(m.standing.any() for m in moments)
+
+
 def test_what_is_gone_is_forgotten_where_beams_see_through_its_place() -> None:
     goes = along((0.0, 2.0, -1.5), (3.0, 2.0, 1.5))
     moments = list(watched([goes], [], 4.0))

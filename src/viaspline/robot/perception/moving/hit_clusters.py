@@ -20,6 +20,9 @@ JOIN_BEAMS: Final = 2.5
 MAX_SKIPPED: Final = 1
 """Beams between them that may have measured nothing, or something else."""
 
+RIM_M: Final = 0.1
+"""What is hit so near to where beams end may go on where they don't reach [m]."""
+
 MAX_BULGE: Final = 1.25
 """The disc of a cluster is no larger than this times half the distance of its ends."""
 
@@ -36,7 +39,8 @@ class HitCluster:
         points: These [m], shape (k, 2).
         center: The middle of the disc [m], shape (2,).
         radius: Its radius [m].
-        is_cut: Something nearer, or the edge of the field of view, may hide a part of it.
+        is_cut: A part of it may be hidden: by something nearer, at the edge of the field of view,
+            or beyond the reach of the beams.
     """
 
     hits: Ints
@@ -111,6 +115,8 @@ def _cluster(scan: Scan, beams: Ints, hits: Ints) -> HitCluster:
 def _is_cut(scan: Scan, beams: Ints, ranges: Floats) -> bool:
     """Whether the beams beside a cluster end before it, or there are none."""
     for edge, step, own in ((int(beams[0]), -1, ranges[0]), (int(beams[-1]), 1, ranges[-1])):
+        if own > scan.range_max - RIM_M:
+            return True
         beside = edge + step
         if _is_full_turn(scan):
             beside %= len(scan.ranges)

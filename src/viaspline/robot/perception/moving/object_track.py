@@ -12,6 +12,7 @@ from typing import Final
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.robot.perception.lidar import Scan
 from viaspline.robot.perception.moving.hit_clusters import HitCluster
 from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
@@ -33,7 +34,13 @@ BEAM_ERROR: Final = 0.5
 MAX_SHIFT_M: Final = 0.3
 """A part of a thing, or a thing with another, shows a middle that is so far off at most [m]."""
 
-SHRINKING_MPS: Final = 0.25
+CREEP_M: Final = 0.1
+"""A thing whose middle is so far from where it first was isn't yet said to stand [m]."""
+
+MOVED_M: Final = 0.3
+"""One that has gone so far, and left free what it stood on, moves, however slowly [m]."""
+
+SHRINKING_MPS: Final = 1.0
 """A thing that shows less of itself than before is taken for smaller by so much in a second [m/s]:
 one that was merged with another gets its own size back."""
 
@@ -48,7 +55,8 @@ class ObjectTrack:
         radius: Of a disc about that place in which all hits of it lay when it was last seen [m].
         seen: When that was [s].
         moves: Whether it was seen to move; else that isn't decided yet.
-        anchor: How it looked when it was last seen to move, or first seen.
+        anchor: How it looked when it was last seen to move, or first seen,
+        anchor_place: and where its middle seemed to be [m], shape (2,).
         suspected: Whether the latest look differs from the anchor as if it had moved.
         doubts: Looks in a row that have seen through where it should be.
     """
@@ -59,6 +67,7 @@ class ObjectTrack:
     seen: float
     moves: bool
     anchor: Glimpse
+    anchor_place: Floats
     suspected: bool = False
     doubts: int = 0
 
@@ -70,7 +79,7 @@ class ObjectTrack:
         x, y = cluster.center.tolist()
         error = measured_error(cluster, glimpse, None)
         estimate = MotionEstimate.at_first_sight(glimpse.time, (x, y), error, premises.top_speed)
-        return cls(number, estimate, cluster.radius, glimpse.time, False, glimpse)
+        return cls(number, estimate, cluster.radius, glimpse.time, False, glimpse, cluster.center)
 
     def foreseen(self, time: float, premises: TrackingPremises) -> ObjectTrack:
         """Where it should be at a later time [s]."""
@@ -107,8 +116,9 @@ class ObjectTrack:
         track = replace(
             self, estimate=estimate, radius=radius, seen=glimpse.time, suspected=moved, doubts=0
         )
-        if moved and (track.moves or estimate.significance > SIGNIFICANT):
-            return replace(track, moves=True, anchor=glimpse)
+        is_fast = estimate.significance > SIGNIFICANT or track.has_gone(MOVED_M)
+        if moved and (track.moves or is_fast):
+            return replace(track, moves=True, anchor=glimpse, anchor_place=cluster.center)
         return track
 
     def stands(self, premises: TrackingPremises) -> bool:
@@ -116,9 +126,14 @@ class ObjectTrack:
         still = self.seen - self.anchor.time + 1e-9
         if self.moves:
             return still >= premises.rest_s
-        if self.estimate.significance > SIGNIFICANT:
+        seems_to = self.suspected or self.has_gone(CREEP_M)
+        if seems_to or self.estimate.significance > SIGNIFICANT:
             return still >= premises.doubt_s
         return still >= premises.settle_s
+
+    def has_gone(self, far: float) -> bool:
+        """Whether its middle is that far [m] from its anchor: so is one of which more is seen."""
+        return math.dist(self.estimate.place, self.anchor_place) > far
 
 
 def measured_error(cluster: HitCluster, glimpse: Glimpse, track: ObjectTrack | None) -> float:
@@ -134,7 +149,7 @@ def measured_error(cluster: HitCluster, glimpse: Glimpse, track: ObjectTrack | N
     beam = BEAM_ERROR * glimpse.scan.angle_increment * away
     error = math.hypot(LEAST_ERROR_M, WIDTH_ERROR * cluster.radius, beam)
     if track is None:
-        return error
+        return math.hypot(error, MAX_SHIFT_M) if cluster.is_cut else error
     other = max(cluster.radius - track.radius, 0.0)
     if cluster.is_cut:
         other = max(other, track.radius - cluster.radius)
