@@ -63,6 +63,13 @@ def test_a_round_with_a_heading_at_its_start_leaves_and_comes_back_with_it(
     assert [via.index for via in plan.path.vias if via.index is not None] == list(range(9))
 
 
+def test_a_tension_is_advised_for_each_span_of_a_round_with_a_heading() -> None:
+    start = {"at": [2, 2], "heading_deg": 30}
+    route = {"start": start, "via": [[10, 15]], "closed": True}
+    advice = vs.advise_tension(vs.Mission.model_validate({"route": route}))
+    assert len(advice.spans) == 2
+
+
 @pytest.mark.parametrize("apart", [2e-3, 6e-4, 1e-5])
 @pytest.mark.parametrize("on_spot", ["never", "vias"])
 def test_via_points_within_a_millimetre_are_both_served_exactly(apart: float, on_spot: str) -> None:
