@@ -208,8 +208,9 @@ def _advice(
     tried: Floats,
     effects: SpanTensions | None,
 ) -> TensionAdvice:
-    names = [via.name for via in via_sequence_of(_with(mission, 0.0)).vias]
-    names += names[:1] if mission.route.closed else []
+    sequence = via_sequence_of(_with(mission, 0.0))
+    names = [via.name for via in sequence.vias]
+    names += names[:1] if sequence.closed else []
     return TensionAdvice(tuple(trials), *beside, chosen, tuple(pairwise(names)), tried, effects)
 
 

@@ -47,6 +47,42 @@ def test_laps_are_the_same_curve_over_and_over() -> None:
     assert [via.index for via in seams] == [0, 4, 8, 12]
 
 
+@pytest.mark.parametrize("robot", [{}, {"min_turn_radius_m": 2.0}])
+@pytest.mark.parametrize("tangents", ["cardinal", "continuous"])
+def test_a_round_with_a_heading_at_its_start_leaves_and_comes_back_with_it(
+    robot: dict, tangents: str
+) -> None:
+    start = {"at": [0, 0], "heading_deg": 80}
+    plan = planned(2, [ROCK], tangents, start=start, robot=robot)
+    seams = [via.u for via in plan.path.vias if via.name == "start"]
+    assert len(seams) == 3
+    for u in seams:
+        for aside in (-1e-9, 1e-9):
+            heading = float(plan.path.heading(min(max(u + aside, 0.0), plan.path.domain[1])))
+            assert np.degrees(heading) == pytest.approx(80.0, abs=1e-4)
+    assert [via.index for via in plan.path.vias if via.index is not None] == list(range(9))
+
+
+def test_a_tension_is_advised_for_each_span_of_a_round_with_a_heading() -> None:
+    start = {"at": [2, 2], "heading_deg": 30}
+    route = {"start": start, "via": [[10, 15]], "closed": True}
+    advice = vs.advise_tension(vs.Mission.model_validate({"route": route}))
+    assert len(advice.spans) == 2
+
+
+@pytest.mark.parametrize("apart", [2e-3, 6e-4, 1e-5])
+@pytest.mark.parametrize("on_spot", ["never", "vias"])
+def test_via_points_within_a_millimetre_are_both_served_exactly(apart: float, on_spot: str) -> None:
+    plan = planned(
+        start=[0, 0], via=[[0, apart], [4, 4], [4, 4 + apart]], goal=[1, 0], closed=False,
+        robot={"radius_m": 0.1, "min_turn_radius_m": 0.1, "turn_on_spot": on_spot},
+    )  # fmt: skip
+    users = [via for via in plan.path.vias if via.kind == "user"]
+    assert [via.name for via in users] == ["start", "via 1", "via 2", "via 3", "goal"]
+    for via in users:
+        np.testing.assert_allclose(plan.path.evaluate(via.u), via.at, atol=1e-9)
+
+
 def test_the_robot_does_not_slow_down_at_the_seam() -> None:
     plan = planned(3)
     lap = plan.path.length / 3

@@ -117,7 +117,8 @@ class EndPoint(ViaPoint):
     """The start or the goal.
 
     Attributes:
-        heading_deg: The heading of the path there [deg, anticlockwise from x]. None: free.
+        heading_deg: The heading of the path there [deg, anticlockwise from x]; a closed route
+            comes back with it as well. None: free.
     """
 
     heading_deg: Heading | None = None

@@ -12,6 +12,7 @@ from typing import Any, TypeVar, cast
 from pydantic import ModelWrapValidatorHandler, ValidationError
 
 from viaspline.errors import MissionError, MissionWarning
+from viaspline.mission.kept_headings import warn_of_headings
 from viaspline.mission.mission_parts import MissionParts
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.resolve_files import resolve_maps
@@ -71,6 +72,7 @@ def sound_mission(
     if faults or mission is None:
         raise MissionError(located(faults, data, origin)) from None
     warn_of_jumps(mission.world)
+    warn_of_headings(mission)
     return mission
 
 

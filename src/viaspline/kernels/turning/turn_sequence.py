@@ -39,6 +39,7 @@ MIN_RAMP_RADII = 0.08  # of the radius
 RAMP_SHRINK = 0.6
 MAX_TURN_NODES = 64  # of one turn, at most
 MIN_STRAIGHT_M = 1e-3  # straight piece that is laid by itself [m]
+MIN_TO_POINT_M = 1e-6  # the same, from a turn to a point that stays where it is [m]
 
 
 @inner
@@ -189,6 +190,7 @@ def turn_sequence_spans(
     begins = np.zeros(total, np.int64)
     nodes, lengths = np.empty((MAX_TURN_NODES + 1, 4)), np.empty(MAX_TURN_NODES)
     size = 0
+    was_point = False
     for row in range(total):
         k = row % count
         number = _nodes_of(bends, closed, lines, turns, apexes, ramps, k, nodes[1:])
@@ -204,15 +206,18 @@ def turn_sequence_spans(
         elif not closed and row == count - 1:
             middle = end
         if row > 0:
-            if (
-                math.hypot(nodes[first, 0] - nodes[0, 0], nodes[first, 1] - nodes[0, 1])
-                > MIN_STRAIGHT_M
-            ):
+            gap = math.hypot(nodes[first, 0] - nodes[0, 0], nodes[first, 1] - nodes[0, 1])
+            to_point = number == 1 and gap > (0.0 if was_point else MIN_TO_POINT_M)
+            if gap > MIN_STRAIGHT_M or to_point:
                 _straight(nodes, 0, first, polygons[size])
                 size += 1
+            elif number == 1 and size > 0:  # a point is where it was asked for
+                for axis in range(2):
+                    polygons[size - 1, 3, axis] = nodes[first, axis]
             else:
                 for axis in range(2):
                     nodes[first, axis] = nodes[0, axis]
+        was_point = number == 1
         begins[row] = size + 3 * (middle - first)
         if end > first:
             spans_between(

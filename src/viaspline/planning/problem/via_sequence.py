@@ -176,14 +176,22 @@ def via_sequence_of(mission: Mission) -> ViaSequence:
     count = len(vias) if route.closed else len(vias) - 1
     slack = span_slack(mission.spline, count)
     goal = route.goal
+    start_tangent = direction(route.start.heading_deg, dimension)
+    end_tangent = None if goal is None else direction(goal.heading_deg, dimension)
+    # A round with a heading at its start is laid as a path to there that arrives with it. Along a
+    # corridor it stays a round: its line takes the heading by itself.
+    is_round = route.closed and (start_tangent is None or route.corridor is not None)
+    if route.closed and not is_round:
+        vias = (*vias, replace(vias[0], index=count))
+        end_tangent = start_tangent
     return ViaSequence(
         vias=vias,
         legs=tuple(Leg.straight(value, dimension) for value in slack),
         spline=mission.spline,
         tangents=mission.tangents,
-        start_tangent=direction(route.start.heading_deg, dimension),
-        end_tangent=None if goal is None else direction(goal.heading_deg, dimension),
-        closed=route.closed,
+        start_tangent=start_tangent,
+        end_tangent=end_tangent,
+        closed=is_round,
     )
 
 
