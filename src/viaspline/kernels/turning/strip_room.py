@@ -1,0 +1,99 @@
+"""How far the places of a strip may move across it, past what stands on either side."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.world.distance import nearest
+from viaspline.kernels.world.packed import PackedWorld
+
+SAMPLES = 8  # about a place, from half-way to the one before to half-way to the one after
+REACH = 8.0  # in required distances: farther off, nothing is looked for
+LEAST_REACH = 0.5  # in required distances, that a place may move at once
+PROBE_M = 1e-5
+LEAST_SLOPE = 0.05  # of a distance, across the path, of what stands beside it
+
+
+@inner
+def _on_strip(spans: Floats, at: float) -> tuple[float, float]:
+    """A place on a curve [m]; before its start and after its end that."""
+    k = min(max(math.floor(at), 0), spans.shape[0] - 1)
+    w = min(max(at - k, 0.0), 1.0)
+    v = 1.0 - w
+    a, b, c, d = v * v * v, 3.0 * v * v * w, 3.0 * v * w * w, w * w * w
+    x = a * spans[k, 0, 0] + b * spans[k, 1, 0] + c * spans[k, 2, 0] + d * spans[k, 3, 0]
+    y = a * spans[k, 0, 1] + b * spans[k, 1, 1] + c * spans[k, 2, 1] + d * spans[k, 3, 1]
+    return x, y
+
+
+@inner
+def _least_about(world: PackedWorld, spans: Floats, j: int, gaps: Floats) -> tuple[float, float]:
+    """The least distance near place j [m], and the parameter at which it is."""
+    best = 0
+    for i in range(SAMPLES + 1):
+        x, y = _on_strip(spans, j - 0.5 + i / SAMPLES)
+        gaps[i], _ = nearest(world, x, y, np.inf)
+        if gaps[i] < gaps[best]:
+            best = i
+    at = j - 0.5 + best / SAMPLES
+    least = gaps[best]
+    if 0 < best < SAMPLES:
+        bend = gaps[best - 1] - 2.0 * gaps[best] + gaps[best + 1]
+        if bend > 0.0:
+            off = 0.5 * (gaps[best - 1] - gaps[best + 1]) / bend
+            x, y = _on_strip(spans, at + off / SAMPLES)
+            gap, _ = nearest(world, x, y, np.inf)
+            if gap < least:
+                return gap, at + off / SAMPLES
+    return least, at
+
+
+@kernel
+def strip_room(
+    world: PackedWorld, places: Floats, normals: Floats, spans: Floats, kept: float, low: Floats,
+    high: Floats, reach: Floats, rooms: Floats,
+) -> None:  # fmt: skip
+    """Look how far places may move: closely about those that have little room.
+
+    What stands there is taken to end at the straight line square to its nearest point; what was
+    known of the other side stays.
+
+    Args:
+        world: What stands there.
+        places: [m], (n, 2).
+        normals: Unit vectors, left of the path, (n, 2).
+        spans: The curve through the places [m], (n - 1, 4, 2).
+        kept: Distance to what stands there [m].
+        low: How far to the left each place has to move at least [m], (n,); changed.
+        high: How far at most [m], (n,); changed.
+        reach: How far it may move at once, either way [m], (n,); filled.
+        rooms: Distance beyond what is kept, about each [m], (n,); filled.
+    """
+    count = places.shape[0]
+    gaps, before = np.empty(SAMPLES + 1), 0.0
+    for j in range(count):
+        after = 0.0
+        if j + 1 < count:
+            after = math.hypot(
+                places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
+            )  # fmt: skip
+        half = 0.5 * max(before, after)
+        before = after
+        gap, _ = nearest(world, places[j, 0], places[j, 1], half + REACH * kept)
+        rooms[j], reach[j] = gap - kept, max(gap - half, LEAST_REACH * kept)
+        if rooms[j] > half:
+            continue
+        gap, at = _least_about(world, spans, j, gaps)
+        x, y = _on_strip(spans, at)
+        nx, ny = normals[j]
+        further, _ = nearest(world, x + PROBE_M * nx, y + PROBE_M * ny, np.inf)
+        slope = (further - gap) / PROBE_M
+        rooms[j], reach[j] = gap - kept, max(gap, LEAST_REACH * kept)
+        if slope > LEAST_SLOPE:
+            low[j] = -rooms[j] / slope
+        elif slope < -LEAST_SLOPE:
+            high[j] = -rooms[j] / slope
