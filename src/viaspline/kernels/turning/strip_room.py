@@ -11,8 +11,10 @@ from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.distance import nearest
 from viaspline.kernels.world.packed import PackedWorld
 
-SAMPLES = 8  # about a place, from half-way to the one before to half-way to the one after
+SAMPLES = 6  # about a place, from half-way to the one before to half-way to the one after
 REACH = 8.0  # in required distances: farther off, nothing is looked for
+FINER_ROUNDS, FINER = 4, 0.3  # of looking for the least distance; of the step from one to the next
+NEAR = 1.2  # in required distances: where it is looked for so
 LEAST_REACH = 0.5  # in required distances, that a place may move at once
 PROBE_M = 1e-5
 LEAST_SLOPE = 0.05  # of a distance, across the path, of what stands beside it
@@ -31,24 +33,36 @@ def _on_strip(spans: Floats, at: float) -> tuple[float, float]:
 
 
 @inner
-def _least_about(world: PackedWorld, spans: Floats, j: int, gaps: Floats) -> tuple[float, float]:
-    """The least distance near place j [m], and the parameter at which it is."""
-    best = 0
+def _gap(world: PackedWorld, spans: Floats, at: float) -> float:
+    """Distance from a place on a curve to what stands there [m]."""
+    x, y = _on_strip(spans, at)
+    gap, _ = nearest(world, x, y, np.inf)
+    return gap
+
+
+@inner
+def _least_about(
+    world: PackedWorld, spans: Floats, j: int, near: float
+) -> tuple[float, float]:  # fmt: skip
+    """The least distance about place j [m], and the parameter where it is: exact if it is near."""
+    least, at = np.inf, float(j)
     for i in range(SAMPLES + 1):
-        x, y = _on_strip(spans, j - 0.5 + i / SAMPLES)
-        gaps[i], _ = nearest(world, x, y, np.inf)
-        if gaps[i] < gaps[best]:
-            best = i
-    at = j - 0.5 + best / SAMPLES
-    least = gaps[best]
-    if 0 < best < SAMPLES:
-        bend = gaps[best - 1] - 2.0 * gaps[best] + gaps[best + 1]
-        if bend > 0.0:
-            off = 0.5 * (gaps[best - 1] - gaps[best + 1]) / bend
-            x, y = _on_strip(spans, at + off / SAMPLES)
-            gap, _ = nearest(world, x, y, np.inf)
-            if gap < least:
-                return gap, at + off / SAMPLES
+        here = j - 0.5 + i / SAMPLES
+        gap = _gap(world, spans, here)
+        if gap < least:
+            least, at = gap, here
+    step = 1.0 / SAMPLES
+    for _ in range(FINER_ROUNDS):
+        if least > near:
+            break
+        before, after = _gap(world, spans, at - step), _gap(world, spans, at + step)
+        bend = before - 2.0 * least + after
+        off = 0.5 * (before - after) / bend if bend > 0.0 else math.copysign(1.0, before - after)
+        off = at + step * min(max(off, -1.0), 1.0)
+        gap = _gap(world, spans, off)
+        if gap < least:
+            least, at = gap, off
+        step *= FINER
     return least, at
 
 
@@ -74,7 +88,7 @@ def strip_room(
         rooms: Distance beyond what is kept, about each [m], (n,); filled.
     """
     count = places.shape[0]
-    gaps, before = np.empty(SAMPLES + 1), 0.0
+    before = 0.0
     for j in range(count):
         after = 0.0
         if j + 1 < count:
@@ -87,7 +101,7 @@ def strip_room(
         rooms[j], reach[j] = gap - kept, max(gap - half, LEAST_REACH * kept)
         if rooms[j] > half:
             continue
-        gap, at = _least_about(world, spans, j, gaps)
+        gap, at = _least_about(world, spans, j, NEAR * kept)
         x, y = _on_strip(spans, at)
         nx, ny = normals[j]
         further, _ = nearest(world, x + PROBE_M * nx, y + PROBE_M * ny, np.inf)

@@ -22,7 +22,7 @@ from viaspline.kernels.turning.strip_room import strip_room
 from viaspline.world.world import World
 
 GENTLE_SHARE = 2e-3  # of the taut length, that may be spent
-STEP = 4.0  # between places, in required distances, at most
+STEP = 6.0  # between places, in required distances, at most
 LEAST_PLACES, MOST_PLACES = 16, 400  # of a leg, of the path
 TURN_RAD = 0.2  # from place to place, at most
 SPAN_SAMPLES = np.linspace(0.0, 1.0, 9)
@@ -150,10 +150,19 @@ def _places(spans: Floats, joints: Ints, required: float) -> tuple[Floats, Ints,
     wanted = np.cumsum(np.r_[0.0, long / (STEP * required) + turning / TURN_RAD])
     wanted *= min(1.0, MOST_PLACES / wanted[-1])
     rows, begins = [], [0]
-    for first, last in zip(joints[:-1] * len(SPAN_SAMPLES[:-1]), joints[1:] * len(SPAN_SAMPLES[:-1]), strict=True):
+    for first, last in zip(
+        joints[:-1] * len(SPAN_SAMPLES[:-1]), joints[1:] * len(SPAN_SAMPLES[:-1]), strict=True
+    ):
         count = max(LEAST_PLACES, math.ceil(wanted[last] - wanted[first]))
         at = np.linspace(wanted[first], wanted[last], count + 1)[:-1]
-        rows.append(np.column_stack([np.interp(at, wanted[first : last + 1], points[first : last + 1, k]) for k in (0, 1)]))
+        rows.append(
+            np.column_stack(
+                [
+                    np.interp(at, wanted[first : last + 1], points[first : last + 1, k])
+                    for k in (0, 1)
+                ]
+            )
+        )
         begins.append(begins[-1] + count)
     places = np.vstack((*rows, points[-1:]))
     return places, np.array(begins), length
