@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.jit import inner, kernel
 from viaspline.kernels.world.distance import nearest
@@ -15,6 +13,7 @@ SAMPLES = 6  # about a place, from half-way to the one before to half-way to the
 REACH = 8.0  # in required distances: farther off, nothing is looked for
 FINER_ROUNDS, FINER = 4, 0.3  # of looking for the least distance; of the step from one to the next
 NEAR = 1.2  # in required distances: where it is looked for so
+FAR = 4.0  # of that: farther off need not be told apart
 LEAST_REACH = 0.5  # in required distances, that a place may move at once
 PROBE_M = 1e-5
 LEAST_SLOPE = 0.05  # of a distance, across the path, of what stands beside it
@@ -33,33 +32,34 @@ def _on_strip(spans: Floats, at: float) -> tuple[float, float]:
 
 
 @inner
-def _gap(world: PackedWorld, spans: Floats, at: float) -> float:
-    """Distance from a place on a curve to what stands there [m]."""
+def _gap(world: PackedWorld, spans: Floats, at: float, limit: float) -> float:
+    """Distance from a place on a curve to what stands there, at most a limit [m]."""
     x, y = _on_strip(spans, at)
-    gap, _ = nearest(world, x, y, np.inf)
+    gap, _ = nearest(world, x, y, limit)
     return gap
 
 
 @inner
 def _least_about(
-    world: PackedWorld, spans: Floats, j: int, near: float
+    world: PackedWorld, spans: Floats, j: int, gap: float, near: float
 ) -> tuple[float, float]:  # fmt: skip
     """The least distance about place j [m], and the parameter where it is: exact if it is near."""
-    least, at = np.inf, float(j)
+    least, at = gap, float(j)
     for i in range(SAMPLES + 1):
         here = j - 0.5 + i / SAMPLES
-        gap = _gap(world, spans, here)
+        gap = _gap(world, spans, here, least)
         if gap < least:
             least, at = gap, here
     step = 1.0 / SAMPLES
     for _ in range(FINER_ROUNDS):
         if least > near:
             break
-        before, after = _gap(world, spans, at - step), _gap(world, spans, at + step)
+        before = _gap(world, spans, at - step, FAR * near)
+        after = _gap(world, spans, at + step, FAR * near)
         bend = before - 2.0 * least + after
         off = 0.5 * (before - after) / bend if bend > 0.0 else math.copysign(1.0, before - after)
         off = at + step * min(max(off, -1.0), 1.0)
-        gap = _gap(world, spans, off)
+        gap = _gap(world, spans, off, least)
         if gap < least:
             least, at = gap, off
         step *= FINER
@@ -101,10 +101,10 @@ def strip_room(
         rooms[j], reach[j] = gap - kept, max(gap - half, LEAST_REACH * kept)
         if rooms[j] > half:
             continue
-        gap, at = _least_about(world, spans, j, NEAR * kept)
+        gap, at = _least_about(world, spans, j, gap, NEAR * kept)
         x, y = _on_strip(spans, at)
         nx, ny = normals[j]
-        further, _ = nearest(world, x + PROBE_M * nx, y + PROBE_M * ny, np.inf)
+        further, _ = nearest(world, x + PROBE_M * nx, y + PROBE_M * ny, gap + kept)
         slope = (further - gap) / PROBE_M
         rooms[j], reach[j] = gap - kept, max(gap, LEAST_REACH * kept)
         if slope > LEAST_SLOPE:

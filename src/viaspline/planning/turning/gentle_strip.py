@@ -25,9 +25,9 @@ GENTLE_SHARE = 2e-3  # of the taut length, that may be spent
 STEP = 6.0  # between places, in required distances, at most
 LEAST_PLACES, MOST_PLACES = 16, 400  # of a leg, of the path
 TURN_RAD = 0.2  # from place to place, at most
-SPAN_SAMPLES = np.linspace(0.0, 1.0, 9)
+SPAN_SAMPLES = np.linspace(0.0, 1.0, 5)[:-1]
 MAX_ROUNDS = 14
-FIRST_REACH = 6.0  # the length, over that on which curvature dies away, at first
+FIRST_REACH = 12.0  # the length, over that on which curvature dies away, at first
 RETENSIONED = 10.0  # at most, of the tension from one round to the next
 SLACK = 1e-3  # of what is required, that is kept beyond it
 SETTLED = 0.02  # of what is required: places move by less in the last round
@@ -139,7 +139,7 @@ def _places(spans: Floats, joints: Ints, required: float) -> tuple[Floats, Ints,
     Returns:
         [m], (k, 2); which of them are the via points; the length of the path [m].
     """
-    at = (np.arange(len(spans))[:, None] + SPAN_SAMPLES[:-1]).ravel()
+    at = (np.arange(len(spans))[:, None] + SPAN_SAMPLES).ravel()
     points = np.vstack((_along(spans, at), spans[-1:, 3]))
     steps = np.diff(points, axis=0)
     long = np.hypot(*steps.T)
@@ -151,7 +151,7 @@ def _places(spans: Floats, joints: Ints, required: float) -> tuple[Floats, Ints,
     wanted *= min(1.0, MOST_PLACES / wanted[-1])
     rows, begins = [], [0]
     for first, last in zip(
-        joints[:-1] * len(SPAN_SAMPLES[:-1]), joints[1:] * len(SPAN_SAMPLES[:-1]), strict=True
+        joints[:-1] * len(SPAN_SAMPLES), joints[1:] * len(SPAN_SAMPLES), strict=True
     ):
         count = max(LEAST_PLACES, math.ceil(wanted[last] - wanted[first]))
         at = np.linspace(wanted[first], wanted[last], count + 1)[:-1]
