@@ -14,13 +14,14 @@ Floats = NDArray[np.float64]
 COUNT = 25
 
 
-def cost(heights: Floats, tension: float) -> float:
-    """Of a nearly flat strip, steps of 1 m."""
-    bends, slopes = np.diff(heights, 2), np.diff(heights)
-    return float((bends**2).sum() + 0.5 * tension * (slopes**2).sum())
+def costs(tension: float) -> Floats:
+    """The matrix of the cost of a nearly flat strip, steps of 1 m, (n, n)."""
+    bends, slopes = np.diff(np.eye(COUNT), 2, axis=0), np.diff(np.eye(COUNT), axis=0)
+    found: Floats = bends.T @ bends + 0.5 * tension * slopes.T @ slopes
+    return found
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("tension", [1e-3, 0.1])
 def test_no_other_offsets_between_the_bounds_bend_less(seed: int, tension: float) -> None:
     random = np.random.default_rng(seed)
@@ -34,15 +35,19 @@ def test_no_other_offsets_between_the_bounds_bend_less(seed: int, tension: float
     moved, prices = bent_strip(places, normals, lower, upper, fixed, tension)
     bounds = np.column_stack((lower, upper))
     bounds[fixed] = 0.0
+    matrix = costs(tension)
     best = minimize(
-        cost, np.clip(np.zeros(COUNT), lower, upper), args=(tension,), bounds=bounds,
+        lambda heights: heights @ matrix @ heights,
+        x0=np.clip(np.zeros(COUNT), *bounds.T),
+        jac=lambda heights: 2.0 * matrix @ heights,
+        bounds=bounds,
         method="L-BFGS-B",
         options={"maxiter": 20_000, "maxfun": 10**6, "ftol": 1e-15, "gtol": 1e-10},
-    )  # fmt: skip
+    )
     assert (moved >= lower).all()
     assert (moved <= upper).all()
     assert moved[[0, -1]].tolist() == [0.0, 0.0]
-    assert cost(moved, tension) <= best.fun * (1.0 + 1e-3)
+    assert moved @ matrix @ moved <= best.fun * (1.0 + 1e-3)
     assert prices[up] > 0.0 > prices[down]
 
 

@@ -37,7 +37,7 @@ def test_paths_bend_less_take_hardly_longer_and_keep_all_that_they_kept(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     saved = []
-    for seed in range(12):
+    for seed in range(6):
         asked = mission(seed)
         turns, plan = without(monkeypatch, asked), vs.plan(asked)
         before, after = bending(turns.path.spans), bending(plan.path.spans)

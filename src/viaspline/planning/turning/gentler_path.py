@@ -15,6 +15,7 @@ from viaspline.planning.turning.gentle_strip import GENTLE_SHARE, gentle_strip
 from viaspline.planning.turning.laid_turns import through_spans
 
 LEAST_GENTLER = 0.02  # of the bending, that has to be saved
+STRAIGHT = 1e-9  # bending times length, of what need not bend less
 TIME_KNOWN = 1e-3  # of a driven time: it is known so well
 SAME_WAY = 1.02  # length of a path over that of the shortest taut one, which it may go along
 JUMP_RAD = 1e-6  # of a heading between spans, that is one
@@ -36,10 +37,12 @@ def gentler_path(problem: DrivenProblem, laid: SplinePath) -> SplinePath | None:
         return None
     problem.requirements.spend(STRIP_S)
     flat, shortest = np.ascontiguousarray(laid.spans[:, :, :2]), problem.shortest_row.length
-    length = laid.length
+    length, before = laid.length, bending(flat)
+    if before * length < STRAIGHT:
+        return None
     taut = shortest if length <= SAME_WAY * shortest else length / (1.0 + GENTLE_SHARE)
     strip = gentle_strip(flat, laid.joints, problem.world, problem.requirements.required, taut)
-    if strip is None or bending(strip.spans) > (1.0 - LEAST_GENTLER) * bending(flat):
+    if strip is None or bending(strip.spans) > (1.0 - LEAST_GENTLER) * before:
         return None
     detours = strip.touches.tolist()
     found = through_spans(problem.sequence, strip.spans, strip.joints, detours)
