@@ -72,7 +72,8 @@ def test_both_sides_of_every_group_are_there_and_the_fastest_is_taken(seed: int)
                 continue
             curve = vs.PiecewiseCubic(candidate.spans)
             assert candidate.length == pytest.approx(curve.length, rel=1e-6)
-            assert candidate.duration >= chosen.duration * (1.0 - 1e-6)
+            # each is bent less for up to 0.2 % of its length once the side is chosen
+            assert candidate.duration >= chosen.duration * (1.0 - 3e-3)
             assert vs.certify(curve, found.world, 0.5, radius=0.5).holds
             for name in inside[:1]:
                 assert side_of(candidate, circles[name].center) == candidate.side

@@ -6,6 +6,7 @@ A new one is a file beside this one and a line here.
 from __future__ import annotations
 
 from viaspline.planning.methods.at_radii import AtRadii
+from viaspline.planning.methods.bent_gently import BentGently
 from viaspline.planning.methods.hybrid_astar_search import HybridAStar
 from viaspline.planning.methods.joint_headings import JointHeadings
 from viaspline.planning.methods.next_homotopy_classes import NextHomotopyClasses
@@ -27,24 +28,24 @@ FEW_HEADINGS = JointHeadings(max_rows=100, max_pushed_rows=10, max_pushed_pairs=
 
 DISC_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
-    OtherSides((
+    BentGently(OtherSides((
         TurnsOnShortest(),
         AtRadii((FEW_HEADINGS,)),
         SplineLedRound(),
-    )),
+    ))),
 )  # fmt: skip
 """For a disc that can follow any curve; none of them takes long."""
 
 BODY_METHODS: tuple[PathMethod, ...] = (
     SplineAsItIs(),
-    OtherSides((
+    BentGently(OtherSides((
         TurnsOnShortest(),
         AtRadii((
             NextHomotopyClasses(),
             JointHeadings(),
             HybridAStar(),
         )),
-    )),
+    ))),
 )  # fmt: skip
 """For a robot with a turning circle or a long body."""
 

@@ -16,6 +16,7 @@ from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.spline_path import SplinePath
 from viaspline.planning.routing.taut_path import TautPath
 from viaspline.planning.turning.driven_problem import DrivenProblem
+from viaspline.planning.turning.gentler_path import gentler_path
 
 SAMPLES_PER_SPAN = 8  # for the side on which it passes something
 
@@ -57,7 +58,7 @@ def _driven(problem: DrivenProblem, leg: int, spline: Curve) -> Curve | None:
     row = problem.shortest_row.with_leg(leg, spline.taut_path)
     spline_path = problem.turns_along(row.taut_paths)
     if spline_path is not None:
-        return _curve(problem, leg, spline_path)
+        return _curve(problem, leg, gentler_path(problem, spline_path) or spline_path)
     if not problem.is_drivable(spline.spans[:, :, :2]):
         return None
     stands = problem.legs[leg].stands

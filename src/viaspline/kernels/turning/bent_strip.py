@@ -1,0 +1,231 @@
+"""The offsets from a row of places at which a path bends least, between bounds.
+
+A thin strip under tension: its bending is priced against its length. The bounds are kept by an
+interior point method; every step is a system of five diagonals.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viaspline.kernels.arrays import Flags, Floats
+from viaspline.kernels.jit import inner, kernel
+
+MAX_ROUNDS = 30
+CENTERED = 0.15  # what the product of slack and price is brought down to in a round
+TO_BOUND = 0.95  # of the way to the first bound that is met
+SETTLED = 1e-5  # product of slack and price over the cost of a place
+FIRST_PRODUCT = 0.1  # the same, at first
+LEAST_SLACK = 1e-3  # of the room between bounds, at first
+
+
+@inner
+def _wrapped(angle: float) -> float:
+    return angle - 2.0 * math.pi * math.floor((angle + math.pi) / (2.0 * math.pi))
+
+
+@inner
+def _bands(
+    places: Floats, normals: Floats, tension: float, bands: Floats, slopes: Floats
+) -> float:  # fmt: skip
+    """The cost of a polyline to the second order in offsets of its places along normals.
+
+    Args:
+        places: [m], (n, 2).
+        normals: Unit vectors, (n, 2).
+        tension: What a metre of length is priced at [1/m²].
+        bands: The diagonal and the two beside it, (n, 3); filled.
+        slopes: (n,); filled.
+
+    Returns:
+        The bending [1/m].
+    """
+    count = places.shape[0]
+    bands[:] = 0.0
+    slopes[:] = 0.0
+    bending, heading, length = 0.0, 0.0, 0.0
+    back, ahead = 0.0, 0.0  # of the heading of the piece before, by the offsets of its ends
+    for j in range(count - 1):
+        dx, dy = places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
+        long = math.hypot(dx, dy)
+        c, s = dx / long, dy / long
+        here = math.atan2(dy, dx)
+        b = -(c * normals[j, 1] - s * normals[j, 0]) / long
+        a = (c * normals[j + 1, 1] - s * normals[j + 1, 0]) / long
+        slopes[j] -= tension * (c * normals[j, 0] + s * normals[j, 1])
+        slopes[j + 1] += tension * (c * normals[j + 1, 0] + s * normals[j + 1, 1])
+        bands[j, 0] += tension * long * b * b
+        bands[j, 1] += tension * long * a * b
+        bands[j + 1, 0] += tension * long * a * a
+        if j > 0:
+            turn = _wrapped(here - heading)
+            share = 0.5 * (length + long)
+            first, middle, last = -back, b - ahead, a
+            each = 2.0 / share
+            bending += turn * turn / share
+            slopes[j - 1] += each * turn * first
+            slopes[j] += each * turn * middle
+            slopes[j + 1] += each * turn * last
+            bands[j - 1, 0] += each * first * first
+            bands[j - 1, 1] += each * first * middle
+            bands[j - 1, 2] += each * first * last
+            bands[j, 0] += each * middle * middle
+            bands[j, 1] += each * middle * last
+            bands[j + 1, 0] += each * last * last
+        heading, length, back, ahead = here, long, b, a
+    return bending
+
+
+@inner
+def _solve(bands: Floats, more: Floats, fixed: Flags, right: Floats, work: Floats) -> None:
+    """Solve a symmetric system of five diagonals, with more on the main one; in place of right."""
+    count = right.shape[0]
+    for j in range(count):
+        d, e, f = bands[j, 0] + more[j], bands[j, 1], bands[j, 2]
+        if fixed[j]:
+            d, e, f, right[j] = 1.0, 0.0, 0.0, 0.0
+        if j + 1 < count and fixed[j + 1]:
+            e = 0.0
+        if j + 2 < count and fixed[j + 2]:
+            f = 0.0
+        if j > 0:
+            d -= work[j - 1, 1] ** 2 * work[j - 1, 0]
+            e -= work[j - 1, 1] * work[j - 1, 2] * work[j - 1, 0]
+        if j > 1:
+            d -= work[j - 2, 2] ** 2 * work[j - 2, 0]
+        work[j, 0], work[j, 1], work[j, 2] = d, e / d, f / d
+    for j in range(count):
+        if j > 0:
+            right[j] -= work[j - 1, 1] * right[j - 1]
+        if j > 1:
+            right[j] -= work[j - 2, 2] * right[j - 2]
+    for j in range(count - 1, -1, -1):
+        right[j] /= work[j, 0]
+        if j + 1 < count:
+            right[j] -= work[j, 1] * right[j + 1]
+        if j + 2 < count:
+            right[j] -= work[j, 2] * right[j + 2]
+
+
+@kernel
+def bent_strip(
+    places: Floats, normals: Floats, lower: Floats, upper: Floats, fixed: Flags, tension: float
+) -> tuple[Floats, Floats]:
+    """Move places along their normals, so that the line through them bends less.
+
+    Args:
+        places: [m], (n, 2).
+        normals: Unit vectors, (n, 2).
+        lower: By what they move at least [m], (n,).
+        upper: By what they move at most [m], above that, (n,).
+        fixed: Which of them stay, (n,).
+        tension: What a metre of length is priced at [1/m²].
+
+    Returns:
+        By what they move [m], (n,), and the price of each one's bounds: negative where it would
+        go further up, (n,).
+    """
+    count = places.shape[0]
+    bands, slopes, work = np.empty((count, 3)), np.empty(count), np.empty((count, 3))
+    bending = _bands(places, normals, tension, bands, slopes)
+    moved, step, more = np.zeros(count), np.empty(count), np.zeros(count)
+    low, high = np.zeros(count), np.zeros(count)
+    product = FIRST_PRODUCT * max(bending, 1e-12) / count
+    least = SETTLED * product
+    for j in range(count):
+        if not fixed[j]:
+            slack = LEAST_SLACK * (upper[j] - lower[j])
+            moved[j] = min(max(0.0, lower[j] + slack), upper[j] - slack)
+            low[j], high[j] = product / (moved[j] - lower[j]), product / (upper[j] - moved[j])
+    for _ in range(MAX_ROUNDS):
+        product *= CENTERED
+        for j in range(count):
+            step[j] = -slopes[j] - bands[j, 0] * moved[j]
+            if j > 0:
+                step[j] -= bands[j - 1, 1] * moved[j - 1]
+            if j > 1:
+                step[j] -= bands[j - 2, 2] * moved[j - 2]
+            if j + 1 < count:
+                step[j] -= bands[j, 1] * moved[j + 1]
+            if j + 2 < count:
+                step[j] -= bands[j, 2] * moved[j + 2]
+            if not fixed[j]:
+                below, above = moved[j] - lower[j], upper[j] - moved[j]
+                step[j] += product / below - product / above
+                more[j] = low[j] / below + high[j] / above
+        _solve(bands, more, fixed, step, work)
+        far, priced = 1.0, 1.0
+        for j in range(count):
+            if not fixed[j]:
+                below, above = moved[j] - lower[j], upper[j] - moved[j]
+                if step[j] < 0.0:
+                    far = min(far, -TO_BOUND * below / step[j])
+                else:
+                    far = min(far, TO_BOUND * above / max(step[j], 1e-300))
+                to_low = product / below - low[j] - low[j] * step[j] / below
+                to_high = product / above - high[j] + high[j] * step[j] / above
+                if to_low < 0.0:
+                    priced = min(priced, -TO_BOUND * low[j] / to_low)
+                if to_high < 0.0:
+                    priced = min(priced, -TO_BOUND * high[j] / to_high)
+        worst = 0.0
+        for j in range(count):
+            if not fixed[j]:
+                below, above = moved[j] - lower[j], upper[j] - moved[j]
+                low[j] += priced * (product / below - low[j] - low[j] * step[j] / below)
+                high[j] += priced * (product / above - high[j] + high[j] * step[j] / above)
+                moved[j] += far * step[j]
+                worst = max(worst, low[j] * (moved[j] - lower[j]), high[j] * (upper[j] - moved[j]))
+        product = max(worst, least)
+        if worst <= least:
+            break
+    return moved, low - high
+
+
+@kernel
+def strip_spans(places: Floats) -> Floats:
+    """The natural cubic spline through places, its parameter their distances.
+
+    Args:
+        places: [m], none at the place of the one before, (n, 2).
+
+    Returns:
+        Bézier control polygons (n - 1, 4, 2) [m]; their curvature is continuous.
+    """
+    count = places.shape[0]
+    steps, tangents, above = np.empty(count - 1), np.empty((count, 2)), np.empty(count)
+    for j in range(count - 1):
+        dx, dy = places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
+        steps[j] = math.hypot(dx, dy)
+    for j in range(count):
+        low, diagonal, high = 0.0, 0.0, 0.0
+        for axis in range(2):
+            tangents[j, axis] = 0.0
+        for i in (j - 1, j):
+            if 0 <= i < count - 1:
+                per = 1.0 / steps[i]
+                diagonal += 2.0 * per
+                for axis in range(2):
+                    tangents[j, axis] += 3.0 * per * per * (places[i + 1, axis] - places[i, axis])
+        if j > 0:
+            low = 1.0 / steps[j - 1]
+            diagonal -= low * above[j - 1]
+        if j < count - 1:
+            high = 1.0 / steps[j]
+        above[j] = high / diagonal
+        for axis in range(2):
+            if j > 0:
+                tangents[j, axis] -= low * tangents[j - 1, axis]
+            tangents[j, axis] /= diagonal
+    for j in range(count - 2, -1, -1):
+        for axis in range(2):
+            tangents[j, axis] -= above[j] * tangents[j + 1, axis]
+    spans = np.empty((count - 1, 4, 2))
+    for j in range(count - 1):
+        for axis in range(2):
+            spans[j, 0, axis], spans[j, 3, axis] = places[j, axis], places[j + 1, axis]
+            spans[j, 1, axis] = places[j, axis] + steps[j] / 3.0 * tangents[j, axis]
+            spans[j, 2, axis] = places[j + 1, axis] - steps[j] / 3.0 * tangents[j + 1, axis]
+    return spans

@@ -1,0 +1,113 @@
+"""How far the places of a strip may move across it, past what stands on either side."""
+
+from __future__ import annotations
+
+import math
+
+from viaspline.kernels.arrays import Floats
+from viaspline.kernels.jit import inner, kernel
+from viaspline.kernels.world.distance import nearest
+from viaspline.kernels.world.packed import PackedWorld
+
+SAMPLES = 6  # about a place, from half-way to the one before to half-way to the one after
+REACH = 8.0  # in required distances: farther off, nothing is looked for
+FINER_ROUNDS, FINER = 4, 0.3  # of looking for the least distance; of the step from one to the next
+NEAR = 1.2  # in required distances: where it is looked for so
+FAR = 4.0  # of that: farther off need not be told apart
+LEAST_REACH = 0.5  # in required distances, that a place may move at once
+PROBE_M = 1e-5
+LEAST_SLOPE = 0.05  # of a distance, across the path, of what stands beside it
+
+
+@inner
+def _on_strip(spans: Floats, at: float) -> tuple[float, float]:
+    """A place on a curve [m]; before its start and after its end that."""
+    k = min(max(math.floor(at), 0), spans.shape[0] - 1)
+    w = min(max(at - k, 0.0), 1.0)
+    v = 1.0 - w
+    a, b, c, d = v * v * v, 3.0 * v * v * w, 3.0 * v * w * w, w * w * w
+    x = a * spans[k, 0, 0] + b * spans[k, 1, 0] + c * spans[k, 2, 0] + d * spans[k, 3, 0]
+    y = a * spans[k, 0, 1] + b * spans[k, 1, 1] + c * spans[k, 2, 1] + d * spans[k, 3, 1]
+    return x, y
+
+
+@inner
+def _gap(world: PackedWorld, spans: Floats, at: float, limit: float) -> float:
+    """Distance from a place on a curve to what stands there, at most a limit [m]."""
+    x, y = _on_strip(spans, at)
+    gap, _ = nearest(world, x, y, limit)
+    return gap
+
+
+@inner
+def _least_about(
+    world: PackedWorld, spans: Floats, j: int, gap: float, near: float
+) -> tuple[float, float]:  # fmt: skip
+    """The least distance about place j [m], and the parameter where it is: exact if it is near."""
+    least, at = gap, float(j)
+    for i in range(SAMPLES + 1):
+        here = j - 0.5 + i / SAMPLES
+        gap = _gap(world, spans, here, least)
+        if gap < least:
+            least, at = gap, here
+    step = 1.0 / SAMPLES
+    for _ in range(FINER_ROUNDS):
+        if least > near:
+            break
+        before = _gap(world, spans, at - step, FAR * near)
+        after = _gap(world, spans, at + step, FAR * near)
+        bend = before - 2.0 * least + after
+        off = 0.5 * (before - after) / bend if bend > 0.0 else math.copysign(1.0, before - after)
+        off = at + step * min(max(off, -1.0), 1.0)
+        gap = _gap(world, spans, off, least)
+        if gap < least:
+            least, at = gap, off
+        step *= FINER
+    return least, at
+
+
+@kernel
+def strip_room(
+    world: PackedWorld, places: Floats, normals: Floats, spans: Floats, kept: float, low: Floats,
+    high: Floats, reach: Floats, rooms: Floats,
+) -> None:  # fmt: skip
+    """Look how far places may move: closely about those that have little room.
+
+    What stands there is taken to end at the straight line square to its nearest point; what was
+    known of the other side stays.
+
+    Args:
+        world: What stands there.
+        places: [m], (n, 2).
+        normals: Unit vectors, left of the path, (n, 2).
+        spans: The curve through the places [m], (n - 1, 4, 2).
+        kept: Distance to what stands there [m].
+        low: How far to the left each place has to move at least [m], (n,); changed.
+        high: How far at most [m], (n,); changed.
+        reach: How far it may move at once, either way [m], (n,); filled.
+        rooms: Distance beyond what is kept, about each [m], (n,); filled.
+    """
+    count = places.shape[0]
+    before = 0.0
+    for j in range(count):
+        after = 0.0
+        if j + 1 < count:
+            after = math.hypot(
+                places[j + 1, 0] - places[j, 0], places[j + 1, 1] - places[j, 1]
+            )  # fmt: skip
+        half = 0.5 * max(before, after)
+        before = after
+        gap, _ = nearest(world, places[j, 0], places[j, 1], half + REACH * kept)
+        rooms[j], reach[j] = gap - kept, max(gap - half, LEAST_REACH * kept)
+        if rooms[j] > half:
+            continue
+        gap, at = _least_about(world, spans, j, gap, NEAR * kept)
+        x, y = _on_strip(spans, at)
+        nx, ny = normals[j]
+        further, _ = nearest(world, x + PROBE_M * nx, y + PROBE_M * ny, gap + kept)
+        slope = (further - gap) / PROBE_M
+        rooms[j], reach[j] = gap - kept, max(gap, LEAST_REACH * kept)
+        if slope > LEAST_SLOPE:
+            low[j] = -rooms[j] / slope
+        elif slope < -LEAST_SLOPE:
+            high[j] = -rooms[j] / slope

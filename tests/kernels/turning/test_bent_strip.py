@@ -1,0 +1,60 @@
+"""A strip between bounds beside scipy's bounded minimum of the same cost."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+from scipy.optimize import minimize
+
+from viaspline.kernels.turning.bent_strip import bent_strip, strip_spans
+
+Floats = NDArray[np.float64]
+COUNT = 25
+
+
+def costs(tension: float) -> Floats:
+    """The matrix of the cost of a nearly flat strip, steps of 1 m, (n, n)."""
+    bends, slopes = np.diff(np.eye(COUNT), 2, axis=0), np.diff(np.eye(COUNT), axis=0)
+    found: Floats = bends.T @ bends + 0.5 * tension * slopes.T @ slopes
+    return found
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("tension", [1e-3, 0.1])
+def test_no_other_offsets_between_the_bounds_bend_less(seed: int, tension: float) -> None:
+    random = np.random.default_rng(seed)
+    places = np.column_stack((np.arange(COUNT, dtype=float), np.zeros(COUNT)))
+    normals = np.tile([0.0, 1.0], (COUNT, 1))
+    lower, upper = np.full(COUNT, -0.1), np.full(COUNT, 0.1)
+    up, down = random.choice(np.arange(2, COUNT - 2), 2, replace=False)
+    lower[up], upper[down] = 0.01, -0.01
+    fixed = np.zeros(COUNT, np.bool_)
+    fixed[[0, -1]] = True
+    moved, prices = bent_strip(places, normals, lower, upper, fixed, tension)
+    bounds = np.column_stack((lower, upper))
+    bounds[fixed] = 0.0
+    matrix = costs(tension)
+    best = minimize(
+        lambda heights: heights @ matrix @ heights,
+        x0=np.clip(np.zeros(COUNT), *bounds.T),
+        jac=lambda heights: 2.0 * matrix @ heights,
+        bounds=bounds,
+        method="L-BFGS-B",
+        options={"maxiter": 20_000, "maxfun": 10**6, "ftol": 1e-15, "gtol": 1e-10},
+    )
+    assert (moved >= lower).all()
+    assert (moved <= upper).all()
+    assert moved[[0, -1]].tolist() == [0.0, 0.0]
+    assert moved @ matrix @ moved <= best.fun * (1.0 + 1e-3)
+    assert prices[up] > 0.0 > prices[down]
+
+
+def test_spans_are_the_natural_spline_of_scipy() -> None:
+    places = np.array([[0.0, 0.0], [2.0, 1.0], [3.0, -1.0], [7.0, 0.0], [8.0, 3.0]])
+    at = np.r_[0.0, np.cumsum(np.hypot(*np.diff(places, axis=0).T))]
+    other = CubicSpline(at, places, bc_type="natural")
+    spans = strip_spans(places)
+    middles = (spans[:, 0] + 3.0 * spans[:, 1] + 3.0 * spans[:, 2] + spans[:, 3]) / 8.0
+    np.testing.assert_allclose(middles, other(0.5 * (at[1:] + at[:-1])), atol=1e-12)
