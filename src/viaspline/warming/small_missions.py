@@ -1,7 +1,9 @@
 """Small missions that lead a robot of a kind through all that may come before it.
 
 Each is planned and driven for what it compiles: a round among known shapes with unseen ones in the
-way, a pocket that is deeper than the sensor sees, a field of posts, a way that is closed.
+way, a pocket that is deeper than the sensor sees, a field of posts, a way that is closed, things
+that cross the way. What moves as is known and a map of cells are in all kinds: a robot that has
+neither may still come to search a lattice, of times or of places, in a step.
 
 Tested through ``warming/test_warm_up``.
 """
@@ -50,6 +52,8 @@ SPLINES: Final[Mapping[str, Parts]] = {
 }
 """The splines of missions by their names; the others take what a mission has of itself."""
 
+ACROSS: Final[Parts] = {"start": [0, 0], "goal": [12, 0]}
+
 
 def missions_of(kind: MissionKind) -> Iterator[tuple[str, Mission]]:
     """The missions of one robot of a kind that isn't one in space, each with its name."""
@@ -76,10 +80,12 @@ def _scenes(kind: MissionKind) -> Iterator[tuple[str, Parts, Parts]]:
     for name in SPLINES:
         yield name, {"known": [{"circle": {"center": [7, 4], "radius": 0.5}}]}, points
     yield "pocket", _pocket(), {"start": {"at": [0, 0], "heading_deg": 0}, "goal": [6, 0]}
-    yield "crossing", _crossing(kind), {"start": [0, 0], "goal": [12, 0]}
-    yield "posts", _posts(), {"start": [0, 0], "goal": [12, 0]}
-    if "map" in kind.parts:
-        yield "map", {"known": [Obstacle(grid=_map())]}, {"start": [1.5, 1.5], "goal": [18, 13]}
+    crossing = _crossing()
+    if "moving" not in kind.parts:
+        yield "crossing", {**crossing, "unseen": crossing["known"], "known": []}, ACROSS
+    yield "timed", crossing, ACROSS
+    yield "posts", _posts(), ACROSS
+    yield "map", {"known": [Obstacle(grid=_map())]}, {"start": [1.5, 1.5], "goal": [18, 13]}
 
 
 def _round(kind: MissionKind) -> Parts:
@@ -105,16 +111,14 @@ def _mover(first: list[float], last: list[float], start: float) -> Parts:
     }
 
 
-def _crossing(kind: MissionKind) -> Parts:
+def _crossing() -> Parts:
     """Somebody who walks to and fro across the way, and a cart that comes along it."""
     walker = _mover([5, 2], [5, -2], 0.0)
     cart: Parts = {
         "polygon": [[-0.4, -0.3], [0.4, -0.3], [0.4, 0.3], [-0.4, 0.3]],
         "motion": {"from": [13, 0.1], "velocity_mps": [-0.4, 0]},
     }
-    moving = [walker, cart]
-    is_known = "moving" in kind.parts
-    return {"bounds": [-3, -5, 15, 5], "known" if is_known else "unseen": moving}
+    return {"bounds": [-3, -5, 15, 5], "known": [walker, cart]}
 
 
 def _round_route(kind: MissionKind) -> Parts:
