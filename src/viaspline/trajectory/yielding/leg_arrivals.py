@@ -121,7 +121,8 @@ class LatticeSearch:
         limit = int((budget.limit - budget.spent) / WORD_S)
         visited = earliest_arrivals(
             self.traffic.moving.packed, self.driving(lattice), self.road.tree, lattice, tube,
-            allowed, flags, entry.level, np.array(self.road.at(leg.end)), leg.stay, most, limit,
+            allowed, flags, entry.level, np.array(self.road.at(leg.end)), float(leg.stay), most,
+            limit,
         )  # fmt: skip
         budget.spent = min(budget.limit, budget.spent + visited.work * WORD_S)
         found = []
