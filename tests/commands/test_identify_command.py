@@ -57,6 +57,8 @@ def test_commands_are_written_with_the_ground_that_they_take(tmp_path: Path) -> 
     [
         ([], 2, "give the LOG"),
         (["a.csv", "--drive", "b.csv"], 2, "not both"),
+        (["--drive", "b.csv", "--period", "60"], 2, "give 0.001 to 0.2 s"),
+        (["--drive", "b.csv", "--period", "1e-9"], 2, "give 0.001 to 0.2 s"),
         (["a.csv", "--max-speed", "1"], 2, "go with --drive"),
         (["none.csv"], 2, "no such file"),
         (["--drive", "c.csv", "--seed", "1"], 2, "--seed goes with --on"),

@@ -61,6 +61,9 @@ def test_what_is_no_bag_is_an_error_of_the_arguments(folder: Path) -> None:
     done = CliRunner().invoke(cli, ["replay", f"{folder}/short.yaml"])
     assert done.exit_code == 2
     assert "no MCAP" in done.output
+    vague = CliRunner().invoke(cli, ["replay", f"{folder}/short.yaml", "--tolerance", "nan"])
+    assert vague.exit_code == 2
+    assert "tolerance is nan" in vague.output
     for bag in ("run.bag", "short.yaml/run.mcap"):
         refused = CliRunner().invoke(
             cli, ["run", f"{folder}/short.yaml", "--out", f"{folder}/o", "--bag", f"{folder}/{bag}"]

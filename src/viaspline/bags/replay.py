@@ -23,7 +23,7 @@ from viaspline.bags.raw_message import BagExtent
 from viaspline.bags.rosbag2_reader import read_bag
 from viaspline.bags.step_message import decision_message, given_from
 from viaspline.errors import BagError, MissionError, ViasplineError
-from viaspline.handed_in import number_from
+from viaspline.handed_in import finite_from
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planner import plan
 from viaspline.robot.navigator import Navigator
@@ -88,9 +88,10 @@ def replay(
     Raises:
         BagError: It isn't a bag of viaspline's, holds no step, or its steps contradict each other.
         OutputError: The extra isn't installed.
+        GeometryError: The tolerance isn't finite.
         PlanningError, MissionError: Its mission can't be planned any more.
     """
-    path, tolerance = Path(path), number_from("tolerance", tolerance)
+    path, tolerance = Path(path), finite_from("tolerance", tolerance)
     book, extent = bag_book(), BagExtent()
     obstacles: dict[int, Obstacle] = {}
     nav: Navigator | None = None

@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 
+from viaspline.errors import GeometryError
 from viaspline.handed_in import time_from
 from viaspline.identify.drive_log import DriveLog
 from viaspline.kernels.arrays import Floats
@@ -23,6 +24,9 @@ PIECES = (
 )  # fmt: skip
 """For how long [s], and the speed and the yaw rate as shares of the greatest."""
 
+SHORTEST_PERIOD_S = 1e-3
+LONGEST_PERIOD_S = 0.2  # each piece has two commands at least
+
 
 def standard_commands(max_speed: float, max_yaw_rate: float, period: float) -> Floats:
     """When to give which command: time [s], speed [m/s] and yaw rate [rad/s], shape (n, 3).
@@ -33,7 +37,7 @@ def standard_commands(max_speed: float, max_yaw_rate: float, period: float) -> F
         period: From command to command [s].
 
     Raises:
-        GeometryError: When one of them is not above 0.
+        GeometryError: When one of them is not above 0, or the period not from 1 ms to 0.2 s.
 
     Example:
         >>> commands = standard_commands(1.0, 0.8, 0.05)
@@ -42,6 +46,11 @@ def standard_commands(max_speed: float, max_yaw_rate: float, period: float) -> F
     """
     speed, rate = time_from("max_speed", max_speed), time_from("max_yaw_rate", max_yaw_rate)
     period = time_from("period", period)
+    if not SHORTEST_PERIOD_S <= period <= LONGEST_PERIOD_S:
+        raise GeometryError(
+            f"period is {period:g} s; give {SHORTEST_PERIOD_S:g} to {LONGEST_PERIOD_S:g} s, "
+            "so that every piece of the drive has its commands"
+        )
     ends = np.cumsum([seconds for seconds, _, _ in PIECES])
     times = period * np.arange(math.floor(float(ends[-1]) / period + 1e-9))
     which = np.searchsorted(ends, times + 1e-9, side="right")
