@@ -84,6 +84,14 @@ def test_speeds_up_and_down_are_limits_only_where_they_are_less_than_the_speed()
     assert (slow.climb, slow.descent, slow.vertical_accel) == (2, 2, 0.5)
 
 
+def test_a_vertical_acceleration_as_large_as_the_one_along_the_path_is_a_limit_too() -> None:
+    asked = {"max_accel_mps2": 1, "max_lateral_accel_mps2": 0.75}
+    limits = spatial_limits_of(mission(robot={**asked, "max_vertical_accel_mps2": 1}))
+    assert limits.vertical_accel == 1
+    limits = spatial_limits_of(mission(robot={**asked, "max_vertical_accel_mps2": 1.25}))
+    assert limits.vertical_accel is None
+
+
 def test_what_is_not_planned_in_space_is_refused_by_name() -> None:
     cart = {
         "circle": {"center": [30, 30], "radius": 1},

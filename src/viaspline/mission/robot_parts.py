@@ -106,8 +106,8 @@ class RobotSpec(
             ``radius_m`` about the reference point [m]. None: it is a ball.
         max_climb_mps: The greatest speed upwards [m/s]. None: ``max_speed_mps``.
         max_descent_mps: The greatest speed downwards [m/s]. None: as upwards.
-        max_vertical_accel_mps2: The greatest acceleration up or down [m/s²]. None: as
-            ``max_accel_mps2``.
+        max_vertical_accel_mps2: The greatest acceleration up or down [m/s²]. None: what
+            ``max_accel_mps2`` along the path and ``max_lateral_accel_mps2`` across it add up to.
         max_yaw_rate_dps: The greatest yaw rate [deg/s], as documents of drones call it: another
             name of ``max_yaw_rate_degps``, which it is stored as.
         max_replan_s: How long it may look for a new path under way, from when it sees what is in
@@ -194,16 +194,6 @@ class RobotSpec(
     def descent_speed(self) -> float:
         """The greatest speed downwards [m/s]."""
         return self.climb_speed if self.max_descent_mps is None else self.max_descent_mps
-
-    @property
-    def vertical_accel(self) -> float:
-        """The greatest acceleration up or down [m/s²].
-
-        >>> RobotSpec(max_accel_mps2=0.7).vertical_accel
-        0.7
-        """
-        given = self.max_vertical_accel_mps2
-        return self.max_accel_mps2 if given is None else given
 
     @property
     def inner_radius(self) -> float:

@@ -82,18 +82,26 @@ def spatial_limits_of(mission: Mission) -> SpatialLimits:
     """
     robot = mission.robot
     rate = robot.max_yaw_rate_degps
+    along = Limits.of(robot)
     return SpatialLimits(
-        along=Limits.of(robot),
+        along=along,
         climb=robot.climb_speed if robot.climb_speed < robot.max_speed_mps else None,
         descent=robot.descent_speed if robot.descent_speed < robot.max_speed_mps else None,
-        vertical_accel=(
-            robot.max_vertical_accel_mps2
-            if robot.max_vertical_accel_mps2 is not None
-            and robot.max_vertical_accel_mps2 < robot.max_accel_mps2
-            else None
-        ),
+        vertical_accel=_binding_vertical_accel(robot.max_vertical_accel_mps2, along),
         yaw_rate=None if rate is None else math.radians(rate),
     )
+
+
+def _binding_vertical_accel(asked: float | None, along: Limits) -> float | None:
+    """A limit of the acceleration up and down [m/s²], if the others together allow more.
+
+    Up and down a drive may speed up and bend at once, so the one along the path and the one across
+    it add up as the sides of a right angle do.
+    """
+    if asked is None or along.max_lateral_accel is None:
+        return asked
+    most = math.hypot(max(along.max_accel, along.brake), along.max_lateral_accel)
+    return asked if asked < most else None
 
 
 def spatial_world_of(mission: Mission, places: FlightPlaces) -> SpatialWorld:

@@ -5,13 +5,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from viaspline.curve.cardinal import CardinalSpline
+from viaspline.curve.cardinal import CardinalSpline, Tangents
 from viaspline.curve.path import Path
 from viaspline.errors import GeometryError
+from viaspline.mission.model import Mission
+from viaspline.space.spatial_request import spatial_limits_of
 from viaspline.space.timing.retime_in_space import retime_in_space
 from viaspline.space.timing.spatial_limits import SpatialLimits
 from viaspline.space.timing.yaw_profile import FacingAlong, yaw_profile
 from viaspline.trajectory.limits import Limits
+from viaspline.trajectory.trajectory import Trajectory
 
 ALONG = Limits(max_speed=8, max_accel=2, max_lateral_accel=2)
 
@@ -42,6 +45,51 @@ def test_a_drive_in_space_keeps_every_limit(seed: int, vertical: float | None) -
     if vertical is not None:
         up = np.diff(rise) / step
         assert np.quantile(np.abs(up), 0.995) <= vertical * 1.02
+
+
+def upward_accelerations(path: Path, law: Trajectory) -> np.ndarray:
+    """z'' = z_ss v² + z_s a of a law without jerk, on 400 places of every span of a curve."""
+    found = []
+    squares = np.asarray(law.speeds) ** 2
+    along = np.asarray(law.distances)
+    w = np.linspace(1e-6, 1 - 1e-6, 400)[:, None]
+    for k, span in enumerate(np.asarray(path.spans)):
+        a, b, c = np.diff(span, axis=0)
+        first = 3 * ((1 - w) ** 2 * a + 2 * w * (1 - w) * b + w * w * c)
+        second = 6 * ((1 - w) * (b - a) + w * (c - b))
+        size = (first * first).sum(axis=1)
+        slope = first[:, 2] / np.sqrt(size)
+        bend = (second[:, 2] * size - first[:, 2] * (first * second).sum(axis=1)) / size**2
+        at = np.asarray(path.distance(k + w[:, 0]))
+        i = np.clip(np.searchsorted(along, at, side="right") - 1, 0, len(along) - 2)
+        gained = (squares[i + 1] - squares[i]) / (along[i + 1] - along[i])
+        found.append(bend * (squares[i] + gained * (at - along[i])) + slope * gained / 2)
+    return np.concatenate(found)
+
+
+@settings(max_examples=30)
+@given(
+    seed=st.integers(0, 10_000),
+    share=st.sampled_from([0.2, 0.7, 1.0, 1.3]),
+    tangents=st.sampled_from(["continuous", "cardinal"]),
+)
+def test_a_mission_keeps_its_limit_of_the_acceleration_up_and_down(
+    seed: int, share: float, tangents: Tangents
+) -> None:
+    rng = np.random.default_rng(seed)
+    accel, brake, across = rng.uniform(0.5, 2, 3).tolist()
+    most = share * max(accel, brake)
+    limits = spatial_limits_of(
+        Mission.model_validate(
+            {"robot": {"max_speed_mps": 8, "max_accel_mps2": accel, "max_brake_mps2": brake,
+                       "max_lateral_accel_mps2": across, "max_vertical_accel_mps2": most},
+             "route": {"start": [0, 0, 5], "goal": [9, 0, 5]}}
+        )
+    )  # fmt: skip
+    vias = rng.uniform(0, 60, (int(rng.integers(2, 6)), 3))
+    path = Path(CardinalSpline(vias, knots="chordal", tangents=tangents).spans, vias=[])
+    law = retime_in_space(path, limits, (), yaw_profile(path, FacingAlong()))
+    assert np.abs(upward_accelerations(path, law)).max() <= most * (1 + 1e-6)
 
 
 def test_a_climb_takes_as_long_as_its_rate_and_its_acceleration_make_it() -> None:
