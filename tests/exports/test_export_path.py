@@ -201,6 +201,14 @@ def test_what_moves_and_turning_circles_are_told_as_lost(tmp_path: Path) -> None
     )
 
 
+def test_what_moves_beside_a_flight_is_told_as_lost(tmp_path: Path) -> None:
+    ball = {"ball": {"center": [0, 0, 0], "radius": 2},
+            "motion": {"from": [30, -25, 6], "velocity_mps": [0, 1.5, 0]}}  # fmt: skip
+    route = {"start": [0, 0, 5], "goal": [60, 0, 5]}
+    flight = Mission.model_validate({"world": {"known": [ball]}, "route": route})
+    assert any("what moves" in words for words in export(plan(flight), tmp_path / "f.csv").lost)
+
+
 def test_a_flight_keeps_its_heights_and_ends_of_upright_legs(tmp_path: Path) -> None:
     asked = {
         "world": {"ground": {"flat_m": 400}, "altitude": {"above": "ground", "max_m": 60},

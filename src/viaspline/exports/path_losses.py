@@ -45,7 +45,8 @@ def _left_out(plan: Plan | SpatialPlan, kind: PathFormat, table: PathTable) -> I
     route, robot = plan.mission.route, plan.mission.robot
     if "curve" not in kind.carries:
         yield "the exact curve: straight lines between points stand for it"
-    if isinstance(plan, Plan) and plan.moving_certificate is not None:
+    moving = plan.moving_certificate if isinstance(plan, Plan) else plan.moving
+    if moving is not None:
         yield "what moves: the path is proven clear of it only if it is driven at the planned times"
     if "times" not in kind.carries:
         yield "times"
