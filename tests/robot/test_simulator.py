@@ -185,7 +185,7 @@ unseen_discs = st.lists(
 
 
 @given(unseen_discs, st.sampled_from([3.0, 6.0, 25.0]), st.sampled_from([None, 0.5]))
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=12)
 def test_it_never_touches_what_its_sensor_shows_in_time(
     mission_of: Make, gap_of: Callable[..., float], disc_at: Shape,
     discs: list[tuple[float, float, float]], reach: float, lateral: float | None,
@@ -220,7 +220,7 @@ def test_it_never_touches_what_its_sensor_shows_in_time(
 @given(st.integers(0, 10_000))
 @example(153)  # each stopped in a turn, and went on with its wheels straight
 @example(439)
-@settings(deadline=None, max_examples=15)
+@settings(deadline=None, max_examples=5)
 def test_what_is_driven_past_unseen_obstacles_goes_on_as_it_was_at_every_new_path(
     disc_at: Shape, detours: str | None, seed: int
 ) -> None:

@@ -2,10 +2,9 @@
 
 ``python tests/warming/step_waits.py lidar+footprint``: one kind of mission, in a process that is
 new; says as JSON what was compiled, loaded and imported inside of steps, and how long the first
-step with a scan and the longest took. ``--every``: each sensor with each drive and body.
-
-What steps cost is counted in the thread's own time; of one that took long it is the least of three
-times that it is done, for on a busy machine that time grows as well.
+step with a scan and the longest took. ``--timed lidar+footprint`` says what steps cost as well, in
+the thread's own time: of one that took long it is the least of three times that it is done, for on
+a busy machine that time grows as well. ``--every``: so for each sensor with each drive and body.
 """
 
 from __future__ import annotations
@@ -39,7 +38,8 @@ PACKAGES = ("viaspline", "numba", "numpy", "scipy", "shapely", "matplotlib")
 class Waits:
     """Counts what is compiled, loaded and imported inside of steps."""
 
-    def __init__(self) -> None:
+    def __init__(self, repeated: int) -> None:
+        self.repeated = repeated
         self.inside, self.longest, self.first_scan = False, 0.0, 0.0
         self.cpu: dict[str, list[float]] = {"under_way": [0.0], "standing": [0.0]}
         self.compiled: list[str] = []
@@ -65,7 +65,7 @@ class Waits:
                 spent = [time.thread_time() - start]
                 self.inside = False
                 took = time.perf_counter() - began
-                while spent[0] > LONG_S and len(spent) <= REPEATED:
+                while spent[0] > LONG_S and len(spent) <= self.repeated:
                     start = time.thread_time()
                     step(nav, state, sensed, now)
                     spent.append(time.thread_time() - start)
@@ -137,9 +137,9 @@ def told_by_hand(mission: vs.Mission) -> None:
         state = nav.reference(now + 0.05)
 
 
-def waits(name: str) -> dict[str, Any]:
+def waits(name: str, repeated: int = 0) -> dict[str, Any]:
     """Drive a kind of mission after it was warmed, and say what steps waited for."""
-    kind, watched = kind_named(name), Waits()
+    kind, watched = kind_named(name), Waits(repeated)
     began = time.perf_counter()
     given = missions(kind)
     navigator = Navigator(given[0])
@@ -178,6 +178,8 @@ def every() -> list[str]:
 if __name__ == "__main__":
     if sys.argv[1:] == ["--every"]:
         for one in every():
-            subprocess.run([sys.executable, __file__, one], check=False)
+            subprocess.run([sys.executable, __file__, "--timed", one], check=False)
+    elif sys.argv[1] == "--timed":
+        print(json.dumps(waits(sys.argv[2], REPEATED)), flush=True)
     else:
         print(json.dumps(waits(sys.argv[1])), flush=True)

@@ -69,7 +69,7 @@ def free_ends(
 
 
 @given(obstacles, st.sampled_from([None, 0.8]), st.sampled_from([0.0, 0.01]), st.integers(0, 99))
-@settings(deadline=None, max_examples=12)
+@settings(deadline=None, max_examples=6)
 def test_it_never_touches_what_its_lidar_could_have_shown(
     shape_of: ShapeOf, mission_of: Make, disc_at: Shape, box_at: Shape,
     found: list[tuple[float, float, float, bool]], lateral: float | None, noise: float, seed: int,
@@ -94,7 +94,7 @@ def test_it_never_touches_what_its_lidar_could_have_shown(
 
 
 @given(obstacles)
-@settings(deadline=None, max_examples=5)
+@settings(deadline=None, max_examples=3)
 def test_it_is_never_faster_than_lets_it_stop_inside_of_what_it_has_seen(
     drive: Drive,
     shape_of: ShapeOf,
