@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -18,6 +19,7 @@ from straight_fleets import (
 from viaspline.kernels.fleet.passages import passages_of
 
 
+@pytest.mark.long_without_jit
 @given(seed=st.integers(0, 10_000), count=st.integers(1, 9))
 @settings(max_examples=30, deadline=None)
 def test_passages_hold_every_box_once_and_bound_their_own_and_the_others_cells(

@@ -71,6 +71,7 @@ def test_paths_lead_from_start_to_goal_and_keep_a_step_apart(problem):
         ]
 
 
+@pytest.mark.long_without_jit
 @given(problems(most_cells=9, most_robots=2))
 @settings(max_examples=100, deadline=None)
 def test_the_second_robot_arrives_as_early_as_the_first_allows(problem):
@@ -85,6 +86,7 @@ def test_the_second_robot_arrives_as_early_as_the_first_allows(problem):
         assert table.arrivals[1] == expected
 
 
+@pytest.mark.long_without_jit
 @given(problems(most_cells=9, most_robots=2), st.data())
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 def test_robots_depart_when_they_may_and_leave_their_goals_to_others(problem, data):

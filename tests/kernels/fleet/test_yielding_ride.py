@@ -53,6 +53,7 @@ def nearest_two(courses: PackedCourses, laws: PackedLaws) -> float:
     )
 
 
+@pytest.mark.long_without_jit
 @given(seed=st.integers(0, 10_000), count=st.integers(1, 9))
 @settings(max_examples=40, deadline=None)
 @example(seed=3, count=9)

@@ -1,6 +1,7 @@
 """Odd cycles, held against a search of all cycles."""
 
 import numpy as np
+import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.sparse import coo_array
@@ -29,6 +30,7 @@ def has_odd_cycle(rows: list[tuple[int, int, int]]) -> bool:
     return bool((labels[:COUNT] == labels[COUNT:]).any())
 
 
+@pytest.mark.long_without_jit
 @settings(max_examples=200)
 @given(links)
 @example([(0, 1, 1), (1, 2, 0), (2, 0, 1)])

@@ -36,6 +36,7 @@ def test_places_on_a_line_come_one_after_the_other() -> None:
     assert length(np.column_stack([x, 0 * x]), tour) == pytest.approx(40.0, rel=0.5)
 
 
+@pytest.mark.long_without_jit
 def test_among_random_places_a_tour_is_a_few_percent_longer_than_the_shortest() -> None:
     # The shortest through many is 0.7124 sqrt(n area) long (Johnson, McGeoch, Rothberg 1996).
     xy = np.random.default_rng(2).uniform(0, 1, (1000, 2))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
@@ -72,6 +73,7 @@ def test_what_does_not_keep_its_limits_is_of_no_value(seed: int) -> None:
         assert barrier_value(terms, wrong, 1.0) == numpy_value(terms, wrong, 1.0) == np.inf
 
 
+@pytest.mark.long_without_jit
 @given(seeds, st.floats(0.1, 30.0))
 @settings(deadline=None, max_examples=30)
 def test_scipy_finds_nothing_lower_near_the_least_of_the_barrier(

@@ -94,6 +94,7 @@ def test_a_body_that_moves_any_way_moves_as_its_differential_equation_says() -> 
     assert state[ACROSS] == pytest.approx(exact[4], abs=2e-4)
 
 
+@pytest.mark.long_without_jit
 def test_noise_of_the_speed_acts_the_way_that_a_body_goes() -> None:
     rng = np.random.default_rng(2)
     drive = model(Actuators(max_along=2.0, max_across=2.0), speed_noise=0.1)

@@ -43,6 +43,7 @@ def driven(start, segments):
     return x, y, heading
 
 
+@pytest.mark.long_without_jit
 @settings(max_examples=300, deadline=None)
 @given(places, places, angles, angles, sides, sides)
 def test_it_hits_the_pose_without_jumps_of_curvature(x, y, start, goal, s1, s2):

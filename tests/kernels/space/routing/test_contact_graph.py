@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -41,6 +42,7 @@ def scene(rng: np.random.Generator) -> list[Solid]:
     return found
 
 
+@pytest.mark.long_without_jit
 @settings(max_examples=60)
 @given(st.integers(0, 2**32))
 def test_a_way_is_free_and_keeps_its_bound(seed: int) -> None:

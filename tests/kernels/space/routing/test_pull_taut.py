@@ -118,6 +118,7 @@ def test_a_straight_way_is_left_as_it_is() -> None:
     np.testing.assert_array_equal(pull(block, way), way)
 
 
+@pytest.mark.long_without_jit
 def test_pulling_twice_gives_the_same_bytes() -> None:
     rng = np.random.default_rng(3)
     blocked = rng.random((20, 20, 20)) < 0.15

@@ -1,6 +1,7 @@
 """What solids answer to a search: planes that keep a way clear, and cells that could be free."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -89,6 +90,7 @@ def test_a_free_way_keeps_the_distance_and_the_heights_at_every_place(seed: int)
         assert (samples[:, 2] <= 9.0).all()
 
 
+@pytest.mark.long_without_jit
 def test_a_ball_in_a_closed_box_is_apart_from_the_world() -> None:
     walls = [
         Prism(RoundedRing([[(x0, y0), (x1, y0), (x1, y1), (x0, y1)]]), low, high)
