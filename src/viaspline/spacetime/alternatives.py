@@ -30,6 +30,9 @@ LOOKED_AROUND = 2.0
 PLACES_AROUND = 24
 """and at so many instants of that the path is led round it."""
 
+LAID_S = 1.0
+"""What laying one of them may spend [s of the reference machine]."""
+
 SIDES: tuple[Side, Side] = ("left", "right")
 
 
@@ -104,6 +107,8 @@ def _on_either_side(
 ) -> Iterator[Alternative]:
     for window in windows:
         for side in SIDES:
+            if problem.budget.is_spent:
+                return
             found = _led_round(problem, taken, obstacle, side, window)
             if found is not None:
                 yield found
@@ -133,7 +138,9 @@ def _led_round(
     if (world.distances_to(len(world) - 1, points) < problem.requirements.required).any():
         return None
     try:
-        laid = find_drive(problem.mission, world, without_lanes(problem.requirements))
+        with problem.budget.share(LAID_S) as budget:
+            requirements = replace(without_lanes(problem.requirements), budget=budget)
+            laid = find_drive(problem.mission, world, requirements)
         free = problem.free_law(laid.path)
     except (PlanningError, GeometryError):
         return None

@@ -25,7 +25,7 @@ from viaspline.spacetime.timed_drive import TimedCandidate, TimedDrive
 from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
 from viaspline.trajectory.trajectory import Trajectory
-from viaspline.trajectory.yielding.law_among import law_among
+from viaspline.trajectory.yielding.law_among import BUDGET_S, law_among
 from viaspline.trajectory.yielding.waits import TrafficWait, waits
 
 MAX_PATHS = 24
@@ -120,7 +120,7 @@ def _beside(problem: TimedProblem, first: Alternative, tried: _Tried) -> _Tried:
     queue: list[tuple[float, int, Alternative]] = []
     seen = {first.solution.path.spans.tobytes()}
     taken, outcome = first, tried.outcomes[0]
-    while len(tried.outcomes) < MAX_PATHS:
+    while len(tried.outcomes) < MAX_PATHS and not problem.budget.is_spent:
         for other in _others(problem, taken, outcome):
             key = other.solution.path.spans.tobytes()
             if key not in seen and len(seen) <= 2 * MAX_PATHS:
@@ -162,11 +162,12 @@ def _others(
 def _law(problem: TimedProblem, taken: Alternative) -> Outcome[Trajectory]:
     """The law with the earliest arrival on a path."""
     route, path = problem.mission.route, taken.solution.path
-    return law_among(
-        path, problem.limits, problem.stops(path), moving=problem.moving,
-        required=problem.required, zones=problem.mission.world.speed_zones,
-        start_time=route.depart_s, hold=route.hold_s,
-    )  # fmt: skip
+    with problem.budget.share(BUDGET_S) as budget:
+        return law_among(
+            path, problem.limits, problem.stops(path), moving=problem.moving,
+            required=problem.required, zones=problem.mission.world.speed_zones,
+            start_time=route.depart_s, hold=route.hold_s, budget=budget,
+        )  # fmt: skip
 
 
 def moving_proof(problem: TimedProblem, path: Path, law: Trajectory) -> MovingCertificate:

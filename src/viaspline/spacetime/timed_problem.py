@@ -6,16 +6,20 @@ Tested through ``spacetime/test_plan_among``.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import JERK_LAW_S, TIME_LAW_S, WorkBudget
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
+
+AMONG_S = 3.0
+"""What may be spent on paths and laws past what moves [s of the reference machine]."""
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,7 @@ class TimedProblem:
         requirements: Of every path.
         limits: Of every law.
         stops: The stops of a path.
+        budget: What all paths and laws that are tried may spend together.
     """
 
     mission: Mission
@@ -37,6 +42,7 @@ class TimedProblem:
     requirements: Requirements
     limits: Limits
     stops: Callable[[Path], Sequence[Station]]
+    budget: WorkBudget = field(default_factory=lambda: WorkBudget(AMONG_S))
 
     @property
     def required(self) -> float:
@@ -53,6 +59,7 @@ class TimedProblem:
 
     def free_law(self, path: Path) -> Trajectory:
         """The law that would be driven along a path if nothing moved."""
+        self.budget.spent += TIME_LAW_S if self.limits.max_jerk is None else JERK_LAW_S
         return retime(
             path, self.limits, self.stops(path), zones=self.mission.world.speed_zones,
             start_time=self.mission.route.depart_s,

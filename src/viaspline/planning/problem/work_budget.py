@@ -7,7 +7,8 @@ would cost more than is left isn't begun.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, Protocol, Self, TypeVar
 
@@ -122,6 +123,44 @@ class WorkBudget:
         self.finished[asked] = part
         taken: Progress = part
         return taken
+
+    @property
+    def left(self) -> float:
+        """What may still be spent [s of the reference machine]."""
+        return max(self.limit - self.spent, 0.0)
+
+    @property
+    def is_spent(self) -> bool:
+        """Whether nothing is left."""
+        return self.spent >= self.limit
+
+    @contextmanager
+    def share(self, most: float) -> Iterator[WorkBudget]:
+        """A budget of its own for one of several tries, which all draw on this one.
+
+        Args:
+            most: It has no more than this, nor than what is left [s].
+
+        Yields:
+            What the try may spend. It is taken off this budget however the try ends; a try that is
+            stopped because too little was left takes all of that.
+
+        Example:
+            >>> whole = WorkBudget(1.0)
+            >>> with whole.share(0.2) as one:
+            ...     one.spend(0.15)
+            >>> whole.spent
+            0.15
+        """
+        one = WorkBudget(min(most, self.left))
+        try:
+            yield one
+        except SpentBudgetError:
+            if one.limit < most:
+                one.spent = one.limit
+            raise
+        finally:
+            self.spent += one.spent
 
     def spend_on_part(self, cost: float) -> None:
         """Take off what a step costs of a part that the search takes up again [s].
