@@ -5,7 +5,6 @@ Tested through ``trajectory/yielding/test_law_among``.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,11 +15,10 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.yielding.path_tree import PathTree, path_tree
 
-CHORD_MISS_M = 0.002
-"""How far a path may be from its chords, about [m]."""
+CHORD_MISS_M = 0.001
+"""A chord from which a path may be farther is halved [m],"""
 MIN_CHORD_M, MAX_CHORDS = 0.02, 20_000
-STRAIGHT = 1e-9
-"""A path that bends less is a chord for each span [1/m]."""
+"""unless it is so short [m], or there are so many."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,17 +37,10 @@ class Road:
 
     @classmethod
     def of(cls, path: PiecewiseCubic) -> Road:
-        """The chords of a path, the shorter the more it bends."""
+        """The chords of a path, the shorter the more it bends where they are."""
         bend = float(curvature_bound(path)[0])
-        if bend < STRAIGHT:
-            u = np.linspace(*path.domain, len(path.spans) + 1)
-            along, points = np.asarray(path.distance(u), dtype=np.float64), path.evaluate(u)
-        else:
-            chord = math.sqrt(7.0 * CHORD_MISS_M / bend)
-            chord = max(chord, MIN_CHORD_M, path.length / MAX_CHORDS)
-            _, along, points = path.sample(min(chord, path.length))
-        tree = path_tree(np.ascontiguousarray(along), np.ascontiguousarray(points[:, :2]))
-        return cls(path, bend, tree)
+        u = np.linspace(*path.domain, len(path.spans) + 1)
+        return cls(path, bend, _in_chords(path, np.asarray(path.distance(u), dtype=np.float64)))
 
     @property
     def length(self) -> float:
@@ -71,3 +62,20 @@ class Road:
     def points_at(self, distances: Floats) -> Floats:
         """Places on it [m], (n, 2)."""
         return np.asarray(self.path.at_distance(distances), dtype=np.float64)[:, :2]
+
+
+def _in_chords(path: PiecewiseCubic, along: Floats) -> PathTree:
+    """The chords between some distances along a path [m], (n + 1,), halved where it bends."""
+    least = max(MIN_CHORD_M, path.length / MAX_CHORDS)
+    points = np.asarray(path.at_distance(along), dtype=np.float64)[:, :2]
+    while True:
+        arcs = np.diff(along)
+        chords = np.minimum(np.hypot(*np.diff(points, axis=0).T), arcs)
+        misses = np.sqrt(0.25 * (arcs**2 - chords**2) + (arcs - chords) ** 2)
+        bent = np.flatnonzero((misses > CHORD_MISS_M) & (arcs > least))
+        if not bent.size:
+            return path_tree(along, np.ascontiguousarray(points))
+        middles = 0.5 * (along[bent] + along[bent + 1])
+        between = np.asarray(path.at_distance(middles), dtype=np.float64)[:, :2]
+        along = np.insert(along, bent + 1, middles)
+        points = np.insert(points, bent + 1, between, axis=0)

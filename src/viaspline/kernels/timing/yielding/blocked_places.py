@@ -146,17 +146,22 @@ def _block_by_disc(
 def _block_by_shape(
     motion: PackedMotion, i: int, piece: int, shift: float, instant: float, reach: float,
     tree: PathTree, leaf: int, grid: PlaceGrid, row: int, rows: Words,
-) -> None:  # fmt: skip
-    """Block what is nearer than a reach to an obstacle on a chord, which is halved for that."""
+) -> int:  # fmt: skip
+    """Block what is nearer than a reach to an obstacle on a chord, which is halved for that.
+
+    Returns:
+        At how many places it was looked how near the obstacle is.
+    """
     begin, end = tree.along[leaf], tree.along[leaf + 1]
     ax, ay = tree.points[leaf, 0], tree.points[leaf, 1]
     ex, ey = tree.points[leaf + 1, 0] - ax, tree.points[leaf + 1, 1] - ay
     chord = math.hypot(ex, ey)
     stack = np.empty((SPLITS + 2, 2))
     stack[0, 0], stack[0, 1] = 0.0, 1.0
-    depth = 1
+    depth, seen = 1, 0
     while depth > 0:
         depth -= 1
+        seen += 1
         low, high = stack[depth, 0], stack[depth, 1]
         share, half = 0.5 * (low + high), 0.5 * (high - low)
         x, y = ax + share * ex, ay + share * ey
@@ -170,14 +175,19 @@ def _block_by_shape(
         stack[depth, 0], stack[depth, 1] = share, high
         stack[depth + 1, 0], stack[depth + 1, 1] = low, share
         depth += 2
+    return seen
 
 
 @inner
 def _block_by_piece(
     motion: PackedMotion, i: int, row: int, shift: float, begin: float, end: float,
     driving: Driving, tree: PathTree, first: float, last: float, grid: PlaceGrid, rows: Words,
-) -> None:  # fmt: skip
-    """Block what a piece of motion blocks from one time to another, and between two places."""
+) -> int:  # fmt: skip
+    """Block what a piece of motion blocks from one time to another, and between two places.
+
+    Returns:
+        How many chords, and places of chords, were looked at.
+    """
     piece = motion.pieces[row]
     head = motion.shapes.heads[motion.shapes.slot[i]]
     turning = abs(piece[TURNING])
@@ -193,8 +203,9 @@ def _block_by_piece(
     unsure = uncertainty(motion, i, end)
     off = _keep_off(driving, core + unsure, straight, turning, reach)
     known = shift + piece[KNOWN]
-    node = 0
+    node, seen = 0, 1
     while node < tree.skip.size:
+        seen += 1
         run = tree.runs[node]
         if tree.along[run[1]] < first or tree.along[run[0]] > last:
             node = tree.skip[node]
@@ -215,6 +226,7 @@ def _block_by_piece(
             if is_disc:
                 near = _keep_off(driving, core + unsure, straight, 0.0, 0.0)
                 late = instant - known
+                seen += 1
                 _block_by_disc(tree, run[0], x + vx * late, y + vy * late, near, grid, k, rows)
             else:
                 near = (
@@ -222,8 +234,11 @@ def _block_by_piece(
                     - head[2]
                     - uncertainty(motion, i, instant)
                 )
-                _block_by_shape(motion, i, row, shift, instant, near, tree, run[0], grid, k, rows)
+                seen += _block_by_shape(
+                    motion, i, row, shift, instant, near, tree, run[0], grid, k, rows
+                )
         node += 1
+    return seen
 
 
 @kernel
@@ -243,7 +258,7 @@ def block_places(
         rows: Where blocked places are added, (r, w).
 
     Returns:
-        How many pieces of motion were looked at.
+        How many pieces of motion, chords and places of chords were looked at.
     """
     start = grid.begin - driving.step
     stop = grid.begin + grid.bases.size * grid.step
@@ -252,12 +267,12 @@ def block_places(
         row, shift, until = piece_at(motion, i, start)
         begin = -np.inf
         while begin <= stop:
-            seen += 1
             if motion.pieces[row, PRESENT] != 0.0:
-                _block_by_piece(
+                seen += _block_by_piece(
                     motion, i, row, shift, max(begin, start) - driving.step,
                     min(until, stop) + driving.step, driving, tree, first, last, grid, rows,
                 )  # fmt: skip
+            seen += 1
             begin = until
             row += 1
             if row == motion.first_piece[i + 1]:
