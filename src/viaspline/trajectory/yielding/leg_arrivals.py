@@ -18,6 +18,7 @@ from viaspline.kernels.timing.yielding.time_lattice import (
     Tube,
     allowed_steps,
     earliest_arrivals,
+    unvisited,
 )
 from viaspline.kernels.timing.yielding.way_back import way_back
 from viaspline.planning.problem.work_budget import WorkBudget
@@ -28,6 +29,8 @@ from viaspline.trajectory.yielding.traffic import Traffic
 
 WORD_S = 2e-9
 """What a word of places costs to look at [s]."""
+PAUSE_WORDS = 50_000_000
+"""After so many a walk comes up for breath: whoever interrupts it needn't wait for its end."""
 MAX_WORDS = 40_000_000
 """How many words are kept at once."""
 
@@ -118,12 +121,14 @@ class LatticeSearch:
             np.full(steps + 1, lattice.levels), width,
         )  # fmt: skip
         allowed = allowed_steps(lattice, self.line, self.caps)
-        limit = int((budget.limit - budget.spent) / WORD_S)
-        visited = earliest_arrivals(
-            self.traffic.moving.packed, self.driving(lattice), self.road.tree, lattice, tube,
-            allowed, flags, entry.level, np.array(self.road.at(leg.end)), float(leg.stay), most,
-            limit,
-        )  # fmt: skip
+        limit = int(budget.left / WORD_S)
+        visited = unvisited(lattice, tube)
+        while not visited.is_over:
+            visited = earliest_arrivals(
+                self.traffic.moving.packed, self.driving(lattice), self.road.tree, lattice, tube,
+                allowed, flags, entry.level, np.array(self.road.at(leg.end)), float(leg.stay), most,
+                limit, visited, visited.work + PAUSE_WORDS,
+            )  # fmt: skip
         budget.spent = min(budget.limit, budget.spent + visited.work * WORD_S)
         found = []
         for arrival in visited.arrivals:

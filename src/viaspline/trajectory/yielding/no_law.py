@@ -17,12 +17,16 @@ from viaspline.kernels.motion.packed_motion import (
     SPEED_Y,
     TURNING,
 )
-from viaspline.kernels.timing.yielding.reachable_places import Reached, reachable_places
+from viaspline.kernels.timing.yielding.reachable_places import (
+    Reached,
+    reachable_places,
+    unmoved,
+)
 from viaspline.planning.problem.method import GaveUp, Refusal
 from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.trajectory.yielding.course import Course
 from viaspline.trajectory.yielding.law_through_legs import LegsSearch
-from viaspline.trajectory.yielding.leg_arrivals import WORD_S
+from viaspline.trajectory.yielding.leg_arrivals import PAUSE_WORDS, WORD_S
 from viaspline.trajectory.yielding.traffic import Traffic
 
 PLACES_M = 0.02
@@ -34,6 +38,8 @@ WATCHED_S, WATCHED_SHARE = 120.0, 3.0
 """For how long is looked at what moves, and how many times the static law [s]."""
 MAX_WATCHED_S = 600.0
 """What moves for longer counts as moving for ever [s]."""
+PROOF_S = 0.5
+"""A proof may spend as much, whatever the search has left of its budget [s]."""
 MAX_DELAY_S = 300.0
 """Later departures are tried up to this [s]."""
 MAX_DEPARTURES = 8
@@ -65,17 +71,16 @@ class Unserved:
         watched = self._course.static.start_time + reached.last_alive * step
         remedy = self._remedy()
         is_alive = reached.last_alive >= self._steps(step) - 1
-        if reached.can_arrive or (is_alive and self._still() == math.inf):
-            spent = self.budget.spent >= self.budget.limit
+        is_cut = reached.step < self._steps(step)
+        if is_cut or reached.can_arrive or (is_alive and self._still() == math.inf):
             return GaveUp(
                 ("waiting, slowing down and passing before on a lattice of times and speeds",),
-                remedy or ("a larger budget" if spent else "another path"),
+                remedy or ("a larger budget" if self.budget.is_spent else "another path"),
                 reason="no law was found on this path among what moves",
             )
-        low = self._course.stage.start + max(reached.lowest, 0) * pitch
-        high = min(
-            self._course.stage.start + max(reached.highest, 0) * pitch, self._course.stage.end
-        )
+        first, last = (max(place, 0) for place in reached.ends)
+        low = self._course.stage.start + first * pitch
+        high = min(self._course.stage.start + last * pitch, self._course.stage.end)
         begin = max(watched, self._course.static.start_time)
         where = f"{low:.1f} m" if high - low < 0.1 else f"{low:.1f} to {high:.1f} m"
         middle = self.legs.search.road.at(high if is_alive else 0.5 * (low + high))
@@ -125,13 +130,15 @@ class Unserved:
         first = float(static.speeds[0])
         braking = np.minimum(times - times[0], first / course.limits.brake)
         behind = course.stage.start + (first - 0.5 * course.limits.brake * braking) * braking
-        reached = reachable_places(
-            self._traffic.moving.packed, self._traffic.required, road.optimistic, times[0], step,
-            course.stage.start, pitch, count, AHEAD, behind, static.distance_at(times),
-            np.array(road.at(course.stage.end)), self._traffic.hold,
-        )  # fmt: skip
-        work = (reached.last_alive + 1) * (count // 64 + 1) * (AHEAD + 4)
-        self.budget.spent = min(self.budget.limit, self.budget.spent + work * WORD_S)
+        front, end = static.distance_at(times), np.array(road.at(course.stage.end))
+        reached, limit = unmoved(count), int(max(self.budget.left, PROOF_S) / WORD_S)
+        while reached.step < times.size and reached.work < limit:
+            reached = reachable_places(
+                self._traffic.moving.packed, self._traffic.required, road.optimistic, times[0],
+                step, course.stage.start, pitch, count, AHEAD, behind, front, end,
+                self._traffic.hold, reached, min(reached.work + PAUSE_WORDS, limit),
+            )  # fmt: skip
+        self.budget.spent += reached.work * WORD_S
         return reached, pitch, step
 
     def _remedy(self) -> str:
@@ -172,7 +179,7 @@ class Unserved:
         for _ in range(MAX_DEPARTURES):
             time = self._traffic.free_until(road, start, time, begin + MAX_DELAY_S)
             time = self._traffic.free_again(road, start, time, begin + MAX_DELAY_S)
-            if time >= begin + MAX_DELAY_S or self.budget.spent >= self.budget.limit:
+            if time >= begin + MAX_DELAY_S or self.budget.is_spent:
                 return None
             later = replace(self._course, static=self._course.static.delayed(time - begin))
             if replace(self.legs, course=later).law(self.budget)[0] is not None:

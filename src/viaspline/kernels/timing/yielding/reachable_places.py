@@ -21,7 +21,6 @@ from viaspline.kernels.timing.yielding.bit_rows import (
     NONE,
     ONE,
     Words,
-    add_places,
     has_place,
     remove_places,
 )
@@ -30,22 +29,41 @@ from viaspline.kernels.timing.yielding.near_miss import standing_conflict
 from viaspline.kernels.timing.yielding.path_tree import PathTree
 
 CHUNK_STEPS: Final = 64
+LOOK_WORDS: Final = 32  # what a look at what moves costs, in words
 
 
 class Reached(NamedTuple):
-    """How far a robot without inertia comes.
+    """How far a robot without inertia has come.
 
     Attributes:
         can_arrive: Whether it may come to the last place and stay there.
         last_alive: The last step at which it may be anywhere.
-        lowest: The first place where it may be then.
-        highest: The last one.
+        places: Where it may be then, (1, w).
+        step: The step that is walked next; behind all of them when the walk is over.
+        taken_until: Until when the last place is known to be taken [s].
+        work: Words that were looked at.
     """
 
     can_arrive: bool
     last_alive: int
-    lowest: int
-    highest: int
+    places: Words
+    step: int
+    taken_until: float
+    work: int
+
+    @property
+    def ends(self) -> tuple[int, int]:
+        """The first place where it may be and the last; -1 and -1: there is none."""
+        bits = np.unpackbits(self.places.astype("<u8").view(np.uint8), bitorder="little")
+        there = np.flatnonzero(bits)
+        return (int(there[0]), int(there[-1])) if there.size else (-1, -1)
+
+
+def unmoved(count: int) -> Reached:
+    """The walk before its first step, at place 0 of 0 to count."""
+    places = np.zeros((1, (count >> 6) + 1), np.uint64)
+    places[0, 0] = ONE
+    return Reached(False, -1, places, 0, -np.inf, 0)
 
 
 @inner
@@ -67,25 +85,13 @@ def _spread(places: Words, spare: Words, by: int) -> None:
         reached += more
 
 
-@inner
-def _ends(places: Words) -> tuple[int, int]:
-    """The first place of a row (1, w) and the last; -1 and -1: it has none."""
-    first, last = -1, -1
-    for p in range(64 * places.shape[1]):
-        if has_place(places[0], p):
-            last = p
-            if first < 0:
-                first = p
-    return first, last
-
-
 @kernel
 def reachable_places(
     motion: PackedMotion, required: float, tree: PathTree, begin: float, step: float,
     origin: float, pitch: float, count: int, ahead: int, behind: Floats, front: Floats,
-    goal: Floats, stay: float,
+    goal: Floats, stay: float, reached: Reached, limit: int,
 ) -> Reached:  # fmt: skip
-    """Where a robot without inertia may be, step by step.
+    """Where a robot without inertia may be, step by step, some steps on.
 
     Args:
         motion: What moves.
@@ -101,24 +107,31 @@ def reachable_places(
         front: Or farther [m], (n,).
         goal: Where the last place is [m], (2,).
         stay: For how long it has to stay there [s].
+        reached: Of the steps before; ``unmoved`` at first.
+        limit: No more steps are begun once so many words were looked at in all; at least
+            ``CHUNK_STEPS`` are walked.
     """
     width = (count >> 6) + 1
-    places, spare = np.zeros((1, width), np.uint64), np.zeros((1, width), np.uint64)
-    kept = np.zeros((1, width), np.uint64)
-    add_places(places, 0, 0, 0)
+    places, spare = reached.places.copy(), np.zeros((1, width), np.uint64)
+    kept = reached.places.copy()
     blocked = np.empty((CHUNK_STEPS, width), np.uint64)
     driving = Driving(required - pitch - 1e-8, 0.0, 0.0, 0.0, 0.0)
-    last_alive, taken_until = -1, -np.inf
+    last_alive, taken_until, work = reached.last_alive, reached.taken_until, reached.work
     end = origin + (count + 1) * pitch
-    for n in range(behind.size):
+    for n in range(reached.step, behind.size):
         row = n % CHUNK_STEPS
         now = begin + n * step
         if row == 0:
+            if n > reached.step and work > limit:
+                return Reached(False, last_alive, kept, n, taken_until, work)
             for r in range(CHUNK_STEPS):
                 for w in range(width):
                     blocked[r, w] = NONE
             grid = PlaceGrid(now, step, origin, pitch, 0.0, np.zeros(CHUNK_STEPS, np.int64))
-            block_places(motion, driving, tree, origin - pitch, end, grid, blocked)
+            work += LOOK_WORDS * block_places(
+                motion, driving, tree, origin - pitch, end, grid, blocked
+            )
+            work += CHUNK_STEPS * width * (ahead + 4)
         if n > 0:
             _spread(places, spare, ahead)
         remove_places(places, 0, 0, int(np.floor((behind[n] - origin) / pitch - 0.5 - 1e-6)))
@@ -139,6 +152,5 @@ def reachable_places(
                 motion, driving.required, goal[0], goal[1], now, now + stay
             )
             if taken_until == np.inf:
-                return Reached(True, n, 0, count)
-    lowest, highest = _ends(kept)
-    return Reached(False, last_alive, lowest, highest)
+                return Reached(True, n, kept, behind.size, taken_until, work)
+    return Reached(False, last_alive, kept, behind.size, taken_until, work)

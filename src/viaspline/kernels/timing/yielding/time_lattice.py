@@ -80,19 +80,42 @@ class Visited(NamedTuple):
             (n + 1, levels + 1, width).
         bands: First word of a row that isn't empty and the one after its last, equal if all are,
             (n + 1, levels + 1, 2).
-        arrivals: Steps at which the robot comes to rest at the last place and can stay, one for
-            each time for which that is free, (k,).
+        found: Steps at which the robot comes to rest at the last place and can stay, one for each
+            time for which that is free, as far as there are any, (n + 1,).
+        count: So many of them there are.
         steps: How many steps were taken.
         work: Words that were looked at.
         last_alive: The last step at which anything was reached.
+        free_until: Until when the last place is known to be free [s],
+        taken_until: and until when to be taken [s].
+        is_over: Whether there is nothing more to be found, or to be spent.
     """
 
     rows: Words
     bands: Ints
-    arrivals: Ints
+    found: Ints
+    count: int
     steps: int
     work: int
     last_alive: int
+    free_until: float
+    taken_until: float
+    is_over: bool
+
+    @property
+    def arrivals(self) -> Ints:
+        """Those that were found, (k,)."""
+        return self.found[: self.count]
+
+
+def unvisited(lattice: TimeLattice, tube: Tube) -> Visited:
+    """The walk over a lattice before its first step."""
+    steps = tube.words.size - 1
+    return Visited(
+        np.empty((steps + 1, lattice.levels + 1, tube.width), np.uint64),
+        np.zeros((steps + 1, lattice.levels + 1, 2), np.int64),
+        np.empty(steps + 1, np.int64), 0, 0, 0, -1, -np.inf, -np.inf, False,
+    )  # fmt: skip
 
 
 @kernel
@@ -272,8 +295,9 @@ def _begin(rows: Words, bands: Ints, n: int, level: int) -> None:
 def earliest_arrivals(
     motion: PackedMotion, driving: Driving, tree: PathTree, lattice: TimeLattice, tube: Tube,
     allowed: Words, begins: Flags, level: int, goal: Floats, stay: float, most: int, limit: int,
+    visited: Visited, pause: int,
 ) -> Visited:  # fmt: skip
-    """Walk over the lattice until the robot has come to rest at its end.
+    """Walk on over the lattice until the robot has come to rest at its end.
 
     Args:
         motion: What moves.
@@ -288,21 +312,25 @@ def earliest_arrivals(
         stay: For how long it has to stay there [s].
         most: After so many arrivals it is enough.
         limit: Of the words that are looked at.
+        visited: Of the steps before, to whose arrays those of the next are added; ``unvisited`` at
+            first.
+        pause: After so many words the walk stops, to be gone on with.
     """
+    rows, bands, arrivals = visited.rows, visited.bands, visited.found
     steps = tube.words.size - 1
-    rows = np.empty((steps + 1, lattice.levels + 1, tube.width), np.uint64)
-    bands = np.zeros((steps + 1, lattice.levels + 1, 2), np.int64)
     blocked = np.empty((2 * CHUNK + 1, tube.width + (lattice.levels >> 6) + 1), np.uint64)
     buffer = np.zeros(tube.width + 2 * PAD, np.uint64)
-    arrivals = np.empty(steps + 1, np.int64)
-    found, work, last_alive, n = 0, 0, -1, 0
-    free_until, taken_until = -np.inf, -np.inf
-    last_begin = -1
+    found, work, last_alive, n = visited.count, visited.work, visited.last_alive, visited.steps
+    free_until, taken_until = visited.free_until, visited.taken_until
+    last_begin, is_over = -1, True
     for i in range(begins.size):
         if begins[i]:
             last_begin = i
     while n <= steps and work <= limit:
         if n % CHUNK == 0:
+            if n > visited.steps and work > pause:
+                is_over = False
+                break
             work += 32 * _look_ahead(motion, driving, tree, lattice, tube, n, blocked)
         row = 2 * (n % CHUNK)
         if begins[n] and tube.words[n] == 0 and not has_place(blocked[row], 0):
@@ -338,4 +366,6 @@ def earliest_arrivals(
                 rows, bands, n, allowed, lattice, tube, blocked, row + 2, buffer
             )  # fmt: skip
         n += 1
-    return Visited(rows, bands, arrivals[:found].copy(), n, work, last_alive)
+    return Visited(
+        rows, bands, arrivals, found, n, work, last_alive, free_until, taken_until, is_over
+    )
