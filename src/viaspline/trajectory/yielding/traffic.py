@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.yielding.near_miss import law_conflict, standing_conflicts
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_knots import LawKnots
@@ -22,6 +23,36 @@ LOOK_S, SLOW_MPS = 0.02, 0.1
 
 JERK_SAMPLE_S = 0.02
 """A law whose acceleration changes is looked at in pieces of even speed, so long [s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class EvenPieces:
+    """A law in pieces of even acceleration.
+
+    Attributes:
+        times: [s], (n,).
+        places: Distances along the path [m], (n,).
+        speeds: [m/s], (n,).
+        accelerations: [m/s²], (n - 1,).
+        off: The law is no farther from them than this [m].
+    """
+
+    times: Floats
+    places: Floats
+    speeds: Floats
+    accelerations: Floats
+    off: float = 0.0
+
+    @classmethod
+    def of(cls, law: Trajectory) -> EvenPieces:
+        """The law itself; where its acceleration changes, short pieces of even speed."""
+        if law.changes is None:
+            return cls(law.times, law.distances, law.speeds, law.accelerations)
+        off = 0.5 * float(np.abs(law.accelerations).max(initial=0.0)) * JERK_SAMPLE_S**2
+        times = np.linspace(law.start_time, law.end_time, 2 + int(law.duration / JERK_SAMPLE_S))
+        places = law.distance_at(times)
+        speeds = np.append(np.diff(places) / np.maximum(np.diff(times), 1e-12), 0.0)
+        return cls(times, places, speeds, np.zeros(len(times) - 1), off)
 
 
 @dataclass(frozen=True)
@@ -40,17 +71,15 @@ class Traffic:
 
     def conflict(self, road: Road, law: Trajectory) -> tuple[float, int] | None:
         """When something may come too near to a robot on its way, and what; None: never."""
-        required, times, places, speeds, accelerations = self.required, *_pieces(law)
-        if law.changes is not None:
-            required += 0.5 * float(np.abs(accelerations).max(initial=0.0)) * JERK_SAMPLE_S**2
-            times = np.linspace(law.start_time, law.end_time, 2 + int(law.duration / JERK_SAMPLE_S))
-            places = law.distance_at(times)
-            steps = np.maximum(np.diff(times), 1e-12)
-            speeds = np.append(np.diff(places) / steps, 0.0)
-            accelerations = np.zeros(len(steps))
+        return self.conflict_later(road, EvenPieces.of(law), 0.0)
+
+    def conflict_later(
+        self, road: Road, pieces: EvenPieces, late: float
+    ) -> tuple[float, int] | None:
+        """As ``conflict``, for a robot that drives pieces of a law so much later [s]."""
         time, index = law_conflict(
-            self.moving.packed, required, road.tree, times, places, speeds, accelerations,
-            self.hold,
+            self.moving.packed, self.required + pieces.off, road.tree, pieces.times + late,
+            pieces.places, pieces.speeds, pieces.accelerations, self.hold,
         )  # fmt: skip
         return None if index < 0 else (float(time), int(index))
 
@@ -85,7 +114,3 @@ class Traffic:
             closing = max(self.moving.top_speed, SLOW_MPS)
             time += max((self.required + FREE_M - float(gap[0])) / closing, LOOK_S)
         return end
-
-
-def _pieces(law: Trajectory) -> tuple[np.ndarray, ...]:
-    return law.times, law.distances, law.speeds, law.accelerations

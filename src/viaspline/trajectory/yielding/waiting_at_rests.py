@@ -13,7 +13,7 @@ import numpy as np
 from viaspline.planning.problem.method import Found, GaveUp, Outcome
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.road import Road
-from viaspline.trajectory.yielding.traffic import Traffic
+from viaspline.trajectory.yielding.traffic import EvenPieces, Traffic
 
 DELAY_S = 0.1
 """From one delay that is tried to the next [s]."""
@@ -69,10 +69,10 @@ def _begun_later(road: Road, traffic: Traffic, law: Trajectory, i: int) -> Traje
     begin = float(law.times[i])
     free = traffic.free_until(road, float(law.distances[i]), begin, begin + LONGEST_WAIT_S)
     is_last = end == len(law.times) - 1
-    part = _part(law, i, end)
+    part = EvenPieces.of(_part(law, i, end))
     asked = traffic if is_last else replace(traffic, hold=0.0)
     for k in range(1 + int((min(free, begin + LONGEST_WAIT_S) - begin) / DELAY_S)):
-        if asked.conflict(road, part.delayed(k * DELAY_S)) is None:
+        if asked.conflict_later(road, part, k * DELAY_S) is None:
             return law.waiting_after(i, k * DELAY_S) if k else law
     return None
 
