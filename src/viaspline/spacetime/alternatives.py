@@ -88,8 +88,19 @@ def alternatives_elsewhere(problem: TimedProblem, taken: Alternative) -> Iterato
     if not near.size:
         return
     chosen = near[np.linspace(0, len(near) - 1, PLACES_AROUND).round().astype(int)]
-    windows = tuple((time, time) for time in dict.fromkeys(chosen.tolist()))
+    windows = tuple((time, time) for time in _coarse_first(tuple(dict.fromkeys(chosen.tolist()))))
     yield from _on_either_side(problem, taken, meeting.obstacle, windows)
+
+
+def _coarse_first(times: tuple[float, ...]) -> list[float]:
+    """Times in an order in which those that are tried first lie far apart, wherever it ends.
+
+    >>> _coarse_first((0.0, 1.0, 2.0, 3.0, 4.0))
+    [0.0, 4.0, 2.0, 1.0, 3.0]
+    """
+    digits = (len(times) - 1).bit_length()
+    order = sorted(range(len(times)), key=lambda k: f"{k:0{digits}b}"[::-1])
+    return [times[k] for k in order]
 
 
 def _met(problem: TimedProblem, taken: Alternative) -> Meeting | None:

@@ -28,8 +28,12 @@ from viaspline.trajectory.trajectory import Trajectory
 from viaspline.trajectory.yielding.law_among import BUDGET_S, law_among
 from viaspline.trajectory.yielding.waits import TrafficWait, waits
 
-MAX_PATHS = 24
+MAX_PATHS = 48
 """Paths that are timed at most."""
+
+BETTER_S = 3.0
+"""Once there is a law, no more paths are tried when so much was spent [s of the reference machine].
+"""
 
 ENOUGH_SEARCHED = 2
 """After so many drives that were searched it is enough."""
@@ -43,8 +47,9 @@ def plan_among(problem: TimedProblem, static: Solution) -> TimedDrive:
 
     The path among what stands comes first. Each path is timed: the robot slows and waits where
     that is better. Then it is led round what it would meet if it didn't, as if that stood where it
-    is by then, on either side; and so on, always the path with the earliest arrival it could have.
-    Where none of them has a law, or the best one loses time, places and times are searched at once.
+    is by then, on either side; and so on, always the path with the earliest arrival it could have,
+    until what may be spent is spent. Where none of them has a law, or the best one loses time,
+    places and times are searched at once.
     With ``optimise: length`` it is the shortest path that can be timed.
 
     Args:
@@ -91,6 +96,12 @@ class _Tried:
         late = first.free.end_time + WORTH_S
         return self.best is None or self.best.trajectory.end_time > late
 
+    def is_enough(self, problem: TimedProblem) -> bool:
+        """Whether what may be spent is: on better paths, if there is one, or on any."""
+        if self.best is None:
+            return problem.budget.is_spent
+        return problem.budget.spent >= min(BETTER_S, problem.budget.limit)
+
     def and_then(
         self, problem: TimedProblem, taken: Alternative, outcome: Outcome[Trajectory]
     ) -> _Tried:
@@ -116,26 +127,61 @@ def _searched(problem: TimedProblem, tried: _Tried) -> _Tried:
 
 
 def _beside(problem: TimedProblem, first: Alternative, tried: _Tried) -> _Tried:
-    """What was timed, the path among what stands first, and paths led round what it meets."""
-    queue: list[tuple[float, int, Alternative]] = []
-    seen = {first.solution.path.spans.tobytes()}
-    taken, outcome = first, tried.outcomes[0]
-    while len(tried.outcomes) < MAX_PATHS and not problem.budget.is_spent:
-        for other in _others(problem, taken, outcome):
-            key = other.solution.path.spans.tobytes()
-            if key not in seen and len(seen) <= 2 * MAX_PATHS:
-                seen.add(key)
-                cost = problem.cost(other.solution.path, other.free)
-                heapq.heappush(queue, (cost, len(seen), other))
-        if not queue:
-            break
-        bound, _, taken = heapq.heappop(queue)
-        best = tried.best
-        if best is not None and bound >= problem.cost(best.solution.path, best.trajectory):
-            break
-        outcome = _law(problem, taken)
-        tried = tried.and_then(problem, taken, outcome)
+    """What was timed, the path among what stands first, and paths led round what it meets.
+
+    Where it is met comes first; where that is before or afterwards one path after the other, as
+    long as nothing else is left that could be better.
+    """
+    ahead = _Ahead(problem, {first.solution.path.spans.tobytes()}, [])
+    elsewhere = _elsewhere(problem, first, tried.outcomes[0])
+    near = alternatives_to(problem, first)
+    while len(tried.outcomes) < MAX_PATHS and not tried.is_enough(problem):
+        for other in near:
+            ahead.add(other)
+            if tried.is_enough(problem):
+                break
+        while not ahead.is_promising(tried.best):
+            another = next(elsewhere, None)
+            if another is None:
+                return tried
+            ahead.add(another)
+        taken = ahead.pop()
+        tried = tried.and_then(problem, taken, _law(problem, taken))
+        near = alternatives_to(problem, taken)
     return tried
+
+
+@dataclass(frozen=True, eq=False)
+class _Ahead:
+    """Paths that are laid and not timed yet, the one with the earliest arrival it could have first.
+
+    Attributes:
+        problem: What is asked.
+        seen: All that were laid.
+        queue: With what each would cost if nothing moved.
+    """
+
+    problem: TimedProblem
+    seen: set[bytes]
+    queue: list[tuple[float, int, Alternative]]
+
+    def add(self, other: Alternative) -> None:
+        """Put in one more, unless it was laid before."""
+        key = other.solution.path.spans.tobytes()
+        if key not in self.seen and len(self.seen) <= 2 * MAX_PATHS:
+            self.seen.add(key)
+            cost = self.problem.cost(other.solution.path, other.free)
+            heapq.heappush(self.queue, (cost, len(self.seen), other))
+
+    def is_promising(self, best: TimedDrive | None) -> bool:
+        """Whether the first of them may be better than the best that is proven."""
+        if not self.queue or best is None:
+            return bool(self.queue)
+        return self.queue[0][0] < self.problem.cost(best.solution.path, best.trajectory)
+
+    def pop(self) -> Alternative:
+        """Take out the first."""
+        return heapq.heappop(self.queue)[2]
 
 
 def _waits(problem: TimedProblem, best: TimedDrive) -> tuple[TrafficWait, ...]:
@@ -146,17 +192,14 @@ def _waits(problem: TimedProblem, best: TimedDrive) -> tuple[TrafficWait, ...]:
     )  # fmt: skip
 
 
-def _others(
-    problem: TimedProblem, taken: Alternative, outcome: Outcome[Trajectory]
+def _elsewhere(
+    problem: TimedProblem, first: Alternative, outcome: Outcome[Trajectory]
 ) -> Iterator[Alternative]:
-    """Paths that may serve better than one that was timed."""
-    yield from alternatives_to(problem, taken)
-    is_first = not taken.passings
-    waits = not isinstance(outcome, Found) or outcome.value.end_time > (
-        taken.free.end_time + WORTH_S
-    )
-    if is_first and waits:
-        yield from alternatives_elsewhere(problem, taken)
+    """Paths that lead by bays to wait in, where waiting on the first one loses time."""
+    late = first.free.end_time + WORTH_S
+    if isinstance(outcome, Found) and outcome.value.end_time <= late:
+        return iter(())
+    return alternatives_elsewhere(problem, first)
 
 
 def _law(problem: TimedProblem, taken: Alternative) -> Outcome[Trajectory]:
@@ -215,6 +258,8 @@ def _given_up(
     tried = [f"{len(outcomes)} paths, with waits and on either side of what is met"]
     if is_searchable(problem):
         tried.append("a search over places, speeds and times at once")
+    if problem.budget.is_spent:
+        tried.append(f"no more than {problem.budget.limit:g} s of work allow")
     tried += dict.fromkeys(outcome.reason for outcome in outcomes if not isinstance(outcome, Found))
     helps = [outcome.would_help for outcome in outcomes if isinstance(outcome, GaveUp)]
     remedy = next((words for words in helps if words), "depart at another time (route.depart_s)")
