@@ -205,6 +205,7 @@ def _elsewhere(
 def _law(problem: TimedProblem, taken: Alternative) -> Outcome[Trajectory]:
     """The law with the earliest arrival on a path."""
     route, path = problem.mission.route, taken.solution.path
+    problem.budget.spent += problem.law_s(taken.free)
     with problem.budget.share(BUDGET_S) as budget:
         return law_among(
             path, problem.limits, problem.stops(path), moving=problem.moving,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from viaspline.curve.path import Path
 from viaspline.mission.model import Mission
 from viaspline.planning.problem.requirements import Requirements
-from viaspline.planning.problem.work_budget import JERK_LAW_S, TIME_LAW_S, WorkBudget
+from viaspline.planning.problem.work_budget import JERK_KNOT_S, TIME_LAW_S, WorkBudget
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
@@ -59,11 +59,17 @@ class TimedProblem:
 
     def free_law(self, path: Path) -> Trajectory:
         """The law that would be driven along a path if nothing moved."""
-        self.budget.spent += TIME_LAW_S if self.limits.max_jerk is None else JERK_LAW_S
-        return retime(
+        law = retime(
             path, self.limits, self.stops(path), zones=self.mission.world.speed_zones,
             start_time=self.mission.route.depart_s,
         )  # fmt: skip
+        self.budget.spent += self.law_s(law)
+        return law
+
+    def law_s(self, law: Trajectory) -> float:
+        """What it took to find a law [s of the reference machine]."""
+        is_plain = self.limits.max_jerk is None
+        return TIME_LAW_S if is_plain else JERK_KNOT_S * law.times.size
 
     def cost(self, path: Path, law: Trajectory) -> float:
         """What a path with a law costs, in what the mission asks to have little of [m or s]."""

@@ -39,13 +39,21 @@ STRIP_S = 2e-3
 HEADING_PAIR_BEND_S, HEADING_PAIR_BENDS_S = 1.2e-5, 1e-6
 """Of the length of a leg between two headings, for each bend, and for each pair of bends [s]."""
 
-TREE_S, POSES_EFFORT_S, POSES_BODY_EFFORT_S = 2e-3, 2e-6, 4e-6
-"""Of a search among poses: to begin one, and for each distance to the world that is reckoned in it,
-each connection that is tried and each move that is done, by a disc and by a polygon [s]."""
+TREE_S, FIELD_CELL_S = 2e-3, 1e-7
+"""Of a search among poses: to begin one, and for each cell of the lattice on which it is told how
+far it is to its goal [s],"""
+
+POSES_EFFORT_S, POSES_DISC_EFFORT_S = 2e-6, 8e-8
+"""for each distance to the world that is reckoned in it, each connection that is tried and each
+move that is done by a body of few discs, and that of each disc that covers it, if that is more [s].
+"""
 
 CHAIN_SEGMENT_S = 1e-4
 """Of the shortcuts of what such a search has found, for each segment [s]."""
 
+
+JERK_KNOT_S = 3e-5
+"""Of a time law with a limit of the jerk, for each of its points [s]."""
 
 TIME_LAW_S, JERK_LAW_S, LAW_AMONG_S = 1e-3, 1.5e-2, 8e-3
 """Of a time law, of one with a limit of the jerk, and of one past what moves [s]."""

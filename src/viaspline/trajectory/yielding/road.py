@@ -15,7 +15,7 @@ from viaspline.curve.piecewise import PiecewiseCubic
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.timing.yielding.path_tree import PathTree, path_tree
 
-CHORD_MISS_M = 0.001
+CHORD_MISS_M = 0.0002
 """A chord from which a path may be farther is halved [m],"""
 MIN_CHORD_M, MAX_CHORDS = 0.02, 20_000
 """unless it is so short [m], or there are so many."""

@@ -21,7 +21,8 @@ from viaspline.kernels.turning.segment_chain import chain_spans, merged, shorten
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import (
     CHAIN_SEGMENT_S,
-    POSES_BODY_EFFORT_S,
+    FIELD_CELL_S,
+    POSES_DISC_EFFORT_S,
     POSES_EFFORT_S,
     TREE_S,
 )
@@ -91,6 +92,18 @@ class PoseProblem:
     room: int
     requirements: Requirements
 
+    @property
+    def effort_s(self) -> float:
+        """What an effort of a search takes, the longer the more discs cover the body [s]."""
+        return max(POSES_EFFORT_S, POSES_DISC_EFFORT_S * len(self.search_window.body.discs))
+
+    @property
+    def tree_s(self) -> float:
+        """What it takes to begin a search [s]."""
+        window = self.search_window
+        fields = 2 if len(window.barriers) else 1
+        return TREE_S + FIELD_CELL_S * fields * window.cells.size
+
     def closed_by(self, barriers: Floats) -> PoseProblem:
         """This problem with segments that the reference point must not cross [m], (b, 4)."""
         return replace(self, search_window=self.search_window.closed_by(barriers))
@@ -105,9 +118,7 @@ class PoseProblem:
         Raises:
             SpentBudgetError: When less is left.
         """
-        is_disc = self.requirements.footprint is None
-        each = POSES_EFFORT_S if is_disc else POSES_BODY_EFFORT_S
-        self.requirements.spend_on_part(each * tree.effort)
+        self.requirements.spend_on_part(self.effort_s * tree.effort)
         tree.go_on(other)
 
     def forwards(
@@ -115,7 +126,7 @@ class PoseProblem:
     ) -> SearchTree:
         """A search from some poses to the goal."""
         place = np.array([goal.x, goal.y])
-        self.requirements.spend(TREE_S)
+        self.requirements.spend(self.tree_s)
         return SearchTree(
             self.search_window,
             self.search_window.cache,
@@ -131,7 +142,7 @@ class PoseProblem:
         """A search from the goal to the start, as of a robot that drives backwards."""
         starts = np.zeros((len(headings), 4))
         starts[:, 0], starts[:, 1], starts[:, 2] = goal.x, goal.y, headings + math.pi
-        self.requirements.spend(TREE_S)
+        self.requirements.spend(self.tree_s)
         place, back = np.array([start.x, start.y]), np.array([start.heading + math.pi])
         return SearchTree(
             self.search_window,
