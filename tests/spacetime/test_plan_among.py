@@ -10,7 +10,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import viaspline as vs
+from viaspline.planning.alternatives.solution import Solution
+from viaspline.planning.plan_drive import find_drive
+from viaspline.planning.problem.requirements import Requirements
+from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.report.plan_json import plan_json
+from viaspline.spacetime import alternatives, plan_among, timed_problem
+from viaspline.world.world import World
 
 RADIUS, CLEARANCE = 0.3, 0.2
 
@@ -271,3 +277,48 @@ def test_from_a_start_that_is_refused_no_straight_escape_is_clear(
             assert min(gaps) - 0.5 - RADIUS < CLEARANCE
     except vs.GaveUpError:
         pass
+
+
+def herd() -> vs.Mission:
+    """Discs that go to and fro across the way, with stretches where there is no way past them."""
+    moving = [
+        {
+            "name": f"disc {k}",
+            "circle": {"center": [0, 0], "radius": 1.6},
+            "motion": {
+                "keyframes": [[0, 4 + 3 * k, -3 + k], [9 - k, 4 + 3 * k, 3]],
+                "after": "bounce",
+            },
+        }
+        for k in range(5)
+    ]
+    return mission(moving, hold_s=1.0)
+
+
+def test_all_paths_and_laws_past_what_moves_share_one_budget(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    budgets: list[WorkBudget] = []
+
+    def laid(asked: vs.Mission, world: World, requirements: Requirements) -> Solution:
+        assert requirements.budget is not None
+        budgets.append(requirements.budget)
+        return find_drive(asked, world, requirements)
+
+    monkeypatch.setattr(alternatives, "find_drive", laid)
+    vs.plan(herd())
+    assert len(budgets) > 10
+    assert sum(budget.spent for budget in budgets) <= timed_problem.AMONG_S
+    known = len(budgets)
+    monkeypatch.setattr(plan_among, "BETTER_S", 0.0)
+    vs.plan(herd())
+    assert len(budgets) == known
+
+
+def test_what_a_budget_cuts_off_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = mission([disc("head-on", (30, 0), (-1, 0))], start={"at": [0, 0], "heading_deg": 0})
+    assert vs.plan(asked).timed is not None
+    monkeypatch.setattr(timed_problem, "AMONG_S", 1e-3)
+    with pytest.raises(vs.GaveUpError, match="no path was found") as caught:
+        vs.plan(asked)
+    assert any("s of work allow" in tried for tried in caught.value.tried)

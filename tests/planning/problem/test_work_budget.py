@@ -116,3 +116,19 @@ def test_a_part_that_is_over_is_not_done_again_and_one_that_was_stopped_is() -> 
     assert budget.once("b", lambda: part(0.75)) == "0.75"
     assert budget.has_gained
     assert done == [0.5, 0.75]
+
+
+def test_tries_that_share_a_budget_spend_no_more_than_it_has() -> None:
+    whole = WorkBudget(1.0)
+    with whole.share(0.75) as one:
+        one.spend(0.5)
+    with pytest.raises(SpentBudgetError), whole.share(0.25) as two:
+        two.spend(0.5)
+    assert whole.spent == 0.5
+    assert not whole.is_spent
+    with whole.share(0.75) as three:
+        three.spend(0.25)
+    with pytest.raises(SpentBudgetError), whole.share(0.75) as four:
+        four.spend(0.375)
+    assert whole.is_spent
+    assert whole.left == 0.0

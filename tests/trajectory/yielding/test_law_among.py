@@ -17,7 +17,9 @@ from viaspline.planning.problem.work_budget import WorkBudget
 from viaspline.trajectory.limits import Limits, Station
 from viaspline.trajectory.retime import retime
 from viaspline.trajectory.trajectory import Trajectory
+from viaspline.trajectory.yielding import leg_arrivals, no_law
 from viaspline.trajectory.yielding.law_among import law_among
+from viaspline.trajectory.yielding.road import Road
 from viaspline.world.moving_obstacles import MovingObstacles
 
 SAMPLE_S = 0.0005
@@ -317,3 +319,46 @@ def test_what_never_comes_near_the_goal_keeps_nobody_from_saying_how_long_it_is_
     }
     with pytest.raises(GaveUpError, match="'near' first: hold 5 s at most"):
         vs.plan(vs.Mission.model_validate(mission))
+
+
+def test_a_sharp_bend_makes_short_chords_only_where_it_is() -> None:
+    hook = CardinalSpline([(0, 0), (100, 0), (100.02, 0.01), (100, 0.02), (0, 30)])
+    road = Road.of(hook)
+    assert road.bend > 10.0
+    assert len(road.tree.misses) < 1000
+    assert road.tree.misses[np.diff(road.tree.along) > 0.1].max() < 0.001
+    s = np.linspace(0.0, hook.length, 5000)
+    leaf = np.clip(np.searchsorted(road.tree.along, s, side="right") - 1, 0, None)
+    leaf = np.minimum(leaf, len(road.tree.misses) - 1)
+    begin, end = road.tree.points[leaf], road.tree.points[leaf + 1]
+    share = (s - road.tree.along[leaf]) / np.diff(road.tree.along)[leaf]
+    off = np.hypot(*(begin + share[:, None] * (end - begin) - hook.at_distance(s)).T)
+    assert (off <= road.tree.misses[leaf] + 1e-9).all()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_search_that_pauses_comes_to_what_it_comes_to_at_once(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = bent(seed)
+
+    def told() -> object:
+        outcome = law_among(path, LIMITS, moving=traffic(seed, path, 6), required=0.6, hold=20.0)
+        if isinstance(outcome, Found):
+            return outcome.value.times.tobytes()
+        return outcome
+
+    at_once = told()
+    for module in (leg_arrivals, no_law):
+        monkeypatch.setattr(module, "PAUSE_WORDS", 1)
+    assert told() == at_once
+
+
+def test_what_cuts_a_proof_off_is_not_taken_for_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    moving = MovingObstacles([parked(15.0, [[0, 0, 0], [1, 0, 0]], "stay")])
+    assert isinstance(law_among(line(), LIMITS, moving=moving, required=0.5), Refusal)
+    monkeypatch.setattr(no_law, "PROOF_S", 1e-6)
+    budget = WorkBudget(1e-6)
+    outcome = law_among(line(), LIMITS, moving=moving, required=0.5, budget=budget)
+    assert isinstance(outcome, GaveUp)
+    assert "larger budget" in outcome.would_help

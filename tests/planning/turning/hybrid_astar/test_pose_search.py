@@ -13,7 +13,11 @@ from viaspline.kernels.turning import dubins
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.planning.problem.requirements import Requirements
 from viaspline.planning.problem.work_budget import SpentBudgetError, WorkBudget
-from viaspline.planning.turning.hybrid_astar.pose_search import find_poses
+from viaspline.planning.turning.hybrid_astar.pose_search import (
+    SEARCH_EFFORTS,
+    find_poses,
+    pose_problems,
+)
 from viaspline.planning.turning.hybrid_astar.pose_sequence import find_row
 from viaspline.planning.turning.hybrid_astar.search_outcome import (
     Chain,
@@ -271,3 +275,23 @@ def test_a_step_leaves_what_the_step_before_had_of_a_search_as_it_was():
     assert steps == again
     for chain, other in zip(first, second, strict=True):
         np.testing.assert_array_equal(chain.spans, other.spans)
+
+
+def body_problem(requirements):
+    places = np.array([(0.0, 0.0), (20.0, 0.0)])
+    return next(pose_problems(OPEN, requirements, RHO, RAMP, places, SEARCH_EFFORTS[-1]))
+
+
+def test_a_move_of_a_body_that_many_discs_cover_is_dearer():
+    ship = ((-5.0, -0.3), (5.0, -0.3), (5.0, 0.3), (-5.0, 0.3))
+    thin = dataclasses.replace(CAR, radius=0.3, clearance=0.0, footprint=ship)
+    many, one = body_problem(thin), body_problem(DISC)
+    assert len(many.search_window.body.discs) > 50
+    assert many.effort_s > 2.0 * one.effort_s
+
+
+def test_a_body_is_looked_at_no_more_finely_than_what_is_kept_round_it_asks_for():
+    wide = dataclasses.replace(CAR, clearance=2.0)
+    near, far = body_problem(CAR), body_problem(wide)
+    assert len(far.search_window.body.discs) < len(near.search_window.body.discs)
+    assert far.search_window.pace > 2.0 * near.search_window.pace

@@ -82,7 +82,7 @@ class Visited(NamedTuple):
             (n + 1, levels + 1, 2).
         found: Steps at which the robot comes to rest at the last place and can stay, one for each
             time for which that is free, as far as there are any, (n + 1,).
-        count: So many of them there are.
+        arrived: So many of them there are.
         steps: How many steps were taken.
         work: Words that were looked at.
         last_alive: The last step at which anything was reached.
@@ -94,7 +94,7 @@ class Visited(NamedTuple):
     rows: Words
     bands: Ints
     found: Ints
-    count: int
+    arrived: int
     steps: int
     work: int
     last_alive: int
@@ -105,7 +105,7 @@ class Visited(NamedTuple):
     @property
     def arrivals(self) -> Ints:
         """Those that were found, (k,)."""
-        return self.found[: self.count]
+        return self.found[: self.arrived]
 
 
 def unvisited(lattice: TimeLattice, tube: Tube) -> Visited:
@@ -320,7 +320,7 @@ def earliest_arrivals(
     steps = tube.words.size - 1
     blocked = np.empty((2 * CHUNK + 1, tube.width + (lattice.levels >> 6) + 1), np.uint64)
     buffer = np.zeros(tube.width + 2 * PAD, np.uint64)
-    found, work, last_alive, n = visited.count, visited.work, visited.last_alive, visited.steps
+    found, work, last_alive, n = visited.arrived, visited.work, visited.last_alive, visited.steps
     free_until, taken_until = visited.free_until, visited.taken_until
     last_begin, is_over = -1, True
     for i in range(begins.size):
