@@ -295,3 +295,8 @@ def test_a_body_is_looked_at_no_more_finely_than_what_is_kept_round_it_asks_for(
     near, far = body_problem(CAR), body_problem(wide)
     assert len(far.search_window.body.discs) < len(near.search_window.body.discs)
     assert far.search_window.pace > 2.0 * near.search_window.pace
+
+
+def test_a_point_has_moves_of_no_more_places_than_a_body():
+    point = body_problem(Requirements(radius=0.0, clearance=0.0))
+    assert point.moves.places.shape[1] < 2000

@@ -31,7 +31,8 @@ Box = tuple[float, float, float, float]
 HEURISTIC_WEIGHT = 1.3  # by how much what is still to come counts more than what has been
 MAX_CELLS_ALONG = 400  # of the lattice, along a window's longer side
 MAX_TABLE_CELLS_ALONG = 1000  # of the table of distances, along it too
-LOOKED_AT_SPACING = 0.02  # between places that are looked at, in half widths of the body
+LOOKED_AT_SPACING = 0.02  # between places that are looked at, in half widths of the body,
+FINEST_SPACING = 2e-4  # and in least radii, for a body that is no more than a point
 NO_GROWN_MAPS: Bytes = np.empty((0, 0), np.uint8)
 
 
@@ -180,7 +181,7 @@ class SearchWindow:
     @cached_property
     def pace(self) -> float:
         """Distance between places of a path that are looked at [m]."""
-        return LOOKED_AT_SPACING * self.body.width
+        return max(LOOKED_AT_SPACING * self.body.width, FINEST_SPACING * self.rho)
 
     @cached_property
     def cells(self) -> Bytes:
