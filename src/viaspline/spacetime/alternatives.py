@@ -30,7 +30,7 @@ LOOKED_AROUND = 2.0
 PLACES_AROUND = 24
 """and at so many instants of that the path is led round it."""
 
-LAID_S = 3.0
+LAID_S = 2.0
 """What laying one of them may spend [s of the reference machine]."""
 
 SIDES: tuple[Side, Side] = ("left", "right")

@@ -31,7 +31,7 @@ from viaspline.trajectory.yielding.waits import TrafficWait, waits
 MAX_PATHS = 48
 """Paths that are timed at most."""
 
-BETTER_S = 3.0
+BETTER_S = 2.0
 """Once there is a law, no more paths are tried when so much was spent [s of the reference machine].
 """
 
@@ -96,12 +96,6 @@ class _Tried:
         late = first.free.end_time + WORTH_S
         return self.best is None or self.best.trajectory.end_time > late
 
-    def is_enough(self, problem: TimedProblem) -> bool:
-        """Whether what may be spent is: on better paths, if there is one, or on any."""
-        if self.best is None:
-            return problem.budget.is_spent
-        return problem.budget.spent >= min(BETTER_S, problem.budget.limit)
-
     def and_then(
         self, problem: TimedProblem, taken: Alternative, outcome: Outcome[Trajectory]
     ) -> _Tried:
@@ -109,6 +103,8 @@ class _Tried:
         best = self.best
         if isinstance(outcome, Found):
             best = _better(problem, best, taken, outcome.value)
+        if best is not None:
+            problem.budget.limit = min(problem.budget.limit, BETTER_S)
         return _Tried(
             (*self.outcomes, outcome), (*self.candidates, _candidate(taken, outcome)), best
         )
@@ -135,11 +131,9 @@ def _beside(problem: TimedProblem, first: Alternative, tried: _Tried) -> _Tried:
     ahead = _Ahead(problem, {first.solution.path.spans.tobytes()}, [])
     elsewhere = _elsewhere(problem, first, tried.outcomes[0])
     near = alternatives_to(problem, first)
-    while len(tried.outcomes) < MAX_PATHS and not tried.is_enough(problem):
+    while len(tried.outcomes) < MAX_PATHS and not problem.budget.is_spent:
         for other in near:
             ahead.add(other)
-            if tried.is_enough(problem):
-                break
         while not ahead.is_promising(tried.best):
             another = next(elsewhere, None)
             if another is None:

@@ -18,7 +18,7 @@ from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.world import World
 
-AMONG_S = 6.0
+AMONG_S = 4.0
 """What may be spent on paths and laws past what moves [s of the reference machine]."""
 
 
