@@ -38,7 +38,7 @@ WATCHED_S, WATCHED_SHARE = 120.0, 3.0
 """For how long is looked at what moves, and how many times the static law [s]."""
 MAX_WATCHED_S = 600.0
 """What moves for longer counts as moving for ever [s]."""
-PROOF_S = 0.5
+PROOF_S = 0.2
 """A proof may spend as much, whatever the search has left of its budget [s]."""
 MAX_DELAY_S = 300.0
 """Later departures are tried up to this [s]."""
