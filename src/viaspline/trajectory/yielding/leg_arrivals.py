@@ -16,6 +16,7 @@ from viaspline.kernels.timing.yielding.blocked_places import Driving
 from viaspline.kernels.timing.yielding.time_lattice import (
     TimeLattice,
     Tube,
+    Visited,
     allowed_steps,
     earliest_arrivals,
     unvisited,
@@ -124,11 +125,12 @@ class LatticeSearch:
         limit = int(budget.left / WORD_S)
         visited = unvisited(lattice, tube)
         while not visited.is_over:
-            visited = earliest_arrivals(
+            walked = earliest_arrivals(
                 self.traffic.moving.packed, self.driving(lattice), self.road.tree, lattice, tube,
                 allowed, flags, entry.level, np.array(self.road.at(leg.end)), float(leg.stay), most,
                 limit, visited, visited.work + PAUSE_WORDS,
             )  # fmt: skip
+            visited = Visited(visited.rows, visited.bands, visited.found, *walked)
         budget.spent = min(budget.limit, budget.spent + visited.work * WORD_S)
         found = []
         for arrival in visited.arrivals:

@@ -133,11 +133,12 @@ class Unserved:
         front, end = static.distance_at(times), np.array(road.at(course.stage.end))
         reached, limit = unmoved(count), int(max(self.budget.left, PROOF_S) / WORD_S)
         while reached.step < times.size and reached.work < limit:
-            reached = reachable_places(
+            can_arrive, alive, walked, taken, work = reachable_places(
                 self._traffic.moving.packed, self._traffic.required, road.optimistic, times[0],
                 step, course.stage.start, pitch, count, AHEAD, behind, front, end,
                 self._traffic.hold, reached, min(reached.work + PAUSE_WORDS, limit),
             )  # fmt: skip
+            reached = Reached(can_arrive, alive, reached.places, walked, taken, work)
         self.budget.spent += reached.work * WORD_S
         return reached, pitch, step
 

@@ -90,8 +90,10 @@ def reachable_places(
     motion: PackedMotion, required: float, tree: PathTree, begin: float, step: float,
     origin: float, pitch: float, count: int, ahead: int, behind: Floats, front: Floats,
     goal: Floats, stay: float, reached: Reached, limit: int,
-) -> Reached:  # fmt: skip
+) -> tuple[bool, int, int, float, int]:  # fmt: skip
     """Where a robot without inertia may be, step by step, some steps on.
+
+    What it returns is a plain tuple: numba crashes where it is interrupted making any other.
 
     Args:
         motion: What moves.
@@ -107,13 +109,17 @@ def reachable_places(
         front: Or farther [m], (n,).
         goal: Where the last place is [m], (2,).
         stay: For how long it has to stay there [s].
-        reached: Of the steps before; ``unmoved`` at first.
+        reached: Of the steps before; ``unmoved`` at first. Its places become those of the last
+            step at which the robot may be anywhere.
         limit: No more steps are begun once so many words were looked at in all; at least
             ``CHUNK_STEPS`` are walked.
+
+    Returns:
+        What changes of ``reached`` besides, in its order.
     """
     width = (count >> 6) + 1
     places, spare = reached.places.copy(), np.zeros((1, width), np.uint64)
-    kept = reached.places.copy()
+    kept = reached.places
     blocked = np.empty((CHUNK_STEPS, width), np.uint64)
     driving = Driving(required - pitch - 1e-8, 0.0, 0.0, 0.0, 0.0)
     last_alive, taken_until, work = reached.last_alive, reached.taken_until, reached.work
@@ -123,7 +129,7 @@ def reachable_places(
         now = begin + n * step
         if row == 0:
             if n > reached.step and work > limit:
-                return Reached(False, last_alive, kept, n, taken_until, work)
+                return False, last_alive, n, taken_until, work
             for r in range(CHUNK_STEPS):
                 for w in range(width):
                     blocked[r, w] = NONE
@@ -152,5 +158,5 @@ def reachable_places(
                 motion, driving.required, goal[0], goal[1], now, now + stay
             )
             if taken_until == np.inf:
-                return Reached(True, n, kept, behind.size, taken_until, work)
-    return Reached(False, last_alive, kept, behind.size, taken_until, work)
+                return True, n, behind.size, taken_until, work
+    return False, last_alive, behind.size, taken_until, work

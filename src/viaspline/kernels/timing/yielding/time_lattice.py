@@ -296,8 +296,10 @@ def earliest_arrivals(
     motion: PackedMotion, driving: Driving, tree: PathTree, lattice: TimeLattice, tube: Tube,
     allowed: Words, begins: Flags, level: int, goal: Floats, stay: float, most: int, limit: int,
     visited: Visited, pause: int,
-) -> Visited:  # fmt: skip
+) -> tuple[int, int, int, int, float, float, bool]:  # fmt: skip
     """Walk on over the lattice until the robot has come to rest at its end.
+
+    What it returns is a plain tuple: numba crashes where it is interrupted making any other.
 
     Args:
         motion: What moves.
@@ -315,6 +317,9 @@ def earliest_arrivals(
         visited: Of the steps before, to whose arrays those of the next are added; ``unvisited`` at
             first.
         pause: After so many words the walk stops, to be gone on with.
+
+    Returns:
+        What changes of ``visited`` besides its arrays, in its order.
     """
     rows, bands, arrivals = visited.rows, visited.bands, visited.found
     steps = tube.words.size - 1
@@ -366,6 +371,4 @@ def earliest_arrivals(
                 rows, bands, n, allowed, lattice, tube, blocked, row + 2, buffer
             )  # fmt: skip
         n += 1
-    return Visited(
-        rows, bands, arrivals, found, n, work, last_alive, free_until, taken_until, is_over
-    )
+    return found, n, work, last_alive, free_until, taken_until, is_over
