@@ -19,9 +19,9 @@ from viaspline.planning.turning.hybrid_astar.pose_search import prepare_body
 from viaspline.robot.controller import Controller
 from viaspline.robot.navigation.at_start import at_start
 from viaspline.robot.navigation.drive_task import DriveTask, requirements_under_way
+from viaspline.robot.navigation.law_horizon import renewed_at
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.navigation_state import NavigationState
-from viaspline.robot.navigation.reschedule import renewed_at
 from viaspline.robot.navigation.rounds import grows_after
 from viaspline.robot.navigator_step import step_taken
 from viaspline.robot.perception.lidar import Scan

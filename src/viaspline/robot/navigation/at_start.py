@@ -14,6 +14,7 @@ from viaspline.planner import Plan
 from viaspline.robot.controller import Controller
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.law_horizon import is_in_parts
 from viaspline.robot.navigation.log import Log
 from viaspline.robot.navigation.navigation_state import NavigationState
 from viaspline.robot.navigation.progress import Progress
@@ -55,8 +56,12 @@ def at_start(task: DriveTask, plan: Plan, period: float) -> NavigationState:
         world, frozenset(world.obstacles), belief, moving=moving, charted=len(moving), hits=hits
     )
     schedule = Schedule(path, plan.trajectory, laid_in=world, laps=laps)
-    has_jerk = task.limits.max_jerk is not None
-    changes = not has_jerk or belief is not None or laps is not None or task.reaction != REACTION_S
+    changes = (
+        not is_in_parts(task.limits, path)
+        or belief is not None
+        or laps is not None
+        or task.reaction != REACTION_S
+    )
     if changes and plan.timed is None:
         schedule = rescheduled(task, progress, knowledge, schedule, speed=0.0)
     return NavigationState(progress, knowledge, schedule, Log())

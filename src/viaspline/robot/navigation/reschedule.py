@@ -16,26 +16,22 @@ from viaspline.errors import GeometryError
 from viaspline.kernels.tracking.control_law import HEADING_DEADBAND_RAD
 from viaspline.kernels.tracking.drive_motion import HEADING
 from viaspline.machine.turns_on_spot import SpotTurning, turns_where_it_stands, with_turns
+from viaspline.robot.navigation.certain_way import certain_until, sighted_until
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.law_horizon import (
+    LEAST_PART_M,
+    is_in_parts,
+    reach_ahead,
+    renewed_at,
+)
 from viaspline.robot.navigation.law_past import law_past, part_until
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
 from viaspline.robot.navigation.schedule import Schedule, vias_after
-from viaspline.robot.perception.belief import Belief
 from viaspline.trajectory.limits import Station
 from viaspline.trajectory.part import retime_part
 from viaspline.trajectory.retime import braking, retime
 from viaspline.trajectory.trajectory import Trajectory
-
-PART_RATIO, PART_S = 2.0, 3.0
-"""With a limit of the jerk a new trajectory reaches so many stopping distances ahead, and what the
-robot drives in so long a time [s],"""
-
-LEAST_PART_M = 0.01
-"""but no less than this: a robot that stands stays there, and one that stops there does [m];"""
-
-RENEWAL_S = 0.5
-"""and is found anew so much before it has to brake for its end [s]."""
 
 STANDING_MPS = 1e-3
 """A robot that is slower stands [m/s]."""
@@ -43,9 +39,6 @@ STANDING_MPS = 1e-3
 MAX_LEAVING_RAD, MAX_LEAVING_SHARE = 0.05, 0.4
 """A robot that stands leaves when it looks along its path so far [rad], and its body is off by no
 more than this share of what is kept for the tracking error."""
-
-DRIVEN_RATIO = 0.5
-"""On a round without such a limit one is found anew when so much of it is driven."""
 
 
 def caught_up(
@@ -90,45 +83,6 @@ def rescheduled(
     return replace(schedule, trajectory=trajectory, timed_at=progress.time)
 
 
-def renewed_at(task: DriveTask, knowledge: Knowledge, schedule: Schedule) -> float:
-    """When a trajectory is to be found anew though nothing was seen, because it ends too soon [s].
-
-    On a round, and with a limit of the jerk, a trajectory is found for a part of the path, which
-    has to grow while the robot drives; else inf, and with a lidar, which sees to that itself.
-
-    Args:
-        task: What is asked of the drive.
-        knowledge: All that is known.
-        schedule: What the robot means to do.
-    """
-    law, has_jerk = schedule.trajectory, task.limits.max_jerk is not None
-    first, end = law.distances[[0, -1]].tolist()
-    is_whole = end >= min(schedule.path.length, schedule.held_at) - SAME_PLACE_M
-    is_part = (has_jerk or schedule.is_round) and not is_whole
-    if not is_part or knowledge.belief is not None or schedule.giving_up is not None:
-        return math.inf
-    if not has_jerk:
-        return float(law.time_at(DRIVEN_RATIO * first + (1.0 - DRIVEN_RATIO) * end))
-    left = _stopping_distance(task) + RENEWAL_S * task.limits.max_speed
-    return float(law.time_at(max(end - left, first)))
-
-
-def _reach(task: DriveTask, schedule: Schedule) -> float:
-    """How far ahead a new trajectory reaches at most [m]."""
-    if task.limits.max_jerk is not None:
-        return PART_RATIO * _stopping_distance(task) + PART_S * task.limits.max_speed
-    laps = schedule.laps
-    return laps.timed if laps is not None and schedule.is_round else math.inf
-
-
-def _stopping_distance(task: DriveTask) -> float:
-    """In which a robot with a limit of the jerk stops from full speed [m]."""
-    limits = task.limits
-    assert limits.max_jerk is not None
-    top = limits.max_speed
-    return 0.5 * top * (top / limits.brake + limits.brake / limits.max_jerk)
-
-
 def braking_at_once(
     task: DriveTask, progress: Progress, schedule: Schedule, speed: float
 ) -> Trajectory:
@@ -169,36 +123,9 @@ def rescheduled_by_sight(
     """The schedule after one more look of a lidar: how far it has seen, and when it is there."""
     assert knowledge.belief is not None
     required = task.requirements.required
-    sighted = _sighted_until(knowledge.belief, progress.distance, schedule, schedule.path, required)
+    sighted = sighted_until(knowledge.belief, progress.distance, schedule, schedule.path, required)
     seen = replace(schedule, sighted_until=sighted)
     return rescheduled(task, progress, knowledge, seen, speed)
-
-
-def is_due(task: DriveTask, progress: Progress, knowledge: Knowledge, schedule: Schedule) -> bool:
-    """Whether the trajectory of a robot with a lidar is to be found anew after one more look.
-
-    Without a limit of the jerk it always is. With one that takes long, and what there is will do
-    for a while: as long as it is certain to be free, and the robot is under way on it.
-
-    Args:
-        task: What is asked of the drive.
-        progress: How far the robot has come.
-        knowledge: All that is known, by a lidar.
-        schedule: What it means to do.
-    """
-    law, now = schedule.trajectory, progress.time
-    moves = bool(law.state_at(now)[1] > 0.0) and now < law.end_time
-    if task.limits.max_jerk is None or not moves:
-        return True
-    stops = float(law.distances[-1]) - progress.distance < LEAST_PART_M
-    if now >= schedule.timed_at + RENEWAL_S and not stops:
-        return True
-    required, end = task.requirements.required, float(law.distances[-1])
-    assert knowledge.belief is not None
-    for start, until, floor in schedule.kept(progress.distance, end, required):
-        if knowledge.belief.clear_until(schedule.path, start, until, floor) < until:
-            return True
-    return False
 
 
 def trajectory_within_sight(
@@ -212,6 +139,7 @@ def trajectory_within_sight(
     turns: tuple[float, ...],
     shared: float = math.inf,
     at_least: float = 0.0,
+    reach: float | None = None,
 ) -> Trajectory:
     """The trajectory of a path, from here and now to where the robot is certain to be free.
 
@@ -227,6 +155,7 @@ def trajectory_within_sight(
         turns: Distances along it where the robot turns on the spot [m].
         shared: Up to this distance the path is the schedule's own [m].
         at_least: The trajectory goes up to this distance, however little was seen [m].
+        reach: And no farther ahead than this [m]; by default as far as it pays.
 
     Raises:
         GeometryError: When the robot is too fast to stop where it has to.
@@ -237,8 +166,9 @@ def trajectory_within_sight(
         time = schedule.committed_until
         distance, speed, accel = (float(x) for x in schedule.trajectory.state_at(time))
     required = task.requirements.required
-    certain = _certain_until(knowledge.belief, distance, schedule, path, required, shared)
-    end = min(certain, schedule.held_at, distance + _reach(task, schedule))
+    certain = certain_until(knowledge.belief, distance, schedule, path, required, shared)
+    ahead = reach_ahead(task, schedule) if reach is None else reach
+    end = min(certain, schedule.held_at, distance + ahead)
     end = max(end, at_least, distance)  # a stop that lies behind would be none
     stops = [Station(turn) for turn in turns if turn > distance + SAME_PLACE_M]
     stops += [
@@ -302,7 +232,7 @@ def _timed(
 ) -> Trajectory:
     """The trajectory of a part of a path, to rest at its end.
 
-    With a limit of the jerk, and on a round, it costs no more than the part.
+    Where laws are dear, and on a round, it costs no more than the part.
 
     Args:
         task: What is asked of the drive.
@@ -315,7 +245,7 @@ def _timed(
     """
     (distance, end), (speed, accel) = part, motion
     zones = task.mission.world.speed_zones
-    if task.limits.max_jerk is not None:
+    if is_in_parts(task.limits, path):
         if end - distance < LEAST_PART_M:
             if speed > 0.0:
                 raise GeometryError(f"the robot can't stop within {end - distance:g} m")
@@ -333,40 +263,3 @@ def _timed(
         replaces=schedule.trajectory,
     )  # fmt: skip
     return trajectory if timed is not path or end >= path.length else trajectory.until(end)
-
-
-def _certain_until(
-    belief: Belief | None,
-    distance: float,
-    schedule: Schedule,
-    path: Path,
-    required: float,
-    shared: float,
-) -> float:
-    """How far along a path the robot can go for certain [m].
-
-    Without a lidar it trusts what it knows, and that is to the end.
-    """
-    if belief is None:
-        return path.length
-    sighted = _sighted_until(belief, distance, schedule, path, required, shared)
-    for start, end, floor in schedule.kept(distance, sighted, required):
-        clear = belief.clear_until(path, start, end, floor)
-        if clear < end:
-            return clear
-    return sighted
-
-
-def _sighted_until(
-    belief: Belief,
-    distance: float,
-    schedule: Schedule,
-    path: Path,
-    required: float,
-    shared: float = math.inf,
-) -> float:
-    """How far along a path the robot has seen where its body will be [m]."""
-    end = min(distance + belief.lookahead, path.length)
-    floor = min(floor for _, _, floor in schedule.kept(distance, end, required))
-    start = max(distance, min(schedule.sighted_until, shared))
-    return belief.seen_until(path, start, end, floor)

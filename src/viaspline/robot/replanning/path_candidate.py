@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from viaspline.errors import GeometryError
 from viaspline.planning.alternatives.solution import Solution
 from viaspline.planning.problem.work_budget import JERK_LAW_S, LAW_AMONG_S, TIME_LAW_S
+from viaspline.robot.navigation.law_horizon import reach_of_all
 from viaspline.robot.navigation.progress import SAME_PLACE_M
 from viaspline.robot.navigation.reschedule import trajectory_within_sight
 from viaspline.robot.navigation.schedule import ReducedClearance
@@ -117,4 +118,5 @@ def _as_if_seen(
         context.speed,
         path=solution.path,
         turns=corners,
+        reach=reach_of_all(context.schedule),
     )

@@ -10,8 +10,9 @@ from dataclasses import replace
 
 from viaspline.robot.navigation.drive_task import DriveTask
 from viaspline.robot.navigation.knowledge import Knowledge
+from viaspline.robot.navigation.law_horizon import is_due
 from viaspline.robot.navigation.progress import SAME_PLACE_M, Progress
-from viaspline.robot.navigation.reschedule import is_due, rescheduled_by_sight
+from viaspline.robot.navigation.reschedule import rescheduled_by_sight
 from viaspline.robot.navigation.schedule import Schedule, Wait
 
 PROBE_WAIT_S = 0.5
