@@ -50,6 +50,18 @@ def test_an_obstacle_moves_along_keyframes_or_straight_on() -> None:
         ({"keyframes": [[2, 1, 2], [1, 2, 2]], "after": "stay"}, "not after the one before"),
         ({"keyframes": [[0, 1, 2], [1e-9, 2, 2]], "after": "loop"}, "too short a time"),
         ({"keyframes": [[0, 1, 2]], "after": "bounce"}, "too short a time"),
+        (
+            {"keyframes": [[0, 1, 2], [1, 2, 2], [1 + 1e-9, 2, 4]], "after": "stay"},
+            "keyframes[2]: is 2 m from the one before, 1e-09 s later",
+        ),
+        (
+            {"keyframes": [[0, 1, 2, 0], [1e-4, 1, 2, 90]], "after": "vanish"},
+            "keyframes[1]: is turned by 90 deg",
+        ),
+        (
+            {"keyframes": [[0, 1, 2, 0, 0], [1, 1, 2], [1.01, 1, 2, 0, 500]], "after": "stay"},
+            "keyframes[2]: is 500 m from the one before, 0.01 s later: it goes 50000 m/s",
+        ),
         ({"keyframes": [[0, 1, math.nan]], "after": "stay"}, "NaN"),
         ({"keyframes": [[0, 1, 2, 1e9]], "after": "stay"}, r"[0][3]: 1e+09 is out of range"),
         ({"keyframes": [[0, 1e20, 2]], "after": "stay"}, r"[0][1]: 1e+20 is out of range"),

@@ -63,6 +63,7 @@ def test_what_comes_after_and_the_name_can_be_said(tmp_path: Path) -> None:
         ("1,1e300,1,2\n", "t_s is out of range"),
         ("1,0,1,2\n1,0,1,3\n", "puts '1' in two places at 0 s"),
         (",0,1,2\n", "has no id"),
+        ("1,0,1,2\n2,1e-9,1,4\n2,0,1,2\n", "the row of '2' at 1e-09 s is 2 m from the one before"),
         ("", "has no rows"),
     ],
 )

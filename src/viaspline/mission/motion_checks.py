@@ -10,6 +10,8 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from viaspline.kernels.arrays import Floats
+from viaspline.mission.greatest_speed import gone_too_fast, turned_too_fast
 from viaspline.mission.motion_spec import Motion
 from viaspline.mission.partial_mission import PartialMission
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -74,13 +76,44 @@ def _of_keyframes(path: Path, motion: Motion) -> Iterator[UnplacedFault]:
         i = int(steps[0]) + 1
         problem = f"is at {number(times[i])} s, not after the one before"
         yield UnplacedFault((*path, i), problem, "times of keyframes increase; leave one out")
-    elif motion.after in ("loop", "bounce") and times[-1] - times[0] < MIN_PERIOD_S:
+    elif motion.after in ("loop", "bounce") and _is_short(times):
         problem = f"last {times[-1] - times[0]:g} s, too short a time to go on and on"
         remedy = f"give keyframes over {MIN_PERIOD_S:g} s at least, or after: stay"
         yield UnplacedFault(path, problem, remedy)
+    else:
+        yield from _of_speeds(path, motion, times)
     if motion.after in ("loop", "bounce") and motion.before is not None:
         problem = f"what goes on and on (after: {motion.after}) has no before"
         yield UnplacedFault((*path[:-1], "before"), problem, "leave it out", at_key=True)
+
+
+def _is_short(times: Floats) -> bool:
+    return bool(times[-1] - times[0] < MIN_PERIOD_S)
+
+
+def _of_speeds(path: Path, motion: Motion, times: Floats) -> Iterator[UnplacedFault]:
+    """What is wrong with how fast it goes and turns from one keyframe to the next."""
+    frames = motion.keyframes or ()
+    flat = np.array([frame[1:3] for frame in frames])
+    heights = _held([frame[4] if len(frame) > 4 else math.nan for frame in frames])
+    headings = _held([frame[3] if len(frame) > 3 else math.nan for frame in frames])
+    found = (
+        gone_too_fast(times, np.column_stack((flat, heights))), turned_too_fast(times, headings)
+    )  # fmt: skip
+    for one in found:
+        if one is not None:
+            i, problem, remedy = one
+            yield UnplacedFault((*path, i), problem, remedy)
+
+
+def _held(numbers: list[float]) -> Floats:
+    """Numbers of which each that isn't said is that of the one before, at first 0.
+
+    >>> _held([math.nan, 3.0, math.nan]).tolist()
+    [0.0, 3.0, 3.0]
+    """
+    said = np.isfinite(numbers)
+    return np.nan_to_num(numbers)[np.maximum.accumulate(np.where(said, np.arange(len(said)), 0))]
 
 
 def jumps_in_words(obstacles: Iterable[Obstacle]) -> str | None:

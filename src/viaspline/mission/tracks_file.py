@@ -11,9 +11,12 @@ import math
 from pathlib import Path as FilePath
 from typing import Final
 
+import numpy as np
+
 from viaspline.bounded_file import MOTION_FILE, read_text
 from viaspline.errors import Fault, MissionError
 from viaspline.mission.fields import MAX_DURATION_S, MAX_LENGTH_M
+from viaspline.mission.greatest_speed import gone_too_fast
 from viaspline.mission.unplaced_faults import MAX_REPORTED_FAULTS
 
 COLUMNS: Final = ("id", "t_s", "x_m", "y_m")
@@ -54,12 +57,27 @@ def read_tracks(path: FilePath) -> dict[str, list[Row]]:
             )
             if len(faults) == MAX_REPORTED_FAULTS:
                 break
+    found = {name: [rows[t] for t in sorted(rows)] for name, rows in tracks.items()}
+    faults += _too_fast(found, path)[: MAX_REPORTED_FAULTS - len(faults)]
     if not tracks and not faults:
         remedy = "give rows id, t, x, y in s and m"
         faults.append(Fault("", "has no rows", remedy, str(path)))
     if faults:
         raise MissionError(faults)
-    return {name: [rows[t] for t in sorted(rows)] for name, rows in tracks.items()}
+    return found
+
+
+def _too_fast(tracks: dict[str, list[Row]], path: FilePath) -> list[Fault]:
+    """What is wrong with how fast they go, one fault an id."""
+    faults = []
+    for name, rows in tracks.items():
+        table = np.array(rows)
+        found = gone_too_fast(table[:, 0], table[:, 1:])
+        if found is not None:
+            i, problem, remedy = found
+            words = f"the row of '{name[:20]}' at {rows[i][0]:g} s {problem}"
+            faults.append(Fault("", words, remedy, str(path)))
+    return faults
 
 
 def _cells(line: str) -> list[str]:
