@@ -37,6 +37,7 @@ from viaspline.robot.watching.watch import Watch
 from viaspline.robot.yielding.broken_premises import broken_premises
 from viaspline.robot.yielding.foreseen import foreseen
 from viaspline.robot.yielding.give_way import give_way
+from viaspline.robot.yielding.held_up import held_up, rests
 from viaspline.robot.yielding.stoppable import kept_to_path, sight_of, stoppable
 
 
@@ -118,7 +119,7 @@ def step_taken(
     )  # fmt: skip
     perceived = _perceived(_followed(told))
     decided = _given_way(_decided(perceived))
-    return _commanded(_kept_stoppable(decided, perceived))
+    return _commanded(_not_held_up(_kept_stoppable(decided, perceived)))
 
 
 def _stood(
@@ -221,7 +222,7 @@ def _decided(now: _StepSoFar) -> _StepSoFar:
 
 def _given_way(now: _StepSoFar) -> _StepSoFar:
     """What does it do about what moves?"""
-    if not len(now.knowledge.moving):
+    if not len(now.knowledge.moving) or rests(now.knowledge, now.schedule, now.time):
         return now
     decision = give_way(now.task, now.progress, now.knowledge, now.schedule)
     log = now.log.with_decision(decision, 0.0)
@@ -243,6 +244,11 @@ def _kept_stoppable(now: _StepSoFar, undecided: _StepSoFar) -> _StepSoFar:
     schedule, event = kept_to_path(progress, now.knowledge, schedule, looked_at)
     log = undecided.log.with_events(event)
     return replace(now, progress=progress, schedule=schedule, log=log)
+
+
+def _not_held_up(now: _StepSoFar) -> _StepSoFar:
+    """Has it stood long enough without a way on?"""
+    return replace(now, schedule=held_up(now.task, now.progress, now.knowledge, now.schedule))
 
 
 def _commanded(now: _StepSoFar) -> StepTaken:

@@ -32,6 +32,22 @@ class Wait:
 
 
 @dataclass(frozen=True)
+class HeldUp:
+    """A robot that stands because it knows no way on past what moves.
+
+    Attributes:
+        since: When it began [s].
+        again: When it looks for one again, if nothing changes there [s].
+        seen: What was in sight at the last look that was seen to move: which, since when it is
+            where it is [s], and whether it moves.
+    """
+
+    since: float
+    again: float
+    seen: tuple[tuple[int, float, bool], ...]
+
+
+@dataclass(frozen=True)
 class ReducedClearance:
     """A robot that has come closer to something than it should, and is on its way out.
 
@@ -80,6 +96,8 @@ class Schedule:
         next_way: Which of the ways past what moves is tried next; 0: all were, or none.
         frozen_since: Since when it stands and no step of it is proven to be safe from what may
             come [s]; inf if it doesn't.
+        waits_for_gap: Whether it stands until what crosses is gone, by a law that goes on then.
+        held_up: Set while it stands and knows no way on past what moves.
     """
 
     path: Path
@@ -103,6 +121,8 @@ class Schedule:
     gives_way: bool = False
     next_way: int = 0
     frozen_since: float = math.inf
+    waits_for_gap: bool = False
+    held_up: HeldUp | None = None
 
     @property
     def is_blocked(self) -> bool:

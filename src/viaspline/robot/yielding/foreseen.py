@@ -3,7 +3,8 @@
 It goes straight on as it goes now, within what is uncertain of its place and velocity; after that
 while it isn't reckoned with, and no longer than it is known at all where it will be: a thing that a
 lidar has just seen for the first time might be anywhere soon, and one look later much less so. What
-may come otherwise is the business of passive safety.
+has stood for a while stays: who waits for it to go may wait for ever. What may come otherwise is
+the business of passive safety.
 
 Tested through ``robot/yielding/test_foreseen``.
 """
@@ -15,8 +16,9 @@ from collections.abc import Iterable
 from viaspline.mission.motion_spec import Motion, MotionError
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.moving.foretell import as_obstacle
+from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
 from viaspline.robot.perception.moving.object_track import ObjectTrack
-from viaspline.robot.perception.moving.track_sightings import SightedTrack
+from viaspline.robot.perception.moving.track_sightings import STOOD_M, SightedTrack
 from viaspline.world.moving_obstacles import MovingObstacles
 
 HORIZON_S = 8.0
@@ -45,6 +47,8 @@ def foreseen(tracks: Iterable[ObjectTrack | SightedTrack], now: float) -> Moving
 
 def _foreseen(track: ObjectTrack | SightedTrack, now: float) -> Obstacle:
     estimate = track.estimate
+    if isinstance(track, SightedTrack) and track.stays:
+        return as_obstacle(track, _standing(estimate, now))
     (x, y), (vx, vy) = estimate.place.tolist(), estimate.velocity.tolist()
     error = MotionError(
         position_m=SIGMAS * estimate.place_error, growth_mps=SIGMAS * estimate.velocity_error
@@ -57,6 +61,13 @@ def _foreseen(track: ObjectTrack | SightedTrack, now: float) -> Obstacle:
         error=error,
     )
     return as_obstacle(track, motion)
+
+
+def _standing(estimate: MotionEstimate, now: float) -> Motion:
+    """The motion of what stays where it is."""
+    x, y = estimate.place.tolist()
+    error = MotionError(position_m=max(SIGMAS * estimate.place_error, STOOD_M))
+    return Motion(keyframes=((now, x, y),), after="stay", error=error)
 
 
 def _horizon(error: MotionError) -> float:

@@ -25,6 +25,7 @@ from viaspline.robot.perception.perceive import Sighting
 from viaspline.robot.replanning.deadline import STANDING_WORK_S
 from viaspline.robot.run import Event
 from viaspline.robot.state import RobotState
+from viaspline.robot.yielding.held_up import rests
 from viaspline.trajectory.passive_safety import (
     SAME_PLACE_M,
     PassivePremises,
@@ -119,7 +120,10 @@ def stoppable(
     has_law = after.giving_up is None and not progress.finished and progress.dwell is None
     if things is None or things.safety == "none" or not has_law:
         return after
+    if rests(knowledge, after, progress.time) and after.path is before.path:
+        return after
     now, brake = progress.time, task.limits.brake
+    after = replace(after, waits_for_gap=False)
     speed = float(before.trajectory.state_at(now)[1])
     meant = after
     if after.trajectory is before.trajectory:
@@ -130,7 +134,7 @@ def stoppable(
     )
     if waits:
         stop = braking(progress.distance, 0.0, brake, now)
-        return replace(meant, trajectory=stop, gives_way=True)
+        return replace(meant, trajectory=stop, gives_way=True, waits_for_gap=True)
     strict = Foresight(top_speed=things.max_speed_mps, accel=ANY_ACCEL_MPS2)
     premises = PassivePremises(
         _tubes(knowledge, sight.time, strict), sight.time, things.max_speed_mps, sight.eye,

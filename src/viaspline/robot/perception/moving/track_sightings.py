@@ -32,6 +32,34 @@ JUMP_SIGMAS: Final = 6.0
 JUMP_M: Final = 0.1
 """and by no less than this [m]."""
 
+STOOD_M: Final = 0.02
+"""What has gone no farther than this stands [m],"""
+
+STOOD_RAD: Final = 0.02
+"""if it has turned no more than this either [rad];"""
+
+STOOD_S: Final = 2.0
+"""it is taken to stay when it has stood for so long [s]."""
+
+
+@dataclass(frozen=True)
+class Standstill:
+    """Since when something has been where it is.
+
+    Attributes:
+        since: [s].
+        frame: Where that is: x, y [m], heading [rad].
+    """
+
+    since: float
+    frame: tuple[float, float, float]
+
+    def going_on(self, frame: tuple[float, float, float], time: float) -> Standstill:
+        """It after one more look, at a time [s]: the old one if the thing is still there."""
+        near = math.dist(frame[:2], self.frame[:2]) <= STOOD_M
+        is_there = near and abs(frame[2] - self.frame[2]) <= STOOD_RAD
+        return self if is_there else Standstill(time, frame)
+
 
 @dataclass(frozen=True, eq=False)
 class SightedTrack:
@@ -40,14 +68,21 @@ class SightedTrack:
     Attributes:
         sighting: As it was seen last.
         estimate: Its motion then.
+        still: Since when it has been where it is.
         turns: Whether it may be turning: it was seen only once, or with another heading before.
         jumped: Whether it was somewhere else in the look before: it is followed anew since.
     """
 
     sighting: MovingSighting
     estimate: MotionEstimate
+    still: Standstill
     turns: bool
     jumped: bool = False
+
+    @property
+    def stays(self) -> bool:
+        """Whether it has stood for so long that it is taken to stay."""
+        return self.estimate.time - self.still.since >= STOOD_S
 
     @property
     def reach(self) -> float:
@@ -103,11 +138,13 @@ class TrackedSightings:
         if before is None or jumped:
             variances = np.array((PLACE_ERROR_M, PLACE_ERROR_M, error, error)) ** 2
             estimate = MotionEstimate(time, measured, np.diag(variances))
-            return SightedTrack(sighting, estimate, turns=True, jumped=jumped)
+            still = Standstill(time, sighting.frame)
+            return SightedTrack(sighting, estimate, still, turns=True, jumped=jumped)
         estimate = before.estimate.foreseen(time, self.wander)
         estimate = estimate.with_place_and_velocity(measured, PLACE_ERROR_M, error)
         turned = abs(sighting.frame[2] - before.sighting.frame[2]) > SAME_HEADING_RAD
-        return SightedTrack(sighting, estimate, turned)
+        still = before.still.going_on(sighting.frame, time)
+        return SightedTrack(sighting, estimate, still, turned)
 
 
 def _has_jumped(before: MotionEstimate, measured: Floats, time: float, error: float) -> bool:
