@@ -1,8 +1,8 @@
 """Proofs that no path and no law is clear of what moves, from what holds of all of them.
 
 From rest a robot gets no farther in a time than its limits allow. So where something that moves is
-nearer to the start than may be by more than that, nothing that the robot does helps. For the goal
-see ``taken_goal``.
+nearer to the start than may be by more than that, nothing that the robot does helps. For the
+points of the route see ``taken_points``.
 
 Tested through ``spacetime/test_plan_among``.
 """

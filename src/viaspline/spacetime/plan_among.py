@@ -20,7 +20,7 @@ from viaspline.spacetime.alternatives import (
 from viaspline.spacetime.hopeless import check_start
 from viaspline.spacetime.meetings import first_meeting
 from viaspline.spacetime.searched_paths import is_searchable, searched_paths
-from viaspline.spacetime.taken_goal import check_goal
+from viaspline.spacetime.taken_points import check_points
 from viaspline.spacetime.timed_drive import TimedCandidate, TimedDrive
 from viaspline.spacetime.timed_problem import TimedProblem
 from viaspline.trajectory.moving_certificate import MovingCertificate, certify_moving
@@ -61,7 +61,7 @@ def plan_among(problem: TimedProblem, static: Solution) -> TimedDrive:
         GaveUpError: When no path that was tried has a law, or none was found.
     """
     check_start(problem)
-    check_goal(problem)
+    check_points(problem)
     first = Alternative(static, problem.free_law(static.path))
     tried = _Tried().and_then(problem, first, _law(problem, first))
     if tried.is_late(first):

@@ -70,7 +70,7 @@ def test_one_whose_goal_is_taken_says_by_what_and_ends(
     run = vs.simulate(mission(coming("cart", (0, 15, 6), (3, 15, 0)), **robot), step=0.2)
     assert not run.reached
     assert run.reason is not None
-    assert "'cart', which has stood at (15.00, 0.00), on 'goal' for" in run.reason
+    assert "'cart', which has stood at (15.00, 0.00), on 'goal', for" in run.reason
     assert PATIENCE_S < run.duration < PATIENCE_S + 20.0
     assert run.events[-1].kind == "stopped"
     assert run.encounters is not None

@@ -74,7 +74,7 @@ def _words(one: _InTheWay, now: float) -> str:
     x, y = one.at
     if one.since is None:
         return f"'{one.name}', which moves"
-    where = "" if one.on is None else f", on '{one.on}'"
+    where = "" if one.on is None else f", on '{one.on}',"
     return f"'{one.name}', which has stood at ({x:.2f}, {y:.2f}){where} for {now - one.since:.0f} s"
 
 
