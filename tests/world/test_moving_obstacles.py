@@ -141,3 +141,35 @@ def test_a_keyframe_without_a_heading_has_that_of_the_one_before() -> None:
     moving = moved({"keyframes": frames, "after": "stay"}, BOX)
     headings = [float(np.degrees(moving.frames(t)[0, 2])) for t in (-1, 0.5, 1.0, 1.5, 2.5, 4)]
     assert headings == pytest.approx([0, 45, 90, 90, 45, 0])
+
+
+def test_some_of_them_and_others_are_what_they_would_be_if_they_were_made_at_once() -> None:
+    """They are put together in every step under way: what was looked at isn't looked at again."""
+    made = [
+        Obstacle.model_validate({"circle": {"center": (0, 0), "radius": 1}, "motion": motion})
+        for motion in (
+            {"keyframes": [(0, 1, 2), (4, 5, 2, 90), (5, 5, 3)], "after": "bounce"},
+            {"from": (3, 4), "velocity_mps": (1, 0), "error": {"growth_mps": 0.5}},
+            {"keyframes": [(0, 9, 2)], "after": "vanish"},
+        )
+    ]
+    whole = MovingObstacles(made, since=(1.0, 2.0, 3.0))
+    joined = MovingObstacles(made[:1], since=1.0).and_those(
+        MovingObstacles(made[1:], since=(2.0, 3.0))
+    )
+    assert joined == whole
+    parts = {
+        whole: joined,
+        MovingObstacles(made[:2], since=(1.0, 2.0)): joined.first(2),
+        MovingObstacles(made[1:], since=(2.0, 3.0)): joined.from_on(1),
+        MovingObstacles(made[1:2], since=2.0): joined.alone(1),
+    }
+    for expected, found in parts.items():
+        assert found == expected
+        for one, other in zip(expected.packed[1:], found.packed[1:], strict=True):
+            assert one.tolist() == other.tolist()
+        times = np.linspace(0.0, 9.0, 20)
+        places = np.tile((4.0, 3.0), (20, 1))
+        assert found.distance(places, times).tolist() == expected.distance(places, times).tolist()
+    assert joined.first(3) is joined
+    assert MovingObstacles().and_those(whole) == whole

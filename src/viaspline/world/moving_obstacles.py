@@ -17,7 +17,7 @@ from viaspline.mission.model import Mission
 from viaspline.mission.motion_checks import faults_of_one
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.presentable.compared_by_value import ComparedByValue
-from viaspline.world.pack_motion import pack_motion
+from viaspline.world.pack_motion import joined_motion, pack_motion, pack_shapes, part_of_motion
 
 
 class MovingObstacles(ComparedByValue):
@@ -79,12 +79,45 @@ class MovingObstacles(ComparedByValue):
         """These and then others."""
         if not len(others):
             return self
-        since = (*self.since, *others.since)
-        return MovingObstacles((*self.obstacles, *others.obstacles), since=since)
+        if not len(self):
+            return others
+        obstacles = (*self.obstacles, *others.obstacles)
+        packed = joined_motion(self.packed, others.packed, pack_shapes(obstacles))
+        return self._sound(obstacles, (*self.since, *others.since), packed)
+
+    def first(self, count: int) -> MovingObstacles:
+        """The first of them, so many."""
+        return self._part(0, count)
+
+    def from_on(self, index: int) -> MovingObstacles:
+        """Those from one on."""
+        return self._part(index, len(self))
 
     def alone(self, index: int) -> MovingObstacles:
         """One of them."""
-        return MovingObstacles([self.obstacles[index]], since=self.since[index])
+        return self._part(index, index + 1)
+
+    def _part(self, begin: int, end: int) -> MovingObstacles:
+        """Those from one to before another."""
+        if begin == 0 and end >= len(self):
+            return self
+        obstacles = self.obstacles[begin:end]
+        packed = part_of_motion(self.packed, begin, end, pack_shapes(obstacles))
+        return self._sound(obstacles, self.since[begin:end], packed)
+
+    @classmethod
+    def _sound(
+        cls, obstacles: tuple[Obstacle, ...], since: tuple[float, ...], packed: PackedMotion
+    ) -> MovingObstacles:
+        """Obstacles of which it is known that they move as they should: not looked at again.
+
+        With a million keyframes a look takes a second, and under way they are put together anew
+        in every step.
+        """
+        made = cls.__new__(cls)
+        made.obstacles, made.since = obstacles, since
+        made.__dict__["packed"] = packed
+        return made
 
     def _said(self) -> tuple[object, ...]:
         return self.obstacles, self.since

@@ -12,6 +12,7 @@ import numpy as np
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.motion import packed_motion as columns
 from viaspline.kernels.motion.packed_motion import COLUMNS, PackedMotion
+from viaspline.kernels.world.packed import PackedWorld
 from viaspline.mission.motion_spec import Motion
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.world.pack import pack
@@ -40,7 +41,7 @@ def pack_motion(obstacles: Sequence[Obstacle], since: Sequence[float]) -> Packed
         speeds.append(float((straight + turning).max()))
     counts = [len(pieces) for pieces in rows]
     return PackedMotion(
-        pack(obstacles, None, ()),
+        pack_shapes(obstacles),
         np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).astype(np.int64),
         np.concatenate(rows) if rows else np.empty((0, COLUMNS)),
         np.array(rounds, np.float64).reshape(-1, 2),
@@ -48,6 +49,47 @@ def pack_motion(obstacles: Sequence[Obstacle], since: Sequence[float]) -> Packed
         np.array(reaches, np.float64),
         np.array(speeds, np.float64),
     )
+
+
+def pack_shapes(obstacles: Sequence[Obstacle]) -> PackedWorld:
+    """Pack the shapes of obstacles, each in its own frame."""
+    return pack(obstacles, None, ())
+
+
+def joined_motion(one: PackedMotion, other: PackedMotion, shapes: PackedWorld) -> PackedMotion:
+    """Some that move and then others.
+
+    Args:
+        one: The first.
+        other: Those that follow.
+        shapes: Of all of them.
+    """
+    return PackedMotion(
+        shapes,
+        np.concatenate((one.first_piece, other.first_piece[1:] + one.first_piece[-1])),
+        np.concatenate((one.pieces, other.pieces)),
+        np.concatenate((one.rounds, other.rounds)),
+        np.concatenate((one.errors, other.errors)),
+        np.concatenate((one.reaches, other.reaches)),
+        np.concatenate((one.speeds, other.speeds)),
+    )
+
+
+def part_of_motion(whole: PackedMotion, begin: int, end: int, shapes: PackedWorld) -> PackedMotion:
+    """Some of what moves, from one to before another.
+
+    Args:
+        whole: All of it.
+        begin: The first of them.
+        end: The one after the last.
+        shapes: Of them.
+    """
+    counted = whole.first_piece[begin : end + 1]
+    return PackedMotion(
+        shapes, counted - counted[0], whole.pieces[counted[0] : counted[-1]],
+        whole.rounds[begin:end], whole.errors[begin:end], whole.reaches[begin:end],
+        whole.speeds[begin:end],
+    )  # fmt: skip
 
 
 def _pieces(motion: Motion) -> tuple[Floats, float]:

@@ -80,20 +80,12 @@ class Knowledge:
     @property
     def charted_moving(self) -> MovingObstacles:
         """What moves as the map says."""
-        if self.charted == len(self.moving):
-            return self.moving
-        return MovingObstacles(
-            self.moving.obstacles[: self.charted], since=self.moving.since[: self.charted]
-        )
+        return self.moving.first(self.charted)
 
     @property
     def sensed_moving(self) -> MovingObstacles:
         """What moves and isn't on the map."""
-        if self.charted == 0:
-            return self.moving
-        return MovingObstacles(
-            self.moving.obstacles[self.charted :], since=self.moving.since[self.charted :]
-        )
+        return self.moving.from_on(self.charted)
 
     def with_scan(self, scan: Scan, time: float, ahead: Foreseen) -> tuple[Knowledge, News]:
         """What is known after one more scan of a lidar, and what is new about what stands.
