@@ -33,6 +33,9 @@ from viaspline.trajectory.limits import REACTION_S
 from viaspline.trajectory.trajectory import Trajectory
 from viaspline.world.world import World
 
+MAX_CLOCK_S = 1e10
+"""A clock may count from 1970 or from when the machine was started, and tells microseconds [s]."""
+
 
 class Navigator:
     """Drives a mission in a person's own control loop; immutable.
@@ -325,4 +328,9 @@ def _check(measured: RobotState, time: float, state: NavigationState) -> None:
         raise GeometryError(
             f"the state {measured} at {time} s needs {dimension} finite coordinates, "
             "a finite heading, speed and time"
+        )
+    if abs(time) > MAX_CLOCK_S:
+        raise GeometryError(
+            f"time is {time:g} s, and by such a clock a step can't be told from the next; give "
+            f"seconds from a beginning that is no more than {MAX_CLOCK_S:g} s away"
         )

@@ -75,6 +75,21 @@ class MovingObstacles(ComparedByValue):
         """What moves, known or not."""
         return cls((*mission.world.moving, *mission.world.unseen_moving))
 
+    @classmethod
+    def tracked(cls, obstacles: Iterable[Obstacle], since: float) -> MovingObstacles:
+        """What was seen to move, as it is taken to go on.
+
+        Their motions are the robot's own reckoning, by the clock of whoever drives it, and aren't
+        looked at as those are that people write.
+
+        Args:
+            obstacles: Each with a shape in its own frame and a motion.
+            since: When their places begin to get less certain [s].
+        """
+        all_of_them = tuple(obstacles)
+        times = (float(since),) * len(all_of_them)
+        return cls._sound(all_of_them, times, pack_motion(all_of_them, times))
+
     def and_those(self, others: MovingObstacles) -> MovingObstacles:
         """These and then others."""
         if not len(others):

@@ -56,12 +56,26 @@ def told_apart(
     """What is told of in one look: what stands, and what moves.
 
     Raises:
-        GeometryError: Something is neither.
+        GeometryError: Something is neither; an obstacle has a motion, which a look doesn't show; or
+            two sightings are of the same thing.
     """
     told = all_of(
         "sensed", sensed, (Obstacle, MovingSighting), "give obstacles in sight, or a Scan"
     )
     moving = tuple(one for one in told if isinstance(one, MovingSighting))
+    for i, one in enumerate(told):
+        if isinstance(one, Obstacle) and one.motion is not None:
+            raise GeometryError(
+                f"sensed[{i}] has a motion, and a look shows where something is; give "
+                "MovingSighting(index, obstacle, frame, velocity)"
+            )
+    indices = [one.index for one in moving]
+    if len(set(indices)) < len(indices):
+        twice = next(index for index in indices if indices.count(index) > 1)
+        raise GeometryError(
+            f"sensed has two sightings of moving thing {twice} in one look; give each thing an "
+            "index of its own"
+        )
     if not moving:
         return told, ()
     return tuple(one for one in told if isinstance(one, Obstacle)), moving

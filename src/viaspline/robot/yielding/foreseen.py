@@ -15,7 +15,7 @@ from collections.abc import Iterable
 
 from viaspline.mission.motion_spec import Motion, MotionError
 from viaspline.mission.shapes.obstacle import Obstacle
-from viaspline.robot.perception.moving.foretell import as_obstacle
+from viaspline.robot.perception.moving.foretell import as_obstacle, reckoned_motion
 from viaspline.robot.perception.moving.motion_estimate import MotionEstimate
 from viaspline.robot.perception.moving.object_track import ObjectTrack
 from viaspline.robot.perception.moving.track_sightings import STOOD_M, SightedTrack
@@ -42,7 +42,7 @@ def foreseen(tracks: Iterable[ObjectTrack | SightedTrack], now: float) -> Moving
         tracks: Each as it is now.
         now: By the clock of motions [s].
     """
-    return MovingObstacles((_foreseen(track, now) for track in tracks), since=now)
+    return MovingObstacles.tracked((_foreseen(track, now) for track in tracks), since=now)
 
 
 def _foreseen(track: ObjectTrack | SightedTrack, now: float) -> Obstacle:
@@ -54,20 +54,15 @@ def _foreseen(track: ObjectTrack | SightedTrack, now: float) -> Obstacle:
         position_m=SIGMAS * estimate.place_error, growth_mps=SIGMAS * estimate.velocity_error
     )
     ahead = _horizon(error)
-    motion = Motion(
-        keyframes=((now, x, y), (now + ahead, x + vx * ahead, y + vy * ahead)),
-        after="vanish",
-        before="absent",
-        error=error,
-    )
-    return as_obstacle(track, motion)
+    frames = ((now, x, y), (now + ahead, x + vx * ahead, y + vy * ahead))
+    return as_obstacle(track, reckoned_motion(error, frames, after="vanish", before="absent"))
 
 
 def _standing(estimate: MotionEstimate, now: float) -> Motion:
     """The motion of what stays where it is."""
     x, y = estimate.place.tolist()
     error = MotionError(position_m=max(SIGMAS * estimate.place_error, STOOD_M))
-    return Motion(keyframes=((now, x, y),), after="stay", error=error)
+    return reckoned_motion(error, ((now, x, y),), after="stay")
 
 
 def _horizon(error: MotionError) -> float:

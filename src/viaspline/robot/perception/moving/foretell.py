@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from viaspline.mission.fields import MIN_LENGTH_M
-from viaspline.mission.motion_spec import Motion, MotionError
+from viaspline.mission.motion_spec import After, Motion, MotionError
 from viaspline.mission.shapes.capsule import Capsule
 from viaspline.mission.shapes.circle import Circle
 from viaspline.mission.shapes.obstacle import Obstacle
@@ -58,7 +59,7 @@ class Foresight:
         """
         speed = math.hypot(*estimate.velocity.tolist())
         by_estimate = self.sigmas * estimate.velocity_error + 0.5 * self.accel * self.horizon
-        return MotionError(
+        return MotionError.model_construct(
             position_m=self.sigmas * estimate.place_error,
             growth_mps=min(by_estimate, self.top_speed + speed),
         )
@@ -74,19 +75,46 @@ def foretold(
         now: By the clock of motions [s].
         foresight: What is taken for granted.
     """
-    return MovingObstacles((_foretold(track, now, foresight) for track in tracks), since=now)
+    return MovingObstacles.tracked(
+        (_foretold(track, now, foresight) for track in tracks), since=now
+    )
 
 
 def _foretold(track: ObjectTrack | SightedTrack, now: float, foresight: Foresight) -> Obstacle:
     estimate = track.estimate
     vx, vy = estimate.velocity.tolist()
     x, y = estimate.place.tolist()
-    motion = Motion(
-        from_=(x - vx * now, y - vy * now),
-        velocity_mps=(vx, vy),
-        error=foresight.error(estimate),
-    )
+    start = (x - vx * now, y - vy * now)
+    motion = reckoned_motion(foresight.error(estimate), start=start, velocity=(vx, vy))
     return as_obstacle(track, motion)
+
+
+def reckoned_motion(
+    error: MotionError,
+    keyframes: tuple[tuple[float, float, float], ...] | None = None,
+    *,
+    after: After | None = None,
+    before: Literal["stay", "absent"] | None = None,
+    start: tuple[float, float] | None = None,
+    velocity: tuple[float, float] | None = None,
+) -> Motion:
+    """The motion of something that is tracked, by the clock of whoever drives the robot.
+
+    That may be the seconds since 1970, more than a mission's clock can say: so it isn't held
+    against what people may write.
+
+    Args:
+        error: How far from there it may be.
+        keyframes: Time [s], x, y [m]; or
+        after: what it does when they are over,
+        before: and before that;
+        start: where it is at time 0 [m], and
+        velocity: how fast it goes [m/s].
+    """
+    return Motion.model_construct(
+        keyframes=keyframes, after=after, before=before, from_=start, velocity_mps=velocity,
+        error=error,
+    )  # fmt: skip
 
 
 def as_obstacle(track: ObjectTrack | SightedTrack, motion: Motion) -> Obstacle:

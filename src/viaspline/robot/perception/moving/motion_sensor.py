@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,10 +13,14 @@ from viaspline.handed_in import check_kind, numbers_from, seed_from
 from viaspline.kernels.arrays import Floats
 from viaspline.kernels.motion.moving_rates import rates_at
 from viaspline.kernels.world.distance import obstacle_distances
+from viaspline.mission.fields import MAX_LENGTH_M, SPEEDS_MPS
 from viaspline.mission.shapes.obstacle import Obstacle
 from viaspline.robot.perception.lidar import MAX_NOISE_SIGMAS
 from viaspline.world.moving_obstacles import MovingObstacles
 from viaspline.world.shapes_at import shapes_at
+
+ROUNDING = 1e-9
+"""Part of a speed."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +34,7 @@ class MovingSighting:
         velocity: Of the frame's origin as measured, (vx, vy) [m/s].
 
     Raises:
-        GeometryError: When a number is none, or not finite.
+        GeometryError: When a number is none, not finite, or no place or speed of anything.
 
     Example:
         >>> cart = Obstacle(circle={"center": (0, 0), "radius": 0.5})
@@ -50,6 +55,12 @@ class MovingSighting:
             if numbers.shape != (size,) or not np.isfinite(numbers).all():
                 raise GeometryError(f"{name} is {numbers.tolist()}; give {size} finite numbers")
             object.__setattr__(self, name, tuple(numbers.tolist()))
+        if not math.hypot(*self.velocity) <= SPEEDS_MPS[1]:
+            raise GeometryError(
+                f"velocity is {self.velocity}; nothing goes over {SPEEDS_MPS[1]:g} m/s"
+            )
+        if not math.hypot(*self.frame[:2]) <= MAX_LENGTH_M:
+            raise GeometryError(f"frame is {self.frame}; give a place within {MAX_LENGTH_M:g} m")
 
 
 class MotionSensor:
@@ -111,7 +122,7 @@ class MotionSensor:
                 i,
                 self.moving.obstacles[i],
                 (float(frames[i, 0]), float(frames[i, 1]), float(frames[i, 2])),
-                (float(rates[i, 0] + noise[i, 0]), float(rates[i, 1] + noise[i, 1])),
+                _told(rates[i, :2] + noise[i]),
             )
             for i in near
         )
@@ -130,3 +141,10 @@ class MotionSensor:
         drawn = np.random.default_rng((self.seed, number)).standard_normal((count, 2))
         cut: Floats = np.clip(drawn, -MAX_NOISE_SIGMAS, MAX_NOISE_SIGMAS)
         return self.velocity_noise * cut
+
+
+def _told(velocity: Floats) -> tuple[float, float]:
+    """A velocity as it is told [m/s]: never more than anything has."""
+    too_fast = max(math.hypot(*velocity.tolist()) / (SPEEDS_MPS[1] * (1.0 - ROUNDING)), 1.0)
+    vx, vy = (velocity / too_fast).tolist()
+    return vx, vy
