@@ -93,18 +93,24 @@ print(cells.sum())
 
 
 @compiled
-def test_four_processes_may_compile_into_one_cold_cache_at_once(tmp_path: Path) -> None:
+def test_of_four_processes_on_one_cold_cache_one_compiles_each_kernel(tmp_path: Path) -> None:
     environment = os.environ | {"VIASPLINE_CACHE_DIR": str(tmp_path / "cold")}
+    tell = "from viaspline.kernels.compile_events import compile_progress as heard\n"
+    block = tell + "with heard(print):" + ONE_KERNEL.replace("\n", "\n    ")
     running = [
         subprocess.Popen(
-            [sys.executable, "-c", ONE_KERNEL],
+            [sys.executable, "-c", block],
             env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         )
         for _ in range(4)
     ]  # fmt: skip
     told = [process.communicate(timeout=120) for process in running]
     assert [process.returncode for process in running] == [0] * 4, told
-    assert len({out for out, _ in told}) == 1
+    lines = [out.split() for out, _ in told]
+    assert len({words[-1] for words in lines}) == 1
+    compiled = [name for words in lines for name in words[:-1]]
+    assert "dilate.grow_into" in compiled
+    assert sorted(compiled) == sorted(set(compiled))
     assert [error for _, error in told] == [""] * 4
     assert list((tmp_path / "cold").rglob("*grow_into*.nbi"))
 

@@ -27,6 +27,7 @@ from llvmlite import binding
 from numba.core import types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 
+from viaspline.kernels.compile_lock import CompileLock
 from viaspline.kernels.shipped_kernels import SHIPPED
 from viaspline.kernels.source_keys import PACKAGE, SourceKeys
 
@@ -134,6 +135,8 @@ class KernelCache(FunctionCache):
         base.__init__(function)
         impl: Any = self._impl
         self._shipped: Any = None
+        self._lock = CompileLock(Path(self.cache_path) / f"{impl.filename_base}.lock")
+        self._compiling: set[Any] = set()
         if SHIPPED is not None:
             folder = SHIPPED.folder / Path(self.cache_path).name
             stamp = impl.locator.get_source_stamp()
@@ -141,12 +144,27 @@ class KernelCache(FunctionCache):
             self._shipped = files(str(folder), impl.filename_base, stamp)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """What is kept for a signature, or None."""
+        """What is kept for a signature, or None: then the caller compiles it and has it kept."""
         if not _is_of_ours(sig):
             return None
+        kept = self._load_shipped(sig, target_context)
+        kept = self._load_own(sig, target_context) if kept is None else kept
+        if kept is not None or sig in self._compiling:
+            return kept
+        self._compiling.add(sig)
+        if self._lock.take():
+            kept = self._load_own(sig, target_context)
+        if kept is not None:
+            self._compiled(sig)
+        return kept
+
+    def _compiled(self, sig: Any) -> None:
+        self._compiling.discard(sig)
+        self._lock.give_back()
+
+    def _load_own(self, sig: Any, context: Any) -> Any:
         base: Any = super()
-        shipped = self._load_shipped(sig, target_context)
-        return base.load_overload(sig, target_context) if shipped is None else shipped
+        return base.load_overload(sig, context)
 
     def _load_shipped(self, sig: Any, context: Any) -> Any:
         if self._shipped is None or SHIPPED is None:
@@ -160,9 +178,12 @@ class KernelCache(FunctionCache):
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep what was compiled for a signature, if that can be."""
         base: Any = super()
-        if _is_of_ours(sig):
-            with suppress(OSError):  # the folder can't be written any more: compiled, not kept
-                base.save_overload(sig, data)
+        if not _is_of_ours(sig):
+            return
+        with suppress(OSError):  # the folder can't be written any more: compiled, not kept
+            base.save_overload(sig, data)
+        if sig in self._compiling:
+            self._compiled(sig)
 
     def kept(self) -> set[Any]:
         """The signatures for which something is kept."""

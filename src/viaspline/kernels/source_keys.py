@@ -23,7 +23,8 @@ _KEY_LENGTH = 16
 KEEPERS = frozenset(
     f"{PACKAGE}.{name}"
     for name in (
-        "compile_events", "kernel_cache", "loaded_kernels", "shipped_kernels", "source_keys",
+        "compile_events", "compile_lock", "kernel_cache", "loaded_kernels", "shipped_kernels",
+        "source_keys",
     )
 )  # fmt: skip
 """The modules that keep compiled kernels."""
