@@ -98,7 +98,7 @@ class Body:
     Attributes:
         discs: That cover it with what is kept round it: x, y, radius, (n, 3) [m].
         inner: Distance that the reference point itself keeps at least [m].
-        width: Half the body's width, or its radius, with what is kept round it [m].
+        width: Half the body's width or what is kept round it, whichever is more; of a disc both [m].
     """
 
     discs: Floats
@@ -115,7 +115,7 @@ class Body:
                 requirements.required,
             )
         half = 0.5 * float(np.ptp(np.array(requirements.footprint), axis=0).min())
-        width = half + requirements.kept
+        width = max(half, requirements.kept)
         discs = covering_discs(tuple(requirements.footprint), overhang * width).copy()
         discs[:, 2] += requirements.kept
         return cls(discs, requirements.required, width)
