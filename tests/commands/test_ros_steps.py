@@ -25,6 +25,7 @@ KINDS = {
     "/tf": "tf2_msgs/msg/TFMessage",
     "/tf_static": "tf2_msgs/msg/TFMessage",
 }
+LONGEST_PAUSE_S = 0.2  # a robot that lives by the clock tells where it was before that
 MISSION = """
 world: {known: [{circle: {center: [3, 2.1], radius: 0.3}}]}
 robot: {radius_m: 0.3, clearance_m: 0.15, max_speed_mps: 1, tracking_error_m: 0.1,
@@ -55,6 +56,7 @@ class RobotThread(threading.Thread):
         self.config.insert_json5("connect/endpoints", json.dumps([endpoint]))
         self.over = threading.Event()
         self.answers: list[float] = []
+        self.longest_pause = 0.0
         self.last: Any = None
 
     def run(self) -> None:
@@ -75,6 +77,7 @@ class RobotThread(threading.Thread):
             while not self.over.is_set():
                 now = time.monotonic() - began
                 robot.moves(now, now - before)
+                self.longest_pause = max(self.longest_pause, now - before)
                 before, tick = now, tick + 1
                 said = {"/odom": robot.odometry(now)}
                 if tick % 10 == 1:
@@ -103,18 +106,27 @@ def endpoint() -> Any:
         yield address
 
 
-def test_a_robot_is_driven_over_real_sockets(endpoint: str, tmp_path: Path) -> None:
-    (tmp_path / "yard.yaml").write_text(MISSION)
+def driven(endpoint: str, mission: Path) -> tuple[RobotThread, Any]:
+    """A drive with the robot beside it, and what the command came to."""
     beside = RobotThread(endpoint)
     beside.start()
     try:
-        done = CliRunner().invoke(
-            cli, ["drive", f"{tmp_path}/yard.yaml", "--ros", "--connect", endpoint]
-        )
+        done = CliRunner().invoke(cli, ["drive", str(mission), "--ros", "--connect", endpoint])
         time.sleep(0.1)
     finally:
         beside.over.set()
         beside.join()
+    return beside, done
+
+
+def test_a_robot_is_driven_over_real_sockets(endpoint: str, tmp_path: Path) -> None:
+    (tmp_path / "yard.yaml").write_text(MISSION)
+    for _ in range(3):
+        beside, done = driven(endpoint, tmp_path / "yard.yaml")
+        if beside.longest_pause < LONGEST_PAUSE_S:
+            break
+    else:
+        pytest.skip(f"three times the robot's thread stood still for {LONGEST_PAUSE_S} s")
     assert done.exit_code == 0, done.output
     assert "the robot is at its goal" in done.output
     assert math.dist((beside.robot.x, beside.robot.y), (5, 2)) < 0.3

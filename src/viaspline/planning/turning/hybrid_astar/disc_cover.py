@@ -38,17 +38,7 @@ def covering_discs(footprint: Corners, overhang: float) -> Floats:
     centers = _centers(body, overhang)
     radii = np.asarray(shapely.distance(shapely.points(centers), body.exterior)) + overhang
     outline = shapely.get_coordinates(shapely.segmentize(body.exterior, overhang))
-    gaps = np.linalg.norm(centers[:, None] - outline[None], axis=2)
-    reached = gaps <= radii[:, None] - 0.02 * overhang
-    chosen: list[int] = []
-    left = np.ones(len(outline), bool)
-    while left.any():
-        best = int(np.argmax((reached & left).sum(axis=1)))
-        if not (reached[best] & left).any():
-            break
-        chosen.append(best)
-        left &= ~reached[best]
-    discs = [(*centers[k], radii[k]) for k in chosen]
+    discs = [(*centers[k], radii[k]) for k in _greedy(centers, radii - 0.02 * overhang, outline)]
     rest = body.difference(shapely.union_all([_disc(disc) for disc in discs]))
     while rest.area > MAX_AREA_LEFT * body.area:
         largest = max(shapely.get_parts(rest), key=lambda part: part.area)
@@ -59,6 +49,28 @@ def covering_discs(footprint: Corners, overhang: float) -> Floats:
     found = np.array(sorted(discs, key=lambda disc: -disc[2]))
     found.flags.writeable = False
     return found
+
+
+def _greedy(centers: Floats, radii: Floats, points: Floats) -> list[int]:
+    """The discs that cover some points, each the one that covers most of those that are left."""
+    from scipy.sparse import csr_array
+    from scipy.spatial import cKDTree
+
+    inside = cKDTree(points).query_ball_point(centers, np.maximum(radii, 0.0))
+    counts = np.array([len(one) for one in inside])
+    ends = np.concatenate(([0], np.cumsum(counts)))
+    columns = np.concatenate(inside).astype(np.int64)
+    covers = csr_array((np.ones(len(columns)), columns, ends), (len(centers), len(points)))
+    covered_by = covers.tocsc()
+    chosen: list[int] = []
+    left = np.ones(len(points), bool)
+    while counts.max() > 0:
+        chosen.append(int(counts.argmax()))
+        own = columns[ends[chosen[-1]] : ends[chosen[-1] + 1]]
+        new = own[left[own]]
+        left[new] = False
+        counts = counts - covered_by[:, new].sum(axis=1).astype(np.int64)
+    return chosen
 
 
 def _disc(disc: tuple[float, float, float]) -> shapely.Polygon:

@@ -98,7 +98,8 @@ class Body:
     Attributes:
         discs: That cover it with what is kept round it: x, y, radius, (n, 3) [m].
         inner: Distance that the reference point itself keeps at least [m].
-        width: Half the body's width or what is kept round it, whichever is more; of a disc both [m].
+        width: The greater of half the body's width and what is kept round it; of a disc both
+            together [m].
     """
 
     discs: Floats
