@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from viaspline.errors import GaveUpError
@@ -62,6 +63,20 @@ def test_a_period_that_gets_too_long_is_given_up_with_who_is_in_the_way(
     with pytest.raises(GaveUpError) as caught:
         rhythm_of(*ways)
     assert set(caught.value.obstacles) <= {"r0", "r1"}
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_patrols_whose_ways_all_cross_in_one_place_find_a_short_period(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    ways = []
+    for angle in 2 * np.pi * np.arange(10) / 10 + random.uniform(0, 0.15, 10):
+        along = np.array([np.cos(angle), np.sin(angle)])
+        aside = np.array([-along[1], along[0]])
+        home = random.uniform(16, 30) * along
+        across = random.uniform(-9, -4) * along + random.uniform(-4, 4) * aside
+        ways.append(patrol(home.tolist(), across.tolist(), (0.6 * home + 1.5 * aside).tolist()))
+    found = rhythm_of(*ways)
+    assert found.period <= 0.3 * sum(law.duration for law in found.laws.values())
 
 
 def test_a_robot_that_turns_on_the_spot_has_time_for_it_between_two_laps() -> None:

@@ -2,7 +2,8 @@
 
 Patrols are timed one after the other, each among the laps of those before it, which come again
 every period, before as well as after. Where one needs longer than the period, for its way or for
-those that it lets pass, the period gets longer and all are timed anew. Where no patrol passes the
+those that it lets pass, the period gets longer and all are timed anew. One that finds no time from
+when it may set out tries to set out when one of the others is back home. Where no patrol passes the
 start of another, this comes to an end: in a period as long as all laps together each can wait at
 home until all others are back.
 """
@@ -10,7 +11,7 @@ home until all others are back.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -47,6 +48,8 @@ LONGER_SHARE = 1.08
 """By so much a period grows that is too short."""
 LONGEST_SHARE = 4.0
 """Of all laps together: a period gets no longer than that."""
+MOST_DEPARTURES = 60
+"""So many times at which others are back home are tried by one that finds no time before."""
 SAME_S = 1e-9
 """Times that are no farther apart are one."""
 
@@ -187,30 +190,73 @@ class _RoundTiming:
 
     def timed(self, period: float) -> dict[str, Trajectory] | tuple[float, str, str]:
         """The laws of all rounds by name; or what one takes [s], which, and who is in its way."""
-        count, packed = len(self.members), self.courses.packed
         laws = standing_laws(self.courses)
         departs = self.rides.packed.depart
-        rides = replace(self.rides, packed=self.rides.packed._replace(depart=departs % period))
         found: dict[str, Trajectory] = {}
         for robot in self._order():
             name = self.members[robot].name
-            (box,) = timed_in_order(
-                packed, self.crossings.packed, self.passages, rides.packed, laws.packed,
-                np.array([robot], np.int64),
-            )  # fmt: skip
-            if box != CLEAR:
-                other = self.courses.names[int(self.crossings.packed.other[box]) % count]
-                return 0.0, name, other
-            laws.packed.is_timed[robot] = False
-            static = self.rounds[name].trajectory
-            law = set_out(timed_trajectory(static, self.courses, rides, laws, robot))
-            lasts = law.duration + float(self.stays[robot])
-            if lasts > period + SAME_S or law.end_time > (WINDOW - 2) * period:
-                return min(lasts, LONGER_SHARE * period), name, name
+            law = self._soonest(robot, period, laws, list(found.values()))
+            if isinstance(law, tuple):
+                takes, rival = law
+                return takes, name, self.members[rival].name
             self._write(robot, law, period, laws)
             later = math.floor(float(departs[robot]) / period) * period
             found[name] = law.delayed(later)
         return {one.name: found[one.name] for one in self.members}
+
+    def _soonest(
+        self, robot: int, period: float, laws: FleetLaws, others: Sequence[Trajectory]
+    ) -> Trajectory | tuple[float, int]:
+        """A law that fits the period, of the first departure with which there is one.
+
+        Or what the shortest that was found takes [s], 0 for none, and who is in the way.
+        """
+        shortest, rival = 0.0, -1
+        for depart in self._departures(robot, period, others):
+            law = self._law(robot, depart, period, laws)
+            if isinstance(law, int):
+                rival = law if rival < 0 else rival
+                continue
+            lasts = law.duration + float(self.stays[robot])
+            if lasts <= period + SAME_S and law.end_time <= (WINDOW - 2) * period:
+                return law
+            lasts = min(lasts, LONGER_SHARE * period)
+            shortest = min(shortest, lasts) if shortest > 0.0 else lasts
+        return shortest, rival if rival >= 0 else self._rival(robot, laws)
+
+    def _law(self, robot: int, depart: float, period: float, laws: FleetLaws) -> Trajectory | int:
+        """The law of one round from a departure [s] on, or who lets it find none."""
+        count, packed = len(self.members), self.courses.packed
+        departs = self.rides.packed.depart % period
+        departs[robot] = depart
+        rides = replace(self.rides, packed=self.rides.packed._replace(depart=departs))
+        (box,) = timed_in_order(
+            packed, self.crossings.packed, self.passages, rides.packed, laws.packed,
+            np.array([robot], np.int64),
+        )  # fmt: skip
+        if box != CLEAR:
+            return int(self.crossings.packed.other[box]) % count
+        laws.packed.is_timed[robot] = False
+        static = self.rounds[self.members[robot].name].trajectory
+        return set_out(timed_trajectory(static, self.courses, rides, laws, robot))
+
+    def _departures(
+        self, robot: int, period: float, others: Sequence[Trajectory]
+    ) -> Iterator[float]:
+        """When it may set out, and then when each of the others is back home [s]."""
+        first = float(self.rides.packed.depart[robot]) % period
+        yield first
+        back = sorted({first + (law.end_time - first) % period for law in others})
+        yield from back[:MOST_DEPARTURES]
+
+    def _rival(self, robot: int, laws: FleetLaws) -> int:
+        """Who of those that have their times is met most often by one that takes too long."""
+        count, packed = len(self.members), self.crossings.packed
+        of_robot = slice(int(packed.box_first[robot]), int(packed.box_first[robot + 1]))
+        met = packed.other[of_robot]
+        met = met[laws.packed.is_timed[met]] % count
+        met = met[met != robot]
+        return int(np.bincount(met).argmax()) if len(met) else robot
 
     def _order(self) -> list[int]:
         """Who is timed before whom: by priority, and then the longest round first."""
